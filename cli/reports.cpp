@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.hpp"
+#include "experiment/json.hpp"
+#include "experiment/loss_table.hpp"
+#include "experiment/run.hpp"
+#include "experiment/version.hpp"
+#include "traces/ns2_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace rovernet::cli {
+namespace {
+
+Table as_table(const LinkReport& report) {
+    Table table;
+    table.set("from", report.from);
+    table.set("to", report.to);
+    table.set("model", report.model);
+    table.set("at_s", seconds(report.at));
+    table.set("distance_m", report.distance_m);
+    Array walls;
+    for (const auto& wall : report.walls) {
+        Table crossing;
+        crossing.set("entry_m", wall.entry);
+        crossing.set("exit_m", wall.exit);
+        crossing.set("length_m", wall.length);
+        walls.emplace_back(std::move(crossing));
+    }
+    table.set("walls", std::move(walls));
+    table.set("wall_m", report.wall_m);
+    table.set("path_loss_db", report.path_loss.value);
+    table.set("rx_power_dbm", report.received.value);
+    table.set("margin_db", report.margin.value);
+    table.set("up", report.up);
+    return table;
+}
+
+void print_budget(const LinkReport& r) {
+    fmt::print("{} -> {} at {:.9g} s: {:.3f} m, model {}\n\n", r.from, r.to, seconds(r.at),
+               r.distance_m, r.model);
+    for (const auto& wall : r.walls) {
+        fmt::print("  wall from {:8.3f} m to {:8.3f} m: {:.3f} m\n", wall.entry, wall.exit,
+                   wall.length);
+    }
+    if (!r.walls.empty()) fmt::print("  {:.3f} m of wall in all\n\n", r.wall_m);
+    const auto line = [](std::string_view what, double value, std::string_view unit) {
+        fmt::print("  {:<28} {:+10.3f} {}\n", what, value, unit);
+    };
+    line("power", r.sender.power.value, "dBm");
+    line("sender's antenna gain", r.sender.antenna_gain.value, "dB");
+    line("sender's cable loss", -r.sender.cable_loss.value, "dB");
+    line("path loss", -r.path_loss.value, "dB");
+    line("receiver's antenna gain", r.receiver.antenna_gain.value, "dB");
+    line("receiver's cable loss", -r.receiver.cable_loss.value, "dB");
+    line("received power", r.received.value, "dBm");
+    line("receiver's sensitivity", r.receiver.sensitivity.value, "dBm");
+    line("margin", r.margin.value, "dB");
+    fmt::print("\n{} -> {} is {}\n", r.from, r.to, r.up ? "up" : "down");
+}
+
+std::string text_of(const Value& value) {
+    if (value.string()) return *value.string();
+    if (std::holds_alternative<std::monostate>(value.data)) return "-";
+    const std::string text = to_json(value);
+    return text.substr(0, text.size() - 1);
+}
+
+}  // namespace
+
+void loss(const LossArguments& a) {
+    const Hertz frequency = option_frequency("--frequency", a.frequency);
+    std::vector<Meters> distances;
+    for (const auto& text : a.distances) distances.push_back(option_length("--distance", text));
+    const Meters wall = a.wall ? option_length("--wall", *a.wall) : Meters{0};
+    const auto rows = loss_table(a.model, a.parameters, frequency, distances, wall);
+    if (!a.json) {
+        fmt::print("{:>14} {:>14}\n", "distance [m]", "loss [dB]");
+        for (const auto& [d, l] : rows) fmt::print("{:>14} {:>14.6f}\n", d.value, l.value);
+        return;
+    }
+    Table table;
+    table.set("model", a.model);
+    table.set("frequency_hz", frequency.value);
+    Array list;
+    for (const auto& [d, l] : rows) {
+        Table row;
+        row.set("distance_m", d.value);
+        row.set("loss_db", l.value);
+        list.emplace_back(std::move(row));
+    }
+    table.set("rows", std::move(list));
+    fmt::print("{}", to_json(table));
+}
+
+void link(const LinkArguments& a) {
+    auto options = a.set;
+    if (a.seed) options.push_back(fmt::format("scenario.seed={}", *a.seed));
+    const Duration at = option_time("--at", a.at);
+    const auto report =
+        report_link(load_scenario(a.file, options), a.from, a.to, start_of_run + at);
+    if (a.json) {
+        fmt::print("{}", to_json(as_table(report)));
+    } else {
+        print_budget(report);
+    }
+}
+
+void models(bool json) {
+    const Array list = list_models();
+    if (json) {
+        Table table;
+        table.set("models", list);
+        fmt::print("{}", to_json(table));
+        return;
+    }
+    for (const auto& model : list) {
+        fmt::print("{}\n", text_of(*model.table()->find("name")));
+        for (const auto& parameter : *model.table()->find("parameters")->array()) {
+            const Table& p = *parameter.table();
+            fmt::print("    {:<20} {:<10} {:<6} {}\n", text_of(*p.find("name")),
+                       text_of(*p.find("default")), text_of(*p.find("range")),
+                       text_of(*p.find("meaning")));
+        }
+    }
+}
+
+void trace_stats(const std::string& file, bool json) {
+    const MetricValues metrics = trace_metrics(file);
+    if (metrics.messages == 0) {
+        fmt::print(stderr,
+                   "rovernet: {}: no message is sent in it; stats reads the traces that "
+                   "rovernet writes\n",
+                   file);
+    }
+    Table table;
+    append_metrics(table, metrics);
+    if (json) {
+        fmt::print("{}", to_json(table));
+        return;
+    }
+    for (const auto& entry : table.entries) {
+        if (const Table* drops = entry.value.table()) {
+            for (const auto& drop : drops->entries) {
+                fmt::print("{:<20} {}\n", "dropped " + drop.key, text_of(drop.value));
+            }
+        } else {
+            fmt::print("{:<20} {}\n", entry.key, text_of(entry.value));
+        }
+    }
+}
+
+void print_version(bool json) {
+    const Table built = build_provenance();
+    if (json) {
+        fmt::print("{}", to_json(built));
+        return;
+    }
+    fmt::print("rovernet {}\n", version());
+    for (const auto& entry : built.entries) {
+        if (entry.key != "version") fmt::print("{:<11} {}\n", entry.key, text_of(entry.value));
+    }
+}
+
+}  // namespace rovernet::cli

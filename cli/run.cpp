@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/run.hpp"
+
+#include "cli/commands.hpp"
+#include "experiment/json.hpp"
+#include "experiment/toml.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <unistd.h>
+
+namespace rovernet::cli {
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+namespace {
+
+constexpr std::size_t longest_timeline = 100;  // lines
+
+/// A bar on a terminal; nothing anywhere else.
+class ProgressBar {
+  public:
+    ~ProgressBar() {
+        if (shown_) fmt::print(stderr, "\r\033[K");
+    }
+    void show(double share) {
+        const auto now = std::chrono::steady_clock::now();
+        if (!on_terminal_ || now - last_ < std::chrono::milliseconds{200}) return;
+        last_ = now;
+        shown_ = true;
+        constexpr int width = 40;
+        const int full = static_cast<int>(share * width);
+        fmt::print(stderr, "\r[{:=<{}}{: <{}}] {:3.0f} %", "", full, "", width - full, 100 * share);
+    }
+
+  private:
+    bool on_terminal_ = isatty(STDERR_FILENO) != 0;
+    bool shown_ = false;
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::string percent(const std::optional<double>& share) {
+    return share ? fmt::format("{:.1f} %", 100 * *share) : "none";
+}
+
+void print_timeline(const Scenario& scenario, const RunResult& result) {
+    std::size_t width = 1;
+    for (const auto& robot : scenario.robots) width = std::max(width, robot.name.size() + 1);
+    std::size_t lines = 0;
+    for (const auto& happening : result.timeline) {
+        if (lines++ == longest_timeline) {
+            fmt::print("... and {} more; all are in {}/summary.json\n",
+                       result.timeline.size() - longest_timeline, result.folder);
+            break;
+        }
+        fmt::print("{:>11.6f} s  {:<{}} {}\n", seconds(happening.time),
+                   *happening.detail.find("robot")->string(), width, happening.text);
+    }
+    if (!result.timeline.empty()) fmt::print("\n");
+}
+
+void print_result(const Scenario& scenario, const RunResult& result) {
+    print_timeline(scenario, result);
+    const MetricValues& m = result.metrics;
+    fmt::print("{} messages, {} transmissions, {} receptions\n", m.messages, m.transmissions,
+               m.receptions);
+    fmt::print("delivery ratio     {}\n", percent(m.delivery_ratio));
+    fmt::print("reach              {} of the robots that a chain of links joined to the sender\n",
+               percent(m.reach));
+    if (m.latency) {
+        fmt::print("latency            {:.3f} ms mean, {:.3f} ms at most\n", 1e3 * m.latency->mean,
+                   1e3 * m.latency->max);
+        fmt::print("hops               {:.2f} mean, {} at most\n", m.mean_hops.value_or(0),
+                   m.max_hops);
+    }
+    for (const auto& drop : m.drops) {
+        if (drop.count > 0) fmt::print("dropped {:<10} {}\n", drop.reason, drop.count);
+    }
+    fmt::print("fingerprint        {}\n", result.fingerprint);
+    fmt::print(stderr, "{} events, {:.2f} s; results in {}\n", result.events, result.wall_s,
+               result.folder);
+}
+
+}  // namespace
+
+void run(const RunArguments& a) {
+    auto options = a.set;
+    if (a.seed) options.push_back(fmt::format("scenario.seed={}", *a.seed));
+    if (a.replication) options.push_back(fmt::format("scenario.replication={}", *a.replication));
+    const Scenario scenario = load_scenario(a.file, options);
+    if (a.print_scenario) {
+        fmt::print("{}", to_toml(to_document(scenario)));
+        return;
+    }
+    RunResult result;
+    {
+        ProgressBar bar;
+        result = run_scenario(scenario,
+                              {.folder = a.out, .speed = a.speed, .progress = [&](double share) {
+                                   bar.show(share);
+                                   return stop_requested == 0;
+                               }});
+    }
+    if (a.json) {
+        fmt::print("{}", to_json(run_summary(scenario, result)));
+    } else {
+        print_result(scenario, result);
+    }
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/network.hpp"
+#include "experiment/scenario.hpp"
+
+namespace rovernet {
+
+/// What a Network for this scenario is made with; loads the map.
+/// @throws InputError naming the scenario's line, then the map's own error
+NetworkSettings network_settings(const Scenario& scenario);
+
+/// Puts the scenario's robots, protocol, reactions and traffic into a Network made with
+/// network_settings(scenario).
+/// @throws InputError for what only shows on the map: a robot in a wall, a goal without a way
+void populate(Network& network, const Scenario& scenario);
+
+}  // namespace rovernet

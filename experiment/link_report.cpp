@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/build.hpp"
+#include "experiment/run.hpp"
+
+#include <fmt/format.h>
+
+namespace rovernet {
+namespace {
+
+NodeId robot_named(const Network& network, const std::string& name) {
+    if (const auto node = network.find(name)) return *node;
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < network.size() && i < 1000; ++i) {
+        names.push_back(network.name(NodeId{i}));
+    }
+    throw std::invalid_argument(
+        fmt::format("there is no robot \"{}\"; {}", name, did_you_mean(name, names)));
+}
+
+}  // namespace
+
+LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
+                       Time at) {
+    Network network(network_settings(scenario));
+    populate(network, scenario);
+    const NodeId a = robot_named(network, from), b = robot_named(network, to);
+    if (a == b) throw std::invalid_argument("a link needs two robots, got \"" + from + "\" twice");
+    network.run_until(at);
+
+    const Medium& medium = network.medium();
+    const Vec3 pa = medium.antenna(a, at, network.legs());
+    const Vec3 pb = medium.antenna(b, at, network.legs());
+    LinkReport report{.from = from,
+                      .to = to,
+                      .model = std::string(medium.propagation(a)),
+                      .at = at,
+                      .distance_m = distance(pa, pb),
+                      .walls = network.scene().crossings(pa, pb),
+                      .wall_m = network.scene().wall_length(pa, pb),
+                      .sender = medium.radio(a),
+                      .receiver = medium.radio(b),
+                      .path_loss = medium.path_loss(a, b, at, network.legs()),
+                      .received = {},
+                      .margin = {},
+                      .up = false};
+    report.received = received_power(report.sender, report.receiver, report.path_loss);
+    report.margin = link_budget(report.sender, report.receiver) - report.path_loss;
+    report.up = report.margin.value >= 0 && medium.is_on(a) && medium.is_on(b);
+    return report;
+}
+
+}  // namespace rovernet

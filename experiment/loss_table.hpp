@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/value.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+struct LossRow {
+    Meters distance;
+    Db loss;
+};
+
+/// Median path loss (shadowing off) of a listed model over distance.
+/// @param parameters  "name=value" each; what is not given takes the model's default
+/// @param wall        of the way that lies in walls
+/// @throws InputError whose place is the option that is wrong
+std::vector<LossRow> loss_table(const std::string& model,
+                                const std::vector<std::string>& parameters, Hertz frequency,
+                                const std::vector<Meters>& distances, Meters wall);
+
+/// A quantity from the command line: its text, or a bare number in SI units.
+/// @throws InputError whose place is `option`
+Hertz option_frequency(const std::string& option, const std::string& text);
+Meters option_length(const std::string& option, const std::string& text);
+Duration option_time(const std::string& option, const std::string& text);
+
+/// Every listed model: name, and per parameter its name, default, range and meaning.
+Array list_models();
+
+}  // namespace rovernet

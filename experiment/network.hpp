@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mobility/movement.hpp"
+#include "models/friis.hpp"
+#include "models/medium.hpp"
+#include "models/propagation.hpp"
+#include "models/radio.hpp"
+#include "sim/ids.hpp"
+#include "sim/legs.hpp"
+#include "sim/message.hpp"
+#include "sim/ports.hpp"
+#include "sim/scheduler.hpp"
+#include "sim/time.hpp"
+#include "traces/metrics.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// A robot as it joins a Network.
+struct Robot {
+    std::string name;    ///< unique; its random draws depend on it. Empty: "r" and its number
+    Vec3 at;             ///< [m] where it starts
+    Meters radius{0.2};  ///< of its body, for ways around walls
+    Radio radio = {};
+    std::optional<Propagation> propagation = std::nullopt;  ///< the Network's default if not given
+    Movement move = Fixed{};
+};
+
+/// What a Network is made with.
+struct NetworkSettings {
+    std::uint64_t seed = 1;
+    std::uint32_t replication = 0;
+    Propagation propagation = Friis{};             ///< of robots that do not have their own
+    std::shared_ptr<const Scene> scene = nullptr;  ///< null: an open field
+    Meters floor_height{3};                        ///< [m] of one storey
+    bool propagation_delay = true;                 ///< frames travel at the speed of light
+    std::uint64_t event_limit = 100'000'000;       ///< a run that needs more events fails
+    bool metrics = true;                           ///< keep Metrics; off saves a search per message
+};
+
+/// Robots, their radios and what they say to each other, in one simulated world.
+///
+/// Two Networks in one process never interact. Not thread-safe; each thread runs its own.
+class Network {
+  public:
+    /// @throws std::invalid_argument if a setting is out of its range
+    explicit Network(NetworkSettings settings = {});
+    ~Network();
+    Network(const Network&) = delete;  // actions and reactions refer to it
+    Network& operator=(const Network&) = delete;
+
+    /// Adds a robot, switched on. Its movement begins now.
+    /// @throws std::invalid_argument for a name that is taken or a parameter out of its range
+    NodeId add(Robot robot);
+    /// All robots run this protocol from now on. @throws std::invalid_argument if there is one
+    void route(Router router);
+    /// Every record of the kinds that it asks for reaches `sink`, from now on.
+    void add_sink(Sink sink);
+    /// The same, under the name that says what it is for: net.trace_to(Ns2Trace{"run.tr"}).
+    void trace_to(Sink sink) { add_sink(std::move(sink)); }
+
+    /// `node` sends a message to everyone. One that is off says nothing.
+    /// @param size  [bytes] on air; the payload's length if not given
+    /// @throws std::invalid_argument if no protocol is set
+    void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {});
+    /// Calls `react` whenever `node` is handed a message, 1 us after it was received.
+    void on_receive(NodeId node, std::function<void(const Message&)> react);
+    /// Calls `react` whenever `node` comes to rest at the end of a movement.
+    void on_arrival(NodeId node, std::function<void()> react);
+    /// Replaces the node's movement, now.
+    void move(NodeId node, Movement movement);
+    /// Switches a robot off (it stops, its radio is silent and deaf) or on again (it goes on).
+    void switch_off(NodeId node);
+    void switch_on(NodeId node);
+
+    /// Calls `action` at `time`, not before now().
+    void at(Time time, std::function<void()> action);
+    /// Calls `action` every `period` > 0 from now() + period on.
+    void every(Duration period, std::function<void()> action);
+
+    /// Runs until `end`, events at `end` included.
+    /// @throws RunError at the event limit
+    void run_until(Time end);
+    void run_for(Duration d) { run_until(now() + d); }
+    /// Runs like run_until, but serves at most `most_events`. True once `end` is reached.
+    bool advance(Time end, std::uint64_t most_events);
+
+    Time now() const;
+    std::size_t size() const;      ///< robots
+    std::uint64_t events() const;  ///< served so far
+    const std::string& name(NodeId node) const;
+    std::optional<NodeId> find(std::string_view name) const;
+    Vec3 position(NodeId node) const;  ///< [m] now
+    const Legs& legs() const;
+    const Medium& medium() const;
+    const Scene& scene() const;
+    /// What happened so far. @throws std::invalid_argument if settings.metrics is off
+    MetricValues metrics() const;
+
+  private:
+    class Engine;
+    std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/run.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/json.hpp"
+#include "experiment/output.hpp"
+#include "experiment/toml.hpp"
+#include "experiment/version.hpp"
+#include "traces/fingerprint.hpp"
+#include "traces/ns2_trace.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <thread>
+#include <unistd.h>
+
+namespace rovernet {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+std::string utc_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", utc.tm_year + 1900, utc.tm_mon + 1,
+                       utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
+}
+
+std::string host_name() {
+    char name[256] = {};
+    return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
+}
+
+std::string usual_folder(const Scenario& scenario) {
+    const auto& s = scenario.scenario;
+    const std::string run = fmt::format("runs/{}-s{}", s.name, s.seed);
+    return s.replication == 0 ? run : fmt::format("{}-r{}", run, s.replication);
+}
+
+/// Runs to the scenario's end in slices, so that progress is told and a stop is heard soon.
+void run_in_slices(Network& network, const Scenario& scenario, const RunOptions& options) {
+    constexpr std::uint64_t events_a_slice = 20'000;
+    constexpr double longest_wait_s = 0.05;
+    const Time end = start_of_run + scenario.scenario.duration;
+    const auto started = WallClock::now();
+    for (bool done = false; !done;) {
+        Time until = end;
+        if (options.speed) {
+            const std::chrono::duration<double> wall = WallClock::now() - started;
+            until = std::min(end, start_of_run + from_seconds(wall.count() * *options.speed));
+        }
+        done = network.advance(until, events_a_slice) && until == end;
+        const double share = seconds(network.now()) / seconds(scenario.scenario.duration);
+        if (options.progress && !options.progress(share)) throw Interrupted();
+        if (options.speed && !done && network.now() >= until) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(longest_wait_s));
+        }
+    }
+}
+
+Value optional_value(const std::optional<double>& v) { return v ? Value(*v) : Value(); }
+
+Table provenance(const RunResult& result) {
+    Table table = build_provenance();
+    table.set("host", host_name());
+    table.set("started", result.started);
+    table.set("wall_s", result.wall_s);
+    return table;
+}
+
+}  // namespace
+
+RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
+    RunResult result;
+    result.started = utc_now();
+    const auto started = WallClock::now();
+    Network network(network_settings(scenario));
+    populate(network, scenario);
+
+    result.folder = options.folder.value_or(usual_folder(scenario));
+    make_folder(result.folder);
+    const auto fingerprint = std::make_shared<Fingerprint>();
+    const auto timeline = std::make_shared<Timeline>(network);
+    network.add_sink(fingerprint);
+    network.add_sink(timeline);
+    std::shared_ptr<Ns2Trace> trace;
+    if (scenario.trace.ns2 != Ns2Choice::none) {
+        result.trace = result.folder + "/trace.tr";
+        trace = std::make_shared<Ns2Trace>(
+            *result.trace, scenario.trace.ns2 == Ns2Choice::old_format ? Ns2Format::old_format
+                                                                       : Ns2Format::new_format);
+        network.trace_to(trace);
+    }
+    run_in_slices(network, scenario, options);
+
+    if (trace) trace->close();
+    result.metrics = network.metrics();
+    result.fingerprint = fingerprint->text();
+    result.events = network.events();
+    result.timeline = timeline->happenings();
+    result.wall_s = std::chrono::duration<double>(WallClock::now() - started).count();
+    write_file(result.folder + "/scenario.toml", to_toml(to_document(scenario)));
+    Table summary = run_summary(scenario, result);
+    summary.set("scenario", to_document(scenario));
+    summary.set("provenance", provenance(result));
+    write_file(result.folder + "/summary.json", to_json(summary));
+    return result;
+}
+
+void append_metrics(Table& table, const MetricValues& m) {
+    table.set("messages", m.messages);
+    table.set("transmissions", m.transmissions);
+    table.set("receptions", m.receptions);
+    table.set("deliveries", m.deliveries);
+    table.set("delivery_ratio", optional_value(m.delivery_ratio));
+    table.set("reach", optional_value(m.reach));
+    table.set("saved_rebroadcasts", optional_value(m.saved_rebroadcasts));
+    const auto latency = [&](double LatencyValues::*part) {
+        return m.latency ? Value((*m.latency).*part) : Value();
+    };
+    table.set("latency_mean_s", latency(&LatencyValues::mean));
+    table.set("latency_p50_s", latency(&LatencyValues::p50));
+    table.set("latency_p95_s", latency(&LatencyValues::p95));
+    table.set("latency_max_s", latency(&LatencyValues::max));
+    table.set("hops_mean", optional_value(m.mean_hops));
+    table.set("hops_max", m.max_hops);
+    Table drops;
+    for (const auto& drop : m.drops) {
+        if (drop.count > 0) drops.set(drop.reason, drop.count);
+    }
+    table.set("drops", std::move(drops));
+}
+
+Table run_summary(const Scenario& scenario, const RunResult& result) {
+    Table table;
+    table.set("name", scenario.scenario.name);
+    table.set("seed", scenario.scenario.seed);
+    table.set("replication", scenario.scenario.replication);
+    table.set("fingerprint", result.fingerprint);
+    table.set("sim_s", seconds(scenario.scenario.duration));
+    table.set("wall_s", result.wall_s);
+    table.set("events", result.events);
+    append_metrics(table, result.metrics);
+    table.set("trace", result.trace ? Value(*result.trace) : Value());
+    Array timeline;
+    for (const auto& happening : result.timeline) timeline.emplace_back(happening.detail);
+    table.set("timeline", std::move(timeline));
+    return table;
+}
+
+}  // namespace rovernet

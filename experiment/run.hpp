@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/scenario.hpp"
+#include "experiment/timeline.hpp"
+#include "experiment/value.hpp"
+#include "traces/metrics.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+struct RunOptions {
+    std::optional<std::string> folder;  ///< for the results; runs/<name>-s<seed> if not given
+    std::optional<double> speed;        ///< simulated per real seconds; unpaced if not given
+    /// Told the share that is done, 0 ... 1, now and then; false stops the run.
+    std::function<bool(double)> progress = {};
+};
+
+/// The run was stopped from outside; none of its files was left.
+class Interrupted : public std::exception {
+  public:
+    const char* what() const noexcept override { return "interrupted"; }
+};
+
+struct RunResult {
+    std::string folder;
+    std::optional<std::string> trace;  ///< path of the ns-2 trace
+    MetricValues metrics;
+    std::string fingerprint;
+    std::uint64_t events = 0;
+    double wall_s = 0;    ///< [s] of real time
+    std::string started;  ///< UTC, ISO 8601
+    std::vector<Timeline::Happening> timeline;
+};
+
+/// Runs a scenario and writes summary.json, scenario.toml and the trace that it asks for into its
+/// folder, each whole or not at all.
+/// @throws InputError, RunError, Interrupted
+RunResult run_scenario(const Scenario& scenario, const RunOptions& options);
+
+/// The metrics as the tables of summary.json and of `rovernet trace stats --json` show them.
+void append_metrics(Table& table, const MetricValues& metrics);
+
+/// What `run --json` prints: the results; times and the machine's part are in summary.json only.
+Table run_summary(const Scenario& scenario, const RunResult& result);
+
+/// The link from A to B at a time.
+struct LinkReport {
+    std::string from, to, model;
+    Time at;
+    double distance_m;
+    std::vector<Crossing> walls;
+    double wall_m;
+    Radio sender, receiver;
+    Db path_loss;
+    Dbm received;
+    Db margin;
+    bool up;  ///< and both robots are on
+};
+
+/// Runs the scenario until `at`, then looks at one link.
+/// @throws std::invalid_argument if there is no such robot or both are one
+LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
+                       Time at);
+
+}  // namespace rovernet

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mobility/planners.hpp"
+#include "scene/scene.hpp"
+#include "sim/geometry.hpp"
+#include "sim/legs.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <concepts>
+#include <memory>
+#include <utility>
+#include <variant>
+
+namespace rovernet {
+
+/// A robot that asks for its next leg, and what its movement model may know.
+struct Mover {
+    Time now;
+    Vec3 position;       ///< [m] now
+    Meters radius;       ///< of the robot's body
+    Planners& planners;  ///< ways around the scene's walls
+};
+
+/// The movement is over, the robot has arrived: it rests where it is.
+struct AtRest {};
+
+/// There is no way to the goal: the robot rests where it is.
+struct Blocked {
+    Vec3 goal;  ///< [m]
+};
+
+using Step = std::variant<Leg, AtRest, Blocked>;
+
+/// A movement model: a generator of legs, asked whenever a leg has run out. Nothing ticks. A leg
+/// starts at mover.now at mover.position and lasts at least a nanosecond.
+template <class T>
+concept MovementModel = std::copy_constructible<T> && requires(T model, Mover& mover) {
+    { model.next_leg(mover) } -> std::same_as<Step>;
+};
+
+/// The straight leg from where the mover is to `to` at `speed` [m/s], > 0.
+Leg straight_leg(const Mover& mover, Vec3 to, MetersPerSecond speed);
+/// The straight leg from where the mover is to `to`, which it reaches at `arrival` > mover.now.
+Leg straight_leg(const Mover& mover, Vec3 to, Time arrival);
+
+/// Any movement model, held by value.
+class Movement {
+  public:
+    template <class T>
+    requires(!std::same_as<T, Movement> && MovementModel<T>) Movement(T model)
+        : self_(std::make_unique<Holder<T>>(std::move(model))) {}
+    Movement(const Movement& other) : self_(other.self_->clone()) {}
+    Movement(Movement&&) = default;
+    Movement& operator=(Movement other) {
+        self_ = std::move(other.self_);
+        return *this;
+    }
+
+    Step next_leg(Mover& mover) { return self_->next_leg(mover); }
+
+  private:
+    struct Concept {
+        virtual ~Concept() = default;
+        virtual Step next_leg(Mover&) = 0;
+        virtual std::unique_ptr<Concept> clone() const = 0;
+    };
+    template <class T>
+    struct Holder final : Concept {
+        explicit Holder(T m) : model(std::move(m)) {}
+        Step next_leg(Mover& mover) override { return model.next_leg(mover); }
+        std::unique_ptr<Concept> clone() const override { return std::make_unique<Holder>(model); }
+        T model;
+    };
+    std::unique_ptr<Concept> self_;
+};
+
+/// A leg without end where the mover is.
+inline Leg standing_leg(const Mover& mover) {
+    return {.start = mover.now, .from = mover.position, .to = mover.position};
+}
+
+/// Stays where it is, for ever: it never comes to rest from a movement.
+struct Fixed {
+    Step next_leg(Mover& mover) { return standing_leg(mover); }
+};
+
+}  // namespace rovernet

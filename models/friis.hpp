@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/propagation.hpp"
+#include "sim/math.hpp"
+
+#include <algorithm>
+
+namespace rovernet {
+
+inline constexpr double speed_of_light = 299'792'458;  ///< [m/s], exact by definition of the metre
+inline constexpr double pi = 3.14159265358979323846;
+
+/// Free-space loss [dB] between isotropic antennas at distance d [m] > 0 and frequency f [Hz]:
+/// 20 log10(4 pi d f / c). Negative below d = c / (4 pi f), where it means nothing.
+/// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
+inline double free_space_db(double d, Hertz f) {
+    return 20 * math::log10(4 * pi / speed_of_light * d * f.value);
+}
+
+/// Free space (Friis):  L(d) = max(0, 20 log10(4 pi d f / c)), and 0 dB at d = 0.
+///
+/// Valid in the far field, d > max(lambda, 2 D^2 / lambda), with nothing between or near the
+/// antennas. Leaves out ground, walls and every obstacle.
+/// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
+struct Friis {
+    static constexpr std::string_view name = "friis";
+
+    static constexpr auto fields() { return describe(); }
+
+    bool monotone() const { return true; }
+
+    Meters reach(Db loss, Hertz f) const {
+        return {speed_of_light / (4 * pi * f.value) * math::exp10(loss.value / 20)};
+    }
+
+    void loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+        for (std::size_t i = 0; i < out_db.size(); ++i) {
+            out_db[i] = std::max(0.0, free_space_db(links.distance(i), links.frequency));
+        }
+    }
+};
+
+}  // namespace rovernet

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/propagation.hpp"
+
+#include <optional>
+
+namespace rovernet {
+
+/// Kinds of building in ITU-R P.1238's tables.
+enum class Environment { residential, office, commercial };
+
+template <>
+struct EnumNames<Environment> {
+    static constexpr std::array<std::string_view, 3> values = {"residential", "office",
+                                                               "commercial"};
+};
+
+/// ITU-R P.1238 indoor path loss [dB], for d >= 1 m, held at its value at 1 m below:
+///   L(d) = 20 log10 f + N log10 d + Lf(n) - 28      (f in MHz, d in m, n floors between)
+///
+/// N comes from `coefficient`, or from the row of the table for `environment` that is nearest in
+/// log frequency (at most a factor 1.5 away). Lf comes from the table likewise, and Lf(0) = 0; with
+/// a bare coefficient there is no floor term, as in the 2007 thesis. Beyond the last tabulated
+/// floor its value is held. Walls are inside N: add none.
+/// Site-general: a median over buildings, sigma 8-12 dB, not a prediction for one of them.
+/// Source: Recommendation ITU-R P.1238-2 (2001), tables 2 and 3, with the 2.4 GHz rows of later
+/// editions.
+struct ItuIndoor {
+    static constexpr std::string_view name = "itu_indoor";
+
+    std::optional<double> coefficient;       ///< N [-], > 0; 30 if neither is given
+    std::optional<Environment> environment;  ///< picks N (unless given) and the floor loss
+    std::optional<int> floors;               ///< n [-]; from the antennas' heights if not given
+
+    static constexpr auto fields() {
+        return describe(
+            field("coefficient", &ItuIndoor::coefficient, positive,
+                  "N, distance power loss coefficient; 30 if no environment is given"),
+            field("environment", &ItuIndoor::environment,
+                  "kind of building: gives N (unless coefficient does) and the floor loss"),
+            field("floors", &ItuIndoor::floors, non_negative,
+                  "floors between the antennas; counted from their heights if not given"));
+    }
+
+    bool monotone() const { return true; }
+
+    /// @throws std::invalid_argument if no row of the table is near enough, or has so many floors
+    void check_frequency(Hertz f) const;
+
+    Meters reach(Db loss, Hertz f) const;
+    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+};
+
+/// The classic formula with a given N and floor loss Lf [dB]; d [m] is held at 1 m below 1 m.
+double itu_indoor_db(double d, Hertz f, double N, double Lf);
+
+/// The distance [m] at which itu_indoor_db without floors reaches `loss`; 0 if it always does.
+Meters itu_indoor_reach(Db loss, Hertz f, double N);
+
+}  // namespace rovernet

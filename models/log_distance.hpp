@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/propagation.hpp"
+
+namespace rovernet {
+
+/// Log-distance path loss [dB] with log-normal shadowing of the link:
+///   L(d) = L0 + 10 n log10(d / d0) + X,   L0 + X for d <= d0,   with L0 = free space at d0;
+///   X normal with mean 0 and standard deviation sigma, cut at 5 sigma; the sum is never negative.
+///
+/// X is a function of seed, replication and the unordered pair of robots: the same in both
+/// directions, at every time and for every number of looks. The cut (5.7e-7 of draws) bounds the
+/// range. Valid in the far field of the transmitter; walls are in n and sigma, not seen one by one.
+/// Source: T. S. Rappaport, Wireless Communications, 2nd ed., section 4.9.
+struct LogDistance {
+    static constexpr std::string_view name = "log_distance";
+    static constexpr double cut_sigmas = 5;
+
+    double exponent = 2.5;           ///< n [-], > 0; 2 free space, about 4 an obstructed office
+    Db sigma{5};                     ///< standard deviation [dB], >= 0
+    Meters reference_distance{1.0};  ///< d0 [m], > 0
+
+    static constexpr auto fields() {
+        return describe(field("exponent", &LogDistance::exponent, positive,
+                              "n, path loss exponent: 2 free space, about 4 an obstructed office"),
+                        field("sigma", &LogDistance::sigma, non_negative,
+                              "standard deviation of the link's shadowing; 0 for the median"),
+                        field("reference_distance", &LogDistance::reference_distance, positive,
+                              "d0, below which the loss is held"));
+    }
+
+    bool monotone() const { return sigma.value == 0; }
+
+    Meters reach(Db loss, Hertz f) const;
+    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+};
+
+}  // namespace rovernet

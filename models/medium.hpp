@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/propagation.hpp"
+#include "models/radio.hpp"
+#include "sim/ids.hpp"
+#include "sim/legs.hpp"
+#include "sim/record.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rovernet {
+
+/// The air: who hears a transmission, by the link budget alone (reception rung "threshold").
+///
+/// The transmitter's propagation model rules. Everything about a frame is fixed at its start: who
+/// is on, where everybody is, at what level. A link is up iff its path loss is within link_budget.
+class Medium {
+  public:
+    struct Settings {
+        const Scene* scene = nullptr;   ///< not null; outlives the medium
+        Meters floor_height{3};         ///< [m] of one storey
+        bool propagation_delay = true;  ///< a frame arrives distance / c after it is sent
+        std::uint64_t seed = 0;
+        std::uint32_t replication = 0;
+    };
+
+    explicit Medium(const Settings& settings) : settings_(settings) {}
+
+    /// Adds the next node. `key`: the robot's, for random draws.
+    /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot
+    ///         work at the radio's frequency
+    void add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
+
+    void switch_radio(NodeId node, bool on) { stations_[node.index()].on = on; }
+    bool is_on(NodeId node) const { return stations_[node.index()].on; }
+    const Radio& radio(NodeId node) const { return stations_[node.index()].radio; }
+    std::string_view propagation(NodeId node) const;
+
+    /// Appends to `out` the nodes that hear `from` when it sends at `start`, in the order in which
+    /// the frame ends at them, then of NodeId. `end`: of the frame at the transmitter.
+    void receivers(NodeId from, Time start, Time end, const Legs& legs,
+                   std::vector<Reception>& out);
+
+    /// Nodes other than `from` that a chain of links joins to it at `t`.
+    std::uint32_t reachable(NodeId from, Time t, const Legs& legs);
+
+    /// Path loss [dB] from `from` to `to` at `t`, with nothing given up.
+    Db path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const;
+
+    /// A node's antenna at `t` [m].
+    Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
+
+  private:
+    struct Station {
+        Radio radio;
+        std::uint64_t key;
+        std::uint32_t model;  // index into models_
+        bool on = true;
+        double reach2 = -1;  // [m^2] nobody farther hears it; < 0: to be computed
+    };
+
+    void gather(NodeId from, Time t, const Legs& legs);
+    void keep_those_in_budget(const Station& sender);
+    double squared_reach(Station& sender) const;
+    LinkBatch batch(const Station& sender, Vec3 from) const;
+
+    Settings settings_;
+    std::vector<Station> stations_;
+    std::vector<Propagation> models_;
+    Db best_receiver_{-1e300};  // gain - cable loss - sensitivity of the most sensitive station
+
+    // The batch under work: candidates in reach, then those in budget; kept for their memory.
+    Vec3 origin_;
+    std::vector<NodeId> nodes_;
+    std::vector<Vec3> positions_;
+    std::vector<std::uint64_t> keys_;
+    std::vector<double> loss_db_;
+};
+
+}  // namespace rovernet

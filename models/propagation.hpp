@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/scene.hpp"
+#include "sim/fields.hpp"
+#include "sim/geometry.hpp"
+#include "sim/units.hpp"
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace rovernet {
+
+/// One transmitter and its receivers: all that a propagation model may know.
+struct LinkBatch {
+    Hertz frequency;                         ///< [Hz] the transmitter's
+    Vec3 from;                               ///< [m] its antenna
+    std::span<const Vec3> to;                ///< [m] the receivers' antennas
+    std::uint64_t from_key = 0;              ///< the transmitter's key, for random draws
+    std::span<const std::uint64_t> to_keys;  ///< the receivers' keys; same size as `to`
+    const Scene* scene = nullptr;            ///< never null in a Network
+    Meters floor_height{3};                  ///< [m] of one storey
+    std::uint64_t seed = 0;
+    std::uint32_t replication = 0;
+
+    std::size_t size() const { return to.size(); }
+    /// Between the antennas of the i-th link [m], in three dimensions.
+    double distance(std::size_t i) const { return rovernet::distance(from, to[i]); }
+};
+
+/// A path loss model: a plain struct with one pure function over a batch.
+///
+/// `loss` fills out_db[i] [dB] for the i-th receiver, same size as the batch; finite and never
+/// negative, the same in both directions. It may stop working on a link once its loss exceeds
+/// `give_up`, and leave any value above `give_up` there.
+template <class T>
+concept PropagationModel = std::copy_constructible<T> &&
+    requires(const T& model, const LinkBatch& links, Db give_up, std::span<double> out_db) {
+    { T::name } -> std::convertible_to<std::string_view>;
+    model.loss(links, give_up, out_db);
+};
+
+/// A model that bounds its own range: beyond `reach(loss, frequency)` [m] its loss is more than
+/// `loss`. Without it every robot is looked at.
+template <class T>
+concept BoundedModel = requires(const T& model, Db loss, Hertz frequency) {
+    { model.reach(loss, frequency) } -> std::same_as<Meters>;
+};
+
+/// A model that cannot work with every frequency says so by std::invalid_argument.
+template <class T>
+concept FrequencyCheckedModel = requires(const T& model, Hertz frequency) {
+    model.check_frequency(frequency);
+};
+
+/// Any propagation model, held by value and shared between its copies (models do not change).
+class Propagation {
+  public:
+    /// @throws std::invalid_argument if a parameter is out of its range
+    template <class T>
+    requires(!std::same_as<T, Propagation> && PropagationModel<T>) Propagation(T model)
+        : self_(std::make_shared<Holder<T>>(std::move(model))) {}
+
+    std::string_view name() const { return self_->name(); }
+    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+        self_->loss(links, give_up, out_db);
+    }
+    Meters reach(Db loss, Hertz frequency) const { return self_->reach(loss, frequency); }
+    void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
+    /// Whether both are copies of one handle; the Network keeps one table entry for them.
+    friend bool operator==(const Propagation&, const Propagation&) = default;
+
+  private:
+    struct Concept {
+        virtual ~Concept() = default;
+        virtual std::string_view name() const = 0;
+        virtual void loss(const LinkBatch&, Db, std::span<double>) const = 0;
+        virtual Meters reach(Db, Hertz) const = 0;
+        virtual void check_frequency(Hertz) const = 0;
+    };
+    template <class T>
+    struct Holder final : Concept {
+        explicit Holder(T m) : model(std::move(m)) {
+            if constexpr (Described<T>) check_fields(model, T::name);
+        }
+        std::string_view name() const override { return T::name; }
+        void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const override {
+            model.loss(links, give_up, out_db);
+        }
+        Meters reach(Db loss, Hertz frequency) const override {
+            if constexpr (BoundedModel<T>) return model.reach(loss, frequency);
+            return {std::numeric_limits<double>::infinity()};
+        }
+        void check_frequency(Hertz frequency) const override {
+            if constexpr (FrequencyCheckedModel<T>) model.check_frequency(frequency);
+        }
+        T model;
+    };
+    std::shared_ptr<const Concept> self_;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "routing/flood.hpp"
+
+namespace rovernet {
+
+Flood::operator Router() const { return FloodRouter{*this}; }
+
+FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) { check_fields(flood, "flood"); }
+
+FloodRouter::Knowledge& FloodRouter::known(const LinkLayer& link, MessageId message, NodeId node) {
+    if (known_.size() <= message.index()) known_.resize(message.index() + 1);
+    auto& by_node = known_[message.index()];
+    if (by_node.size() <= node.index()) by_node.resize(link.size());
+    return by_node[node.index()];
+}
+
+void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
+    known(link, message, node).state = Knowledge::sent;
+    link.broadcast({.message = message,
+                    .sender = node,
+                    .path = link.key(node),
+                    .ttl = initial_ttl(),
+                    .hops = 1},
+                   std::nullopt);
+}
+
+void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+    for (auto& reception : receptions) {
+        const auto& before = known(link, frame.message, reception.node);
+        reception.delivered = before.state == Knowledge::unheard;
+        reception.fate = fate_of(link, frame, reception);
+    }
+}
+
+Fate FloodRouter::fate_of(LinkLayer& link, const Frame& frame, const Reception& reception) {
+    auto& mine = known(link, frame.message, reception.node);
+    const bool last_hop = frame.ttl <= 1;
+    if (flood_.duplicates == Duplicates::forward) {
+        if (mine.state == Knowledge::unheard) mine.state = Knowledge::ended;
+        if (last_hop) return Fate::ttl;
+        wait(link, frame, reception);
+        return Fate::waiting;
+    }
+    if (mine.state == Knowledge::waiting && lifts(frame, mine)) {
+        copies_[mine.copy] = frame;
+        return Fate::duplicate;
+    }
+    const bool revives = mine.state == Knowledge::ended && lifts(frame, mine);
+    if (mine.state != Knowledge::unheard && !revives) return Fate::duplicate;
+    if (last_hop) {
+        mine.state = Knowledge::ended;
+        return Fate::ttl;
+    }
+    mine = {Knowledge::waiting, wait(link, frame, reception)};
+    return Fate::waiting;
+}
+
+/// Whether a late copy has a higher TTL than the one that the node has not sent.
+bool FloodRouter::lifts(const Frame& frame, const Knowledge& known) const {
+    if (!flood_.upgrade) return false;
+    const int ttl = known.state == Knowledge::waiting ? copies_[known.copy].ttl : 1;
+    return frame.ttl > ttl;
+}
+
+/// Keeps a copy for its delay; returns where.
+std::uint32_t FloodRouter::wait(LinkLayer& link, const Frame& frame, const Reception& reception) {
+    auto copy = static_cast<std::uint32_t>(copies_.size());
+    if (free_copies_.empty()) {
+        copies_.push_back(frame);
+    } else {
+        copy = free_copies_.back();
+        free_copies_.pop_back();
+        copies_[copy] = frame;
+    }
+    link.hold(frame.message);
+    // A node sends one message once under "suppress"; copies of one message differ by their path.
+    const std::uint64_t which = flood_.duplicates == Duplicates::forward ? frame.path : 0;
+    const double u = link.draw(Purpose::flood_jitter, reception.node, frame.message, which);
+    const Duration jitter = from_seconds(u * seconds(flood_.jitter));
+    link.timer(reception.node, reception.time + least_reaction + jitter, copy);
+    return copy;
+}
+
+void FloodRouter::on_timer(LinkLayer& link, NodeId node, std::uint64_t copy) {
+    const Frame heard = copies_[copy];
+    free_copies_.push_back(static_cast<std::uint32_t>(copy));
+    known(link, heard.message, node).state = Knowledge::sent;
+    if (link.is_on(node)) {
+        link.broadcast({.message = heard.message,
+                        .sender = node,
+                        .path = combine(heard.path, link.key(node)),
+                        .ttl = static_cast<std::uint8_t>(heard.ttl - 1),
+                        .hops = static_cast<std::uint8_t>(heard.hops + 1)},
+                       heard.sender);
+    } else {
+        link.drop(node, heard, DropReason::off);
+    }
+    link.release(heard.message);
+}
+
+void FloodRouter::forget(MessageId message) {
+    if (message.index() < known_.size()) known_[message.index()].clear();
+}
+
+}  // namespace rovernet

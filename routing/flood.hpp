@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/fields.hpp"
+#include "sim/ports.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rovernet {
+
+/// What a node does with a second copy of a message.
+enum class Duplicates { suppress, forward };
+
+template <>
+struct EnumNames<Duplicates> {
+    static constexpr std::array<std::string_view, 2> values = {"suppress", "forward"};
+};
+
+/// Broadcast with a time-to-live: a message leaves its source with TTL k and crosses at most k
+/// hops. A receiver decrements the TTL and forwards the copy if the result is > 0, after
+/// 1 us + U(0, jitter).
+///
+/// "suppress": each node forwards a message once; with `upgrade`, a later copy with a higher TTL
+/// lifts the copy that the node has not sent (yet), so that a long way heard first does not shorten
+/// the flood. "forward": every copy is forwarded, also by its source, and only the TTL ends it: the
+/// 2007 thesis's rule, whose load grows as the number of walks in the network.
+struct Flood {
+    int ttl = 3;  ///< [hops], 1 ... 255
+    Duplicates duplicates = Duplicates::suppress;
+    bool upgrade = true;                              ///< a higher TTL lifts the waiting copy
+    Duration jitter = std::chrono::milliseconds{10};  ///< [ns] upper end of the uniform delay
+
+    static constexpr auto fields() {
+        return describe(
+            field("ttl", &Flood::ttl, Range{.low = 1, .high = 255, .text = "from 1 to 255"},
+                  "hops that a message may cross"),
+            field("duplicates", &Flood::duplicates, "what a node does with a second copy"),
+            field("upgrade", &Flood::upgrade,
+                  "under \"suppress\": a copy of higher TTL lifts the one not yet sent"),
+            field("jitter", &Flood::jitter, non_negative,
+                  "upper end of the uniform delay before forwarding"));
+    }
+
+    operator Router() const;
+};
+
+/// The protocol that runs a Flood. Keeps eight bytes per message and node while a copy of the
+/// message is left.
+class FloodRouter {
+  public:
+    /// @throws std::invalid_argument if a parameter is out of its range
+    explicit FloodRouter(const Flood& flood);
+
+    std::uint8_t initial_ttl() const { return static_cast<std::uint8_t>(flood_.ttl); }
+    void send(LinkLayer& link, NodeId node, MessageId message);
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions);
+    void on_timer(LinkLayer& link, NodeId node, std::uint64_t copy);
+    void forget(MessageId message);
+
+  private:
+    /// What a node knows of a message.
+    struct Knowledge {
+        enum State : std::uint8_t { unheard, ended, waiting, sent };
+        State state = unheard;
+        std::uint32_t copy = 0;  // the one that waits
+    };
+
+    Knowledge& known(const LinkLayer& link, MessageId message, NodeId node);
+    Fate fate_of(LinkLayer& link, const Frame& frame, const Reception& reception);
+    bool lifts(const Frame& frame, const Knowledge& known) const;
+    std::uint32_t wait(LinkLayer& link, const Frame& frame, const Reception& reception);
+
+    Flood flood_;
+    std::vector<std::vector<Knowledge>> known_;  // by message, then by node
+    std::vector<Frame> copies_;                  // as received, waiting for their delay
+    std::vector<std::uint32_t> free_copies_;
+};
+
+}  // namespace rovernet

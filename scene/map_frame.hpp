@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/occupancy.hpp"
+
+#include <cmath>
+
+namespace rovernet {
+
+/// A point of the map in cells: u along the rows, v along the columns; cell (0, 0) is [0,1) x
+/// [0,1).
+struct CellPoint {
+    double u = 0;
+    double v = 0;
+    friend constexpr bool operator==(CellPoint, CellPoint) = default;
+};
+
+/// Coordinates nearer to a grid line than this [cells] lie on it; lengths below it are none.
+inline constexpr double cell_tolerance = 1e-9;
+
+/// The map's place in the world: turns metres into cells and back.
+class MapFrame {
+  public:
+    MapFrame() = default;
+    /// The one place where the map's rotation is evaluated: sine and cosine come from the C
+    /// library, once per map, and are exactly 0 and 1 for yaw = 0.
+    explicit MapFrame(const OccupancyGrid& grid)
+        : origin_(grid.origin),
+          cosine_(std::cos(grid.yaw)),
+          sine_(std::sin(grid.yaw)),
+          cell_width_(grid.cell_width),
+          cell_height_(grid.cell_height) {}
+
+    /// In cells. A coordinate within cell_tolerance of a grid line is put on it, so that decimals
+    /// such as 0.15 m in cells of 0.05 m mean what they say.
+    CellPoint to_cells(Vec3 p) const {
+        const double x = p.x - origin_.x;
+        const double y = p.y - origin_.y;
+        return {snap((cosine_ * x + sine_ * y) / cell_width_),
+                snap((cosine_ * y - sine_ * x) / cell_height_)};
+    }
+    /// In metres, at height z [m].
+    Vec3 to_world(CellPoint p, double z = 0) const {
+        const double x = p.u * cell_width_;
+        const double y = p.v * cell_height_;
+        return {origin_.x + (cosine_ * x - sine_ * y), origin_.y + (sine_ * x + cosine_ * y), z};
+    }
+    double cell_width() const { return cell_width_; }    ///< [m]
+    double cell_height() const { return cell_height_; }  ///< [m]
+
+  private:
+    static double snap(double cells) {
+        const double line = std::floor(cells + 0.5);
+        return std::abs(cells - line) <= cell_tolerance ? line : cells;
+    }
+
+    Vec3 origin_{};
+    double cosine_ = 1;
+    double sine_ = 0;
+    double cell_width_ = 1;
+    double cell_height_ = 1;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "scene/occupancy.hpp"
+
+#include "scene/image.hpp"
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+enum class Mode { trinary, scale, raw };
+
+struct RosMap {
+    std::string image;
+    double resolution = 1;
+    std::array<double, 3> origin{};
+    double occupied_thresh = 0.65;  // the defaults of nav2's map_saver
+    double free_thresh = 0.25;
+    bool negate = false;
+    Mode mode = Mode::trinary;
+};
+
+/// The keys of one YAML file, with errors that say where.
+class MapFile {
+  public:
+    explicit MapFile(const std::string& path) : path_(path) {
+        try {
+            root_ = YAML::Load(text());
+        } catch (const YAML::Exception& error) {
+            fail(error.mark, fmt::format("not valid YAML ({}); expected lines of \"key: value\"; "
+                                         "check brackets, quotes and indentation",
+                                         error.msg));
+        }
+        if (!root_.IsMap())
+            fail(root_.Mark(),
+                 "no \"key: value\" lines; expected a map with image, resolution and "
+                 "origin; is this the map's YAML file?");
+        check_keys();
+    }
+
+    RosMap read() const {
+        RosMap map;
+        map.image = need<std::string>("image", "the picture's file name");
+        if (map.image.empty())
+            fail_at("image", "image \"\"; expected the picture's file name; such as \"map.png\"");
+        map.resolution = number(need_node("resolution"), "resolution", "metres per pixel");
+        if (!(map.resolution > 0))
+            fail_at("resolution", fmt::format("resolution {}; expected metres per pixel > 0; "
+                                              "such as 0.05",
+                                              map.resolution));
+        read_origin(map.origin);
+        read_thresholds(map);
+        if (root_["negate"]) map.negate = read_negate();
+        if (root_["mode"]) map.mode = read_mode();
+        return map;
+    }
+
+  private:
+    [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const {
+        if (mark.is_null()) throw InputError(Location{path_}, message);
+        throw InputError(Location{path_, mark.line + 1, mark.column + 1}, message);
+    }
+    [[noreturn]] void fail_at(const char* key, const std::string& message) const {
+        fail(root_[key].Mark(), message);
+    }
+
+    std::string text() const {
+        std::error_code ignored;
+        const auto status = std::filesystem::status(path_, ignored);
+        if (!std::filesystem::exists(status))
+            fail(YAML::Mark::null_mark(),
+                 "no such file; expected a map's YAML file; check the path");
+        if (!std::filesystem::is_regular_file(status))
+            fail(YAML::Mark::null_mark(),
+                 "is not a regular file; expected a map's YAML file; name a file");
+        if (std::filesystem::file_size(path_, ignored) > max_bytes)
+            fail(YAML::Mark::null_mark(),
+                 "more than a megabyte; expected a map's YAML file of a "
+                 "few lines; is this the map's YAML file?");
+        std::ifstream file(path_, std::ios::binary);
+        if (!file)
+            fail(YAML::Mark::null_mark(),
+                 "cannot be opened; expected a readable file; check its permissions");
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    void check_keys() const {
+        static const std::vector<std::string> keys{
+            "image", "resolution", "origin", "negate", "free_thresh", "occupied_thresh", "mode"};
+        std::set<std::string> seen;
+        for (const auto& entry : root_) {
+            const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
+            if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+                std::string known;
+                for (const auto& word : keys) known += (known.empty() ? "" : ", ") + word;
+                const std::string near = did_you_mean(key, keys);
+                fail(entry.first.Mark(),
+                     fmt::format("unknown key \"{}\"; expected one of {}; {}", key, known,
+                                 near.empty() ? "remove it" : near));
+            }
+            if (!seen.insert(key).second)
+                fail(entry.first.Mark(), fmt::format("key \"{}\" a second time; expected it once; "
+                                                     "remove one",
+                                                     key));
+        }
+    }
+
+    YAML::Node need_node(const char* key) const {
+        const YAML::Node node = root_[key];
+        if (!node)
+            fail(YAML::Mark::null_mark(),
+                 fmt::format(
+                     "no key \"{0}\"; expected image, resolution and origin; add \"{0}: ...\"",
+                     key));
+        return node;
+    }
+
+    template <class T>
+    T need(const char* key, const char* what) const {
+        const YAML::Node node = need_node(key);
+        T value{};
+        if (!node.IsScalar() || !YAML::convert<T>::decode(node, value))
+            fail(node.Mark(),
+                 fmt::format("{} is {}; expected {}; check the value", key, described(node), what));
+        return value;
+    }
+
+    static std::string described(const YAML::Node& node) {
+        if (node.IsScalar()) return fmt::format("\"{}\"", node.Scalar());
+        return node.IsSequence() ? "a list" : node.IsMap() ? "a map" : "empty";
+    }
+
+    double number(const YAML::Node& node, const char* key, const char* what) const {
+        double value = 0;
+        if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) ||
+            !std::isfinite(value))
+            fail(node.Mark(), fmt::format("{} is {}; expected a number, {}; write it like 0.05",
+                                          key, described(node), what));
+        return value;
+    }
+
+    void read_origin(std::array<double, 3>& origin) const {
+        const YAML::Node node = need_node("origin");
+        if (!node.IsSequence() || node.size() != origin.size())
+            fail(node.Mark(),
+                 fmt::format("origin is {}; expected exactly three numbers [x, y, yaw] in metres "
+                             "and radians; such as [0, 0, 0]",
+                             node.IsSequence() ? fmt::format("a list of {}", node.size())
+                                               : described(node)));
+        for (std::size_t i = 0; i < origin.size(); ++i)
+            origin[i] = number(node[i], "origin", "of [x, y, yaw] in metres and radians");
+    }
+
+    void read_thresholds(RosMap& map) const {
+        for (const auto& [key, value] : {std::pair{"occupied_thresh", &map.occupied_thresh},
+                                         std::pair{"free_thresh", &map.free_thresh}}) {
+            if (!root_[key]) continue;
+            *value = number(root_[key], key, "from 0 to 1");
+            if (*value < 0 || *value > 1)
+                fail_at(key, fmt::format("{} {}; expected a number from 0 to 1; such as 0.65", key,
+                                         *value));
+        }
+        if (map.occupied_thresh <= map.free_thresh)
+            fail_at(root_["occupied_thresh"] ? "occupied_thresh" : "free_thresh",
+                    fmt::format("occupied_thresh {} and free_thresh {}; expected occupied_thresh > "
+                                "free_thresh; swap them?",
+                                map.occupied_thresh, map.free_thresh));
+    }
+
+    bool read_negate() const {
+        const YAML::Node node = root_["negate"];
+        int number = 0;
+        if (YAML::convert<int>::decode(node, number)) return number != 0;
+        return need<bool>("negate", "0, 1, true or false");
+    }
+
+    Mode read_mode() const {
+        static const std::vector<std::string> names{"trinary", "scale", "raw"};
+        const auto name = need<std::string>("mode", "trinary, scale or raw");
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (name == names[i]) return static_cast<Mode>(i);
+        const std::string near = did_you_mean(name, names);
+        fail_at("mode", fmt::format("mode \"{}\"; expected trinary, scale or raw; {}", name,
+                                    near.empty() ? "leave it out for trinary" : near));
+    }
+
+    static constexpr std::uintmax_t max_bytes = 1 << 20;
+    const std::string& path_;
+    YAML::Node root_;
+};
+
+Cell by_thresholds(double occupancy, double free_thresh, double occupied_thresh) {
+    if (occupancy > occupied_thresh) return Cell::occupied;
+    return occupancy < free_thresh ? Cell::free : Cell::unknown;
+}
+
+Cell cell_of(const Image& image, int column, int row, const RosMap& map) {
+    int sum = image.rgb_sum(column, row);
+    int samples = 3;
+    if (map.mode == Mode::trinary && image.has_alpha()) {
+        sum += image.alpha(column, row);
+        ++samples;
+    }
+    const double shade = sum / (255.0 * samples);
+    if (map.mode == Mode::raw) {
+        const double percent = std::floor(shade * 255 + 0.5);
+        if (percent > 100) return Cell::unknown;
+        return by_thresholds(percent, 100 * map.free_thresh, 100 * map.occupied_thresh);
+    }
+    if (map.mode == Mode::scale && image.alpha(column, row) < 255) return Cell::unknown;
+    return by_thresholds(map.negate ? shade : 1 - shade, map.free_thresh, map.occupied_thresh);
+}
+
+/// Fills the cells from the picture, bottom row first.
+template <class CellOf>
+void fill(OccupancyGrid& grid, const Image& image, CellOf cell_of_pixel) {
+    grid.columns = image.width;
+    grid.rows = image.height;
+    grid.cells.reserve(static_cast<std::size_t>(image.width) *
+                       static_cast<std::size_t>(image.height));
+    for (int row = image.height - 1; row >= 0; --row)
+        for (int column = 0; column < image.width; ++column)
+            grid.cells.push_back(cell_of_pixel(column, row));
+}
+
+}  // namespace
+
+OccupancyGrid read_ros_map(const std::string& yaml_path) {
+    const RosMap map = MapFile(yaml_path).read();
+    const auto folder = std::filesystem::path(yaml_path).parent_path();
+    const Image image = read_image((folder / map.image).string());
+    OccupancyGrid grid;
+    grid.cell_width = grid.cell_height = map.resolution;
+    grid.origin = {map.origin[0], map.origin[1], 0};
+    grid.yaw = map.origin[2];
+    fill(grid, image, [&](int column, int row) { return cell_of(image, column, row, map); });
+    return grid;
+}
+
+OccupancyGrid image_map(const std::string& path, Meters width, Meters height) {
+    for (const auto& [name, size] : {std::pair{"width", width}, std::pair{"height", height}})
+        if (!(size.value > 0 && std::isfinite(size.value)))
+            throw std::invalid_argument(
+                fmt::format("image_map: {} must be > 0 m, got {} m", name, size.value));
+    const Image image = read_image(path);
+    OccupancyGrid grid;
+    grid.cell_width = width.value / image.width;
+    grid.cell_height = height.value / image.height;
+    fill(grid, image, [&](int column, int row) {
+        const bool wall = 2 * image.rgb_sum(column, row) < 3 * 255;
+        return wall && image.alpha(column, row) > 0 ? Cell::occupied : Cell::free;
+    });
+    return grid;
+}
+
+}  // namespace rovernet

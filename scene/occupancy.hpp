@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/geometry.hpp"
+#include "sim/units.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// What a map says of a cell. A wall stops radio and robots; the unknown stops robots only.
+enum class Cell : std::uint8_t { free, occupied, unknown };
+
+/// A map of equal rectangular cells, placed in the world.
+struct OccupancyGrid {
+    int columns = 0;
+    int rows = 0;
+    double cell_width = 1;    ///< [m], > 0, along the rows
+    double cell_height = 1;   ///< [m], > 0, along the columns
+    Vec3 origin{};            ///< lower-left corner of cell (0, 0) [m]
+    double yaw = 0;           ///< rotation about the origin, counter-clockwise [rad]
+    std::vector<Cell> cells;  ///< columns * rows; row 0 is the bottom row
+
+    /// The cell in that column and row; both must lie in the grid.
+    Cell at(int column, int row) const {
+        return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(column)];
+    }
+};
+
+/// Reads a map of the ROS map_server: a YAML file that names a picture.
+///
+/// Keys: image (relative to the YAML file), resolution [m per pixel], origin [x, y, yaw] of the
+/// lower-left corner [m, m, rad]; optional: occupied_thresh (0.65), free_thresh (0.25), negate (0),
+/// mode (trinary). With shade = mean of red, green and blue [0..1] and occ = 1 - shade (negate:
+/// shade), a cell is occupied if occ > occupied_thresh, free if occ < free_thresh, else unknown.
+///   trinary  an alpha channel is averaged into shade with the colours
+///   scale    a pixel that is not opaque is unknown
+///   raw      shade * 255, rounded, is occ in percent (negate has no effect); above 100: unknown
+/// Source: nav2_map_server, map_io.cpp (its intermediate percentages are unknown here).
+/// @throws InputError with file, line and column; an unknown key is an error
+OccupancyGrid read_ros_map(const std::string& yaml_path);
+
+/// A bare picture as a map of that size [m], both > 0, lower-left corner at (0, 0).
+///
+/// A pixel is a wall if the mean of red, green and blue is below one half, free otherwise; a fully
+/// transparent pixel is free.
+/// @throws InputError as read_image; std::invalid_argument if a size is not positive and finite
+OccupancyGrid image_map(const std::string& path, Meters width, Meters height);
+
+}  // namespace rovernet

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/map_frame.hpp"
+#include "scene/rectangles.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rovernet {
+
+/// One passage of a segment a-b through walls, measured along the segment from a.
+struct Crossing {
+    double entry;   ///< [m]
+    double exit;    ///< [m]
+    double length;  ///< exit - entry [m]; the same bits from a to b as from b to a
+    friend constexpr bool operator==(Crossing, Crossing) = default;
+};
+
+/// Solid cells of a map as rectangles in square tiles, for walking a segment through them.
+///
+/// Works in cells. A grid line x = k is met at the fraction (k - ax) * (1 / (bx - ax)) of the
+/// segment, for whichever rectangle asks; so rectangles side by side share their fractions exactly,
+/// and the union of the pieces is the same, to the last bit, however the cells were cut. Rectangles
+/// are cut at tile borders: each lies in one tile, and tiles along the segment come in order.
+class WallIndex {
+  public:
+    static constexpr int tile_size = 32;  ///< [cells]
+
+    WallIndex() = default;
+    /// @param rectangles  disjoint, inside columns x rows; may touch
+    WallIndex(int columns, int rows, const std::vector<CellRectangle>& rectangles);
+
+    bool empty() const { return rectangles_.empty(); }
+    int tile_columns() const { return tile_columns_; }
+    int tile_rows() const { return tile_rows_; }
+    /// The rectangles inside one tile.
+    std::span<const CellRectangle> tile(int column, int row) const {
+        const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(tile_columns_) +
+                       static_cast<std::size_t>(column);
+        return std::span(rectangles_).subspan(first_[i], first_[i + 1] - first_[i]);
+    }
+
+    /// Writes the crossings of a segment that is `length` [m] long, in order from a.
+    /// @param out  emptied first
+    void crossings(CellPoint a, CellPoint b, double length, std::vector<Crossing>& out) const;
+    /// Sum of the crossings' lengths [m]; stops counting once the sum exceeds `enough` [m].
+    double solid_length(CellPoint a, CellPoint b, double length, double enough) const;
+    /// Every cell that holds or touches the point is solid.
+    bool surrounds(CellPoint p) const;
+
+  private:
+    template <class Visit>
+    void walk(CellPoint a, CellPoint b, Visit visit) const;
+    template <class Merge>
+    void walk_tiles(CellPoint a, CellPoint b, Merge& merge) const;
+    template <class Merge>
+    void walk_line(CellPoint a, CellPoint b, Merge& merge) const;
+    bool solid(int column, int row) const;
+
+    int columns_ = 0;
+    int rows_ = 0;
+    int tile_columns_ = 0;
+    int tile_rows_ = 0;
+    std::vector<std::size_t> first_;         ///< of each tile's rectangles; one more than tiles
+    std::vector<CellRectangle> rectangles_;  ///< by tile, row by row
+    std::vector<bool> solid_;                ///< columns * rows
+};
+
+}  // namespace rovernet

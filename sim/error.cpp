@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace rovernet {
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+        }
+    }
+    return row[b.size()];
+}
+
+std::string at(const Location& where, const std::string& message) {
+    const std::string place = where.text();
+    return place.empty() ? message : place + ": " + message;
+}
+
+}  // namespace
+
+std::string Location::text() const {
+    return line > 0 ? fmt::format("{}:{}:{}", source, line, column) : source;
+}
+
+InputError::InputError(Location where, const std::string& message)
+    : std::runtime_error(at(where, message)), where_(std::move(where)), message_(message) {}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+    constexpr std::size_t longest_word = 64;  // a word this long is no slip of the finger
+    if (word.empty() || word.size() > longest_word) return "";
+    const std::string* best = nullptr;
+    std::size_t best_distance = std::max<std::size_t>(word.size() / 2, 1) + 1;
+    for (const auto& candidate : candidates) {
+        const bool contained =
+            word.size() >= 3 && candidate.find(word) != std::string::npos && candidate != word;
+        const std::size_t d = contained ? 1 : edit_distance(word, candidate);
+        if (d < best_distance) {
+            best = &candidate;
+            best_distance = d;
+        }
+    }
+    return best ? fmt::format("did you mean \"{}\"?", *best) : "";
+}
+
+}  // namespace rovernet

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "sim/fields.hpp"
+
+#include <fmt/format.h>
+
+namespace rovernet {
+
+void throw_out_of_range(std::string_view owner, std::string_view name, std::string_view range,
+                        double got) {
+    if (got != got) {
+        throw std::invalid_argument(fmt::format("{}: {} must be given, {}", owner, name, range));
+    }
+    throw std::invalid_argument(fmt::format("{}: {} must be {}, got {}", owner, name, range, got));
+}
+
+}  // namespace rovernet

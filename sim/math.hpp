@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Elementary functions with the same bits from every compiler and C library, for whatever decides
+/// or prints. Built from + - * / and bit operations, which IEEE 754 rounds in one way only; compile
+/// with -ffp-contract=off and in the default rounding mode. Called as math::log10(x).
+namespace rovernet::math {
+
+/// Logarithms; error below 1 ulp, exact wherever the result is an integer (log2(8), log10(1000)).
+///
+/// 0 gives -infinity, negative arguments and NaN give NaN, infinity gives infinity; subnormal
+/// arguments are as accurate as others.
+double log(double x);
+double log2(double x);   ///< as log, to base 2
+double log10(double x);  ///< as log, to base 10
+
+/// 2^x; error below 1 ulp, exact for integers. Overflow gives infinity, underflow 0 by way of the
+/// subnormal numbers, NaN gives NaN.
+double exp2(double x);
+/// 10^x; error below 1.1 ulp, exact for 0 ... 22. Overflow, underflow and NaN as exp2.
+double exp10(double x);
+
+}  // namespace rovernet::math

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "sim/message.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace rovernet {
+
+MessageId MessageTable::add(Message message) {
+    MessageId id{static_cast<std::uint32_t>(slots_.size())};
+    if (free_.empty()) {
+        slots_.emplace_back();
+    } else {
+        id = free_.back();
+        free_.pop_back();
+    }
+    slots_[id.index()] = {std::move(message), 1};
+    return id;
+}
+
+bool MessageTable::release(MessageId id) {
+    auto& slot = slots_[id.index()];
+    assert(slot.holders > 0);
+    if (--slot.holders > 0) return false;
+    free_.push_back(id);
+    return true;
+}
+
+}  // namespace rovernet

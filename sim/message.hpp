@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ids.hpp"
+#include "sim/time.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// What an application sends. Immutable once in the table.
+struct Message {
+    NodeId origin;
+    std::uint64_t uid = 0;     ///< unique in the run, from 0 in the order of sending
+    std::uint32_t number = 0;  ///< the origin's own count of messages, from 0
+    std::uint64_t key = 0;     ///< for random draws: made of the origin's key and `number`
+    std::uint32_t size = 0;    ///< [bytes] on air
+    Time created;
+    std::string payload;
+};
+
+/// A message on its way: what one transmission carries. A value; routers pass it on changed.
+struct Frame {
+    MessageId message;
+    NodeId sender;           ///< who puts this frame on air
+    std::uint64_t path = 0;  ///< key of the walk that the copy took so far, for draws per copy
+    std::uint8_t ttl = 0;    ///< the hops that this copy may still cross, this one included
+    std::uint8_t hops = 0;   ///< the hops that it has crossed once received
+};
+
+/// The messages that a frame in flight or a waiting copy still refers to.
+class MessageTable {
+  public:
+    /// Stores a message, held once by the caller.
+    MessageId add(Message message);
+    /// One more frame or waiting copy refers to the message.
+    void hold(MessageId id) { ++slots_[id.index()].holders; }
+    /// One fewer; the last one frees the slot. True if the message is gone.
+    bool release(MessageId id);
+
+    const Message& operator[](MessageId id) const { return slots_[id.index()].message; }
+    /// Messages still held.
+    std::size_t size() const { return slots_.size() - free_.size(); }
+    /// Every MessageId's index is below this.
+    std::size_t capacity() const { return slots_.size(); }
+
+  private:
+    struct Slot {
+        Message message;
+        std::uint32_t holders = 0;
+    };
+    std::vector<Slot> slots_;
+    std::vector<MessageId> free_;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ids.hpp"
+#include "sim/legs.hpp"
+#include "sim/message.hpp"
+#include "sim/time.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+namespace rovernet {
+
+/// What became of a decoded copy at its receiver. The router says; the record tells.
+enum class Fate : std::uint8_t {
+    waiting,    ///< will be forwarded after its delay
+    ttl,        ///< crossed its last hop: not forwarded
+    duplicate,  ///< suppressed: the receiver had a copy already
+    off,        ///< the receiver was switched off between the start and the end of the frame
+};
+
+/// One receiver of one transmission.
+struct Reception {
+    NodeId node;
+    Time time;  ///< end of the frame at this receiver
+    Fate fate = Fate::waiting;
+    bool delivered = false;  ///< handed to the application: the node's first copy
+};
+
+/// Why a copy was lost other than by the fate of its reception.
+enum class DropReason : std::uint8_t {
+    off,  ///< its holder was switched off while the copy waited to be forwarded
+};
+
+/// An application hands a message to its router.
+struct Sent {
+    Time time;
+    NodeId node;
+    MessageId message;
+    std::uint8_t ttl;      ///< hops that the message may cross
+    std::uint32_t robots;  ///< robots in the network now, the sender included
+    /// Robots that a chain of links joins to the sender now, the sender not included; present only
+    /// if a sink asks for it (see kind_reachable).
+    std::optional<std::uint32_t> reachable;
+};
+
+/// A node puts a frame on air.
+struct Transmitted {
+    Time time;
+    Frame frame;
+    std::optional<NodeId> heard_from;  ///< who the frame came from, if the sender forwards it
+};
+
+/// A transmission (or a part of it) arrives: receptions in order of time, then of node.
+struct Received {
+    Frame frame;
+    std::span<const Reception> receptions;
+};
+
+/// A copy is lost while it waits.
+struct Dropped {
+    Time time;
+    NodeId node;
+    Frame frame;  ///< as received
+    DropReason reason;
+};
+
+/// A node begins a new leg.
+struct Moved {
+    Time time;
+    NodeId node;
+    Leg leg;
+};
+
+/// A node has reached the end of its movement and rests.
+struct Arrived {
+    Time time;
+    NodeId node;
+};
+
+/// A node found no way to its goal and stays where it is.
+struct NoWay {
+    Time time;
+    NodeId node;
+    Vec3 goal;  ///< [m]
+};
+
+/// A node's radio is switched on or off.
+struct Switched {
+    Time time;
+    NodeId node;
+    bool on;
+};
+
+/// Everything observable. A lost packet is a record: never an exception, never a log line.
+using Record = std::variant<Sent, Transmitted, Received, Dropped, Moved, Arrived, NoWay, Switched>;
+
+/// A set of record kinds, for sinks to say what they want.
+using KindMask = std::uint32_t;
+
+template <class T>
+constexpr KindMask kind_of();
+template <>
+constexpr KindMask kind_of<Sent>() {
+    return 1U << 0;
+}
+template <>
+constexpr KindMask kind_of<Transmitted>() {
+    return 1U << 1;
+}
+template <>
+constexpr KindMask kind_of<Received>() {
+    return 1U << 2;
+}
+template <>
+constexpr KindMask kind_of<Dropped>() {
+    return 1U << 3;
+}
+template <>
+constexpr KindMask kind_of<Moved>() {
+    return 1U << 4;
+}
+template <>
+constexpr KindMask kind_of<Arrived>() {
+    return 1U << 5;
+}
+template <>
+constexpr KindMask kind_of<NoWay>() {
+    return 1U << 6;
+}
+template <>
+constexpr KindMask kind_of<Switched>() {
+    return 1U << 7;
+}
+
+/// Not a record: asks that Sent carries `reachable`, which costs a search of the network.
+inline constexpr KindMask kind_reachable = 1U << 31;
+inline constexpr KindMask kind_all = 0x7fffffff;
+
+/// What a sink may look up while it handles a record.
+struct RecordContext {
+    const Legs& legs;
+    const MessageTable& messages;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "sim/scheduler.hpp"
+
+#include "sim/error.hpp"
+
+#include <string>
+
+namespace rovernet {
+
+void throw_too_many_events(const char* state, std::uint64_t limit) {
+    throw RunError("more than " + std::to_string(limit) + " events are " + state +
+                   "; the run asks for too much at once, or something schedules without end");
+}
+
+}  // namespace rovernet

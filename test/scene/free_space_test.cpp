@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "scene/free_space.hpp"
+
+#include "test/scene/drawn_map.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+Vec3 centre(const Scene& scene, int column, int row) {
+    return scene.frame().to_world({column + 0.5, row + 0.5});
+}
+
+}  // namespace
+
+TEST_CASE("free space: a cell is free exactly if the robot fits at its centre") {
+    test::Draw draw(21);
+    for (const double radius : {0.0, 0.1, 0.25, 0.3, 0.5, 1.25, 4.0}) {
+        OccupancyGrid grid = test::random_map(draw, 60, 45, 1);
+        grid.cell_width = 0.5;
+        grid.cell_height = 0.25;
+        grid.cells[100] = Cell::unknown;
+        const Scene scene(grid);
+        const FreeSpace space(scene, Meters{radius});
+        for (int row = 0; row < 45; ++row)
+            for (int column = 0; column < 60; ++column) {
+                const Vec3 p = centre(scene, column, row);
+                REQUIRE((space.free[static_cast<std::size_t>(row * 60 + column)] != 0) ==
+                        scene.passable(p, p, Meters{radius}));
+            }
+    }
+}
+
+TEST_CASE("free space: a step is allowed exactly if it is passable and cuts no corner") {
+    test::Draw draw(22);
+    for (const double radius : {0.0, 0.2, 0.5, 0.6, 1.0, 1.5, 2.7}) {
+        const Scene scene(test::random_map(draw, 40, 50, 1));
+        const FreeSpace space(scene, Meters{radius});
+        const auto free = [&](int i, int j) {
+            return i >= 0 && i < 40 && j >= 0 && j < 50 &&
+                   space.free[static_cast<std::size_t>(j * 40 + i)];
+        };
+        for (int j = 0; j < 50; ++j)
+            for (int i = 0; i < 40; ++i)
+                for (std::size_t d = 0; d < cell_steps.size(); ++d) {
+                    const int column = i + cell_steps[d].column, row = j + cell_steps[d].row;
+                    const bool allowed = free(i, j) && free(column, row) && free(i, row) &&
+                                         free(column, j) &&
+                                         scene.passable(centre(scene, i, j),
+                                                        centre(scene, column, row), Meters{radius});
+                    const auto steps = space.steps[static_cast<std::size_t>(j * 40 + i)];
+                    REQUIRE(((steps >> d & 1) != 0) == allowed);
+                }
+    }
+}
+
+TEST_CASE("free space: a corridor as wide as the robot is wide enough in any decimals") {
+    for (const int centimetres : {3, 5, 10, 15, 30})
+        for (std::size_t width = 1; width <= 21; width += 2) {
+            std::vector<std::string> rows(width + 2, ".....");
+            rows.front() = rows.back() = "#####";
+            const Scene scene(test::drawn_map(rows, centimetres / 100.0));
+            const double radius = centimetres * static_cast<double>(width) / 200;
+            const std::size_t middle = (width + 2) / 2 * 5 + 2;
+            CHECK(FreeSpace(scene, Meters{radius}).steps[middle] == 0b00010001);  // along it
+            CHECK(FreeSpace(scene, Meters{radius + 1e-8}).free[middle] == 0);
+        }
+}

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "scene/occupancy.hpp"
+
+#include "sim/error.hpp"
+#include "test/scene/png_writer.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+using test::png_bytes;
+using test::TemporaryFolder;
+
+namespace {
+
+constexpr Cell free_cell = Cell::free, occupied = Cell::occupied, unknown = Cell::unknown;
+using Cells = std::vector<Cell>;
+
+/// A map of one row of pixels with these grays, and these lines added to the YAML file.
+Cells cells_of(const std::vector<png_byte>& grays, const std::string& lines = "") {
+    const TemporaryFolder folder;
+    folder.write("map.png",
+                 png_bytes({.width = static_cast<png_uint_32>(grays.size()), .rows = {grays}}));
+    return read_ros_map(folder.write("map.yaml",
+                                     "image: map.png\nresolution: 0.05\n"
+                                     "origin: [0, 0, 0]\n" +
+                                         lines))
+        .cells;
+}
+
+Cells rgba_cells(const std::vector<png_byte>& rgba, const std::string& lines) {
+    const TemporaryFolder folder;
+    folder.write("map.png", png_bytes({.width = static_cast<png_uint_32>(rgba.size() / 4),
+                                       .color_type = PNG_COLOR_TYPE_RGBA,
+                                       .rows = {rgba}}));
+    return read_ros_map(folder.write("map.yaml",
+                                     "image: map.png\nresolution: 1\n"
+                                     "origin: [0, 0, 0]\n" +
+                                         lines))
+        .cells;
+}
+
+/// "line:column message" of the error in this YAML file, "" if there is none.
+std::string error_of(const std::string& yaml) {
+    const TemporaryFolder folder;
+    folder.write("map.pgm", "P2 1 1 255 0");
+    const std::string path = folder.write("map.yaml", yaml);
+    try {
+        read_ros_map(path);
+    } catch (const InputError& error) {
+        CHECK(error.where().source.starts_with(folder.path("")));
+        return std::to_string(error.where().line) + ":" + std::to_string(error.where().column) +
+               " " + error.message();
+    }
+    return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+const std::string good = "image: map.pgm\nresolution: 0.05\norigin: [1, 2, 0]\n";
+
+}  // namespace
+
+TEST_CASE("ROS map: sizes, origin and yaw are taken over; the first image row is the top") {
+    const TemporaryFolder folder;
+    folder.write("map.pgm", "P2 2 3 255  254 254  0 254  205 0");
+    const OccupancyGrid grid = read_ros_map(folder.write("map.yaml",
+                                                         "image: map.pgm\n"
+                                                         "resolution: 0.05\n"
+                                                         "origin: [-10.5, 2.25, 0.5]\n"
+                                                         "negate: 0\n"
+                                                         "occupied_thresh: 0.65\n"
+                                                         "free_thresh: 0.196\n"));
+    CHECK(grid.columns == 2);
+    CHECK(grid.rows == 3);
+    CHECK(grid.cell_width == 0.05);
+    CHECK(grid.cell_height == 0.05);
+    CHECK(grid.origin == Vec3{-10.5, 2.25, 0});
+    CHECK(grid.yaw == 0.5);
+    // 205: occ = 0.19608, just above 0.196
+    CHECK(grid.cells == Cells{unknown, occupied, occupied, free_cell, free_cell, free_cell});
+    CHECK(grid.at(1, 0) == occupied);
+    CHECK(grid.at(1, 1) == free_cell);
+}
+
+TEST_CASE(
+    "ROS map: the picture is looked for beside the YAML file, or where an absolute path says") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path("maps"));
+    folder.write("maps/a.pgm", "P2 1 1 255 0");
+    const std::string rest = "\nresolution: 1\norigin: [0, 0, 0]\n";
+    CHECK(read_ros_map(folder.write("maps/a.yaml", "image: a.pgm" + rest)).cells[0] == occupied);
+    CHECK(read_ros_map(folder.write("b.yaml", "image: maps/a.pgm" + rest)).columns == 1);
+    CHECK(read_ros_map(folder.write("c.yaml", "image: " + folder.path("maps/a.pgm") + rest)).rows ==
+          1);
+    CHECK_THROWS_AS(read_ros_map(folder.write("d.yaml", "image: a.pgm" + rest)), InputError);
+}
+
+TEST_CASE("ROS map: both thresholds are strict; the defaults are 0.65 and 0.25") {
+    // occ = 1 - gray / 255: 89 -> 0.65098, 90 -> 0.64706, 191 -> 0.25098, 192 -> 0.24706
+    CHECK(cells_of({0, 89, 90, 191, 192, 255}) ==
+          Cells{occupied, occupied, unknown, unknown, free_cell, free_cell});
+    // 51 / 255 is 0.2 and 204 / 255 is 0.8, exactly as the decimals are read
+    CHECK(cells_of({51, 204}, "negate: 1\nfree_thresh: 0.2\noccupied_thresh: 0.8\n") ==
+          Cells{unknown, unknown});
+    CHECK(cells_of({50, 205}, "negate: 1\nfree_thresh: 0.2\noccupied_thresh: 0.8\n") ==
+          Cells{free_cell, occupied});
+}
+
+TEST_CASE("ROS map: negate turns black and white round") {
+    CHECK(cells_of({0, 255}) == Cells{occupied, free_cell});
+    for (const char* yes : {"1", "true", "True", "yes", "2"})
+        CHECK(cells_of({0, 255}, std::string("negate: ") + yes + "\n") ==
+              Cells{free_cell, occupied});
+    for (const char* no : {"0", "false"})
+        CHECK(cells_of({0, 255}, std::string("negate: ") + no + "\n") ==
+              Cells{occupied, free_cell});
+}
+
+TEST_CASE("ROS map: trinary averages red, green, blue and an alpha channel") {
+    const TemporaryFolder folder;
+    // (255 + 0 + 0) / 3 = 85: occ 0.667; (255 + 255 + 60) / 3 = 190: occ 0.255
+    folder.write("map.png", png_bytes({.width = 2,
+                                       .color_type = PNG_COLOR_TYPE_RGB,
+                                       .rows = {{255, 0, 0, 255, 255, 60}}}));
+    CHECK(read_ros_map(folder.write("map.yaml", "image: map.png\nresolution: 1\norigin: [0, 0, 0]"))
+              .cells == Cells{occupied, unknown});
+    // opaque black: (0 + 255) / 4, occ 0.75; transparent black: occ 1; transparent white: 0.25
+    CHECK(rgba_cells({0, 0, 0, 255, 0, 0, 0, 0, 255, 255, 255, 0, 255, 255, 255, 255}, "") ==
+          Cells{occupied, occupied, unknown, free_cell});
+    CHECK(rgba_cells({0, 0, 0, 255}, "occupied_thresh: 0.8") == Cells{unknown});
+}
+
+TEST_CASE("ROS map: in scale mode a pixel that is not opaque is unknown") {
+    CHECK(rgba_cells({0, 0, 0, 255, 0, 0, 0, 254, 255, 255, 255, 255, 255, 255, 255, 0},
+                     "mode: scale\n") == Cells{occupied, unknown, free_cell, unknown});
+    CHECK(rgba_cells({0, 0, 0, 255}, "mode: scale\noccupied_thresh: 0.8") == Cells{occupied});
+    CHECK(cells_of({0, 128, 255}, "mode: scale") == Cells{occupied, unknown, free_cell});
+}
+
+TEST_CASE("ROS map: in raw mode a sample is a percentage of occupancy, above 100 unknown") {
+    const Cells expected{free_cell, free_cell, unknown, unknown,
+                         occupied,  occupied,  unknown, unknown};
+    CHECK(cells_of({0, 24, 25, 65, 66, 100, 101, 255}, "mode: raw") == expected);
+    CHECK(cells_of({0, 24, 25, 65, 66, 100, 101, 255}, "mode: raw\nnegate: 1") == expected);
+    CHECK(cells_of({0, 255}, "mode: trinary") == Cells{occupied, free_cell});
+}
+
+TEST_CASE("ROS map: errors name the line, the column and what to do") {
+    CHECK(error_of(good) == "");
+    CHECK(contains(error_of("resolution: 0.05\norigin: [0, 0, 0]"), "no key \"image\""));
+    CHECK(contains(error_of("image: map.pgm\norigin: [0, 0, 0]"), "no key \"resolution\""));
+    CHECK(contains(error_of("image: map.pgm\nresolution: 1"), "no key \"origin\""));
+    const std::string typo = error_of(good + "ocupied_thresh: 0.65\n");
+    CHECK(contains(typo, "4:1 unknown key \"ocupied_thresh\""));
+    CHECK(contains(typo, "did you mean \"occupied_thresh\"?"));
+    CHECK(contains(error_of(good + "mode: trinry\n"), "4:7 mode \"trinry\""));
+    CHECK(contains(error_of(good + "mode: trinry\n"), "did you mean \"trinary\"?"));
+    CHECK(contains(error_of(good + "mode: [raw]\n"), "4:7 mode is a list"));
+    CHECK(contains(error_of(good + "negate: maybe\n"), "4:9 negate is \"maybe\""));
+    CHECK(contains(error_of(good + "negate: 0\nnegate: 1\n"), "5:1 key \"negate\" a second time"));
+    CHECK(contains(error_of(good + "free_thresh: low\n"), "4:14 free_thresh is \"low\""));
+    CHECK(contains(error_of(good + "free_thresh: .nan\n"), "4:14 free_thresh is \".nan\""));
+    CHECK(contains(error_of(good + "free_thresh: -0.1\n"), "from 0 to 1"));
+    CHECK(contains(error_of(good + "occupied_thresh: 65\n"), "from 0 to 1"));
+    CHECK(contains(error_of(good + "free_thresh: 0.7\n"), "4:14 occupied_thresh 0.65 and"));
+    CHECK(contains(error_of(good + "free_thresh: 0.5\noccupied_thresh: 0.5\n"), "5:18 occupied"));
+}
+
+TEST_CASE("ROS map: resolution and origin are checked") {
+    const auto resolution = [](const std::string& value) {
+        return error_of("image: map.pgm\nresolution: " + value + "\norigin: [0, 0, 0]\n");
+    };
+    for (const char* bad : {"0", "-0.05", ".nan", ".inf", "5 cm", "[1]", "''", "~"})
+        CHECK_MESSAGE(contains(resolution(bad), "2:13 resolution"), bad);
+    const auto origin = [](const std::string& value) {
+        return error_of("image: map.pgm\nresolution: 1\norigin: " + value + "\n");
+    };
+    CHECK(contains(origin("[0, 0]"), "3:9 origin is a list of 2; expected exactly three"));
+    CHECK(contains(origin("[0, 0, 0, 0]"), "3:9 origin is a list of 4"));
+    CHECK(contains(origin("0"), "3:9 origin is \"0\""));
+    CHECK(contains(origin("[0, north, 0]"), "3:13 origin is \"north\""));
+    CHECK(contains(origin("[0, 0, .nan]"), "3:16 origin is \".nan\""));
+    CHECK(contains(origin("{x: 0}"), "origin is a map"));
+}
+
+TEST_CASE("ROS map: what is no YAML, or no file, is said with its place") {
+    CHECK(contains(error_of("image: [map.pgm\nresolution: 1\n"), "not valid YAML"));
+    CHECK_FALSE(error_of("image: [map.pgm\nresolution: 1\n").starts_with("0:0"));
+    CHECK(contains(error_of(""), "no \"key: value\" lines"));
+    CHECK(contains(error_of("- image\n"), "no \"key: value\" lines"));
+    CHECK(contains(error_of("just words"), "no \"key: value\" lines"));
+    CHECK(contains(error_of("{1: 2, [a]: b}"), "unknown key"));
+    CHECK(contains(error_of("[a]: b"), "unknown key"));
+    CHECK(error_of(std::string(5000, '[')) != "");
+    CHECK(error_of("\xff\xfe\x00") != "");
+    CHECK(contains(error_of(std::string(2'000'000, ' ')), "more than a megabyte"));
+    CHECK(contains(error_of("image: ''\nresolution: 1\norigin: [0, 0, 0]"), "1:8 image \"\""));
+    CHECK(contains(error_of("image: gone.pgm\nresolution: 1\norigin: [0, 0, 0]"), "no such file"));
+    const TemporaryFolder folder;
+    CHECK_THROWS_AS(read_ros_map(folder.path("absent.yaml")), InputError);
+    CHECK_THROWS_AS(read_ros_map(folder.path(".")), InputError);
+}
+
+TEST_CASE("image map: a bare picture is stretched to its size, dark is wall") {
+    const TemporaryFolder folder;
+    // mean below 127.5 of 255 is wall: 127 is, 128 is not
+    const std::string path = folder.write("map.pgm", "P2 4 2 255  0 127 128 255  0 255 255 255");
+    const OccupancyGrid grid = image_map(path, 20_m, 5_m);
+    CHECK(grid.cell_width == 5);
+    CHECK(grid.cell_height == 2.5);
+    CHECK(grid.origin == Vec3{0, 0, 0});
+    CHECK(grid.cells == Cells{occupied, free_cell, free_cell, free_cell, occupied, occupied,
+                              free_cell, free_cell});
+}
+
+TEST_CASE("image map: a fully transparent pixel is free, a half transparent one is its colour") {
+    const TemporaryFolder folder;
+    const std::string path =
+        folder.write("map.png", png_bytes({.width = 3,
+                                           .color_type = PNG_COLOR_TYPE_RGBA,
+                                           .rows = {{0, 0, 0, 0, 0, 0, 0, 1, 255, 0, 0, 255}}}));
+    CHECK(image_map(path, 3_m, 1_m).cells == Cells{free_cell, occupied, occupied});
+}
+
+TEST_CASE("image map: a size that is not positive and finite is the caller's error") {
+    const TemporaryFolder folder;
+    const std::string path = folder.write("map.pgm", "P2 1 1 255 0");
+    CHECK_THROWS_AS(image_map(path, 0_m, 1_m), std::invalid_argument);
+    CHECK_THROWS_AS(image_map(path, 1_m, Meters{-1}), std::invalid_argument);
+    CHECK_THROWS_AS(image_map(path, Meters{std::numeric_limits<double>::quiet_NaN()}, 1_m),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(image_map(folder.path("absent.png"), 1_m, 1_m), InputError);
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "sim/time.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+TEST_CASE("time: seconds become the nearest nanosecond") {
+    CHECK(from_seconds(0) == 0ns);
+    CHECK(from_seconds(0.1) == 100ms);
+    CHECK(from_seconds(1.4e-9) == 1ns);
+    CHECK(from_seconds(1.6e-9) == 2ns);
+    CHECK(from_seconds(-1.4e-9) == -1ns);
+    CHECK(from_seconds(-1.6e-9) == -2ns);
+    CHECK(from_seconds(0.3) == from_seconds(0.1) + from_seconds(0.2));  // not so in double
+    CHECK(from_seconds(std::numeric_limits<double>::denorm_min()) == 0ns);
+}
+
+TEST_CASE("time: nanoseconds survive the way to seconds and back, for 13 days") {
+    constexpr std::int64_t thirteen_days = std::int64_t{1} << 50;
+    for (std::int64_t n = 1; n < thirteen_days; n = n * 3 / 2 + 1) {
+        CHECK(from_seconds(seconds(Duration{n})) == Duration{n});
+        CHECK(from_seconds(seconds(Duration{-n})) == Duration{-n});
+    }
+    CHECK(seconds(Time{123456789ns}) == 0.123456789);
+    CHECK(seconds(start_of_run) == 0);
+}
+
+TEST_CASE("time: 292 years are the limit, either way") {
+    CHECK(from_seconds(9.2e9).count() == 9200000000000000000);
+    CHECK(from_seconds(-9.2e9).count() == -9200000000000000000);
+    CHECK(start_of_run + from_seconds(9.2e9) < never);
+    CHECK_THROWS_AS(from_seconds(9.2000001e9), std::invalid_argument);
+    CHECK_THROWS_AS(from_seconds(-9.3e9), std::invalid_argument);
+    CHECK_THROWS_AS(from_seconds(std::numeric_limits<double>::infinity()), std::invalid_argument);
+    CHECK_THROWS_AS(from_seconds(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+    CHECK_THROWS_WITH(from_seconds(1e10),
+                      "a time must be within +-9.2e9 s (292 years), got 10000000000.000000 s");
+}

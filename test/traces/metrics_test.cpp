@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "traces/metrics.hpp"
+
+#include "test/traces/record_stream.hpp"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+
+using namespace rovernet;
+using namespace rovernet::testing;
+
+namespace {
+
+struct Measured : Stream {
+    std::shared_ptr<Metrics> metrics = std::make_shared<Metrics>();
+    Measured() { sinks = {metrics}; }
+    MetricValues values() const { return metrics->values(); }
+};
+
+constexpr NodeId a{0}, b{1}, c{2}, d{3};
+
+/// A line a - b - c - d, ttl 2 with suppression: a sends, b relays; d is beyond the ttl.
+struct LineOfFour : Measured {
+    LineOfFour() {
+        for (int i = 0; i < 4; ++i) place(Vec3{10.0 * i, 0, 0});
+        const auto m = send(at(1'000), a, 2, 64, 3);
+        transmit(at(1'000), frame(m, a, 2, 1));
+        receive(frame(m, a, 2, 1), {{b, at(1'500), Fate::waiting, true}});
+        transmit(at(2'500), frame(m, b, 1, 2), a);
+        receive(frame(m, b, 1, 2),
+                {{a, at(3'000), Fate::duplicate, false}, {c, at(3'100), Fate::ttl, true}});
+    }
+};
+
+}  // namespace
+
+TEST_CASE("metrics: nothing sent, nothing to divide by") {
+    const auto v = Metrics{}.values();
+    CHECK(v.messages == 0);
+    CHECK_FALSE(v.delivery_ratio);
+    CHECK_FALSE(v.reach);
+    CHECK_FALSE(v.saved_rebroadcasts);
+    CHECK_FALSE(v.latency);
+    CHECK_FALSE(v.mean_hops);
+    CHECK(v.hops.empty());
+}
+
+TEST_CASE("metrics: a flood of ttl 2 along a line of four, counted by hand") {
+    const auto v = LineOfFour{}.values();
+    CHECK(v.messages == 1);
+    CHECK(v.transmissions == 2);
+    CHECK(v.receptions == 3);
+    CHECK(v.deliveries == 2);
+    CHECK(v.drops[0] == DropCount{"DUP", 1});
+    CHECK(v.drops[1] == DropCount{"TTL", 1});
+    CHECK(v.drops[2] == DropCount{"SLP", 0});
+    CHECK(v.delivery_ratio == 2.0 / 3);      // of three other robots
+    CHECK(v.reach == 2.0 / 3);               // all three were linked to the sender
+    CHECK(v.saved_rebroadcasts == 1.0 / 2);  // of b and c, only b relayed
+    CHECK(v.latency == LatencyValues{1.3e-6, 0.5e-6, 2.1e-6, 2.1e-6});
+    CHECK(v.mean_hops == 1.5);
+    CHECK(v.max_hops == 2);
+    CHECK(v.hops == std::vector<std::uint64_t>{0, 1, 1});
+}
+
+TEST_CASE("metrics: the origin's own transmissions and a robot's second ones save nothing") {
+    LineOfFour run;  // the thesis's rule: everybody forwards every copy
+    const MessageId m{0};
+    run.transmit(at(4'000), frame(m, a, 0, 3), b);
+    run.transmit(at(5'000), frame(m, b, 0, 3), a);
+    CHECK(run.values().transmissions == 4);
+    CHECK(run.values().saved_rebroadcasts == 1.0 / 2);
+    run.transmit(at(6'000), frame(m, c, 0, 3), b);
+    CHECK(run.values().saved_rebroadcasts == 0.0);
+}
+
+TEST_CASE("metrics: a new message in the slot of an old one has relays of its own") {
+    LineOfFour run;
+    REQUIRE(run.messages.release(MessageId{0}));
+    const auto m = run.send(at(9'000), a, 2);
+    REQUIRE(m == MessageId{0});
+    run.receive(frame(m, a, 2, 1), {{b, at(9'500), Fate::waiting, true}});
+    run.transmit(at(9'900), frame(m, b, 1, 2), a);
+    const auto v = run.values();
+    CHECK(v.saved_rebroadcasts == 1.0 / 3);  // (3 - 2) / 3
+    CHECK(v.reach == 2.0 / 3);               // the second message did not say how many it could
+    CHECK(v.delivery_ratio == 3.0 / 6);
+}
+
+TEST_CASE("metrics: a radio that is off decodes nothing, and loses the copy that waits") {
+    LineOfFour run;
+    const MessageId m{0};
+    run.receive(frame(m, b, 1, 2), {{d, at(4'000), Fate::off, false}});
+    run.emit(Dropped{at(5'000), c, frame(m, b, 1, 2), DropReason::off});
+    const auto v = run.values();
+    CHECK(v.receptions == 3);
+    CHECK(v.drops[2] == DropCount{"SLP", 2});
+}
+
+TEST_CASE("metrics: robots count as destinations from when they are there") {
+    LineOfFour run;
+    run.place(Vec3{});
+    run.send(at(9'000), a, 2);
+    CHECK(run.values().delivery_ratio == 2.0 / (3 + 4));
+}
+
+TEST_CASE("metrics: a single robot has nobody to deliver to") {
+    Measured run;
+    run.place(Vec3{});
+    run.send(at(0), a, 2, 64, 0);
+    CHECK(run.values().messages == 1);
+    CHECK_FALSE(run.values().delivery_ratio);
+    CHECK_FALSE(run.values().reach);
+}
+
+TEST_CASE("metrics: percentiles of 1 ... 20 ns by nearest rank, in whatever order they come") {
+    Measured run;
+    for (int i = 0; i < 21; ++i) run.place(Vec3{});
+    const auto m = run.send(at(0), a, 1);
+    for (std::uint32_t i = 1; i <= 20; ++i) {
+        run.receive(frame(m, a, 1, 1), {{{i}, at((i * 8) % 21), Fate::ttl, true}});
+    }
+    const auto latency = *run.values().latency;
+    CHECK(latency.p50 == 10e-9);
+    CHECK(latency.p95 == 19e-9);
+    CHECK(latency.max == 20e-9);
+    CHECK(latency.mean == 10.5e-9);
+}
+
+TEST_CASE("metrics: asks the network for what can be reached") {
+    CHECK((Metrics{}.kinds() & kind_reachable) != 0);
+}
+
+TEST_CASE("metrics: the same to the last digit however the receptions are cut") {
+    struct Cut {
+        Sink target;
+        KindMask kinds() const { return target.kinds(); }
+        void on(const Record& record, const RecordContext& context) {
+            const auto* received = std::get_if<Received>(&record);
+            if (!received) return target.on(record, context);
+            for (std::size_t i = 0; i < received->receptions.size(); ++i) {
+                target.on(Received{received->frame, received->receptions.subspan(i, 1)}, context);
+            }
+        }
+    };
+    Measured run;
+    const auto cut = std::make_shared<Metrics>();
+    run.sinks.push_back(Sink(Cut{cut}));
+    RandomRecords(run, 3).run(20, 5'000);
+    CHECK(run.values() == cut->values());
+}

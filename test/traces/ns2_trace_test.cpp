@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "traces/ns2_trace.hpp"
+
+#include "sim/error.hpp"
+#include "test/traces/record_stream.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+using namespace rovernet;
+using namespace rovernet::testing;
+
+namespace {
+
+constexpr NodeId a{0}, b{1}, c{11};
+
+/// Every line that a trace can hold: twelve robots 10 m apart, of which three talk.
+void play(Stream& s) {
+    for (int i = 0; i < 11; ++i) s.place(Vec3{10.0 * i, 1.005, 0.5});
+    s.place({.start = at(250'000'000),
+             .end = at(5'250'000'000),
+             .from = {3, -4, 1},
+             .velocity = {0.6, 0.8, 0},
+             .to = {6, 0, 1}});
+    const auto m = s.send(at(10'000'000'000), a, 3, 64, 2);
+    s.transmit(at(10'000'000'000), frame(m, a, 3, 1));
+    s.receive(frame(m, a, 3, 1), {{b, at(10'000'520'067), Fate::waiting, true},
+                                  {c, at(10'000'520'100), Fate::off, false}});
+    s.transmit(at(10'002'000'001), frame(m, b, 2, 2), a);
+    s.receive(frame(m, b, 2, 2), {{a, at(10'002'520'068), Fate::duplicate, false},
+                                  {c, at(10'002'520'101), Fate::waiting, true}});
+    s.transmit(at(10'003'000'000), frame(m, a, 1, 3), b);
+    s.receive(frame(m, c, 1, 3), {{b, at(10'003'520'067), Fate::ttl, false}});
+    s.emit(Dropped{at(10'004'000'000), c, frame(m, b, 2, 2), DropReason::off});
+}
+
+std::string trace_of(Ns2Format format, void (*records)(Stream&)) {
+    const TempFolder folder;
+    Stream stream;
+    const auto trace = std::make_shared<Ns2Trace>(folder / "run.tr", format);
+    stream.sinks = {trace};
+    records(stream);
+    trace->close();
+    return content(folder / "run.tr");
+}
+
+std::string without_first_lines(std::string text, int n) {
+    for (; n > 0; --n) text.erase(0, text.find('\n') + 1);
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("ns-2 trace: movements, the same in both formats") {
+    const auto old_text = trace_of(Ns2Format::old_format, play);
+    CHECK(
+        old_text.starts_with("M 0.00000 0 (0.00, 1.00, 0.50), (0.00, 1.00), 0.00\n"
+                             "M 0.00000 1 (10.00, 1.00, 0.50), (10.00, 1.00), 0.00\n"));
+    const auto last = "M 0.25000 11 (3.00, -4.00, 1.00), (6.00, 0.00), 1.00\n";
+    CHECK(without_first_lines(old_text, 11).starts_with(last));
+    CHECK(without_first_lines(trace_of(Ns2Format::new_format, play), 11).starts_with(last));
+}
+
+TEST_CASE("ns-2 trace: the old format, line by line") {
+    CHECK(without_first_lines(trace_of(Ns2Format::old_format, play), 12) ==
+          "v 10 eval {set sim_annotation {reachable 0 2 of 11}}\n"
+          "s 10.000000000 _0_ AGT  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
+          "r 10.000000000 _0_ RTR  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
+          "s 10.000000000 _0_ RTR  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
+          "r 10.000520067 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] \n"
+          "r 10.000520067 _1_ AGT  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] \n"
+          "D 10.000520100 _11_ MAC  SLP 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] \n"
+          "f 10.002000001 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 2 0] \n"
+          "r 10.002520068 _0_ RTR  --- 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n"
+          "D 10.002520068 _0_ RTR  DUP 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n"
+          "r 10.002520101 _11_ RTR  --- 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n"
+          "r 10.002520101 _11_ AGT  --- 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n"
+          "s 10.003000000 _0_ RTR  --- 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 1 0] \n"
+          "r 10.003520067 _1_ RTR  --- 0 message 64 [0 ffffffff b 800] ------- [0:0 -1:0 1 0] \n"
+          "D 10.003520067 _1_ RTR  TTL 0 message 64 [0 ffffffff b 800] ------- [0:0 -1:0 1 0] \n"
+          "D 10.004000000 _11_ RTR  SLP 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n");
+}
+
+TEST_CASE("ns-2 trace: the new format, line by line") {
+    const auto text = without_first_lines(trace_of(Ns2Format::new_format, play), 12);
+    CHECK(text.starts_with(
+        "v 10 eval {set sim_annotation {reachable 0 2 of 11}}\n"
+        "s -t 10.000000000 -Hs 0 -Hd -2 -Ni 0 -Nx 0.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl AGT "
+        "-Nw --- -Ma 0 -Md 0 -Ms 0 -Mt 0 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 -Iv 3 \n"
+        "r -t 10.000000000 -Hs 0 -Hd -2 -Ni 0 -Nx 0.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl RTR "
+        "-Nw --- -Ma 0 -Md 0 -Ms 0 -Mt 0 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 -Iv 3 \n"
+        "s -t 10.000000000 -Hs 0 -Hd -2 -Ni 0 -Nx 0.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl RTR "
+        "-Nw --- -Ma 0 -Md 0 -Ms 0 -Mt 0 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 -Iv 3 \n"
+        "r -t 10.000520067 -Hs 1 -Hd -2 -Ni 1 -Nx 10.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl RTR "
+        "-Nw --- -Ma 0 -Md ffffffff -Ms 0 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
+        "-Iv 3 \n"
+        "r -t 10.000520067 -Hs 1 -Hd -2 -Ni 1 -Nx 10.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl AGT "
+        "-Nw --- -Ma 0 -Md ffffffff -Ms 0 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
+        "-Iv 3 \n"
+        "d -t 10.000520100 -Hs 11 -Hd -2 -Ni 11 -Nx 6.00 -Ny 0.00 -Nz 1.00 -Ne -1.000000 -Nl MAC "
+        "-Nw SLP -Ma 0 -Md ffffffff -Ms 0 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
+        "-Iv 3 \n"
+        "f -t 10.002000001 -Hs 1 -Hd -2 -Ni 1 -Nx 10.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl RTR "
+        "-Nw --- -Ma 0 -Md ffffffff -Ms 0 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
+        "-Iv 2 \n"));
+    CHECK(text.ends_with(
+        "d -t 10.003520067 -Hs 1 -Hd -2 -Ni 1 -Nx 10.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl RTR "
+        "-Nw TTL -Ma 0 -Md ffffffff -Ms b -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
+        "-Iv 0 \n"
+        "d -t 10.004000000 -Hs 11 -Hd -2 -Ni 11 -Nx 6.00 -Ny 0.00 -Nz 1.00 -Ne -1.000000 -Nl RTR "
+        "-Nw SLP -Ma 0 -Md ffffffff -Ms 1 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
+        "-Iv 2 \n"));
+}
+
+TEST_CASE("ns-2 trace: the new format shows where a moving robot is at the time of the line") {
+    const auto text = trace_of(Ns2Format::new_format, [](Stream& s) {
+        s.place({.start = at(0),
+                 .end = at(10'000'000'000),
+                 .from = {},
+                 .velocity = {1, 0.5, 0.25},
+                 .to = {10, 5, 2.5}});
+        s.send(at(2'500'000'000), a, 1);
+    });
+    CHECK(text.find("-Nx 2.50 -Ny 1.25 -Nz 0.62 ") != text.npos);
+}
+
+TEST_CASE("ns-2 trace: without knowledge of what can be reached there is no annotation") {
+    const auto text = trace_of(Ns2Format::old_format, [](Stream& s) {
+        s.place(Vec3{});
+        s.send(at(0), a, 1);
+    });
+    CHECK(text.find("v ") == text.npos);
+}
+
+TEST_CASE("ns-2 trace: a message lost at its own sender has not been heard from anybody") {
+    const auto text = trace_of(Ns2Format::old_format, [](Stream& s) {
+        s.place(Vec3{});
+        const auto m = s.send(at(0), a, 1);
+        s.emit(Dropped{at(0), a, frame(m, a, 1, 1), DropReason::off});
+    });
+    CHECK(text.ends_with(
+        "D 0.000000000 _0_ RTR  SLP 0 message 64 [0 0 0 0] ------- [0:0 -1:0 1 0] \n"));
+}
+
+TEST_CASE("ns-2 trace: a trace of more than the buffer is whole") {
+    const auto text = trace_of(Ns2Format::new_format, [](Stream& s) {
+        s.place(Vec3{});
+        for (int i = 0; i < 1000; ++i) s.send(at(i), a, 1);
+    });
+    CHECK(std::count(text.begin(), text.end(), '\n') == 2001);
+    CHECK(text.find("-Ii 999 -Iv 1 \n") != text.npos);
+}
+
+TEST_CASE("ns-2 trace: the file has its name only once it is whole") {
+    const TempFolder folder;
+    Ns2Trace trace(folder / "run.tr");
+    CHECK(folder.has("run.tr.part"));
+    CHECK_FALSE(folder.has("run.tr"));
+    trace.close();
+    CHECK_FALSE(folder.has("run.tr.part"));
+    CHECK(folder.has("run.tr"));
+    trace.close();
+    CHECK(folder.has("run.tr"));
+}
+
+TEST_CASE("ns-2 trace: an interrupted run leaves what was there before, and no half file") {
+    const TempFolder folder;
+    write_file(folder / "run.tr", "yesterday's\n");
+    {
+        Stream stream;
+        stream.sinks = {Ns2Trace(folder / "run.tr")};
+        play(stream);
+    }
+    CHECK(content(folder / "run.tr") == "yesterday's\n");
+    CHECK_FALSE(folder.has("run.tr.part"));
+}
+
+TEST_CASE("ns-2 trace: a place that cannot be written is reported at once") {
+    const TempFolder folder;
+    CHECK_THROWS_WITH_AS(
+        Ns2Trace(folder / "no/run.tr"),
+        (folder / "no/run.tr: cannot write the trace: No such file or directory").c_str(),
+        RunError);
+    std::filesystem::create_directory(folder / "folder");
+    CHECK_THROWS_WITH_AS(
+        Ns2Trace(folder / "folder"),
+        (folder / "folder: cannot write the trace: it exists and is no regular file").c_str(),
+        RunError);
+    CHECK_FALSE(folder.has("folder.part"));
+}
+
+TEST_CASE("ns-2 trace: a full disk is reported, not swallowed") {
+    if (!std::filesystem::exists("/dev/full")) return;
+    const TempFolder folder;
+    std::filesystem::create_symlink("/dev/full", folder / "run.tr.part");
+    Ns2Trace trace(folder / "run.tr");
+    Stream stream;
+    stream.place(Vec3{});
+    trace.on(Moved{at(0), a, stream.legs.leg(a)}, {stream.legs, stream.messages});
+    CHECK_THROWS_WITH_AS(
+        trace.close(), (folder / "run.tr: cannot write the trace: No space left on device").c_str(),
+        RunError);
+    CHECK_FALSE(folder.has("run.tr.part"));
+    CHECK_THROWS_AS(trace.close(), RunError);
+    CHECK_FALSE(folder.has("run.tr"));
+}

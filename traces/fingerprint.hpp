@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ports.hpp"
+#include "sim/record.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace rovernet {
+
+/// One number for the behaviour of a run: any difference in what happened changes it.
+///
+/// XXH64 (seed 0) over, per record, its kind (the bit number of kind_of, one byte) and its integers
+/// in little endian:
+///
+/// | record      | bytes                                                                      |
+/// |-------------|----------------------------------------------------------------------------|
+/// | Sent        | time 8, node 4, uid 8, origin 4, size 4, ttl 1, robots 4                   |
+/// | Transmitted | time 8, frame, heard from 4 (all ones: from nobody)                        |
+/// | Received    | per reception, each with the kind: frame, node 4, time 8, fate 1, delivered 1 |
+/// | Dropped     | time 8, node 4, frame, reason 1                                            |
+/// | Moved       | time 8, node 4, start 8, end 8, from 3 x 8, to 3 x 8                       |
+///
+/// where a frame is: uid 8, sender 4, ttl 1, hops 1. Times in [ns], positions in micrometres [um]
+/// rounded to nearest. What depends on who listens (`reachable`) or on how the receptions of a
+/// transmission are cut into records does not enter.
+class Fingerprint {
+  public:
+    Fingerprint();
+    Fingerprint(Fingerprint&&) noexcept;
+    Fingerprint& operator=(Fingerprint&&) noexcept;
+    ~Fingerprint();
+
+    KindMask kinds() const {
+        return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
+               kind_of<Moved>();
+    }
+    void on(const Record& record, const RecordContext& context);
+
+    /// Of the records so far.
+    std::uint64_t value() const;
+    /// value() as 16 hexadecimal digits.
+    std::string text() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rovernet
