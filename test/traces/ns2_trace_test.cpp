@@ -109,7 +109,7 @@ TEST_CASE("ns-2 trace: the new format, line by line") {
     CHECK(text.ends_with(
         "d -t 10.003520067 -Hs 1 -Hd -2 -Ni 1 -Nx 10.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl RTR "
         "-Nw TTL -Ma 0 -Md ffffffff -Ms b -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
-        "-Iv 0 \n"
+        "-Iv 1 \n"
         "d -t 10.004000000 -Hs 11 -Hd -2 -Ni 11 -Nx 6.00 -Ny 0.00 -Nz 1.00 -Ne -1.000000 -Nl RTR "
         "-Nw SLP -Ma 0 -Md ffffffff -Ms 1 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
         "-Iv 2 \n"));
@@ -169,12 +169,25 @@ TEST_CASE("ns-2 trace: the file has its name only once it is whole") {
 TEST_CASE("ns-2 trace: an interrupted run leaves what was there before, and no half file") {
     const TempFolder folder;
     write_file(folder / "run.tr", "yesterday's\n");
+    const auto interrupted = [&] {
+        Stream stream;
+        stream.sinks = {Ns2Trace(folder / "run.tr")};
+        play(stream);
+        throw std::runtime_error("interrupted");
+    };
+    CHECK_THROWS_AS(interrupted(), std::runtime_error);
+    CHECK(content(folder / "run.tr") == "yesterday's\n");
+    CHECK_FALSE(folder.has("run.tr.part"));
+}
+
+TEST_CASE("ns-2 trace: a run that ends well without close() leaves its trace") {
+    const TempFolder folder;
     {
         Stream stream;
         stream.sinks = {Ns2Trace(folder / "run.tr")};
         play(stream);
     }
-    CHECK(content(folder / "run.tr") == "yesterday's\n");
+    CHECK(folder.has("run.tr"));
     CHECK_FALSE(folder.has("run.tr.part"));
 }
 
