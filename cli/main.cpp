@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
+#include "cli/diagnostics.hpp"
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
 #include "sim/error.hpp"
@@ -19,7 +20,11 @@ using namespace rovernet;
 /// What a command may end with.
 enum Exit { ok = 0, failed = 1, usage = 2, bad_input = 3, interrupted = 130 };
 
-void say(std::string_view message) { fmt::print(stderr, "rovernet: {}\n", message); }
+/// Says what went wrong; a mistake in an input begins with its place, anything else with our name.
+int fail(Exit code, const std::string& message) {
+    cli::error(code == bad_input ? message : "rovernet: " + message);
+    return code;
+}
 
 /// Runs a command and turns what it throws into a message and an exit code.
 int guarded(const std::function<void()>& command) {
@@ -27,20 +32,15 @@ int guarded(const std::function<void()>& command) {
         command();
         return std::fflush(stdout) == 0 ? ok : failed;
     } catch (const InputError& error) {
-        say(error.what());
-        return error.where().is_option ? usage : bad_input;
+        return fail(error.where().is_option ? usage : bad_input, error.what());
     } catch (const Interrupted&) {
-        say("interrupted; nothing was written");
-        return interrupted;
+        return fail(interrupted, "interrupted; nothing was written");
     } catch (const std::invalid_argument& error) {
-        say(error.what());
-        return usage;
+        return fail(usage, error.what());
     } catch (const std::bad_alloc&) {
-        say("out of memory");
-        return failed;
+        return fail(failed, "out of memory");
     } catch (const std::exception& error) {
-        say(error.what());
-        return failed;
+        return fail(failed, error.what());
     }
 }
 
@@ -60,7 +60,9 @@ void add_run(CLI::App& app, int& exit) {
     run->add_option("--set", a.set, "key=value over the file's, such as radio.power=\"15 dBm\"")
         ->allow_extra_args(false);
     run->add_option("--out", a.out, "folder for the results (default: runs/NAME-sSEED)");
-    run->add_option("--speed", a.speed, "pace the run: 1 is real time, 2 twice as fast")
+    run->add_option("--speed", a.speed, "pace the run: 1 is real time, 2 (or x2) twice as fast")
+        ->transform(
+            [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })
         ->check(CLI::PositiveNumber);
     run->add_flag("--json", a.json, "print one JSON document");
     run->add_flag("--print-scenario", a.print_scenario,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
+#include "cli/diagnostics.hpp"
 #include "experiment/json.hpp"
 #include "experiment/loss_table.hpp"
 #include "experiment/run.hpp"
@@ -129,10 +130,7 @@ void models(bool json) {
 void trace_stats(const std::string& file, bool json) {
     const MetricValues metrics = trace_metrics(file);
     if (metrics.messages == 0) {
-        fmt::print(stderr,
-                   "rovernet: {}: no message is sent in it; stats reads the traces that "
-                   "rovernet writes\n",
-                   file);
+        notice(file + ": no message is sent in it; stats reads the traces that rovernet writes");
     }
     Table table;
     append_metrics(table, metrics);

@@ -64,7 +64,7 @@ void print_timeline(const Scenario& scenario, const RunResult& result) {
 void print_result(const Scenario& scenario, const RunResult& result) {
     print_timeline(scenario, result);
     const MetricValues& m = result.metrics;
-    fmt::print("{} messages, {} transmissions, {} receptions\n", m.messages, m.transmissions,
+    fmt::print("messages {}, transmissions {}, receptions {}\n", m.messages, m.transmissions,
                m.receptions);
     fmt::print("delivery ratio     {}\n", percent(m.delivery_ratio));
     fmt::print("reach              {} of the robots that a chain of links joined to the sender\n",

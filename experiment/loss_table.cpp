@@ -117,7 +117,7 @@ Array list_models() {
             Table parameter;
             parameter.set("name", f.name);
             parameter.set("default", default_of(M{}, f));
-            parameter.set("range", number_in(M{}.*f.member) ? f.range.text : "");
+            parameter.set("range", f.range.text == any.text ? "" : f.range.text);
             parameter.set("meaning", f.meaning);
             parameters.emplace_back(std::move(parameter));
         });

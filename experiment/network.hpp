@@ -47,6 +47,8 @@ struct NetworkSettings {
     bool metrics = true;                           ///< keep Metrics; off saves a search per message
 };
 
+class Engine;
+
 /// Robots, their radios and what they say to each other, in one simulated world.
 ///
 /// Two Networks in one process never interact. Not thread-safe; each thread runs its own.
@@ -107,7 +109,6 @@ class Network {
     MetricValues metrics() const;
 
   private:
-    class Engine;
     std::unique_ptr<Engine> engine_;
 };
 

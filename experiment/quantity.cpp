@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <span>
@@ -62,6 +63,19 @@ std::string unit_names(const Kind& kind) {
                                               found, kind.what, unit_names(kind), suggestion));
 }
 
+/// "did you mean ...?" for a unit that is misspelt, in its capitals above all.
+std::string nearest_unit(const Kind& kind, std::string_view name) {
+    const auto same_letter = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
+    std::vector<std::string> names;
+    for (const auto& unit : kind.units) {
+        if (std::equal(name.begin(), name.end(), unit.name.begin(), unit.name.end(), same_letter)) {
+            return fmt::format("did you mean \"{}\"?", unit.name);
+        }
+        names.emplace_back(unit.name);
+    }
+    return did_you_mean(name, names);
+}
+
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blanks = " \t";
     const auto first = text.find_first_not_of(blanks);
@@ -69,14 +83,20 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+double finite(const Value& value, std::string_view key, const Kind& kind, double number) {
+    if (std::isfinite(number)) return number;
+    throw InputError(value.where, fmt::format("{}: found {}; expected {} that is finite", key,
+                                              value.description(), kind.what));
+}
+
 double in_base_unit(const Value& value, std::string_view key, const Kind& kind, double number,
                     const Unit& unit) {
-    if (unit.factor != 0) return number * unit.factor;
+    if (unit.factor != 0) return finite(value, key, kind, number * unit.factor);
     if (!(number > 0)) {
         reject(value, key, kind, fmt::format("found {} {}, which has no level", number, unit.name),
                fmt::format("did you mean \"{} dBm\"?", number));
     }
-    return to_dbm({number * unit.milliwatts}).value;
+    return finite(value, key, kind, to_dbm({number * unit.milliwatts}).value);
 }
 
 /// A number without a unit: fine on the command line only, where it is in SI units.
@@ -84,8 +104,10 @@ double bare(const Value& value, std::string_view key, Dimension dimension, doubl
     const Kind& k = kind(dimension);
     if (value.where.is_option) {
         constexpr Unit watts = powers[2];
-        return dimension == Dimension::power ? in_base_unit(value, key, k, number, watts) : number;
+        return dimension == Dimension::power ? in_base_unit(value, key, k, number, watts)
+                                             : finite(value, key, k, number);
     }
+    finite(value, key, k, number);
     reject(value, key, k, fmt::format("found the number {} without a unit", number),
            fmt::format("did you mean \"{} {}\"?", number, k.units.front().name));
 }
@@ -116,9 +138,10 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
     for (const auto& unit : k.units) {
         if (unit.name == unit_name) return in_base_unit(value, key, k, number, unit);
     }
-    std::vector<std::string> names;
-    for (const auto& unit : k.units) names.emplace_back(unit.name);
-    const std::string near = did_you_mean(unit_name, names);
+    if (unit_name.starts_with(',')) {
+        reject(value, key, k, "found " + value.description(), "write the decimal point as \".\"");
+    }
+    const std::string near = nearest_unit(k, unit_name);
     reject(value, key, k, fmt::format("found the unit \"{}\"", unit_name),
            near.empty() ? example : near);
 }

@@ -100,7 +100,8 @@ void read_value(const Value& value, std::string_view key, Vec3& out) {
 
 std::size_t read_choice(const Value& value, std::string_view key,
                         const std::vector<std::string>& choices) {
-    const std::string expected = fmt::format("one of \"{}\"", fmt::join(choices, "\", \""));
+    const std::string expected =
+        fmt::format("{}\"{}\"", choices.size() > 1 ? "one of " : "", fmt::join(choices, "\", \""));
     const auto word = as<std::string>(value, key, expected);
     const auto found = std::find(choices.begin(), choices.end(), word);
     if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
@@ -167,6 +168,12 @@ void TableReader::reject_unknown() const {
 void TableReader::missing(std::string_view key, std::string_view example) const {
     throw InputError(
         where_, fmt::format("{}: the key \"{}\" is missing; for example {}", name_, key, example));
+}
+
+void TableReader::only_one_of(std::string_view key, std::string_view other) const {
+    throw InputError(table_->find(other)->where,
+                     fmt::format("{}: found both \"{}\" and \"{}\"; expected only one of them",
+                                 name_, key, other));
 }
 
 void TableReader::outside(const Value& value, std::string_view key, const Range& range) {

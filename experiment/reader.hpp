@@ -123,6 +123,9 @@ class TableReader {
     /// @throws InputError at the table: `key` is missing; `example` shows one
     [[noreturn]] void missing(std::string_view key, std::string_view example) const;
 
+    /// @throws InputError at `other`: only one of the two keys may be given
+    [[noreturn]] void only_one_of(std::string_view key, std::string_view other) const;
+
     const Table& table() const { return *table_; }
     const Location& where() const { return where_; }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <map>
 
 namespace rovernet {
@@ -43,6 +45,13 @@ void read_propagation(const Value& value, PropagationTable& out, const Location&
     table.reject_unknown();
 }
 
+void check_times(const Value& value, const std::vector<Duration>& times) {
+    const bool later =
+        std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+    if (times.front() >= Duration{0} && later) return;
+    throw InputError(value.where, "times: expected times >= 0 s, each later than the one before");
+}
+
 MoveTable read_move(const Value& value) {
     TableReader table(value, "move");
     const Value* model = table.take("model");
@@ -70,10 +79,12 @@ MoveTable read_move(const Value& value) {
                                          "each",
                                          waypoints->times->size(), waypoints->path.size()));
         }
+        if (waypoints->times) check_times(*table.take("times"), *waypoints->times);
     }
     if (const auto* goal = std::get_if<GoalTable>(&move.model)) {
-        if (goal->to.has_value() == !goal->among.empty()) {
-            table.missing("to", "to = [\"5 m\", \"9 m\"] (or among = [...], not both)");
+        if (goal->to && !goal->among.empty()) table.only_one_of("to", "among");
+        if (!goal->to && goal->among.empty()) {
+            table.missing("to", "to = [\"5 m\", \"9 m\"], or among = [...]");
         }
     }
     return move;
@@ -107,7 +118,7 @@ OnReceiveTable read_on_receive(const Value& value) {
 
 void check_name(const Value& value, const std::string& name) {
     if (name.empty() || name.find_first_of(".\"\n") != std::string::npos) {
-        throw InputError(value.where, fmt::format("name: found {}; expected a name without dots, "
+        throw InputError(value.where, fmt::format("name: found {}; expected a name, without dots, "
                                                   "quotes or line breaks",
                                                   value.description()));
     }
@@ -123,8 +134,9 @@ RobotTable read_robot(const Value& value, const Scenario& scenario) {
     if (const Value* at = table.take("at")) robot.at_where = at->where;
     table.read("at", robot.at);
     if (const Value* place = table.take("place")) robot.place = read_place(*place);
-    if (robot.at.has_value() == robot.place.has_value()) {
-        table.missing("at", "at = [\"2 m\", \"3 m\"] (or place = { ... }, not both)");
+    if (robot.at && robot.place) table.only_one_of("at", "place");
+    if (!robot.at && !robot.place) {
+        table.missing("at", "at = [\"2 m\", \"3 m\"], or place = { ... }");
     }
     table.read("radius", robot.radius, non_negative);
     robot.radio = scenario.radio;
@@ -147,7 +159,8 @@ RobotTable read_robot(const Value& value, const Scenario& scenario) {
         for (const Duration t : *times) {
             if (t >= Duration{0}) continue;
             throw InputError(table.take(off ? "off" : "on")->where,
-                             "found a time before 0 s; expected times of the run");
+                             fmt::format("{}: found a time before 0 s; expected times of the run",
+                                         off ? "off" : "on"));
         }
     }
     table.reject_unknown();
@@ -190,9 +203,12 @@ void read_study(const Value& value, StudyTable& study) {
         study.vary = TableReader(*vary, "[study] vary").table();
         for (const auto& entry : study.vary.entries) {
             if (entry.value.array() && !entry.value.array()->empty()) continue;
-            throw InputError(entry.value.where,
-                             fmt::format("vary.\"{}\": found {}; expected a list of values",
-                                         entry.key, entry.value.description()));
+            throw InputError(
+                entry.value.where,
+                fmt::format("vary.\"{}\": found {}; expected a list of values, such as "
+                            "vary.\"propagation.model\" = [\"friis\", \"itu_indoor\"]",
+                            entry.key,
+                            entry.value.array() ? "an empty list" : entry.value.description()));
         }
     }
     table.reject_unknown();
@@ -218,10 +234,17 @@ void check_names(const Scenario& scenario) {
         for (const auto& [name, robot] : names) {
             if (candidates.size() < 1000) candidates.push_back(name);
         }
+        std::string near = did_you_mean(traffic.from, candidates);
+        for (const auto& robot : scenario.robots) {
+            if (robot.count && robot.name == traffic.from) {
+                near = fmt::format("its robots are named {}0 to {}{}", robot.name, robot.name,
+                                   *robot.count - 1);
+            }
+        }
         throw InputError(traffic.from_where,
                          fmt::format("from: there is no robot \"{}\"; expected the name of a "
-                                     "[[robot]]; {}",
-                                     traffic.from, did_you_mean(traffic.from, candidates)));
+                                     "[[robot]]{}{}",
+                                     traffic.from, near.empty() ? "" : "; ", near));
     }
 }
 

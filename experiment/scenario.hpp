@@ -30,12 +30,14 @@ struct ScenarioTable {
     std::uint64_t event_limit = 100'000'000;
 
     static constexpr auto fields() {
+        constexpr Range thirty_two_bits{
+            .low = 0, .high = 4294967295, .text = "from 0 to 4294967295"};
         return describe(field("name", &ScenarioTable::name, "of the run and its output folder"),
                         field("duration", &ScenarioTable::duration, positive, "simulated time"),
                         field("seed", &ScenarioTable::seed, "of every random draw"),
-                        field("replication", &ScenarioTable::replication,
+                        field("replication", &ScenarioTable::replication, thirty_two_bits,
                               "which of the independent repetitions of the scenario"),
-                        field("event_limit", &ScenarioTable::event_limit,
+                        field("event_limit", &ScenarioTable::event_limit, positive,
                               "a run that needs more events fails"));
     }
 };

@@ -54,7 +54,7 @@ Value convert(const toml::node& node, const std::string& source) {
         out = truth->get();
     } else {
         throw InputError(location(source, node.source()),
-                         "a date or a time of day; expected a duration such as \"10 s\"");
+                         "found a date or a time of day; expected a duration such as \"10 s\"");
     }
     out.where = location(source, node.source());
     return out;
@@ -147,8 +147,9 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
             if (*name->string() == step) return item;
             names.push_back(*name->string());
         }
-        throw InputError(
-            option, fmt::format("nothing is named \"{}\"; {}", step, did_you_mean(step, names)));
+        const std::string near = did_you_mean(step, names);
+        throw InputError(option, fmt::format("nothing in the list is named \"{}\"{}{}", step,
+                                             near.empty() ? "" : "; ", near));
     }
     Table* table = at.table();
     if (!table) {
@@ -216,6 +217,9 @@ void set_option(Table& document, const std::string& assignment) {
     const auto equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) {
         throw InputError(option, "expected key=value, such as radio.power=\"15 dBm\"");
+    }
+    if (assignment[equals - 1] == '.') {
+        throw InputError(option, "expected keys joined by single dots");
     }
     std::stringstream path(assignment.substr(0, equals));
     Value root{std::move(document)};

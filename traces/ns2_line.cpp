@@ -283,7 +283,7 @@ Ns2Line parse_move(Tokens& tokens) {
     return m;
 }
 
-/// v T eval {set sim_annotation {reachable UID N of M}}; any other annotation is somebody else's.
+/// v T eval {set sim_annotation {reachable UID N}}; any other annotation is somebody else's.
 Ns2Line parse_annotation(Tokens& tokens) {
     tokens.next();  // the time is that of the `s AGT` line that follows
     for (const auto word : {"eval"sv, "{set"sv, "sim_annotation"sv, "{reachable"sv}) {
@@ -292,11 +292,8 @@ Ns2Line parse_annotation(Tokens& tokens) {
     Ns2Packet p;
     read_uid(p, tokens, tokens.next());
     constexpr auto expected = "a number of robots"sv;
-    const auto n = tokens.integer<std::uint32_t>(tokens.next(), expected, most_robots);
-    tokens.expect("of");
-    const Token others = tokens.within(tokens.next(), "", "}}", "a number of robots and \"}}\"");
-    tokens.integer<std::uint32_t>(others, expected, most_robots);
-    return Ns2Reachable{p.uid, n};
+    const Token count = tokens.within(tokens.next(), "", "}}", "a number of robots and \"}}\"");
+    return Ns2Reachable{p.uid, tokens.integer<std::uint32_t>(count, expected, most_robots)};
 }
 
 bool is_packet(std::string_view op) {

@@ -146,7 +146,6 @@ void Ns2Trace::Writer::lines(const Sent& r, const RecordContext& context) {
         text("v "), at_ = write_seconds_short(at_, r.time);
         text(" eval {set sim_annotation {reachable "), integer(context.messages[r.message].uid);
         text(" "), integer(*r.reachable);
-        text(" of "), integer(r.robots - 1);
         text("}}");
         end_line();
     }

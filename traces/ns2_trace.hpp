@@ -17,7 +17,7 @@ enum class Ns2Format { old_format, new_format };
 /// | record             | lines                                                               |
 /// |--------------------|---------------------------------------------------------------------|
 /// | Sent               | `s AGT`, `r RTR` (the own packet on its way down)                   |
-/// | Sent.reachable     | before these: `v T eval {set sim_annotation {reachable UID N of M}}`|
+/// | Sent.reachable     | before these: `v T eval {set sim_annotation {reachable UID N}}`     |
 /// | Transmitted        | `s RTR` by the message's origin, `f RTR` by anybody else            |
 /// | Received           | per reception `r RTR`, then `r AGT` if delivered, then              |
 /// |                    | `D RTR TTL` or `D RTR DUP` by its fate; fate off: only `D MAC SLP`  |

@@ -66,7 +66,7 @@ TEST_CASE("ns-2 trace: movements, the same in both formats") {
 
 TEST_CASE("ns-2 trace: the old format, line by line") {
     CHECK(without_first_lines(trace_of(Ns2Format::old_format, play), 12) ==
-          "v 10 eval {set sim_annotation {reachable 0 2 of 11}}\n"
+          "v 10 eval {set sim_annotation {reachable 0 2}}\n"
           "s 10.000000000 _0_ AGT  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
           "r 10.000000000 _0_ RTR  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
           "s 10.000000000 _0_ RTR  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
@@ -87,7 +87,7 @@ TEST_CASE("ns-2 trace: the old format, line by line") {
 TEST_CASE("ns-2 trace: the new format, line by line") {
     const auto text = without_first_lines(trace_of(Ns2Format::new_format, play), 12);
     CHECK(text.starts_with(
-        "v 10 eval {set sim_annotation {reachable 0 2 of 11}}\n"
+        "v 10 eval {set sim_annotation {reachable 0 2}}\n"
         "s -t 10.000000000 -Hs 0 -Hd -2 -Ni 0 -Nx 0.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl AGT "
         "-Nw --- -Ma 0 -Md 0 -Ms 0 -Mt 0 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 -Iv 3 \n"
         "r -t 10.000000000 -Hs 0 -Hd -2 -Ni 0 -Nx 0.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl RTR "

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/engine.hpp"
+
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace rovernet {
+
+namespace {
+
+const Scene open_field;
+
+}  // namespace
+
+Engine::Engine(NetworkSettings settings)
+    : settings_(std::move(settings)),
+      scene_(settings_.scene ? settings_.scene.get() : &open_field),
+      planners_(*scene_),
+      medium_({.scene = scene_,
+               .floor_height = settings_.floor_height,
+               .propagation_delay = settings_.propagation_delay,
+               .seed = settings_.seed,
+               .replication = settings_.replication}) {
+    if (!positive.contains(settings_.floor_height.value)) {
+        throw_out_of_range("network", "floor_height", positive.text, settings_.floor_height.value);
+    }
+    if (settings_.metrics) {
+        metrics_ = std::make_shared<Metrics>();
+        add_sink(Sink{metrics_});
+    }
+}
+
+void Engine::schedule(Time time, Action action) {
+    if (time < now_) {
+        throw std::invalid_argument(
+            fmt::format("an action at {} s, but it is {} s already", seconds(time), seconds(now_)));
+    }
+    std::size_t slot = actions_.size();
+    if (free_actions_.empty()) {
+        actions_.emplace_back();
+    } else {
+        slot = free_actions_.back();
+        free_actions_.pop_back();
+    }
+    actions_[slot] = std::move(action);
+    queue_.schedule(time, Priority::user, {Occurrence::Kind::action, NodeId{0}, slot});
+}
+
+void Engine::act(std::size_t slot) {
+    const Action action = actions_[slot];  // a copy: the call may add actions
+    if (action.period > Duration{0}) {
+        queue_.schedule(now_ + action.period, Priority::user,
+                        {Occurrence::Kind::action, NodeId{0}, slot});
+    } else {
+        actions_[slot] = {};
+        free_actions_.push_back(slot);
+    }
+    (*action.call)();
+}
+
+void Engine::serve(const Scheduler<Occurrence>::Event& event) {
+    const auto& [kind, node_id, data] = event.payload;
+    switch (kind) {
+        case Occurrence::Kind::frame: return arrive(event);
+        case Occurrence::Kind::router_timer: return router_->on_timer(*this, node_id, data);
+        case Occurrence::Kind::leg_end:
+            if (legs_.version(node_id) == data) next_leg(node_id);
+            return;
+        case Occurrence::Kind::handed_over:
+            return react(node_id, MessageId{static_cast<std::uint32_t>(data)});
+        case Occurrence::Kind::action: return act(data);
+    }
+}
+
+void Engine::check_event_limit() const {
+    if (queue_.scheduled() <= settings_.event_limit) return;
+    throw RunError(fmt::format(
+        "event limit of {} reached at {:.9f} s; raise [scenario] event_limit, or lower the load: "
+        "under duplicates = \"forward\" it grows with every hop of the TTL",
+        settings_.event_limit, seconds(now_)));
+}
+
+bool Engine::advance(Time end, std::uint64_t most_events) {
+    running_ = true;
+    end_of_run_ = end;
+    begin_movements();
+    for (auto next = queue_.next_time(); next && *next <= end; next = queue_.next_time()) {
+        if (most_events-- == 0) return false;
+        check_event_limit();
+        const auto event = queue_.pop();
+        now_ = event.key.time();
+        ++served_;
+        serve(event);
+    }
+    now_ = std::max(now_, end);
+    return true;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/network.hpp"
+#include "mobility/planners.hpp"
+#include "sim/scheduler.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// What an event is about; `data` means what `kind` says.
+struct Occurrence {
+    enum class Kind : std::uint32_t { frame, router_timer, leg_end, handed_over, action };
+    Kind kind;
+    NodeId node;
+    std::uint64_t data;
+};
+
+/// A frame on its way to its receivers, some of which it may have reached already.
+struct Flight {
+    Frame frame;
+    std::vector<Reception> receptions;
+    std::size_t arrived = 0;
+};
+
+/// Shared, so that a callback keeps its state and outlives its being replaced while it runs.
+template <class... Arguments>
+using Callback = std::shared_ptr<std::function<void(Arguments...)>>;
+
+struct Action {
+    Callback<> call = nullptr;
+    Duration period{0};
+};
+
+/// What the network keeps of a robot beyond its leg and its radio.
+struct Node {
+    std::string name;
+    std::uint64_t key;
+    Meters radius;
+    Movement movement;
+    std::uint32_t messages_sent = 0;
+    bool moving = false;                  // its movement has begun
+    std::optional<Leg> interrupted = {};  // by switching off
+    std::vector<Callback<const Message&>> on_receive = {};
+    std::vector<Callback<>> on_arrival = {};
+};
+
+/// What stands behind a Network: serves the events, and is the link layer to the router.
+class Engine final : public LinkLayer {
+  public:
+    explicit Engine(NetworkSettings settings);
+
+    // LinkLayer, for the router.
+    Time now() const override { return now_; }
+    std::size_t size() const override { return nodes_.size(); }
+    const Message& message(MessageId id) const override { return messages_[id]; }
+    bool is_on(NodeId node) const override { return medium_.is_on(node); }
+    std::uint64_t key(NodeId node) const override { return nodes_[node.index()].key; }
+    void broadcast(const Frame& frame, std::optional<NodeId> heard_from) override;
+    void drop(NodeId node, const Frame& frame, DropReason reason) override {
+        emit(Dropped{now_, node, frame, reason});
+    }
+    void timer(NodeId node, Time at, std::uint64_t tag) override {
+        queue_.schedule(at, Priority::timer, {Occurrence::Kind::router_timer, node, tag});
+    }
+    void hold(MessageId id) override { messages_.hold(id); }
+    void release(MessageId id) override {
+        if (messages_.release(id)) router_->forget(id);
+    }
+    double draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t index) const override {
+        return uniform(
+            {settings_.seed, settings_.replication, purpose, key(node), messages_[id].key, index});
+    }
+
+    // Network.
+    NodeId add(Robot robot);
+    void route(Router router);
+    void add_sink(Sink sink) {
+        wanted_ |= sink.kinds();
+        sinks_.push_back(std::move(sink));
+    }
+    void send(NodeId node, std::string payload, std::uint32_t bytes);
+    void move(NodeId node, Movement movement);
+    void switch_robot(NodeId node, bool on);
+    void schedule(Time time, Action action);
+    bool advance(Time end, std::uint64_t most_events);
+    Node& node(NodeId id) { return nodes_.at(id.index()); }
+
+    // What the public class shows.
+    NetworkSettings settings_;
+    const Scene* scene_;
+    Planners planners_;
+    Medium medium_;
+    Legs legs_;
+    std::deque<Node> nodes_;  // stable: a reaction may add robots
+    std::map<std::string, NodeId, std::less<>> by_name_;
+    std::shared_ptr<Metrics> metrics_;
+    std::uint64_t served_ = 0;
+    bool has_reactions_ = false;  // some node has an on_receive
+
+  private:
+    template <class R>
+    void emit(const R& record) {
+        if (!(wanted_ & kind_of<R>())) return;
+        for (auto& sink : sinks_) {
+            if (sink.kinds() & kind_of<R>()) sink.on(record, {legs_, messages_});
+        }
+    }
+
+    void serve(const Scheduler<Occurrence>::Event& event);
+    void check_event_limit() const;
+    template <class Key>
+    bool comes_next(Key key) {
+        return key.time() <= end_of_run_ && queue_.runs_before_next(key);
+    }
+    void arrive(const Scheduler<Occurrence>::Event& event);
+    void receive(Flight& flight, std::span<Reception> receptions);
+    void hand_over(const Flight& flight, std::span<const Reception> receptions);
+    void react(NodeId node, MessageId id);
+    void act(std::size_t slot);
+    void begin_movements();
+    void next_leg(NodeId id);
+    void take(NodeId id, const Leg& leg);
+    Mover mover(NodeId id) { return {now_, legs_.position(id, now_), node(id).radius, planners_}; }
+
+    Time now_ = start_of_run;
+    Time end_of_run_ = start_of_run;  // of the current run_until
+    Scheduler<Occurrence> queue_;
+    MessageTable messages_;
+    std::uint64_t next_uid_ = 0;
+    std::optional<Router> router_;
+    std::vector<Sink> sinks_;
+    KindMask wanted_ = 0;
+    std::deque<Flight> flights_;  // stable: a sink may not move one under work
+    std::vector<std::size_t> free_flights_;
+    std::vector<Action> actions_;
+    std::vector<std::size_t> free_actions_;
+    std::size_t begun_ = 0;  // nodes whose movement has begun
+    bool running_ = false;
+    bool receiving_ = false;
+};
+
+}  // namespace rovernet

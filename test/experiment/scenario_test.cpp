@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/scenario.hpp"
+
+#include "experiment/json.hpp"
+#include "experiment/toml.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+using rovernet::test::TemporaryFolder;
+
+namespace {
+
+const std::string robot_a = "[[robot]]\nname = \"A\"\nat = [\"2 m\", \"3 m\"]\n";
+
+// Every key of every table, none at its default.
+const std::string every_key = R"([scenario]
+name = "all"
+duration = "12345678 us"
+seed = 7
+replication = 3
+event_limit = 5000
+
+[scene]
+map = "m.png"
+size = ["48 m", "24 m"]
+floor_height = "4 m"
+
+[radio]
+power = "21 dBm"
+sensitivity = "-81.5 dBm"
+frequency = "5200 MHz"
+rate = "54 Mb/s"
+preamble = "96 us"
+antenna_gain = "2 dB"
+cable_loss = "1 dB"
+antenna_height = "150 cm"
+
+[medium]
+propagation_delay = false
+
+[propagation]
+model = "itu_indoor"
+coefficient = 28.0
+environment = "office"
+floors = 1
+range = "77 m"
+exponent = 3.5
+sigma = "6 dB"
+reference_distance = "2 m"
+wall_factor = 10.0
+
+[reception]
+model = "threshold"
+
+[[robot]]
+name = "A"
+at = ["2 m", "3 m", "1 m"]
+radius = "30 cm"
+radio = { power = "5 dBm", antenna_gain = "3 dB" }
+propagation = { model = "disc", range = "20 m" }
+move = { model = "waypoints", path = [["5 m", "3 m"], ["5 m", "9 m"]], speed = "2 m/s", times = ["1 s", "20 s"], order = "shuffled" }
+on_receive = { payload = "F", once = false, move = { model = "goal", to = ["1 m", "1 m"], speed = "3 m/s" } }
+off = ["1 s", "5 s"]
+on = ["2 s"]
+
+[[robot]]
+name = "r"
+count = 3
+place = { model = "uniform", area = [["0 m", "0 m"], ["9 m", "9 m"]] }
+move = { model = "goal", among = [["1 m", "1 m"], ["2 m", "2 m"]], speed = "1500 mm/s" }
+
+[[robot]]
+name = "c"
+place = { model = "choice", points = [["1 m", "1 m"], ["2 m", "2 m"]] }
+move = { model = "fixed" }
+
+[routing]
+protocol = "flood"
+ttl = 9
+duplicates = "forward"
+upgrade = false
+jitter = "7 ms"
+
+[[traffic]]
+kind = "broadcast"
+from = "A"
+payload = "F"
+size = "99 B"
+start = "10 s"
+every = "3 s"
+stop = "11 s"
+count = 4
+
+[[traffic]]
+from = "r2"
+size = "5 B"
+start = "arrival"
+
+[trace]
+ns2 = "old"
+
+[study]
+replications = 30
+vary."propagation.model" = ["disc", "friis"]
+)";
+
+Scenario read(const std::string& text) {
+    return read_scenario(parse_toml(text, "s.toml"), "s.toml");
+}
+
+Scenario with(const std::string& text, const std::vector<std::string>& options) {
+    const TemporaryFolder folder;
+    return load_scenario(folder.write("s.toml", text), options);
+}
+
+std::string printed(const Scenario& scenario) { return to_toml(to_document(scenario)); }
+
+std::string every_key_text() {
+    std::string text = every_key;  // mm/s is no unit of ours
+    return text.replace(text.find("1500 mm/s"), 9, "1.5 m/s");
+}
+
+/// Key paths of a document, list items without their number.
+void list_keys(const Value& value, const std::string& path, std::vector<std::string>& out) {
+    if (const Table* table = value.table()) {
+        for (const auto& entry : table->entries) {
+            out.push_back(path + "." + entry.key);
+            list_keys(entry.value, out.back(), out);
+        }
+    } else if (const Array* list = value.array()) {
+        for (const auto& item : *list) list_keys(item, path, out);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("scenario: one robot is enough, and everything else has the documented default") {
+    const Scenario s = read(robot_a);
+    CHECK(s.scenario.name == "run");
+    CHECK(s.scenario.duration == 60s);
+    CHECK(s.scenario.seed == 1);
+    CHECK(s.scenario.replication == 0);
+    CHECK_FALSE(s.scene.map);
+    CHECK(std::abs(s.radio.power.value - 10 * std::log10(45.0)) < 1e-12);
+    CHECK(s.radio.sensitivity == Dbm{-75});
+    CHECK(s.radio.frequency == Hertz{2450e6});
+    CHECK(s.medium.propagation_delay);
+    CHECK(s.propagation.model == 1);
+    CHECK(s.routing.flood.ttl == 3);
+    CHECK(s.routing.flood.jitter == 10ms);
+    CHECK(s.trace.ns2 == Ns2Choice::none);
+    REQUIRE(s.robots.size() == 1);
+    CHECK(s.robots[0].at == Vec3{2, 3, 0});
+    CHECK(s.robots[0].radius == Meters{0.2});
+    CHECK(s.robots[0].move.model.index() == 0);
+    CHECK(s.traffic.empty());
+}
+
+TEST_CASE("scenario: every key of the file arrives in its field") {
+    const Scenario s = read(every_key_text());
+    CHECK(s.scenario.duration == 12345678us);
+    CHECK(s.scenario.event_limit == 5000);
+    CHECK(s.scene.floor_height == Meters{4});
+    CHECK(s.radio.preamble == 96us);
+    CHECK(s.radio.rate == BitRate{54e6});
+    CHECK_FALSE(s.medium.propagation_delay);
+    CHECK(s.propagation.model == 2);
+    REQUIRE(s.robots.size() == 3);
+    const RobotTable& a = s.robots[0];
+    CHECK(a.at == Vec3{2, 3, 1});
+    CHECK(a.radio.power == Dbm{5});
+    CHECK(a.off == std::vector<Duration>{1s, 5s});
+    CHECK(a.on == std::vector<Duration>{2s});
+    const auto& path = std::get<WaypointsTable>(a.move.model);
+    CHECK(path.path == std::vector<Vec3>{{5, 3, 0}, {5, 9, 0}});
+    CHECK(path.times == std::vector<Duration>{1s, 20s});
+    CHECK(path.order == WaypointsTable::Order::shuffled);
+    REQUIRE(a.on_receive);
+    CHECK_FALSE(a.on_receive->once);
+    CHECK(s.robots[1].count == 3);
+    CHECK(s.robots[1].place->area.size() == 2);
+    CHECK(s.robots[2].place->points.size() == 2);
+    CHECK(s.routing.flood.duplicates == Duplicates::forward);
+    CHECK_FALSE(s.routing.flood.upgrade);
+    REQUIRE(s.traffic.size() == 2);
+    CHECK(s.traffic[0].size == Bytes{99});
+    CHECK(s.traffic[0].start == Duration{10s});
+    CHECK(s.traffic[0].count == 4);
+    CHECK_FALSE(s.traffic[1].start);
+    CHECK(s.trace.ns2 == Ns2Choice::old_format);
+    CHECK(s.study.replications == 30);
+    REQUIRE(s.study.vary.find("propagation.model"));
+}
+
+TEST_CASE("scenario: printed with every default, it reads back as the same scenario") {
+    for (const auto& text : {robot_a, every_key_text()}) {
+        const std::string once = printed(read(text));
+        CHECK(printed(read(once)) == once);
+    }
+}
+
+TEST_CASE("scenario: every key that is printed was given in the scenario of every key") {
+    std::vector<std::string> given, shown;
+    list_keys(parse_toml(every_key_text(), ""), "", given);
+    list_keys(Value(to_document(read(every_key_text()))), "", shown);
+    for (const auto& key : given) {
+        CAPTURE(key);
+        CHECK(std::count(shown.begin(), shown.end(), key) > 0);
+    }
+    for (const auto& key : shown) {
+        CAPTURE(key);
+        CHECK(std::count(given.begin(), given.end(), key) > 0);
+    }
+}
+
+TEST_CASE("scenario: no key of the scenario of every key is at its default") {
+    const Table all = to_document(read(every_key_text()));
+    const Table usual = to_document(read(robot_a));
+    for (const char* name : {"scenario", "scene", "radio", "medium", "routing", "trace", "study"}) {
+        for (const auto& entry : usual.find(name)->table()->entries) {
+            if (entry.key == "protocol") continue;  // there is one only
+            CAPTURE(entry.key);
+            CHECK(to_json(entry.value) != to_json(*all.find(name)->table()->find(entry.key)));
+        }
+    }
+}
+
+TEST_CASE("scenario: the keys of a model that is not chosen are kept, for a sweep") {
+    const std::string text = "[propagation]\nmodel = \"friis\"\nexponent = 3\nrange = \"50 m\"\n";
+    const Scenario s = read(text + robot_a);
+    CHECK(std::get<LogDistance>(s.propagation.parameters).exponent == 3);
+    CHECK(std::get<Disc>(s.propagation.parameters).range == Meters{50});
+    const Scenario swapped = with(printed(s), {"propagation.model=disc"});
+    CHECK(swapped.propagation.model == 0);
+    CHECK(std::get<Disc>(swapped.propagation.parameters).range == Meters{50});
+}
+
+TEST_CASE("scenario: a coefficient given once is that of both models that have one") {
+    const Scenario s = read("[propagation]\ncoefficient = 22\n" + robot_a);
+    CHECK(std::get<ItuIndoor>(s.propagation.parameters).coefficient == 22);
+    CHECK(std::get<Raytrace2007>(s.propagation.parameters).coefficient == 22);
+}
+
+TEST_CASE("scenario: a robot's own keys lie over those of [radio] and [propagation]") {
+    const Scenario s = read(
+        "[radio]\npower = \"10 dBm\"\nrate = \"1 Mb/s\"\n[propagation]\nmodel = \"log_distance\"\n"
+        "exponent = 4\n" +
+        robot_a + "radio = { power = \"20 dBm\" }\npropagation = { sigma = \"0 dB\" }\n");
+    CHECK(s.robots[0].radio.power == Dbm{20});
+    CHECK(s.robots[0].radio.rate == BitRate{1e6});
+    CHECK(s.radio.power == Dbm{10});
+    const auto& own = std::get<LogDistance>(s.robots[0].propagation->parameters);
+    CHECK(s.robots[0].propagation->model == 3);
+    CHECK(own.sigma == Db{0});
+    CHECK(own.exponent == 4);
+    CHECK(std::get<LogDistance>(s.propagation.parameters).sigma == Db{5});
+}
+
+TEST_CASE("scenario: robots of a count can be named by traffic") {
+    const std::string robots = "[[robot]]\nname = \"r\"\ncount = 3\nat = [\"0 m\", \"0 m\"]\n";
+    CHECK_NOTHROW(read(robots + "[[traffic]]\nfrom = \"r2\"\npayload = \"x\"\n"));
+    CHECK_THROWS_AS(read(robots + "[[traffic]]\nfrom = \"r3\"\npayload = \"x\"\n"), InputError);
+    CHECK_THROWS_AS(read(robots + "[[traffic]]\nfrom = \"r\"\npayload = \"x\"\n"), InputError);
+}
+
+TEST_CASE("--set reaches any key") {
+    const std::string text = robot_a + "[[traffic]]\nfrom = \"A\"\npayload = \"F\"\n";
+    const Scenario s =
+        with(text, {"radio.power=15 dBm", "robot.A.radio.power=\"1 dBm\"", "traffic.0.start=2.5",
+                    "propagation.model=friis", "radio.frequency=2.4e9", "scenario.duration=1e-3",
+                    "robot.A.at=[1, \"2 km\"]", "trace.ns2=new"});
+    CHECK(s.radio.power == Dbm{15});
+    CHECK(s.robots[0].radio.power == Dbm{1});
+    CHECK(s.traffic[0].start == Duration{2500ms});
+    CHECK(s.propagation.model == 1);
+    CHECK(s.radio.frequency == Hertz{2.4e9});
+    CHECK(s.scenario.duration == 1ms);
+    CHECK(s.robots[0].at == Vec3{1, 2000, 0});
+    CHECK(s.trace.ns2 == Ns2Choice::new_format);
+}
+
+TEST_CASE("--set: a power without a unit is in watts") {
+    constexpr double rounding_db = 1e-12;
+    const Scenario s = with(robot_a, {"radio.power=0.1"});
+    CHECK(std::abs(s.radio.power.value - 20) < rounding_db);
+}
+
+TEST_CASE("--set: the last of two options for one key counts") {
+    CHECK(with(robot_a, {"scenario.seed=2", "scenario.seed=3"}).scenario.seed == 3);
+}

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// What every propagation model of the list keeps, whatever its equation.
+#include "models/list.hpp"
+#include "test/models/vectors.hpp"
+#include "test/scene/drawn_map.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+template <class Model>
+Model typical() {
+    return {};
+}
+template <>
+Disc typical() {
+    return {.range = 40_m};
+}
+
+/// The model as it comes, and with parameters that take its other ways.
+template <class Model>
+std::vector<Model> variants() {
+    return {typical<Model>()};
+}
+template <>
+std::vector<LogDistance> variants() {
+    return {{}, {.sigma = 0_dB}, {.exponent = 4, .sigma = 12_dB, .reference_distance = 10_m}};
+}
+template <>
+std::vector<ItuIndoor> variants() {
+    return {{}, {.environment = Environment::office}, {.coefficient = 20}};
+}
+template <>
+std::vector<Raytrace2007> variants() {
+    return {{}, {.coefficient = 20, .wall_factor = 0.1}, {.wall_factor = 0}};
+}
+
+/// Calls check(model) for each variant of each listed model.
+template <class Check>
+void for_each_variant(Check check) {
+    for_each_model([&]<class Model>() {
+        for (const auto& model : variants<Model>()) {
+            CAPTURE(std::string(Model::name));
+            check(model);
+        }
+    });
+}
+
+struct World {
+    test::Draw draw{42};
+    Scene scene{test::random_map(draw, 30, 30, 8)};
+    Vec3 from = place();
+    std::vector<Vec3> to{};
+    std::vector<std::uint64_t> keys{};
+
+    explicit World(int receivers = 60) {
+        for (int i = 0; i < receivers; ++i) {
+            to.push_back(place());
+            keys.push_back(static_cast<std::uint64_t>(1000 + i));
+        }
+    }
+    Vec3 place() { return {draw.uniform(-5, 35), draw.uniform(-5, 35), draw.uniform(-4, 8)}; }
+    LinkBatch batch(Hertz f = {2450e6}) const {
+        return {.frequency = f,
+                .from = from,
+                .to = to,
+                .from_key = 7,
+                .to_keys = keys,
+                .scene = &scene,
+                .seed = 3};
+    }
+};
+
+std::vector<double> losses(const Propagation& model, const LinkBatch& batch) {
+    std::vector<double> out(batch.size(), nan);
+    model.loss(batch, {test::no_give_up}, out);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("every model: the loss is finite and not negative, at no distance and far off too") {
+    World world;
+    world.to.insert(world.to.end(), {world.from, {1e6, 0, 0}, {0, 0, 1e5}, {-1e9, 1e9, 0}});
+    world.keys.resize(world.to.size(), 1);
+    for_each_variant([&](const auto& model) {
+        for (const double f : {1800e6, 2450e6}) {
+            for (const double loss : losses(model, world.batch({f}))) {
+                CHECK(std::isfinite(loss));
+                CHECK(loss >= 0);
+            }
+        }
+    });
+}
+
+TEST_CASE("every model: low frequencies and short ways do not make a gain") {
+    for_each_variant([&](const auto& model) {
+        if constexpr (FrequencyCheckedModel<std::remove_cvref_t<decltype(model)>>) {
+            if (model.environment) return;  // has no row at 1 MHz
+        }
+        for (const double d : {0.0, 1e-9, 0.01, 1.0, 3.0}) {
+            CHECK(test::loss_at(model, d, 1_MHz) >= 0);
+        }
+    });
+}
+
+TEST_CASE("every model: the loss is the same in both directions, to the last bit") {
+    const World world;
+    for_each_variant([&](const auto& model) {
+        for (std::size_t i = 0; i < world.to.size(); ++i) {
+            const test::OneLink there{.from = world.from,
+                                      .to = world.to[i],
+                                      .from_key = 7,
+                                      .to_key = world.keys[i],
+                                      .scene = &world.scene};
+            const test::OneLink back{.from = world.to[i],
+                                     .to = world.from,
+                                     .from_key = world.keys[i],
+                                     .to_key = 7,
+                                     .scene = &world.scene};
+            CHECK(there.loss(model) == back.loss(model));
+        }
+    });
+}
+
+TEST_CASE("every model that says it is monotone never loses less farther off") {
+    int checked = 0;
+    for_each_variant([&](const auto& model) {
+        if (!model.monotone()) return;
+        ++checked;
+        double before = 0;
+        for (double d = 0; d < 2000; d = d * 1.01 + 1e-3) {
+            const double loss = test::loss_at(model, d);
+            CHECK(loss >= before);
+            before = loss;
+        }
+    });
+    CHECK(checked >= 6);
+}
+
+TEST_CASE("every model: a link's loss does not depend on who else is in the batch") {
+    World world;
+    for_each_variant([&](const auto& model) {
+        const auto together = losses(model, world.batch());
+        std::vector<std::size_t> order(world.to.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::reverse(order.begin() + 7, order.end());
+        World shuffled = world;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            shuffled.to[i] = world.to[order[i]];
+            shuffled.keys[i] = world.keys[order[i]];
+        }
+        const auto mixed = losses(model, shuffled.batch());
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const std::size_t k = order[i];
+            CHECK(mixed[i] == together[k]);
+            auto single = world.batch();
+            single.to = single.to.subspan(k, 1);
+            single.to_keys = single.to_keys.subspan(k, 1);
+            CHECK(losses(model, single).front() == together[k]);
+        }
+        World nobody(0);
+        CHECK(losses(model, nobody.batch()).empty());
+    });
+}
+
+TEST_CASE("every model: beyond its reach for a budget the loss is more than the budget") {
+    test::Draw draw(5);
+    const Scene open_field;
+    for_each_variant([&](const auto& model) {
+        for (int i = 0; i < 300; ++i) {
+            const double budget = draw.uniform(-20, 160);
+            const Hertz f{draw.uniform(1700e6, 2700e6)};
+            const double reach = model.reach({budget}, f).value;
+            CHECK(reach >= 0);
+            // A billionth beyond, which is what the medium allows for rounding, and farther.
+            for (const double beyond : {1 + 1e-9, 1 + 1e-6, 1.5, 100.0}) {
+                const test::OneLink link{.frequency = f,
+                                         .to = {reach * beyond + 1e-12, 0, 0},
+                                         .from_key = static_cast<std::uint64_t>(i)};
+                CHECK(link.loss(model) > budget);
+            }
+        }
+    });
+}
+
+TEST_CASE("every model: giving up leaves what is within the budget, and more than it elsewhere") {
+    World world;
+    for_each_variant([&](const auto& model) {
+        const auto exact = losses(model, world.batch());
+        for (const double budget : {-1.0, 0.0, 50.0, 60.0, 70.0, 90.0, 999.0, 1000.0}) {
+            std::vector<double> hasty(exact.size(), nan);
+            Propagation(model).loss(world.batch(), {budget}, hasty);
+            for (std::size_t i = 0; i < exact.size(); ++i) {
+                CHECK((exact[i] <= budget ? hasty[i] == exact[i] : hasty[i] > budget));
+            }
+        }
+    });
+}
+
+TEST_CASE("every model: a negative or missing parameter is refused") {
+    int checked = 0;
+    for_each_model([&]<class Model>() {
+        for_each_field<Model>([&](const auto& f) {
+            CAPTURE(std::string(Model::name));
+            CAPTURE(std::string(f.name));
+            const auto refuses = [&](double v) {
+                auto model = typical<Model>();
+                auto& member = model.*f.member;
+                using T = std::remove_cvref_t<decltype(member)>;
+                if constexpr (std::same_as<T, std::optional<int>>) {
+                    member = std::isnan(v) ? -2 : static_cast<int>(v);
+                } else if constexpr (std::constructible_from<T, double> ||
+                                     std::same_as<T, std::optional<double>>) {
+                    member = v;
+                } else if constexpr (requires { member.value = v; }) {
+                    member.value = v;
+                } else {
+                    return;  // words are the reader's to refuse
+                }
+                ++checked;
+                CHECK_THROWS_AS(Propagation{model}, std::invalid_argument);
+            };
+            refuses(-1);
+            refuses(nan);
+        });
+    });
+    CHECK(checked >= 14);
+}
+
+TEST_CASE("every model: infinite parameters are refused") {
+    const double inf = std::numeric_limits<double>::infinity();
+    CHECK_THROWS_AS(Propagation{Disc{.range = {inf}}}, std::invalid_argument);
+    CHECK_THROWS_AS(Propagation{LogDistance{.sigma = {inf}}}, std::invalid_argument);
+    CHECK_THROWS_AS(Propagation{Raytrace2007{.wall_factor = inf}}, std::invalid_argument);
+}
+
+TEST_CASE("every model: names are unique and plain") {
+    std::vector<std::string> names;
+    for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
+    std::sort(names.begin(), names.end());
+    CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
+    for (const auto& name : names) {
+        CHECK(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789") == name.npos);
+    }
+}

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "models/medium.hpp"
+
+#include "models/list.hpp"
+#include "test/scene/drawn_map.hpp"
+
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/connected_components.hpp>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+template <class Model>
+Propagation model() {
+    return Model{};
+}
+template <>
+Propagation model<Disc>() {
+    return Disc{.range = 15_m};
+}
+
+Radio random_radio(test::Draw& draw) {
+    return {.power = {draw.uniform(0, 25)},
+            .sensitivity = {draw.uniform(-85, -45)},
+            .frequency = {draw.uniform(1800e6, 2700e6)},
+            .antenna_gain = {draw.uniform(-3, 6)},
+            .cable_loss = {draw.uniform(0, 4)},
+            .antenna_height = {draw.uniform(0, 2)}};
+}
+
+/// Robots at random places and on random ways, with radios of their own.
+struct Crowd {
+    test::Draw draw;
+    Scene scene{test::random_map(draw, 40, 40, 10)};
+    Medium medium{{.scene = &scene, .seed = 11, .replication = 2}};
+    Legs legs{};
+    std::vector<Radio> radios{};
+
+    explicit Crowd(std::uint32_t seed) : draw(seed) {}
+
+    Vec3 place() { return {draw.uniform(-5, 45), draw.uniform(-5, 45), draw.uniform(0, 4)}; }
+    void add(const Propagation& propagation) { add(propagation, random_radio(draw)); }
+    void add(const Propagation& propagation, const Radio& radio) {
+        const Vec3 from = place(), to = place();
+        legs.add(
+            {.end = start_of_run + 10s, .from = from, .velocity = 0.1 * (to - from), .to = to});
+        radios.push_back(radio);
+        medium.add(radio, radios.size(), propagation);
+    }
+    NodeId node(std::size_t i) const { return {static_cast<std::uint32_t>(i)}; }
+    bool link(std::size_t i, std::size_t j, Time t) const {
+        return medium.path_loss(node(i), node(j), t, legs) <= link_budget(radios[i], radios[j]);
+    }
+    /// What receivers() must say.
+    std::vector<Reception> brute_force(std::size_t i, Time start, Time end) const {
+        std::vector<Reception> all;
+        for (std::size_t j = 0; j < radios.size(); ++j) {
+            if (j == i || !medium.is_on(node(j)) || !link(i, j, start)) continue;
+            const double d = distance(medium.antenna(node(i), start, legs),
+                                      medium.antenna(node(j), start, legs));
+            all.push_back({node(j), end + from_seconds(d / speed_of_light)});
+        }
+        std::stable_sort(all.begin(), all.end(),
+                         [](const auto& a, const auto& b) { return a.time < b.time; });
+        return all;
+    }
+    /// Compares every robot's receivers at `t` with the brute force; how many links there are.
+    std::size_t check(Time t) {
+        std::size_t links = 0;
+        for (std::size_t i = 0; i < radios.size(); ++i) {
+            const Time end = t + 238'545ns;
+            const auto expected = brute_force(i, t, end);
+            std::vector<Reception> heard;
+            medium.receivers(node(i), t, end, legs, heard);
+            REQUIRE(heard.size() == expected.size());
+            for (std::size_t k = 0; k < heard.size(); ++k) {
+                CHECK(heard[k].node == expected[k].node);
+                CHECK(heard[k].time == expected[k].time);
+            }
+            links += heard.size();
+        }
+        return links;
+    }
+};
+
+constexpr std::size_t robots = 60;
+
+}  // namespace
+
+TEST_CASE("medium: who hears is who a search over all pairs finds, for every model") {
+    for_each_model([]<class Model>() {
+        CAPTURE(std::string(Model::name));
+        Crowd crowd(1);
+        const Propagation propagation = model<Model>();
+        for (std::size_t i = 0; i < robots; ++i) crowd.add(propagation);
+        for (const auto t : {0s, 3s, 10s, 60s}) {
+            const std::size_t links = crowd.check(start_of_run + t);
+            CHECK(links > 0);
+            CHECK(links < robots * (robots - 1));
+        }
+    });
+}
+
+TEST_CASE("medium: the transmitter's model rules where models are mixed") {
+    Crowd crowd(2);
+    std::vector<Propagation> models;
+    for_each_model([&]<class Model>() { models.push_back(model<Model>()); });
+    for (std::size_t i = 0; i < robots; ++i) crowd.add(models[i % models.size()]);
+    crowd.check(start_of_run + 1s);
+    for (std::size_t i = 0; i < robots; ++i) {
+        CHECK(crowd.medium.propagation(crowd.node(i)) == models[i % models.size()].name());
+    }
+}
+
+TEST_CASE("medium: a keener receiver that joins later is heard of at once") {
+    Crowd crowd(3);
+    const Propagation friis = Friis{};
+    for (int i = 0; i < 10; ++i) crowd.add(friis, {.power = {-20.0}, .sensitivity = {-50.0}});
+    const std::size_t before = crowd.check(start_of_run);
+    for (int i = 0; i < 10; ++i) crowd.add(friis, {.power = {-20.0}, .sensitivity = {-85.0}});
+    CHECK(crowd.check(start_of_run) > before);
+}
+
+TEST_CASE("medium: receptions come in the order of time, then of the robots") {
+    const Scene field;
+    Medium medium({.scene = &field});
+    Legs legs;
+    const Propagation disc = Disc{.range = 10'000_m};
+    for (const double x : {0.0, 3000.0, 300.0, -300.0, 3000.0}) {
+        legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
+        medium.add({}, legs.size(), disc);
+    }
+    std::vector<Reception> heard{{.node = {77}, .time = never}};  // is left alone
+    medium.receivers({0}, start_of_run, start_of_run + 1us, legs, heard);
+    REQUIRE(heard.size() == 5);
+    CHECK(heard[0].node.value == 77);
+    const std::uint32_t order[] = {2, 3, 1, 4};
+    for (std::size_t i = 0; i < 4; ++i) CHECK(heard[i + 1].node.value == order[i]);
+    CHECK(heard[1].time == start_of_run + 1us + 1001ns);    // 300 m / c = 1000.69 ns
+    CHECK(heard[3].time == start_of_run + 1us + 10'007ns);  // 3000 m / c = 10,006.92 ns
+}
+
+TEST_CASE("medium: without propagation delay all receptions end with the frame") {
+    const Scene field;
+    Medium medium({.scene = &field, .propagation_delay = false});
+    Legs legs;
+    for (const double x : {0.0, 3000.0, 300.0}) {
+        legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
+        medium.add({}, legs.size(), Disc{.range = 10'000_m});
+    }
+    std::vector<Reception> heard;
+    medium.receivers({0}, start_of_run, start_of_run + 1us, legs, heard);
+    REQUIRE(heard.size() == 2);
+    CHECK(heard[0].node == NodeId{1});
+    CHECK(heard[0].time == start_of_run + 1us);
+    CHECK(heard[1].time == start_of_run + 1us);
+}
+
+TEST_CASE("medium: a loss equal to the budget is a link, one rounding less budget is none") {
+    const Scene field;
+    Legs legs;
+    for (const double x : {0.0, 50.0}) legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
+    const double loss = itu_indoor_db(50, 2450_MHz, 30, 0);
+    const auto hears = [&](double sensitivity) {
+        Medium medium({.scene = &field});
+        const Radio radio{.power = {0}, .sensitivity = {sensitivity}};
+        for (int i = 0; i < 2; ++i) medium.add(radio, 1, ItuIndoor{});
+        std::vector<Reception> heard;
+        medium.receivers({0}, start_of_run, start_of_run, legs, heard);
+        return !heard.empty();
+    };
+    CHECK(hears(-loss));
+    CHECK_FALSE(hears(std::nextafter(-loss, 0.0)));
+}
+
+TEST_CASE("medium: a radio that is off neither hears nor joins others; on again it does") {
+    const Scene field;
+    Medium medium({.scene = &field});
+    Legs legs;
+    const Propagation disc = Disc{.range = 1.1_m};
+    for (int i = 0; i < 5; ++i) {
+        legs.add({.from = {1.0 * i, 0, 0}, .to = {1.0 * i, 0, 0}});
+        medium.add({}, static_cast<std::uint64_t>(i), disc);
+    }
+    const auto heard_by = [&](std::uint32_t from) {
+        std::vector<Reception> heard;
+        medium.receivers({from}, start_of_run, start_of_run, legs, heard);
+        return heard.size();
+    };
+    CHECK(medium.reachable({0}, start_of_run, legs) == 4);
+    medium.switch_radio({2}, false);
+    CHECK(heard_by(1) == 1);
+    CHECK(heard_by(3) == 1);
+    CHECK(medium.reachable({0}, start_of_run, legs) == 1);
+    CHECK(medium.reachable({4}, start_of_run, legs) == 1);
+    medium.switch_radio({2}, true);
+    CHECK(heard_by(1) == 2);
+    CHECK(medium.reachable({0}, start_of_run, legs) == 4);
+}
+
+TEST_CASE("medium: random radios switched off are as if they were not there") {
+    Crowd crowd(4);
+    const Propagation friis = Friis{};
+    for (std::size_t i = 0; i < robots; ++i) crowd.add(friis);
+    for (std::size_t i = 0; i < robots; i += 3) crowd.medium.switch_radio(crowd.node(i), false);
+    crowd.check(start_of_run + 2s);
+}
+
+TEST_CASE("medium: robots reachable are the sender's component of Boost.Graph, less the sender") {
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        Crowd crowd(seed);
+        const Propagation disc = Disc{.range = 7_m};
+        for (std::size_t i = 0; i < robots; ++i) crowd.add(disc, Radio{});
+        const Time t = start_of_run + 4s;
+        boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS> graph(robots);
+        for (std::size_t i = 0; i < robots; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                const double d = distance(crowd.legs.position(crowd.node(i), t),
+                                          crowd.legs.position(crowd.node(j), t));
+                if (d <= 7) add_edge(i, j, graph);
+            }
+        }
+        std::vector<int> component(robots);
+        connected_components(graph, component.data());
+        for (std::size_t i = 0; i < robots; ++i) {
+            const auto size = std::count(component.begin(), component.end(), component[i]);
+            CHECK(crowd.medium.reachable(crowd.node(i), t, crowd.legs) == size - 1);
+        }
+    }
+}
+
+TEST_CASE("medium: a radio or a frequency that makes no sense is refused") {
+    const Scene field;
+    Medium medium({.scene = &field});
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(medium.add({.power = {nan}}, 1, Friis{}), std::invalid_argument);
+    CHECK_THROWS_AS(medium.add({.frequency = {0}}, 1, Friis{}), std::invalid_argument);
+    CHECK_THROWS_AS(medium.add({.rate = {-1}}, 1, Friis{}), std::invalid_argument);
+    CHECK_THROWS_AS(medium.add({.cable_loss = {-1}}, 1, Friis{}), std::invalid_argument);
+    const ItuIndoor home{.environment = Environment::residential};
+    CHECK_THROWS_AS(medium.add({.frequency = 868_MHz}, 1, home), std::invalid_argument);
+}
