@@ -34,7 +34,7 @@ int guarded(const std::function<void()>& command) {
     } catch (const InputError& error) {
         return fail(error.where().is_option ? usage : bad_input, error.what());
     } catch (const Interrupted&) {
-        return fail(interrupted, "interrupted; nothing was written");
+        return fail(interrupted, "interrupted; no results were written");
     } catch (const std::invalid_argument& error) {
         return fail(usage, error.what());
     } catch (const std::bad_alloc&) {

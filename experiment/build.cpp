@@ -62,23 +62,28 @@ class Builder {
     void add_traffic();
 
   private:
-    Key key(Purpose purpose, const std::string& name, std::uint64_t index) const {
+    /// What a robot does after a message is a plan of its own, with draws of its own.
+    enum Plan : std::uint64_t { from_the_start, after_a_message };
+
+    Key key(Purpose purpose, const std::string& name, std::uint64_t index,
+            Plan plan = from_the_start) const {
         return {scenario_.scenario.seed,
                 static_cast<std::uint32_t>(scenario_.scenario.replication),
                 purpose,
                 name_key(name),
-                0,
+                plan,
                 index};
     }
 
+    std::optional<Propagation> own_propagation(const RobotTable& table) const;
     void add_robot(const RobotTable& table, const std::string& name,
                    const std::optional<Propagation>& propagation);
     Vec3 start(const RobotTable& table, const std::string& name) const;
     Vec3 drawn_place(const RobotTable& table, const std::string& name) const;
     bool fits(Vec3 p, Meters radius) const { return network_.scene().clearance(p) >= radius.value; }
     Movement movement(const MoveTable& table, const RobotTable& robot, const std::string& name,
-                      Vec3 from);
-    Waypoints waypoints(const WaypointsTable& table, const std::string& name) const;
+                      Vec3 from, Plan plan);
+    Waypoints waypoints(const WaypointsTable& table, const std::string& name, Plan plan) const;
     void check_way(Vec3 from, Vec3 to, const RobotTable& robot, const Location& where);
     void react(NodeId node, const RobotTable& table, const std::string& name, Vec3 at);
 
@@ -89,10 +94,7 @@ class Builder {
 
 void Builder::add_robots() {
     for (const auto& table : scenario_.robots) {
-        // One handle per table: the medium keeps one model for all that share it.
-        const auto own = located(table.propagation_where, [&] {
-            return table.propagation ? std::optional(table.propagation->make()) : std::nullopt;
-        });
+        const auto own = own_propagation(table);
         if (!table.count) {
             add_robot(table, table.name, own);
             continue;
@@ -101,6 +103,19 @@ void Builder::add_robots() {
             add_robot(table, fmt::format("{}{}", table.name, i), own);
         }
     }
+}
+
+/// The model of a robot table that has its own: one handle, so that the medium keeps one model for
+/// all robots of the table.
+std::optional<Propagation> Builder::own_propagation(const RobotTable& table) const {
+    const auto& given = table.propagation ? *table.propagation : scenario_.propagation;
+    const auto& where = table.propagation ? table.propagation_where : scenario_.propagation_where;
+    const Propagation model = located(where, [&] {
+        auto made = given.make();
+        made.check_frequency(table.radio.frequency);
+        return made;
+    });
+    return table.propagation ? std::optional(model) : std::nullopt;
 }
 
 void Builder::add_robot(const RobotTable& table, const std::string& name,
@@ -112,7 +127,7 @@ void Builder::add_robot(const RobotTable& table, const std::string& name,
                              .radius = table.radius,
                              .radio = table.radio,
                              .propagation = propagation,
-                             .move = movement(table.move, table, name, at)});
+                             .move = movement(table.move, table, name, at, from_the_start)});
     });
     for (const Duration t : table.off) {
         network_.at(start_of_run + t, [this_ = &network_, node] { this_->switch_off(node); });
@@ -154,9 +169,9 @@ Vec3 Builder::drawn_place(const RobotTable& table, const std::string& name) cons
 }
 
 Movement Builder::movement(const MoveTable& table, const RobotTable& robot, const std::string& name,
-                           Vec3 from) {
+                           Vec3 from, Plan plan) {
     if (const auto* path = std::get_if<WaypointsTable>(&table.model)) {
-        const Waypoints model = waypoints(*path, name);
+        const Waypoints model = waypoints(*path, name, plan);
         Vec3 at = from;
         for (const Vec3 place : path->path) {
             check_way(std::exchange(at, place), place, robot, table.where);
@@ -165,20 +180,22 @@ Movement Builder::movement(const MoveTable& table, const RobotTable& robot, cons
     }
     if (const auto* goal = std::get_if<GoalTable>(&table.model)) {
         const auto choices = goal->among.size();
-        const Vec3 to =
-            goal->to ? *goal->to : goal->among[below(key(Purpose::placement, name, 0), choices)];
+        const Vec3 to = goal->to
+                            ? *goal->to
+                            : goal->among[below(key(Purpose::destination, name, 0, plan), choices)];
         check_way(from, to, robot, table.where);
         return ToGoal{.to = to, .speed = goal->speed};
     }
     return Fixed{};
 }
 
-Waypoints Builder::waypoints(const WaypointsTable& table, const std::string& name) const {
+Waypoints Builder::waypoints(const WaypointsTable& table, const std::string& name,
+                             Plan plan) const {
     Waypoints model{.speed = table.speed};
     auto path = table.path;
     if (table.order == WaypointsTable::Order::shuffled) {
         for (std::size_t i = path.size(); i > 1; --i) {
-            std::swap(path[i - 1], path[below(key(Purpose::order, name, i), i)]);
+            std::swap(path[i - 1], path[below(key(Purpose::order, name, i, plan), i)]);
         }
     }
     if (!table.times) {
@@ -205,9 +222,9 @@ void Builder::check_way(Vec3 from, Vec3 to, const RobotTable& robot, const Locat
 void Builder::react(NodeId node, const RobotTable& table, const std::string& name, Vec3 at) {
     const OnReceiveTable& reaction = *table.on_receive;
     network_.on_receive(
-        node,
-        [this_ = &network_, node, prefix = reaction.payload, once = reaction.once, done = false,
-         move = movement(*reaction.move, table, name, at)](const Message& message) mutable {
+        node, [this_ = &network_, node, prefix = reaction.payload, once = reaction.once,
+               done = false, move = movement(*reaction.move, table, name, at, after_a_message)](
+                  const Message& message) mutable {
             if (!message.payload.starts_with(prefix) || (once && done)) return;
             done = true;
             this_->move(node, move);

@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <thread>
 #include <unistd.h>
 
@@ -63,6 +65,16 @@ void run_in_slices(Network& network, const Scenario& scenario, const RunOptions&
 
 Value optional_value(const std::optional<double>& v) { return v ? Value(*v) : Value(); }
 
+/// The scenario as a document that can be run from `folder`: its map is named from there.
+Table document_in(const std::string& folder, Scenario scenario) {
+    namespace fs = std::filesystem;
+    if (scenario.scene.map) {
+        const fs::path map = fs::path(scenario.file).parent_path() / *scenario.scene.map;
+        scenario.scene.map = fs::proximate(map, folder).string();
+    }
+    return to_document(scenario);
+}
+
 Table provenance(const RunResult& result) {
     Table table = build_provenance();
     table.set("host", host_name());
@@ -87,8 +99,9 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     network.add_sink(fingerprint);
     network.add_sink(timeline);
     std::shared_ptr<Ns2Trace> trace;
+    const std::string trace_path = result.folder + "/trace.tr";
     if (scenario.trace.ns2 != Ns2Choice::none) {
-        result.trace = result.folder + "/trace.tr";
+        result.trace = trace_path;
         trace = std::make_shared<Ns2Trace>(
             *result.trace, scenario.trace.ns2 == Ns2Choice::old_format ? Ns2Format::old_format
                                                                        : Ns2Format::new_format);
@@ -96,13 +109,17 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     }
     run_in_slices(network, scenario, options);
 
-    if (trace) trace->close();
+    if (trace) {
+        trace->close();
+    } else {
+        std::remove(trace_path.c_str());  // of an earlier run that is replaced now
+    }
     result.metrics = network.metrics();
     result.fingerprint = fingerprint->text();
     result.events = network.events();
     result.timeline = timeline->happenings();
     result.wall_s = std::chrono::duration<double>(WallClock::now() - started).count();
-    write_file(result.folder + "/scenario.toml", to_toml(to_document(scenario)));
+    write_file(result.folder + "/scenario.toml", to_toml(document_in(result.folder, scenario)));
     Table summary = run_summary(scenario, result);
     summary.set("scenario", to_document(scenario));
     summary.set("provenance", provenance(result));

@@ -23,6 +23,15 @@ std::vector<std::string> model_names() {
     return names;
 }
 
+/// The name becomes a folder's.
+void check_run_name(TableReader& document, const std::string& name) {
+    if (!name.empty() && name.front() != '.' && name.find('/') == std::string::npos) return;
+    const Value* given = document.take("scenario")->table()->find("name");
+    throw InputError(given->where, fmt::format("name: found {}; expected a name for a folder: not "
+                                               "empty, no \"/\", no \".\" in front",
+                                               given->description()));
+}
+
 /// Keys of any listed model may stand here, so that a sweep can swap the model; each is checked.
 void read_propagation(const Value& value, PropagationTable& out, const Location& at) {
     TableReader table(value, "[propagation]");
@@ -276,6 +285,10 @@ void read_scene(TableReader& document, Scenario& out) {
     if (!scene) return;
     const Value* map = scene->table()->find("map");
     out.map_where = map ? map->where : scene->where;
+    if (out.scene.size && !out.scene.map) {
+        throw InputError(scene->table()->find("size")->where,
+                         "size: found a size without a map; expected also map = \"office.png\"");
+    }
     if (out.scene.size && out.scene.size->size() != 2) {
         throw InputError(scene->table()->find("size")->where,
                          "size: expected a width and a height, such as [\"40 m\", \"20 m\"]");
@@ -320,6 +333,7 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     out.file = file;
     TableReader document(value, "the scenario");
     read_section(document, "scenario", out.scenario);
+    check_run_name(document, out.scenario.name);
     read_scene(document, out);
     read_section(document, "radio", out.radio);
     read_section(document, "medium", out.medium);

@@ -13,6 +13,7 @@ enum class Purpose : std::uint16_t {
     link_shadowing = 2,
     placement = 3,
     order = 4,
+    destination = 5,
 };
 
 /// The meaning of one draw, and all that decides it: the same key gives the same number, in any

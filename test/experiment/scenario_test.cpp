@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -73,7 +74,7 @@ on = ["2 s"]
 name = "r"
 count = 3
 place = { model = "uniform", area = [["0 m", "0 m"], ["9 m", "9 m"]] }
-move = { model = "goal", among = [["1 m", "1 m"], ["2 m", "2 m"]], speed = "1500 mm/s" }
+move = { model = "goal", among = [["1 m", "1 m"], ["2 m", "2 m"]], speed = "1.5 m/s" }
 
 [[robot]]
 name = "c"
@@ -121,17 +122,13 @@ Scenario with(const std::string& text, const std::vector<std::string>& options) 
 
 std::string printed(const Scenario& scenario) { return to_toml(to_document(scenario)); }
 
-std::string every_key_text() {
-    std::string text = every_key;  // mm/s is no unit of ours
-    return text.replace(text.find("1500 mm/s"), 9, "1.5 m/s");
-}
-
 /// Key paths of a document, list items without their number.
 void list_keys(const Value& value, const std::string& path, std::vector<std::string>& out) {
     if (const Table* table = value.table()) {
         for (const auto& entry : table->entries) {
-            out.push_back(path + "." + entry.key);
-            list_keys(entry.value, out.back(), out);
+            const std::string key = path + "." + entry.key;
+            out.push_back(key);
+            list_keys(entry.value, key, out);
         }
     } else if (const Array* list = value.array()) {
         for (const auto& item : *list) list_keys(item, path, out);
@@ -163,7 +160,7 @@ TEST_CASE("scenario: one robot is enough, and everything else has the documented
 }
 
 TEST_CASE("scenario: every key of the file arrives in its field") {
-    const Scenario s = read(every_key_text());
+    const Scenario s = read(every_key);
     CHECK(s.scenario.duration == 12345678us);
     CHECK(s.scenario.event_limit == 5000);
     CHECK(s.scene.floor_height == Meters{4});
@@ -199,7 +196,7 @@ TEST_CASE("scenario: every key of the file arrives in its field") {
 }
 
 TEST_CASE("scenario: printed with every default, it reads back as the same scenario") {
-    for (const auto& text : {robot_a, every_key_text()}) {
+    for (const auto& text : {robot_a, every_key}) {
         const std::string once = printed(read(text));
         CHECK(printed(read(once)) == once);
     }
@@ -207,20 +204,21 @@ TEST_CASE("scenario: printed with every default, it reads back as the same scena
 
 TEST_CASE("scenario: every key that is printed was given in the scenario of every key") {
     std::vector<std::string> given, shown;
-    list_keys(parse_toml(every_key_text(), ""), "", given);
-    list_keys(Value(to_document(read(every_key_text()))), "", shown);
+    list_keys(parse_toml(every_key, ""), "", given);
+    list_keys(Value(to_document(read(every_key))), "", shown);
     for (const auto& key : given) {
         CAPTURE(key);
         CHECK(std::count(shown.begin(), shown.end(), key) > 0);
     }
     for (const auto& key : shown) {
         CAPTURE(key);
+        if (key.starts_with(".robot.propagation.")) continue;  // the scenario's, under its own
         CHECK(std::count(given.begin(), given.end(), key) > 0);
     }
 }
 
 TEST_CASE("scenario: no key of the scenario of every key is at its default") {
-    const Table all = to_document(read(every_key_text()));
+    const Table all = to_document(read(every_key));
     const Table usual = to_document(read(robot_a));
     for (const char* name : {"scenario", "scene", "radio", "medium", "routing", "trace", "study"}) {
         for (const auto& entry : usual.find(name)->table()->entries) {

@@ -19,6 +19,11 @@ namespace {
 /// A few roundings of losses up to 200 dB.
 constexpr double tolerance = 1e-12;  // [dB]
 
+ItuIndoor indoor(std::optional<double> coefficient, std::optional<Environment> environment = {},
+                 std::optional<int> floors = {}) {
+    return {.coefficient = coefficient, .environment = environment, .floors = floors};
+}
+
 std::optional<Environment> environment_of(const std::string& name) {
     for (const auto e : {Environment::residential, Environment::office, Environment::commercial}) {
         if (name.rfind(name_of(e), 0) == 0) return e;
@@ -54,7 +59,7 @@ TEST_CASE("itu_indoor: environment, frequency and floors give the losses of the 
         CAPTURE(d);
         if (!environment || d < 1) continue;
         ++used;
-        const ItuIndoor model{.environment = environment, .floors = floors_of(name)};
+        const ItuIndoor model = indoor({}, environment, floors_of(name));
         CHECK_NOTHROW(model.check_frequency(f));
         CHECK(near(loss_at(model, d, f), vectors.number(i, "L_dB"), test::vector_tolerance));
     }
@@ -66,7 +71,7 @@ TEST_CASE("itu_indoor: a bare coefficient gives the losses of the vectors withou
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");
         if (d < 1) continue;
-        const ItuIndoor model{.coefficient = vectors.number(i, "N")};
+        const ItuIndoor model = indoor(vectors.number(i, "N"));
         const double expected = vectors.number(i, "L_dB") - vectors.number(i, "Lf_dB");
         CHECK(near(loss_at(model, d, {1e6 * vectors.number(i, "f_MHz")}), expected,
                    test::vector_tolerance));
@@ -74,12 +79,12 @@ TEST_CASE("itu_indoor: a bare coefficient gives the losses of the vectors withou
 }
 
 TEST_CASE("itu_indoor: without coefficient and environment N is 30") {
-    CHECK(loss_at(ItuIndoor{}, 25) == loss_at(ItuIndoor{.coefficient = 30}, 25));
+    CHECK(loss_at(ItuIndoor{}, 25) == loss_at(indoor(30), 25));
     CHECK(near(loss_at(ItuIndoor{}, 100) - loss_at(ItuIndoor{}, 10), 30, tolerance));
 }
 
 TEST_CASE("itu_indoor: the coefficient prevails over the environment's") {
-    const ItuIndoor both{.coefficient = 40, .environment = Environment::office};
+    const ItuIndoor both = indoor(40, Environment::office);
     CHECK(near(loss_at(both, 100) - loss_at(both, 10), 40, tolerance));
 }
 
@@ -90,43 +95,43 @@ TEST_CASE("itu_indoor: below 1 m the loss is that at 1 m") {
 }
 
 TEST_CASE("itu_indoor: a frequency more than a factor 1.5 from every row is refused") {
-    const ItuIndoor office{.environment = Environment::office};
+    const ItuIndoor office = indoor({}, Environment::office);
     CHECK_NOTHROW(office.check_frequency(601_MHz));
     CHECK_THROWS_AS(office.check_frequency(599_MHz), std::invalid_argument);
     CHECK_NOTHROW(office.check_frequency(7799_MHz));
     CHECK_THROWS_AS(office.check_frequency(7801_MHz), std::invalid_argument);
     CHECK_THROWS_AS(office.check_frequency(39'999_MHz), std::invalid_argument);
-    const ItuIndoor shop{.environment = Environment::commercial};
+    const ItuIndoor shop = indoor({}, Environment::commercial);
     CHECK_THROWS_AS(shop.check_frequency(6001_MHz), std::invalid_argument);
-    const ItuIndoor home{.environment = Environment::residential};
+    const ItuIndoor home = indoor({}, Environment::residential);
     CHECK_THROWS_AS(home.check_frequency(868_MHz), std::invalid_argument);
 }
 
 TEST_CASE("itu_indoor: with a coefficient any frequency will do") {
-    CHECK_NOTHROW(ItuIndoor{.coefficient = 30}.check_frequency(1_MHz));
-    const ItuIndoor both{.coefficient = 30, .environment = Environment::office};
+    CHECK_NOTHROW(indoor(30).check_frequency(1_MHz));
+    const ItuIndoor both = indoor(30, Environment::office);
     CHECK_NOTHROW(both.check_frequency(20'000_MHz));
 }
 
 TEST_CASE("itu_indoor: floors need an environment and a row that has so many") {
-    CHECK_THROWS_AS(ItuIndoor{.floors = 1}.check_frequency(2450_MHz), std::invalid_argument);
-    const ItuIndoor two{.environment = Environment::office, .floors = 2};
+    CHECK_THROWS_AS(indoor({}, {}, 1).check_frequency(2450_MHz), std::invalid_argument);
+    const ItuIndoor two = indoor({}, Environment::office, 2);
     CHECK_THROWS_AS(two.check_frequency(2450_MHz), std::invalid_argument);
     CHECK_NOTHROW(two.check_frequency(1900_MHz));
-    const ItuIndoor four{.environment = Environment::office, .floors = 4};
+    const ItuIndoor four = indoor({}, Environment::office, 4);
     CHECK_THROWS_AS(four.check_frequency(900_MHz), std::invalid_argument);
 }
 
 TEST_CASE("itu_indoor: no floor costs nothing, in any environment") {
     for (const auto e : {Environment::residential, Environment::office, Environment::commercial}) {
-        const ItuIndoor unsaid{.environment = e}, none{.environment = e, .floors = 0};
+        const auto unsaid = indoor({}, e), none = indoor({}, e, 0);
         CHECK(near(loss_at(none, 1, 1900_MHz), 20 * std::log10(1900.0) - 28, tolerance));
         CHECK(loss_at(unsaid, 20, 1900_MHz) == loss_at(none, 20, 1900_MHz));
     }
 }
 
 TEST_CASE("itu_indoor: floors are counted from the storeys of the antennas") {
-    const ItuIndoor office{.environment = Environment::office};
+    const ItuIndoor office = indoor({}, Environment::office);
     const double same = between(office, 1, 2.9);
     CHECK(near(between(office, 2.9, 3.1) - same, 15, tolerance));  // Lf = 15 + 4 (n - 1)
     CHECK(near(between(office, 1, 7) - same, 19, tolerance));
@@ -136,13 +141,13 @@ TEST_CASE("itu_indoor: floors are counted from the storeys of the antennas") {
 }
 
 TEST_CASE("itu_indoor: heights change nothing for a bare coefficient or given floors") {
-    CHECK(near(between({.coefficient = 30}, 1, 7), between({.coefficient = 30}, 1, 1), tolerance));
-    const ItuIndoor one{.environment = Environment::office, .floors = 1};
+    CHECK(near(between(indoor(30), 1, 7), between(indoor(30), 1, 1), tolerance));
+    const ItuIndoor one = indoor({}, Environment::office, 1);
     CHECK(near(between(one, 1, 7), between(one, 1, 1), tolerance));
 }
 
 TEST_CASE("itu_indoor: beyond the last tabulated floor its loss is held") {
-    const ItuIndoor office{.environment = Environment::office};
+    const ItuIndoor office = indoor({}, Environment::office);
     const auto rise = [&](double z) {
         return test::OneLink{.frequency = {900e6}, .to = {40, 0, z}}.loss(office) -
                loss_at(office, std::sqrt(1600 + z * z), 900_MHz);

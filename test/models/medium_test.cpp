@@ -250,6 +250,7 @@ TEST_CASE("medium: a radio or a frequency that makes no sense is refused") {
     CHECK_THROWS_AS(medium.add({.frequency = {0}}, 1, Friis{}), std::invalid_argument);
     CHECK_THROWS_AS(medium.add({.rate = {-1}}, 1, Friis{}), std::invalid_argument);
     CHECK_THROWS_AS(medium.add({.cable_loss = {-1}}, 1, Friis{}), std::invalid_argument);
-    const ItuIndoor home{.environment = Environment::residential};
+    ItuIndoor home;
+    home.environment = Environment::residential;
     CHECK_THROWS_AS(medium.add({.frequency = 868_MHz}, 1, home), std::invalid_argument);
 }

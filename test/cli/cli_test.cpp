@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: MIT
+#include "test/scene/png_writer.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+using Json = nlohmann::json;
+using rovernet::test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string relay = R"([scenario]
+name = "relay"
+duration = "20 s"
+seed = 5
+[propagation]
+model = "disc"
+range = "10 m"
+[[robot]]
+name = "A"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "B"
+at = ["8 m", "0 m"]
+move = { model = "waypoints", path = [["8 m", "5 m"]], speed = "0.5 m/s" }
+off = ["9 s"]
+on = ["14 s"]
+[[robot]]
+name = "C"
+at = ["16 m", "0 m"]
+[[robot]]
+name = "D"
+at = ["17 m", "4 m"]
+[[traffic]]
+from = "A"
+payload = "F"
+every = "1 s"
+[[traffic]]
+from = "D"
+size = "64 B"
+start = "500 ms"
+every = "3 s"
+count = 4
+[trace]
+ns2 = "new"
+)";
+
+std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct Ended {
+    int exit;  // -1: by a signal, or not at all
+    std::string out, err;
+};
+
+/// The command with its output in files of a folder.
+class Process {
+  public:
+    Process(const TemporaryFolder& folder, std::vector<std::string> arguments)
+        : out_(folder.path("stdout")), err_(folder.path("stderr")) {
+        arguments.insert(arguments.begin(), ROVERNET_COMMAND);
+        std::vector<char*> argv;
+        for (auto& argument : arguments) argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        posix_spawn_file_actions_t files;
+        posix_spawn_file_actions_init(&files);
+        constexpr int create = O_WRONLY | O_CREAT | O_TRUNC;
+        posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out_.c_str(), create, 0600);
+        posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err_.c_str(), create, 0600);
+        REQUIRE(posix_spawn(&pid_, argv[0], &files, nullptr, argv.data(), environ) == 0);
+        posix_spawn_file_actions_destroy(&files);
+    }
+
+    void interrupt() const { kill(pid_, SIGINT); }
+
+    /// Waits for its end, and kills it if that takes too long.
+    Ended wait() const {
+        using namespace std::chrono_literals;
+        int status = 0;
+        for (int i = 0; i < 6000; ++i) {
+            if (waitpid(pid_, &status, WNOHANG) == pid_) return ended(status);
+            std::this_thread::sleep_for(10ms);
+        }
+        kill(pid_, SIGKILL);
+        waitpid(pid_, &status, 0);
+        return ended(status);
+    }
+
+  private:
+    Ended ended(int status) const {
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out_), content(err_)};
+    }
+
+    std::string out_, err_;
+    pid_t pid_ = 0;
+};
+
+Ended command(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+    return Process(folder, arguments).wait();
+}
+
+/// The one JSON document that a command prints; it must succeed.
+Json json_of(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+    arguments.push_back("--json");
+    const Ended ended = command(folder, arguments);
+    CAPTURE(ended.err);
+    REQUIRE(ended.exit == 0);
+    return Json::parse(ended.out);
+}
+
+std::vector<std::string> names_in(const std::string& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+const std::vector<std::string> result_files = {"scenario.toml", "summary.json", "trace.tr"};
+
+}  // namespace
+
+TEST_CASE("run --json is one document with the results") {
+    const TemporaryFolder folder;
+    const Json run =
+        json_of(folder, {"run", folder.write("s.toml", relay), "--out", folder.path("out")});
+    for (const char* key : {"name", "seed", "fingerprint", "sim_s", "wall_s", "events", "messages",
+                            "transmissions", "receptions", "delivery_ratio", "drops", "trace"}) {
+        CAPTURE(key);
+        CHECK(run.contains(key));
+    }
+    CHECK(run["name"] == "relay");
+    CHECK(run["seed"] == 5);
+    CHECK(run["sim_s"] == 20.0);
+    CHECK(run["messages"] == 25);  // at 0, 1 ... 20 s, the end included, and 4 of D's
+    CHECK(run["trace"] == folder.path("out/trace.tr"));
+    CHECK(run["drops"].is_object());
+}
+
+TEST_CASE("run: the folder has the summary, the scenario and the trace, and nothing half done") {
+    const TemporaryFolder folder;
+    const std::string out = folder.path("out");
+    const Json run = json_of(folder, {"run", folder.write("s.toml", relay), "--out", out});
+    CHECK(names_in(out) == result_files);
+    Json summary = Json::parse(content(out + "/summary.json"));
+    for (const auto& [key, value] : run.items()) CHECK(summary[key] == value);
+    for (const char* key : {"version", "host", "started", "wall_s"}) {
+        CHECK(summary["provenance"].contains(key));
+    }
+    CHECK(summary["scenario"]["robot"].size() == 4);
+    CHECK(summary["scenario"]["routing"]["ttl"] == 3);
+    CHECK(summary["scenario"]["radio"]["sensitivity"] == "-75 dBm");
+}
+
+TEST_CASE("run: a folder that is there keeps its other files, and ours are replaced") {
+    const TemporaryFolder folder;
+    const std::string out = folder.path("out");
+    fs::create_directory(out);
+    folder.write("out/notes.txt", "mine");
+    folder.write("out/summary.json", "old");
+    folder.write("out/trace.tr", "old");
+    json_of(folder, {"run", folder.write("s.toml", relay), "--out", out});
+    CHECK(content(out + "/notes.txt") == "mine");
+    CHECK(content(out + "/summary.json").size() > 100);
+    CHECK(content(out + "/trace.tr").size() > 100);
+    CHECK(names_in(out).size() == 4);
+}
+
+TEST_CASE("run: the printed scenario and the one in the folder run to the same fingerprint") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", relay), out = folder.path("out");
+    const auto fingerprint = [&](const std::string& scenario) {
+        return json_of(folder, {"run", scenario, "--out", out})["fingerprint"];
+    };
+    const Json expected = fingerprint(file);
+    const Ended printed = command(folder, {"run", file, "--print-scenario"});
+    REQUIRE(printed.exit == 0);
+    CHECK(fingerprint(folder.write("printed.toml", printed.out)) == expected);
+    fs::copy_file(out + "/scenario.toml", folder.path("again.toml"));
+    CHECK(fingerprint(folder.path("again.toml")) == expected);
+}
+
+TEST_CASE("run --seed and --set change the run; the same seed again gives the same") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", relay), out = folder.path("out");
+    const auto fingerprint = [&](const std::string& option, const std::string& value) {
+        return json_of(folder, {"run", file, "--out", out, option, value})["fingerprint"];
+    };
+    CHECK(fingerprint("--seed", "5") == fingerprint("--set", "scenario.seed=5"));
+    CHECK(fingerprint("--seed", "5") != fingerprint("--seed", "6"));
+    CHECK(fingerprint("--seed", "5") != fingerprint("--set", "robot.B.off=[1]"));
+}
+
+TEST_CASE("trace stats: the metrics of the summary to the last digit, in both formats") {
+    for (const std::string format : {"old", "new"}) {
+        CAPTURE(format);
+        const TemporaryFolder folder;
+        const std::string out = folder.path("out");
+        json_of(folder, {"run", folder.write("s.toml", relay), "--out", out, "--set",
+                         "trace.ns2=" + format});
+        const Json summary = Json::parse(content(out + "/summary.json"));
+        const Json stats = json_of(folder, {"trace", "stats", out + "/trace.tr"});
+        CHECK(stats.size() >= 13);
+        for (const auto& [key, value] : stats.items()) {
+            CAPTURE(key);
+            CHECK(summary[key].dump() == value.dump());
+        }
+    }
+}
+
+TEST_CASE("a trace counted by its columns gives the delivery ratio") {
+    const TemporaryFolder folder;
+    const Json run = json_of(folder, {"run", folder.write("s.toml", relay), "--out",
+                                      folder.path("out"), "--set", "trace.ns2=old"});
+    std::istringstream trace(content(folder.path("out/trace.tr")));
+    int sent = 0, received = 0;
+    for (std::string line; std::getline(trace, line);) {
+        std::istringstream words(line);
+        std::string event, time, node, layer;
+        words >> event >> time >> node >> layer;
+        sent += event == "s" && layer == "AGT";
+        received += event == "r" && layer == "AGT";
+    }
+    constexpr int others = 3;
+    CHECK(sent == run["messages"]);
+    CHECK(std::abs(static_cast<double>(received) / (sent * others) -
+                   run["delivery_ratio"].get<double>()) < 1e-12);
+}
+
+TEST_CASE("loss: free space at one metre and 2450 MHz is 40.23 dB") {
+    constexpr double half_digit = 0.005;
+    const TemporaryFolder folder;
+    const Json loss = json_of(folder, {"loss", "friis", "--distance", "1,10,1 km"});
+    CHECK(loss["model"] == "friis");
+    CHECK(loss["frequency_hz"] == 2450e6);
+    REQUIRE(loss["rows"].size() == 3);
+    CHECK(loss["rows"][2]["distance_m"] == 1000.0);
+    CHECK(std::abs(loss["rows"][0]["loss_db"].get<double>() - 40.23) < half_digit);
+    CHECK(std::abs(loss["rows"][1]["loss_db"].get<double>() - 60.23) < half_digit);
+}
+
+TEST_CASE("loss --wall: half a metre at 2 dB per centimetre costs 100 dB") {
+    const TemporaryFolder folder;
+    const auto loss = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"loss", "raytrace_2007", "wall_factor=2",
+                                              "--distance", "10"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return json_of(folder, arguments)["rows"][0]["loss_db"].get<double>();
+    };
+    CHECK(std::abs(loss({"--wall", "50 cm"}) - loss({}) - 100) < 1e-9);
+    CHECK(command(folder, {"loss", "friis", "--distance", "1", "--wall", "2"}).exit == 2);
+}
+
+TEST_CASE("link --json: the budget and its walls") {
+    const TemporaryFolder folder;
+    const png_byte w = 255;
+    folder.write(
+        "walls.png",
+        rovernet::test::png_bytes(
+            {.width = 8, .height = 1, .rows = {std::vector<png_byte>{w, w, w, w, 0, w, w, w}}}));
+    const std::string file =
+        folder.write("s.toml",
+                     "[scene]\nmap = \"walls.png\"\nsize = [\"8 m\", \"2 m\"]\n"
+                     "[propagation]\nmodel = \"raytrace_2007\"\n"
+                     "[[robot]]\nname = \"A\"\nat = [\"1 m\", \"1 m\"]\n"
+                     "[[robot]]\nname = \"B\"\nat = [\"7 m\", \"1 m\"]\noff = [\"5 s\"]\n");
+    const Json link = json_of(folder, {"link", file, "A", "B"});
+    CHECK(link["from"] == "A");
+    CHECK(link["to"] == "B");
+    CHECK(link["model"] == "raytrace_2007");
+    CHECK(link["at_s"] == 0.0);
+    CHECK(link["distance_m"] == 6.0);
+    REQUIRE(link["walls"].size() == 1);
+    constexpr double rounding_m = 1e-9;
+    CHECK(std::abs(link["walls"][0]["entry_m"].get<double>() - 3) < rounding_m);
+    CHECK(std::abs(link["walls"][0]["exit_m"].get<double>() - 4) < rounding_m);
+    CHECK(std::abs(link["wall_m"].get<double>() - 1) < rounding_m);
+    const double margin = link["margin_db"], received = link["rx_power_dbm"];
+    CHECK(std::abs(received + 75 - margin) < rounding_m);
+    CHECK(link["up"] == (margin >= 0));
+
+    std::vector<std::string> clear = {"link", file, "A", "B", "--set", "propagation.model=friis"};
+    CHECK(json_of(folder, clear)["up"] == true);
+    clear.insert(clear.end(), {"--at", "6"});
+    CHECK(json_of(folder, clear)["up"] == false);
+    CHECK(json_of(folder, clear)["at_s"] == 6.0);
+}
+
+TEST_CASE("models --json lists every model with its parameters") {
+    const TemporaryFolder folder;
+    const Json models = json_of(folder, {"models"})["models"];
+    CHECK(models.size() >= 5);
+    for (const auto& model : models) {
+        CHECK(model["name"].is_string());
+        for (const auto& parameter : model["parameters"]) {
+            for (const char* key : {"name", "default", "range", "meaning"}) {
+                CHECK(parameter.contains(key));
+            }
+        }
+    }
+}
+
+TEST_CASE("version and --version print the version") {
+    const TemporaryFolder folder;
+    const std::string version = json_of(folder, {"version"})["version"];
+    CHECK(command(folder, {"--version"}).out == version + "\n");
+    CHECK(command(folder, {"version"}).out.starts_with("rovernet " + version + "\n"));
+}
+
+TEST_CASE("run --speed gives the same fingerprint as a run as fast as can be") {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments = {"run",   folder.write("s.toml", relay),
+                                          "--out", folder.path("out"),
+                                          "--set", "scenario.duration=2"};
+    const Json expected = json_of(folder, arguments)["fingerprint"];
+    arguments.insert(arguments.end(), {"--speed", "50"});
+    CHECK(json_of(folder, arguments)["fingerprint"] == expected);
+}
+
+TEST_CASE("Ctrl-C ends a run with 130 and leaves no trace, whole or half") {
+    using namespace std::chrono_literals;
+    const TemporaryFolder folder;
+    const std::string out = folder.path("out");
+    const Process run(
+        folder, {"run", folder.write("s.toml", relay), "--out", out, "--speed", "0.01", "--json"});
+    for (int i = 0; i < 2000 && !fs::exists(out + "/trace.tr.part"); ++i) {
+        std::this_thread::sleep_for(5ms);
+    }
+    run.interrupt();
+    const Ended ended = run.wait();
+    CHECK(ended.exit == 130);
+    CHECK(ended.out.empty());
+    CHECK(ended.err.find("interrupted") != std::string::npos);
+    CHECK(names_in(out).empty());
+}
+
+TEST_CASE("a run that needs more events than allowed exits with 1 and leaves no trace") {
+    const TemporaryFolder folder;
+    const Ended ended = command(folder, {"run", folder.write("s.toml", relay), "--out",
+                                         folder.path("out"), "--set", "scenario.event_limit=5"});
+    CHECK(ended.exit == 1);
+    CHECK(ended.out.empty());
+    CHECK(ended.err.find("event") != std::string::npos);
+    CHECK(names_in(folder.path("out")).empty());
+}
+
+TEST_CASE("results that cannot be written end a run with 1, and the message names the place") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", relay);
+    const Ended ended = command(folder, {"run", file, "--out", file + "/out"});
+    CHECK(ended.exit == 1);
+    CHECK(ended.out.empty());
+    CHECK(ended.err.find(file + "/out") != std::string::npos);
+}

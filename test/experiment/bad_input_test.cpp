@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/build.hpp"
+#include "experiment/scenario.hpp"
+#include "experiment/toml.hpp"
+#include "test/scene/png_writer.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <random>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+using namespace rovernet;
+using rovernet::test::TemporaryFolder;
+
+namespace {
+
+const std::string robot_a = "[[robot]]\nname = \"A\"\nat = [\"2 m\", \"2 m\"]\n";  // 3 lines
+const std::string on_map = "[scene]\nmap = \"walls.png\"\nsize = [\"8 m\", \"8 m\"]\n" + robot_a;
+const std::string yaml = "[scene]\nmap = \"m.yaml\"\n" + robot_a;
+
+struct Mistake {
+    std::string text;
+    std::string place;               // "line:column", or nothing: the file alone
+    std::vector<std::string> words;  // of the message
+};
+
+/// 8 x 8 pixels: one wall across, at 4 m <= x < 5 m.
+std::string walls_png() {
+    const png_byte w = 255;
+    return test::png_bytes(
+        {.width = 8, .height = 8, .rows = {8, std::vector<png_byte>{w, w, w, w, 0, w, w, w}}});
+}
+
+/// A PNG that says it is huge; only its header is looked at.
+std::string huge_png() {
+    std::string png = test::png_bytes({.rows = {{0}}});
+    constexpr std::size_t type = 12, width = 16, checksum = 29;
+    png.replace(width, 8, std::string("\0\0\x75\x30\0\0\x75\x30", 8));  // 30,000 x 30,000
+    std::uint32_t crc = 0xffffffff;                                     // PNG, annex D
+    for (std::size_t i = type; i < checksum; ++i) {
+        crc ^= static_cast<unsigned char>(png[i]);
+        for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xedb88320U : 0U);
+    }
+    crc ^= 0xffffffff;
+    for (std::size_t i = 0; i < 4; ++i) png[checksum + i] = static_cast<char>(crc >> (24 - 8 * i));
+    return png;
+}
+
+void write_maps(const TemporaryFolder& folder) {
+    folder.write("walls.png", walls_png());
+    folder.write("cut.png", walls_png().substr(0, 60));
+    folder.write("huge.png", huge_png());
+    folder.write("text.png", "this is no picture");
+    std::filesystem::create_directory(folder.path("folder.png"));
+    const std::string rest = "resolution: 1\norigin: [0, 0, 0]\n";
+    const std::string thresholds = "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+    folder.write("no_image.yaml", rest + thresholds);
+    folder.write("no_file.yaml", "image: none.png\n" + rest + thresholds);
+    folder.write("zero.yaml", "image: walls.png\nresolution: 0\norigin: [0, 0, 0]\n" + thresholds);
+    folder.write("syntax.yaml", "image: [walls.png\n");
+    folder.write("list.yaml", "- 1\n- 2\n");
+    folder.write("empty.yaml", "");
+}
+
+std::string with_map(const std::string& name) {
+    std::string text = yaml;
+    return text.replace(text.find("m.yaml"), 6, name);
+}
+
+std::string traffic(const std::string& rest) {
+    return robot_a + "[[traffic]]\nfrom = \"A\"\n" + rest;
+}
+
+const std::vector<Mistake> mistakes = {
+    // Not TOML.
+    {"x", "1:2", {"not TOML"}},
+    {"[radio]\npower = \"5 dBm", "2:15", {"not TOML"}},
+    {"[radio]\n[radio]\n" + robot_a, "2:1", {"redefine"}},
+    {robot_a + "radius = \"\xff\"", "4:10", {"utf-8"}},
+    {robot_a + "[scenario]\nseed = 99999999999999999999", "5:28", {"64 bits"}},
+    {"", "", {"robot", "missing"}},
+    // Keys and tables nobody knows.
+    {robot_a + "radus = \"1 m\"", "4:1", {"unknown key \"radus\"", "did you mean \"radius\"?"}},
+    {robot_a + "colour = \"red\"", "4:1", {"unknown key \"colour\"", "expected one of name"}},
+    {"[raido]\n" + robot_a, "1:2", {"did you mean \"radio\"?"}},
+    {robot_a + "radio = { powr = \"5 dBm\" }", "4:11", {"did you mean \"power\"?"}},
+    {robot_a + "[propagation]\nwall_facto = 3", "5:1", {"did you mean \"wall_factor\"?"}},
+    {robot_a + "move = { model = \"fixed\", speed = \"1 m/s\" }", "4:27", {"unknown key"}},
+    // Wrong types.
+    {"radio = 5\n" + robot_a, "1:9", {"[radio]", "the number 5", "a table"}},
+    {"[[radio]]\n" + robot_a, "1:1", {"[radio]", "a list", "a table"}},
+    {"[robot]\nname = \"A\"\n", "1:1", {"[[robot]]"}},
+    {"robot = [1]\n", "1:10", {"[[robot]]", "the number 1"}},
+    {robot_a + "[traffic]\nfrom = \"A\"", "4:1", {"[[traffic]]"}},
+    {robot_a + "[scenario]\nname = 5", "5:8", {"text in quotes"}},
+    {robot_a + "[scenario]\nseed = 1.5", "5:8", {"whole number"}},
+    {robot_a + "[scenario]\nseed = -1", "5:8", {">= 0"}},
+    {robot_a + "[propagation]\nexponent = \"2.5\"", "5:12", {"number without a unit"}},
+    {robot_a + "[medium]\npropagation_delay = \"no\"", "5:21", {"true or false"}},
+    {robot_a + "off = \"5 s\"", "4:7", {"list"}},
+    {robot_a + "move = \"goal\"", "4:8", {"a table"}},
+    {robot_a + "[trace]\nns2 = true", "5:7", {"\"none\", \"old\", \"new\""}},
+    // Quantities.
+    {robot_a + "[radio]\npower = 5", "5:9", {"without a unit", "did you mean \"5 dBm\"?"}},
+    {robot_a + "[radio]\npower = \"5\"", "5:9", {"without a unit"}},
+    {robot_a + "[radio]\npower = \"5 m\"", "5:9", {"the unit \"m\"", "a power"}},
+    {robot_a + "[radio]\npower = \"5 dbm\"", "5:9", {"did you mean \"dBm\"?"}},
+    {robot_a + "[radio]\npower = \"-5 mW\"", "5:9", {"did you mean \"-5 dBm\"?"}},
+    {robot_a + "[radio]\npower = \"nan dBm\"", "5:9", {"found \"nan dBm\""}},
+    {robot_a + "[radio]\npower = inf", "5:9", {"finite"}},
+    {robot_a + "[radio]\nfrequency = \"2.45 ghz\"", "5:13", {"did you mean \"GHz\"?"}},
+    {robot_a + "[radio]\nfrequency = \"0 Hz\"", "5:13", {"> 0"}},
+    {robot_a + "[radio]\nrate = \"11 Mbps\"", "5:8", {"did you mean \"Mb/s\"?"}},
+    {robot_a + "[radio]\ncable_loss = \"-1 dB\"", "5:14", {">= 0"}},
+    {robot_a + "[scenario]\nduration = \"-5 s\"", "5:12", {"> 0"}},
+    {robot_a + "[scenario]\nduration = \"1e10 s\"", "5:12", {"285 years"}},
+    {robot_a + "[scenario]\nduration = 12:00:00", "5:12", {"\"10 s\""}},
+    {robot_a + "[scenario]\nreplication = 4294967296", "5:15", {"4294967295"}},
+    {robot_a + "[scenario]\nevent_limit = 0", "5:15", {"> 0"}},
+    {robot_a + "radius = \"-1 m\"", "4:10", {">= 0"}},
+    {"[[robot]]\nname = \"A\"\nat = [2, 3]", "3:7", {"did you mean \"2 m\"?"}},
+    {"[[robot]]\nname = \"A\"\nat = [\"2 m\"]", "3:6", {"position"}},
+    {"[[robot]]\nname = \"A\"\nat = [\"1e308 km\", \"0 m\"]", "3:7", {"finite"}},
+    // Models and protocols.
+    {robot_a + "[propagation]\nmodel = \"log_distnace\"",
+     "5:9",
+     {"unknown propagation model \"log_distnace\"", "did you mean \"log_distance\"?"}},
+    {robot_a + "[propagation]\nmodel = \"disc\"", "4:1", {"\"disc\"", "\"range\"", "50 m"}},
+    {robot_a + "[propagation]\nrange = \"-3 m\"", "5:9", {">= 0"}},
+    {robot_a + "[propagation]\nmodel = \"itu_indoor\"\nenvironment = \"offce\"",
+     "6:15",
+     {"did you mean \"office\"?"}},
+    {robot_a + "[propagation]\nmodel = \"itu_indoor\"\nfloors = 1", "4:1", {"environment"}},
+    {robot_a + "[radio]\nfrequency = \"60 MHz\"\n[propagation]\nmodel = \"itu_indoor\"\n"
+               "environment = \"office\"",
+     "6:1",
+     {"60 MHz", "coefficient"}},
+    {robot_a + "[reception]\nmodel = \"colision\"", "5:9", {"expected \"threshold\""}},
+    {robot_a + "[routing]\nttl = 0", "5:7", {"from 1 to 255"}},
+    {robot_a + "[routing]\nttl = 256", "5:7", {"from 1 to 255"}},
+    {robot_a + "[routing]\nprotocol = \"fload\"", "5:12", {"did you mean \"flood\"?"}},
+    // Robots.
+    {"[[robot]]\nat = [\"2 m\", \"3 m\"]", "1:1", {"\"name\" is missing"}},
+    {"[[robot]]\nname = \"A\"", "1:1", {"\"at\" is missing"}},
+    {robot_a + "place = { area = [[\"0 m\", \"0 m\"], [\"1 m\", \"1 m\"]] }",
+     "4:9",
+     {"both \"at\" and \"place\""}},
+    {robot_a + robot_a, "4:1", {"two robots are named \"A\"", ":1:1"}},
+    {"[[robot]]\nname = \"A.1\"\nat = [\"2 m\", \"3 m\"]", "2:8", {"without dots"}},
+    {robot_a + "count = 0", "4:9", {"from 1 to"}},
+    {"[[robot]]\nname = \"A\"\nplace = {}", "3:9", {"\"area\" is missing"}},
+    {"[[robot]]\nname = \"A\"\nplace = { model = \"choice\" }", "3:9", {"\"points\""}},
+    {robot_a + "off = [\"-5 s\"]", "4:7", {"off: ", "before 0 s"}},
+    {robot_a + "on_receive = { payload = \"F\" }", "4:14", {"\"move\" is missing"}},
+    // Movement.
+    {robot_a + "move = {}", "4:8", {"\"model\" is missing"}},
+    {robot_a + "move = { model = \"gaol\" }", "4:18", {"did you mean \"goal\"?"}},
+    {robot_a + "move = { model = \"goal\" }", "4:8", {"\"to\" is missing"}},
+    {robot_a + "move = { model = \"goal\", to = [\"5 m\", \"5 m\"], among = [[\"1 m\", \"1 m\"]] }",
+     "4:55",
+     {"both \"to\" and \"among\""}},
+    {robot_a + "move = { model = \"goal\", to = [\"5 m\", \"5 m\"], speed = \"0 m/s\" }",
+     "4:55",
+     {"> 0"}},
+    {robot_a + "move = { model = \"waypoints\" }", "4:8", {"\"path\" is missing"}},
+    {robot_a + "move = { model = \"waypoints\", path = [\"5 m\", \"5 m\"] }", "4:39", {"position"}},
+    {robot_a + "move = { model = \"waypoints\", path = [[\"5 m\", \"5 m\"]], times = [] }",
+     "4:64",
+     {"found 0 for a path of 1"}},
+    {robot_a + "move = { model = \"waypoints\", path = [[\"5 m\", \"5 m\"], [\"1 m\", \"1 m\"]], "
+               "times = [\"2 s\", \"1 s\"] }",
+     "4:80",
+     {"later than the one before"}},
+    // Traffic and studies.
+    {robot_a + "[[traffic]]\nfrom = \"a\"\npayload = \"F\"", "5:8", {"no robot", "\"A\"?"}},
+    {"[[robot]]\nname = \"r\"\ncount = 3\nat = [\"0 m\", \"0 m\"]\n[[traffic]]\nfrom = \"r\"\n"
+     "payload = \"F\"",
+     "6:8",
+     {"r0 to r2"}},
+    {robot_a + "[[traffic]]\npayload = \"F\"", "4:1", {"\"from\" is missing"}},
+    {traffic(""), "4:1", {"\"payload\" is missing"}},
+    {traffic("size = 64"), "6:8", {"did you mean \"64 B\"?"}},
+    {traffic("size = \"1.5 B\""), "6:8", {"whole number of bytes"}},
+    {traffic("payload = \"F\"\nstart = \"arival\""), "7:9", {"a time"}},
+    {traffic("payload = \"F\"\nstart = \"-5 s\""), "7:9", {">= 0"}},
+    {traffic("payload = \"F\"\nevery = \"0 s\""), "7:9", {"> 0"}},
+    {traffic("payload = \"F\"\ncount = 3"), "4:1", {"\"every\" is missing"}},
+    {traffic("payload = \"F\"\nevery = \"1 s\"\ncount = 0"), "8:9", {">= 1"}},
+    {robot_a + "[study]\nreplications = 0", "5:16", {">= 1"}},
+    {robot_a + "[study]\nvary.propagation.model = [\"friis\"]", "5:6", {"vary.\"propagation.m"}},
+    {robot_a + "[study]\nvary.\"propagation.model\" = []", "5:28", {"an empty list"}},
+    // Maps, and what only shows on them.
+    {with_map("none.yaml"), "2:7", {"none.yaml", "no such file"}},
+    {on_map + "[scene.x]", "7:8", {"unknown key \"x\" in [scene]"}},
+    {with_map("folder.png"), "2:7", {"folder.png", "directory"}},
+    {with_map("walls.png"), "2:7", {"size = "}},
+    {"[scene]\nmap = \"cut.png\"\nsize = [\"8 m\", \"8 m\"]\n" + robot_a, "2:7", {"cut.png"}},
+    {"[scene]\nmap = \"text.png\"\nsize = [\"8 m\", \"8 m\"]\n" + robot_a, "2:7", {"text.png"}},
+    {"[scene]\nmap = \"huge.png\"\nsize = [\"8 m\", \"8 m\"]\n" + robot_a, "2:7", {"huge.png"}},
+    {"[scene]\nmap = \"walls.png\"\nsize = [\"8 m\"]\n" + robot_a, "3:8", {"width and a height"}},
+    {"[scene]\nmap = \"walls.png\"\nsize = [\"0 m\", \"8 m\"]\n" + robot_a, "3:8", {"> 0"}},
+    {with_map("no_image.yaml"), "2:7", {"no_image.yaml", "image"}},
+    {with_map("no_file.yaml"), "2:7", {"none.png", "no such file"}},
+    {with_map("zero.yaml"), "2:7", {"zero.yaml:2:", "resolution"}},
+    {with_map("syntax.yaml"), "2:7", {"syntax.yaml:"}},
+    {with_map("list.yaml"), "2:7", {"list.yaml"}},
+    {with_map("empty.yaml"), "2:7", {"empty.yaml"}},
+    {"[scene]\nmap = \"walls.png\"\nsize = [\"8 m\", \"8 m\"]\n[[robot]]\nname = \"A\"\n"
+     "at = [\"4.5 m\", \"2 m\"]",
+     "6:6",
+     {"\"A\"", "inside a wall"}},
+    {on_map + "move = { model = \"goal\", to = [\"6 m\", \"2 m\"] }", "7:8", {"no way from"}},
+    {on_map + "move = { model = \"goal\", to = [\"50 m\", \"2 m\"] }", "7:8", {"off the map"}},
+    {on_map + "move = { model = \"goal\", to = [\"4.5 m\", \"2 m\"] }", "7:8", {"in a wall"}},
+};
+
+void build(const Scenario& scenario) {
+    Network network(network_settings(scenario));
+    populate(network, scenario);
+}
+
+struct Ended {
+    int exit;
+    std::string out, err;
+};
+
+std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Runs the command in `folder`.
+Ended command(const TemporaryFolder& folder, const std::string& arguments) {
+    const std::string line = "cd '" + folder.path("") + "' && '" + ROVERNET_COMMAND + "' " +
+                             arguments + " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder.path("out.txt")),
+            content(folder.path("err.txt"))};
+}
+
+}  // namespace
+
+TEST_CASE("bad input: every mistake has its line and column, and words that help") {
+    const TemporaryFolder folder;
+    write_maps(folder);
+    for (const auto& mistake : mistakes) {
+        CAPTURE(mistake.text);
+        const std::string file = folder.write("s.toml", mistake.text);
+        const std::string place = mistake.place.empty() ? file : file + ":" + mistake.place;
+        std::string message = "no error";
+        try {
+            build(load_scenario(file, {}));
+        } catch (const InputError& error) {
+            message = error.what();
+            CHECK(error.where().text() == place);
+        }
+        CAPTURE(message);
+        CHECK(message.starts_with(place + ": "));
+        for (const auto& word : mistake.words) {
+            CAPTURE(word);
+            CHECK(message.find(word) != std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("bad input: the command says so on stderr only, exits with 3 and makes no folder") {
+    const TemporaryFolder folder;
+    write_maps(folder);
+    for (const auto& mistake : mistakes) {
+        CAPTURE(mistake.text);
+        folder.write("s.toml", mistake.text);
+        const Ended ended = command(folder, "run s.toml --json --out results");
+        CHECK(ended.exit == 3);
+        CHECK(ended.out.empty());
+        const std::string place = mistake.place.empty() ? "" : ":" + mistake.place;
+        CHECK(ended.err.starts_with("s.toml" + place + ": "));
+        CHECK(std::count(ended.err.begin(), ended.err.end(), '\n') == 1);
+        CHECK_FALSE(std::filesystem::exists(folder.path("results")));
+    }
+}
+
+TEST_CASE("bad input: a scenario file that is missing, a directory or empty exits with 3") {
+    const TemporaryFolder folder;
+    folder.write("empty.toml", "");
+    for (const char* file : {"none.toml", ".", "empty.toml"}) {
+        const Ended ended = command(folder, std::string("run ") + file);
+        CAPTURE(ended.err);
+        CHECK(ended.exit == 3);
+        CHECK(ended.out.empty());
+        CHECK(ended.err.starts_with(std::string(file) + ": "));
+    }
+}
+
+TEST_CASE("bad input: mistakes in options exit with 2 and quote the option") {
+    const TemporaryFolder folder;
+    folder.write("s.toml", robot_a);
+    for (const char* option :
+         {"radio.powr=5", "radio.power='5 m'", "radio.power=0", "radio.power=nan", "radio",
+          "propagation.model=frii", "routing.ttl=0", "robot.B.radius=1", "traffic.0.start=1",
+          "scenario.duration=-1", "radio.=1", "robot.A.at=[nan,0]", "scene.map=none.yaml"}) {
+        const Ended ended = command(folder, std::string("run s.toml --set ") + option);
+        CAPTURE(ended.err);
+        CHECK(ended.exit == 2);
+        CHECK(ended.out.empty());
+        std::string unquoted = option;
+        std::erase(unquoted, '\'');
+        CHECK(ended.err.starts_with("rovernet: --set " + unquoted + ": "));
+    }
+}
+
+TEST_CASE("bad input: unknown commands and options exit with 2") {
+    const TemporaryFolder folder;
+    folder.write("s.toml", robot_a);
+    for (const char* arguments :
+         {"", "walk", "run", "run s.toml --sped 2", "run s.toml --speed 0", "run s.toml --seed -1",
+          "run s.toml --seed x", "loss frii --distance 1", "loss friis", "loss friis --distance x",
+          "loss friis --distance -1", "loss friis a=1 --distance 1", "link s.toml A",
+          "link s.toml A Z", "link s.toml A A", "trace", "version x"}) {
+        const Ended ended = command(folder, arguments);
+        CAPTURE(arguments);
+        CAPTURE(ended.err);
+        CHECK(ended.exit == 2);
+        CHECK(ended.out.empty());
+        CHECK_FALSE(ended.err.empty());
+    }
+}
+
+TEST_CASE("bad input: whatever a hand slips to, a scenario reads or says what is wrong") {
+    const std::string valid =
+        "[scenario]\nname = \"all\"\nduration = \"12 s\"\n[radio]\npower = \"21 dBm\"\n"
+        "[propagation]\nmodel = \"itu_indoor\"\ncoefficient = 28.0\nsigma = \"6 dB\"\n" +
+        robot_a +
+        "move = { model = \"waypoints\", path = [[\"5 m\", \"3 m\"]], times = [\"1 s\"] }\n"
+        "off = [\"1 s\"]\n[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nevery = \"3 s\"\n"
+        "[study]\nvary.\"propagation.model\" = [\"disc\"]\n";
+    const std::string pieces[] = {"\"",  "[", "]", "{",  "}", "=",    "\n",  ".", "-", "1e999",
+                                  "nan", "0", "#", "\\", ",", "\xff", "[[a", " ", "m", "true"};
+    std::mt19937 random(1);  // the engine's numbers are the standard's, the same everywhere
+    int failed = 0;
+    for (int i = 0; i < 2000; ++i) {
+        std::string text = valid;
+        for (std::uint32_t edit = 0; edit <= random() % 3; ++edit) {
+            const std::size_t at = random() % text.size(), length = random() % 12;
+            switch (random() % 3) {
+                case 0: text.erase(at, length); break;
+                case 1: text.insert(at, pieces[random() % std::size(pieces)]); break;
+                default: text.insert(at, text.substr(random() % text.size(), length)); break;
+            }
+        }
+        CAPTURE(text);
+        try {
+            to_toml(to_document(read_scenario(parse_toml(text, "s.toml"), "s.toml")));
+        } catch (const InputError& error) {
+            ++failed;
+            CHECK_FALSE(error.message().empty());
+        }
+    }
+    CHECK(failed > 1000);
+    CHECK(failed < 2000);
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/build.hpp"
+
+#include "experiment/toml.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+#include <utility>
+
+using namespace rovernet;
+
+namespace {
+
+struct Built {
+    explicit Built(const std::string& text)
+        : scenario(read_scenario(parse_toml(text, "s.toml"), "s.toml")),
+          network(network_settings(scenario)) {
+        populate(network, scenario);
+    }
+    Vec3 at(const std::string& name) { return network.position(*network.find(name)); }
+
+    Scenario scenario;
+    Network network;
+};
+
+const std::string three =
+    "[[robot]]\nname = \"r\"\ncount = 3\n"
+    "place = { area = [[\"10 m\", \"20 m\"], [\"30 m\", \"25 m\"]] }\n";
+
+}  // namespace
+
+TEST_CASE("build: count makes robots name0, name1, ... at places of their own in the area") {
+    Built built(three);
+    CHECK_FALSE(built.network.find("r"));
+    CHECK_FALSE(built.network.find("r3"));
+    std::set<std::pair<double, double>> places;
+    for (const char* name : {"r0", "r1", "r2"}) {
+        const Vec3 p = built.at(name);
+        CHECK((p.x >= 10 && p.x < 30 && p.y >= 20 && p.y < 25));
+        places.insert({p.x, p.y});
+    }
+    CHECK(places.size() == 3);
+}
+
+TEST_CASE("build: a robot more leaves the drawn places of the others as they were") {
+    Built built(three), more("[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n" + three);
+    for (const char* name : {"r0", "r1", "r2"}) CHECK(built.at(name) == more.at(name));
+}
+
+TEST_CASE("build: another replication draws other places") {
+    Built built(three), other("[scenario]\nreplication = 1\n" + three);
+    CHECK(built.at("r0") != other.at("r0"));
+}
+
+TEST_CASE("build: a choice is one of its points") {
+    Built built(
+        "[[robot]]\nname = \"A\"\nplace = { model = \"choice\", points = [[\"1 m\", "
+        "\"2 m\"], [\"3 m\", \"4 m\"]] }\n");
+    CHECK((built.at("A") == Vec3{1, 2, 0} || built.at("A") == Vec3{3, 4, 0}));
+}

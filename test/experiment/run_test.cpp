@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/run.hpp"
+
+#include "experiment/json.hpp"
+#include "experiment/toml.hpp"
+#include "sim/error.hpp"
+#include "test/scene/temporary_folder.hpp"
+#include "traces/ns2_reader.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+using namespace rovernet;
+using rovernet::test::TemporaryFolder;
+
+namespace {
+
+Scenario three_robots(const std::string& format) {
+    const std::string text = R"(
+[scenario]
+duration = "20 s"
+[propagation]
+model = "disc"
+range = "10 m"
+[[robot]]
+name = "A"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "B"
+at = ["8 m", "0 m"]
+move = { model = "waypoints", path = [["8 m", "5 m"]], speed = "0.5 m/s" }
+off = ["9 s"]
+on = ["14 s"]
+[[robot]]
+name = "C"
+at = ["16 m", "0 m"]
+[[traffic]]
+from = "A"
+payload = "F"
+every = "1 s"
+[trace]
+ns2 = ")" + format + "\"\n";
+    return read_scenario(parse_toml(text, "s.toml"), "s.toml");
+}
+
+std::string json_of(const MetricValues& metrics) {
+    Table table;
+    append_metrics(table, metrics);
+    return to_json(table);
+}
+
+}  // namespace
+
+TEST_CASE("run: the metrics of the trace are those of the run to the last digit") {
+    for (const char* format : {"old", "new"}) {
+        const TemporaryFolder folder;
+        const RunResult result =
+            run_scenario(three_robots(format), {.folder = folder.path("out"), .speed = {}});
+        REQUIRE(result.trace);
+        CHECK(result.metrics.deliveries > 0);
+        CHECK(result.metrics.deliveries < 2 * result.metrics.messages);
+        CHECK(json_of(trace_metrics(*result.trace)) == json_of(result.metrics));
+    }
+}
+
+TEST_CASE("run: the same scenario has the same fingerprint, with and without a trace") {
+    const TemporaryFolder folder;
+    const RunOptions options{.folder = folder.path("out"), .speed = {}};
+    const std::string once = run_scenario(three_robots("none"), options).fingerprint;
+    CHECK(run_scenario(three_robots("new"), options).fingerprint == once);
+    Scenario other = three_robots("none");
+    other.scenario.seed = 2;
+    CHECK(run_scenario(other, options).fingerprint != once);
+}
+
+TEST_CASE("run: one that is stopped leaves none of its files") {
+    const TemporaryFolder folder;
+    const RunOptions options{
+        .folder = folder.path("out"), .speed = {}, .progress = [](double) { return false; }};
+    CHECK_THROWS_AS(run_scenario(three_robots("new"), options), Interrupted);
+    CHECK(std::filesystem::is_empty(folder.path("out")));
+}
+
+TEST_CASE("run: one that needs more events than allowed fails and leaves none of its files") {
+    const TemporaryFolder folder;
+    Scenario scenario = three_robots("new");
+    scenario.scenario.event_limit = 5;
+    CHECK_THROWS_AS(run_scenario(scenario, {.folder = folder.path("out"), .speed = {}}), RunError);
+    CHECK(std::filesystem::is_empty(folder.path("out")));
+}
+
+TEST_CASE("link report: free space over 10 m, and the margin is power less loss less sensitivity") {
+    Scenario scenario = three_robots("none");
+    scenario.propagation.model = 1;
+    const auto report = report_link(scenario, "A", "C", start_of_run);
+    constexpr double half_digit = 0.005;  // of 64.31 dB, free space at 16 m and 2450 MHz
+    CHECK(report.distance_m == 16);
+    CHECK(std::abs(report.path_loss.value - 64.31) < half_digit);
+    CHECK(std::abs(report.margin.value - (report.received - scenario.radio.sensitivity).value) <
+          1e-12);
+    CHECK(report.up);
+}

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+#include "routing/flood.hpp"
+
+#include "experiment/network.hpp"
+#include "models/disc.hpp"
+#include "test/scene/drawn_map.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Long after the last copy of any flood here has ended.
+constexpr Time end_of_flood = start_of_run + 60s;
+
+/// Keeps the books of a run: every copy has to be somewhere.
+struct Ledger {
+    std::uint64_t transmissions = 0, originals = 0, forwards = 0;
+    std::uint64_t heard = 0, dropped = 0, delivered = 0, revived = 0;
+    std::array<std::uint64_t, 4> fates{};  // by Fate
+    std::map<NodeId, std::uint64_t> forwards_of{};
+    std::map<std::pair<std::uint64_t, NodeId>, int> deliveries{};  // by message and robot
+    bool hops_and_ttl_add_up = true;
+    int ttl = 0;
+
+    KindMask kinds() const { return kind_all; }
+    void on(const Record& record, const RecordContext& context) {
+        if (const auto* sent = std::get_if<Sent>(&record)) ttl = sent->ttl;
+        if (const auto* tx = std::get_if<Transmitted>(&record)) {
+            ++transmissions;
+            ++(tx->heard_from ? forwards : originals);
+            if (tx->heard_from) ++forwards_of[tx->frame.sender];
+            hops_and_ttl_add_up &= tx->frame.hops + tx->frame.ttl == ttl + 1 && tx->frame.ttl > 0;
+        }
+        if (std::holds_alternative<Dropped>(record)) ++dropped;
+        if (const auto* rx = std::get_if<Received>(&record)) {
+            const auto uid = context.messages[rx->frame.message].uid;
+            for (const auto& r : rx->receptions) {
+                ++heard;
+                ++fates[static_cast<std::size_t>(r.fate)];
+                if (r.delivered) ++delivered, ++deliveries[{uid, r.node}];
+                revived += r.fate == Fate::waiting && !r.delivered;
+            }
+        }
+    }
+    std::uint64_t of(Fate fate) const { return fates[static_cast<std::size_t>(fate)]; }
+    std::uint64_t decoded() const { return heard - of(Fate::off); }
+
+    void balances(const Flood& flood) const {
+        CHECK(hops_and_ttl_add_up);
+        CHECK(transmissions == originals + forwards);
+        CHECK(decoded() == of(Fate::waiting) + of(Fate::ttl) + of(Fate::duplicate));
+        CHECK(forwards + dropped == of(Fate::waiting));
+        for (const auto& [who, times] : deliveries) CHECK(times == 1);
+        CHECK(deliveries.size() == delivered);
+        if (flood.duplicates == Duplicates::forward) {
+            CHECK(of(Fate::duplicate) == 0);
+        } else {
+            // Whatever is kept or ends at its TTL is a first copy, or one that upgrade revives.
+            CHECK(delivered + revived == of(Fate::waiting) + of(Fate::ttl));
+            if (!flood.upgrade) CHECK(revived == 0);
+        }
+    }
+};
+
+struct Graph {
+    std::string name;
+    std::vector<Vec3> at;  // neighbours are 1 m apart
+    std::uint32_t source = 0;
+};
+
+Graph complete(int n) {
+    Graph graph{fmt::format("K{}", n), {}};
+    for (int i = 0; i < n; ++i) graph.at.push_back({0.01 * i, 0, 0});
+    return graph;
+}
+
+Graph grid(int columns, int rows, std::uint32_t source) {
+    Graph graph{fmt::format("grid from {}", source), {}, source};
+    for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < columns; ++i) graph.at.push_back({1.0 * i, 1.0 * j, 0});
+    }
+    return graph;
+}
+
+/// Floods one message over the graph; the books have to balance.
+Ledger flooded(const Graph& graph, const Flood& flood, std::uint64_t seed = 1,
+               Meters range = 1.1_m) {
+    Network net({.seed = seed, .propagation = Disc{.range = range}, .metrics = false});
+    for (const Vec3 p : graph.at) net.add({.name = {}, .at = p});
+    net.route(flood);
+    const auto ledger = std::make_shared<Ledger>();
+    net.add_sink(ledger);
+    net.broadcast({graph.source}, "F", 64);
+    net.run_until(end_of_flood);
+    ledger->balances(flood);
+    CHECK(ledger->originals == 1);
+    CHECK(ledger->deliveries.count({0, {graph.source}}) == 0);
+    return *ledger;
+}
+
+struct Counts {
+    std::uint64_t tx, rx;
+};
+
+/// Exact counts: transmissions and receptions by TTL, without and with suppression.
+struct Exact {
+    Graph graph;
+    std::vector<std::pair<int, Counts>> by_ttl;  // the numbers of walks in the graph
+    Counts suppressed;                           // at a TTL that is large enough
+};
+
+std::vector<Exact> exact_counts() {
+    return {
+        {complete(2),
+         {{1, {1, 1}},
+          {2, {2, 2}},
+          {3, {3, 3}},
+          {4, {4, 4}},
+          {5, {5, 5}},
+          {7, {7, 7}},
+          {10, {10, 10}}},
+         {2, 2}},
+        {complete(3),
+         {{1, {1, 2}},
+          {2, {3, 6}},
+          {3, {7, 14}},
+          {4, {15, 30}},
+          {5, {31, 62}},
+          {7, {127, 254}},
+          {10, {1023, 2046}}},
+         {3, 6}},
+        {complete(5),
+         {{1, {1, 4}},
+          {2, {5, 20}},
+          {3, {21, 84}},
+          {4, {85, 340}},
+          {5, {341, 1364}},
+          {7, {5461, 21844}},
+          {10, {349525, 1398100}}},
+         {5, 20}},
+        {complete(10),
+         {{1, {1, 9}}, {2, {10, 90}}, {3, {91, 819}}, {4, {820, 7380}}, {5, {7381, 66429}}},
+         {10, 90}},
+        {grid(5, 1, 0),
+         {{1, {1, 1}},
+          {2, {2, 3}},
+          {3, {4, 6}},
+          {4, {7, 12}},
+          {5, {13, 21}},
+          {7, {40, 66}},
+          {10, {202, 363}}},
+         {5, 8}},
+        {grid(5, 1, 2),
+         {{1, {1, 2}},
+          {2, {3, 6}},
+          {3, {7, 12}},
+          {4, {13, 24}},
+          {5, {25, 42}},
+          {7, {79, 132}},
+          {10, {403, 726}}},
+         {5, 8}},
+        {grid(5, 5, 12),
+         {{1, {1, 4}},
+          {2, {5, 20}},
+          {3, {21, 80}},
+          {4, {81, 296}},
+          {5, {297, 1052}},
+          {7, {3717, 12896}},
+          {10, {155565, 542420}}},
+         {25, 80}},
+        {grid(5, 5, 0),
+         {{1, {1, 2}},
+          {2, {3, 8}},
+          {3, {9, 26}},
+          {4, {27, 86}},
+          {5, {87, 284}},
+          {7, {969, 3290}},
+          {10, {39093, 135968}}},
+         {25, 80}},
+    };
+}
+
+/// Robots at random, and how many hops each is from the first.
+struct RandomNetwork {
+    Graph graph;
+    std::vector<int> hops;
+    static constexpr double range = 25;  // [m]
+
+    explicit RandomNetwork(std::uint32_t seed) {
+        test::Draw draw(seed);
+        for (int i = 0; i < 60; ++i) {
+            graph.at.push_back({draw.uniform(0, 100), draw.uniform(0, 100), 0});
+        }
+        hops.assign(graph.at.size(), 1000);
+        hops[0] = 0;
+        std::vector<std::size_t> queue{0};
+        for (std::size_t next = 0; next < queue.size(); ++next) {
+            for (std::size_t i = 0; i < hops.size(); ++i) {
+                if (hops[i] < 1000 || distance(graph.at[i], graph.at[queue[next]]) > range)
+                    continue;
+                hops[i] = hops[queue[next]] + 1;
+                queue.push_back(i);
+            }
+        }
+    }
+    std::uint64_t within(int ttl) const {
+        std::uint64_t n = 0;
+        for (const int h : hops) n += h > 0 && h <= ttl;
+        return n;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("flood: forwarding every copy, each graph sends and hears as many as it has walks") {
+    for (const auto& [graph, by_ttl, suppressed] : exact_counts()) {
+        for (const auto& [ttl, exact] : by_ttl) {
+            CAPTURE(graph.name);
+            CAPTURE(ttl);
+            const Ledger run = flooded(graph, {.ttl = ttl, .duplicates = Duplicates::forward});
+            CHECK(run.transmissions == exact.tx);
+            CHECK(run.heard == exact.rx);
+        }
+    }
+}
+
+TEST_CASE("flood: suppressing duplicates, everyone sends once and hears each neighbour once") {
+    for (const auto& [graph, by_ttl, exact] : exact_counts()) {
+        for (const bool upgrade : {false, true}) {
+            CAPTURE(graph.name);
+            const Ledger run = flooded(graph, {.ttl = 25, .upgrade = upgrade});
+            CHECK(run.transmissions == exact.tx);
+            CHECK(run.heard == exact.rx);
+            CHECK(run.delivered == graph.at.size() - 1);
+        }
+    }
+}
+
+TEST_CASE("flood: with TTL 1 the neighbours hear the source, and that is all") {
+    for (const auto duplicates : {Duplicates::suppress, Duplicates::forward}) {
+        const Ledger run = flooded(grid(5, 5, 12), {.ttl = 1, .duplicates = duplicates});
+        CHECK(run.transmissions == 1);
+        CHECK(run.delivered == 4);
+        CHECK(run.of(Fate::ttl) == 4);
+    }
+}
+
+TEST_CASE("flood: along a line a message goes exactly as far as its TTL") {
+    for (int ttl = 1; ttl <= 8; ++ttl) {
+        const Ledger run = flooded(grid(20, 1, 0), {.ttl = ttl});
+        CHECK(run.delivered == static_cast<std::uint64_t>(ttl));
+        CHECK(run.transmissions == static_cast<std::uint64_t>(ttl));
+    }
+}
+
+TEST_CASE("flood: forwarding every copy, the source forwards echoes and is handed none") {
+    const Ledger run = flooded(complete(2), {.ttl = 5, .duplicates = Duplicates::forward});
+    CHECK(run.forwards_of.at({0}) == 2);
+    CHECK(run.forwards_of.at({1}) == 2);
+    CHECK(run.delivered == 1);
+}
+
+TEST_CASE("flood: suppressing duplicates, the source never forwards") {
+    CHECK(flooded(complete(5), {.ttl = 5}).forwards_of.count({0}) == 0);
+}
+
+TEST_CASE("flood: a TTL outside of 1 to 255 and a negative jitter are refused") {
+    for (const int ttl : {0, 256, -1}) {
+        CHECK_THROWS_AS(FloodRouter(Flood{.ttl = ttl}), std::invalid_argument);
+    }
+    CHECK_NOTHROW(FloodRouter(Flood{.ttl = 255}));
+    CHECK_THROWS_AS(FloodRouter(Flood{.jitter = Duration{-1}}), std::invalid_argument);
+}
+
+TEST_CASE("flood: TTL 255 crosses 255 hops") {
+    const Ledger run = flooded(grid(300, 1, 0), {.ttl = 255});
+    CHECK(run.delivered == 255);
+}
+
+TEST_CASE("flood: upgrade reaches more robots than first copies only, both within the TTL") {
+    std::uint64_t upgraded = 0, first_only = 0, possible = 0;
+    for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+        const RandomNetwork random(seed);
+        const int ttl = 4;
+        const auto reach = [&](bool upgrade) {
+            const Ledger run = flooded(random.graph, {.ttl = ttl, .upgrade = upgrade}, seed,
+                                       {RandomNetwork::range});
+            for (const auto& [who, times] : run.deliveries) {
+                CHECK(random.hops[who.second.index()] <= ttl);
+            }
+            return run.delivered;
+        };
+        upgraded += reach(true);
+        first_only += reach(false);
+        possible += random.within(ttl);
+    }
+    CHECK(upgraded > first_only);
+    CHECK(upgraded <= possible);
+}
+
+TEST_CASE("flood: forwarding every copy reaches all robots within the TTL") {
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+        const RandomNetwork random(seed);
+        const Ledger run = flooded(random.graph, {.ttl = 3, .duplicates = Duplicates::forward},
+                                   seed, {RandomNetwork::range});
+        CHECK(run.delivered == random.within(3));
+    }
+}
+
+TEST_CASE("flood: without jitter copies are forwarded 1 us after they were received") {
+    const Ledger run = flooded(grid(5, 5, 12), {.ttl = 25, .jitter = Duration{0}});
+    CHECK(run.transmissions == 25);
+    CHECK(run.heard == 80);
+
+    Network net({.propagation = Disc{.range = 1.1_m}, .propagation_delay = false});
+    for (int i = 0; i < 3; ++i) net.add({.name = {}, .at = {1.0 * i, 0, 0}});
+    net.route(Flood{.jitter = Duration{0}});
+    std::vector<Time> heard;
+    net.on_receive({2}, [&](const Message&) { heard.push_back(net.now()); });
+    net.broadcast({0}, "F", 64);
+    net.run_until(end_of_flood);
+    REQUIRE(heard.size() == 1);
+    CHECK(heard[0] == start_of_run + 2 * (238'545ns + 1us));
+}
+
+TEST_CASE("flood: many messages of many robots, each is handed to every other robot once") {
+    Network net({.propagation = Disc{.range = 1.1_m}});
+    for (const Vec3 p : grid(4, 4, 0).at) net.add({.name = {}, .at = p});
+    const Flood flood{.ttl = 20};
+    net.route(flood);
+    const auto ledger = std::make_shared<Ledger>();
+    net.add_sink(ledger);
+    for (std::uint32_t i = 0; i < 16; ++i) {
+        net.at(start_of_run + i * 2ms, [&net, i] {
+            for (int k = 0; k < 3; ++k) net.broadcast({i}, "hello");
+        });
+    }
+    net.run_until(end_of_flood);
+    ledger->balances(flood);
+    CHECK(ledger->delivered == 16 * 3 * 15);
+    CHECK(ledger->transmissions == 16 * 3 * 16);
+}
+
+TEST_CASE("flood: the books balance when robots go off and on in the middle of floods") {
+    for (const auto duplicates : {Duplicates::suppress, Duplicates::forward}) {
+        const Flood flood{.ttl = 4, .duplicates = duplicates};
+        Network net({.propagation = Disc{.range = 1.1_m}});
+        for (const Vec3 p : grid(5, 5, 0).at) net.add({.name = {}, .at = p});
+        net.route(flood);
+        const auto ledger = std::make_shared<Ledger>();
+        net.add_sink(ledger);
+        test::Draw draw(9);
+        net.every(5ms, [&] { net.broadcast({static_cast<std::uint32_t>(draw.below(25))}, "F"); });
+        for (int i = 0; i < 2000; ++i) {
+            const NodeId node{static_cast<std::uint32_t>(draw.below(25))};
+            const Time t = start_of_run + i * 1ms + draw.below(1000) * 1us;
+            net.at(t, [&net, node] { net.switch_off(node); });
+            net.at(t + draw.below(20'000) * 1us, [&net, node] { net.switch_on(node); });
+        }
+        net.run_until(start_of_run + 2s);
+        // Some copies still wait: end the traffic by switching all radios off, drop by drop.
+        for (std::uint32_t i = 0; i < 25; ++i) net.switch_off({i});
+        net.run_until(start_of_run + 4s);
+        ledger->balances(flood);
+        CHECK(ledger->of(Fate::off) > 0);
+        CHECK(ledger->dropped > 0);
+        CHECK(ledger->delivered > 1000);
+    }
+}
