@@ -76,7 +76,7 @@ class Network {
     void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {});
     /// Calls `react` whenever `node` is handed a message, 1 us after it was received.
     void on_receive(NodeId node, std::function<void(const Message&)> react);
-    /// Calls `react` whenever `node` comes to rest at the end of a movement.
+    /// Calls `react` whenever `node` comes to rest at the end of a movement, 1 us later.
     void on_arrival(NodeId node, std::function<void()> react);
     /// Replaces the node's movement, now.
     void move(NodeId node, Movement movement);

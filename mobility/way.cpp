@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/way.hpp"
 
+#include "sim/fields.hpp"
+
 namespace rovernet {
 
 std::optional<Way> Way::plan(Mover& mover, Vec3 to) {
+    for (const double x : {to.x, to.y, to.z}) {
+        if (!any.contains(x)) throw_out_of_range("waypoints", "a place", any.text, x);
+    }
     auto corners = mover.planners.of_radius(mover.radius).shortest_path(mover.position, to);
     if (!corners) return std::nullopt;
     Way way;

@@ -14,6 +14,7 @@ class Way {
   public:
     Way() = default;
     /// Plans from where the mover is; nothing if there is no way.
+    /// @throws std::invalid_argument unless `to` is finite
     static std::optional<Way> plan(Mover& mover, Vec3 to);
 
     /// The leg to the next corner, at `speed` > 0; nothing at the end of the way.

@@ -27,7 +27,7 @@ struct Waypoints {
     std::vector<Vec3> path = {};  ///< [m]
     MetersPerSecond speed{1};     ///< [m/s], > 0; for `path`
 
-    /// @throws std::invalid_argument unless speed > 0
+    /// @throws std::invalid_argument unless speed > 0 and the places are finite
     Step next_leg(Mover& mover);
 
     /// Where the robot is in its lists; left to the model.

@@ -29,9 +29,10 @@ struct EnumNames<Environment> {
 struct ItuIndoor {
     static constexpr std::string_view name = "itu_indoor";
 
-    std::optional<double> coefficient;       ///< N [-], > 0; 30 if neither is given
-    std::optional<Environment> environment;  ///< picks N (unless given) and the floor loss
-    std::optional<int> floors;               ///< n [-]; from the antennas' heights if not given
+    std::optional<double> coefficient = std::nullopt;  ///< N [-], > 0; 30 if neither is given
+    std::optional<Environment> environment =
+        std::nullopt;                          ///< picks N (unless given) and the floor loss
+    std::optional<int> floors = std::nullopt;  ///< n [-]; from the antennas' heights if not given
 
     static constexpr auto fields() {
         return describe(
@@ -43,7 +44,7 @@ struct ItuIndoor {
                   "floors between the antennas; counted from their heights if not given"));
     }
 
-    bool monotone() const { return true; }
+    bool monotone() const { return true; }  ///< between antennas of equal height
 
     /// @throws std::invalid_argument if no row of the table is near enough, or has so many floors
     void check_frequency(Hertz f) const;

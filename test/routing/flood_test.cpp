@@ -338,6 +338,34 @@ TEST_CASE("flood: without jitter copies are forwarded 1 us after they were recei
     CHECK(heard[0] == start_of_run + 2 * (238'545ns + 1us));
 }
 
+TEST_CASE("flood: under forward, copies of one message wait each for a time of its own") {
+    // The source hears its message back from both neighbours, who send at different times; were
+    // the delays equal, so would be the gaps.
+    Network net({.propagation = Disc{.range = 1.1_m}, .propagation_delay = false});
+    for (const double x : {0.0, -1.0, 1.0}) net.add({.name = {}, .at = {x, 0, 0}});
+    net.route(Flood{.ttl = 3, .duplicates = Duplicates::forward});
+    struct Echoes {
+        std::vector<Time> heard{}, sent{};
+        KindMask kinds() const { return kind_of<Received>() | kind_of<Transmitted>(); }
+        void on(const Record& record, const RecordContext&) {
+            if (const auto* tx = std::get_if<Transmitted>(&record)) {
+                if (tx->frame.sender == NodeId{0} && tx->heard_from) sent.push_back(tx->time);
+            } else if (const auto& rx = std::get<Received>(record); rx.frame.ttl == 2) {
+                heard.push_back(rx.receptions[0].time);
+            }
+        }
+    };
+    const auto echoes = std::make_shared<Echoes>();
+    net.add_sink(echoes);
+    net.broadcast({0}, "F", 64);
+    net.run_until(end_of_flood);
+    REQUIRE(echoes->heard.size() == 2);
+    REQUIRE(echoes->sent.size() == 2);
+    const Duration gap_heard = echoes->heard[1] - echoes->heard[0];
+    CHECK(echoes->sent[1] - echoes->sent[0] != gap_heard);
+    CHECK(echoes->sent[1] - echoes->sent[0] != -gap_heard);
+}
+
 TEST_CASE("flood: many messages of many robots, each is handed to every other robot once") {
     Network net({.propagation = Disc{.range = 1.1_m}});
     for (const Vec3 p : grid(4, 4, 0).at) net.add({.name = {}, .at = p});

@@ -184,8 +184,7 @@ TEST_CASE("reader: every field of a record is rebuilt") {
 
 TEST_CASE("reader: an annotation counts for the message that it names") {
     const auto annotated = [](const std::string& uid) {
-        return records_of("v 1 eval {set sim_annotation {reachable " + uid + " 1}}\n" +
-                          old_lines)
+        return records_of("v 1 eval {set sim_annotation {reachable " + uid + " 1}}\n" + old_lines)
             .sent[0]
             .reachable;
     };
@@ -287,8 +286,7 @@ TEST_CASE("reader: a broken line names its place, what was found and what was ex
           "run.tr:8:36: found \"4.00)\", expected a coordinate [m] as in (x, y, z), (x, y), speed");
     CHECK(broken("M 0.0 1 (nan, 0.00, 1.00), (3.00, 4.00), 2.00") ==
           "run.tr:8:10: found \"nan\", expected a coordinate [m] as in (x, y, z), (x, y), speed");
-    CHECK(
-        broken("v 1 eval {set sim_annotation {reachable 0 x}}").starts_with("run.tr:8:43: "));
+    CHECK(broken("v 1 eval {set sim_annotation {reachable 0 x}}").starts_with("run.tr:8:43: "));
     CHECK(broken(new_start) == "run.tr:8:118: the line ends, expected \"-Is\"");
     CHECK(broken("s -t 1.0 -Hs 0 -Nd -2")
               .starts_with("run.tr:8:16: found \"-Nd\", expected \"-Hd\""));
