@@ -12,13 +12,16 @@ namespace rovernet {
 
 namespace {
 
-const Scene open_field;
+const Scene& open_field() {
+    static const Scene scene;
+    return scene;
+}
 
 }  // namespace
 
 Engine::Engine(NetworkSettings settings)
     : settings_(std::move(settings)),
-      scene_(settings_.scene ? settings_.scene.get() : &open_field),
+      scene_(settings_.scene ? settings_.scene.get() : &open_field()),
       planners_(*scene_),
       medium_({.scene = scene_,
                .floor_height = settings_.floor_height,

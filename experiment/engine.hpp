@@ -68,9 +68,7 @@ class Engine final : public LinkLayer {
     void drop(NodeId node, const Frame& frame, DropReason reason) override {
         emit(Dropped{now_, node, frame, reason});
     }
-    void timer(NodeId node, Time at, std::uint64_t tag) override {
-        queue_.schedule(at, Priority::timer, {Occurrence::Kind::router_timer, node, tag});
-    }
+    void timer(NodeId node, Time at, std::uint64_t tag) override;
     void hold(MessageId id) override { messages_.hold(id); }
     void release(MessageId id) override {
         if (messages_.release(id)) router_->forget(id);

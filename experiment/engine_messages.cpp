@@ -30,6 +30,11 @@ void Engine::send(NodeId id, std::string payload, std::uint32_t bytes) {
     release(message);
 }
 
+void Engine::timer(NodeId id, Time at, std::uint64_t tag) {
+    if (at < now_) throw std::invalid_argument("a router set a timer in the past");
+    queue_.schedule(at, Priority::timer, {Occurrence::Kind::router_timer, id, tag});
+}
+
 void Engine::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {
     if (receiving_) {
         throw std::invalid_argument("a router may not send while it receives: set a timer");

@@ -9,12 +9,14 @@ namespace {
 
 NodeId robot_named(const Network& network, const std::string& name) {
     if (const auto node = network.find(name)) return *node;
+    constexpr std::uint32_t most_listed = 20;
     std::vector<std::string> names;
-    for (std::uint32_t i = 0; i < network.size() && i < 1000; ++i) {
+    for (std::uint32_t i = 0; i < network.size() && i < most_listed; ++i) {
         names.push_back(network.name(NodeId{i}));
     }
-    throw std::invalid_argument(
-        fmt::format("there is no robot \"{}\"; {}", name, did_you_mean(name, names)));
+    throw std::invalid_argument(fmt::format("there is no robot \"{}\"; expected one of {}{}", name,
+                                            fmt::join(names, ", "),
+                                            network.size() > most_listed ? " ..." : ""));
 }
 
 }  // namespace

@@ -24,6 +24,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
+bool same_but_for_case(std::string_view a, std::string_view b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return lower(x) == lower(y); });
+}
+
 std::string at(const Location& where, const std::string& message) {
     const std::string place = where.text();
     return place.empty() ? message : place + ": " + message;
@@ -46,8 +52,10 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
     for (const auto& candidate : candidates) {
         const bool contained =
             word.size() >= 3 && candidate.find(word) != std::string::npos && candidate != word;
-        const std::size_t d = contained ? 1 : edit_distance(word, candidate);
-        if (d < best_distance) {
+        const std::size_t d = same_but_for_case(word, candidate) ? 0
+                              : contained                        ? 1
+                                                                 : edit_distance(word, candidate);
+        if (d < best_distance && d < word.size()) {  // not every letter may differ
             best = &candidate;
             best_distance = d;
         }

@@ -38,6 +38,8 @@ TEST_CASE("run error: is told apart from an input error") {
 TEST_CASE("did you mean: a slip of the finger finds its word") {
     CHECK(did_you_mean("log_distnace", models) == "did you mean \"log_distance\"?");
     CHECK(did_you_mean("fris", models) == "did you mean \"friis\"?");
+    CHECK(did_you_mean("a", {"B", "A"}) == "did you mean \"A\"?");
+    CHECK(did_you_mean("X", {"B", "A"}).empty());
     CHECK(did_you_mean("disk", models) == "did you mean \"disc\"?");
     CHECK(did_you_mean("distance", models) == "did you mean \"log_distance\"?");
 }
