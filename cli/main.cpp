@@ -44,6 +44,20 @@ int guarded(const std::function<void()>& command) {
     }
 }
 
+/// Says so if the first word is no command of ours.
+bool is_unknown_command(const CLI::App& app, const std::string& word) {
+    if (word.empty() || word.front() == '-') return false;
+    std::vector<std::string> names;
+    for (const auto* command : app.get_subcommands(nullptr)) {
+        if (command->get_name() == word) return false;
+        names.push_back(command->get_name());
+    }
+    const std::string near = did_you_mean(word, names);
+    fail(usage, fmt::format("unknown command \"{}\"; expected one of {}{}{}", word,
+                            fmt::join(names, ", "), near.empty() ? "" : "; ", near));
+    return true;
+}
+
 CLI::App* add_command(CLI::App& app, const char* name, const char* what, int& exit,
                       std::function<void()> command) {
     CLI::App* sub = app.add_subcommand(name, what);
@@ -133,6 +147,7 @@ int main(int argc, char** argv) {
     add_loss(app, exit);
     add_link(app, exit);
     add_others(app, exit);
+    if (argc > 1 && is_unknown_command(app, argv[1])) return usage;
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -172,8 +172,13 @@ Value parse_toml(std::string_view text, const std::string& source) {
         document.where = {source};
         return document;
     } catch (const toml::parse_error& error) {
-        throw InputError(location(source, error.source()),
-                         fmt::format("not TOML: {}", error.description()));
+        // The commonest slip: power = 30 mW
+        const bool unquoted =
+            error.description().find("expected a comment or whitespace") != std::string_view::npos;
+        throw InputError(
+            location(source, error.source()),
+            fmt::format("not TOML: {}{}", error.description(),
+                        unquoted ? "; texts and quantities stand in quotes: \"30 mW\"" : ""));
     }
 }
 

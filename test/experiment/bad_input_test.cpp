@@ -91,6 +91,7 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "move = { model = \"fixed\", speed = \"1 m/s\" }", "4:27", {"unknown key"}},
     // Wrong types.
     {"radio = 5\n" + robot_a, "1:9", {"[radio]", "the number 5", "a table"}},
+    {"[radio]\npower = 30 mW", "2:12", {"not TOML", "quotes"}},
     {"[[radio]]\n" + robot_a, "1:1", {"[radio]", "a list", "a table"}},
     {"[robot]\nname = \"A\"\n", "1:1", {"[[robot]]"}},
     {"robot = [1]\n", "1:10", {"[[robot]]", "the number 1"}},
