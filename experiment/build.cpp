@@ -35,7 +35,7 @@ OccupancyGrid load_map(const Scenario& scenario) {
         throw InputError(scenario.map_where,
                          "map: a map.yaml has its own size; leave out the key size");
     }
-    if (!yaml && !fs::is_directory(path) && !scene.size) {
+    if (!yaml && fs::is_regular_file(path) && !scene.size) {
         throw InputError(scenario.map_where,
                          fmt::format("map: \"{}\" is a picture without a scale; expected a ROS "
                                      "map.yaml, or also size = [\"40 m\", \"20 m\"]",

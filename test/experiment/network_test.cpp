@@ -242,6 +242,19 @@ TEST_CASE("network: over kilometres, where frames overlap in the air, records st
     }
 }
 
+TEST_CASE("network: whoever is near answers before whoever is far has heard") {
+    Network net({.propagation = Disc{.range = 700_m}});
+    for (const double x : {0.0, 1.0, 650.0}) net.add({.name = {}, .at = {x, 0}});
+    net.route(Flood{.jitter = Duration{0}});
+    const auto text = std::make_shared<Text>();
+    net.add_sink(text);
+    net.broadcast({0}, "F", 64);
+    net.run_for(1s);
+    // The near robot answers 1 us after the frame, which takes 2 us more to the far one.
+    CHECK(std::is_sorted(text->times.begin(), text->times.end()));
+    CHECK(net.metrics().transmissions == 3);
+}
+
 TEST_CASE("network: a frame arrives after its airtime and the way at the speed of light") {
     Network net(disc(1e6));
     for (const double x : {0.0, 300.0, 30'000.0, 0.0}) net.add(robot_at(x));
