@@ -216,9 +216,10 @@ TEST_CASE("trace stats: the metrics of the summary to the last digit, in both fo
         const Json summary = Json::parse(content(out + "/summary.json"));
         const Json stats = json_of(folder, {"trace", "stats", out + "/trace.tr"});
         CHECK(stats.size() >= 13);
-        for (const auto& [key, value] : stats.items()) {
+        for (const auto& metric : stats.items()) {
+            const std::string key = metric.key();
             CAPTURE(key);
-            CHECK(summary[key].dump() == value.dump());
+            CHECK(summary[key].dump() == metric.value().dump());
         }
     }
 }

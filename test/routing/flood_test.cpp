@@ -230,8 +230,8 @@ struct RandomNetwork {
 TEST_CASE("flood: forwarding every copy, each graph sends and hears as many as it has walks") {
     for (const auto& [graph, by_ttl, suppressed] : exact_counts()) {
         for (const auto& [ttl, exact] : by_ttl) {
-            CAPTURE(graph.name);
-            CAPTURE(ttl);
+            const std::string which = graph.name + ", ttl " + std::to_string(ttl);
+            CAPTURE(which);
             const Ledger run = flooded(graph, {.ttl = ttl, .duplicates = Duplicates::forward});
             CHECK(run.transmissions == exact.tx);
             CHECK(run.heard == exact.rx);
@@ -242,7 +242,8 @@ TEST_CASE("flood: forwarding every copy, each graph sends and hears as many as i
 TEST_CASE("flood: suppressing duplicates, everyone sends once and hears each neighbour once") {
     for (const auto& [graph, by_ttl, exact] : exact_counts()) {
         for (const bool upgrade : {false, true}) {
-            CAPTURE(graph.name);
+            const std::string which = graph.name;
+            CAPTURE(which);
             const Ledger run = flooded(graph, {.ttl = 25, .upgrade = upgrade});
             CHECK(run.transmissions == exact.tx);
             CHECK(run.heard == exact.rx);
