@@ -42,13 +42,7 @@ void Engine::schedule(Time time, Action action) {
         throw std::invalid_argument(
             fmt::format("an action at {} s, but it is {} s already", seconds(time), seconds(now_)));
     }
-    std::size_t slot = actions_.size();
-    if (free_actions_.empty()) {
-        actions_.emplace_back();
-    } else {
-        slot = free_actions_.back();
-        free_actions_.pop_back();
-    }
+    const std::size_t slot = actions_.take();
     actions_[slot] = std::move(action);
     queue_.schedule(time, Priority::user, {Occurrence::Kind::action, NodeId{0}, slot});
 }
@@ -60,7 +54,7 @@ void Engine::act(std::size_t slot) {
                         {Occurrence::Kind::action, NodeId{0}, slot});
     } else {
         actions_[slot] = {};
-        free_actions_.push_back(slot);
+        actions_.release(slot);
     }
     (*action.call)();
 }

@@ -4,6 +4,7 @@
 #include "experiment/network.hpp"
 #include "mobility/planners.hpp"
 #include "sim/scheduler.hpp"
+#include "sim/slots.hpp"
 
 #include <cstdint>
 #include <deque>
@@ -137,10 +138,8 @@ class Engine final : public LinkLayer {
     std::optional<Router> router_;
     std::vector<Sink> sinks_;
     KindMask wanted_ = 0;
-    std::deque<Flight> flights_;  // stable: a sink may not move one under work
-    std::vector<std::size_t> free_flights_;
-    std::vector<Action> actions_;
-    std::vector<std::size_t> free_actions_;
+    Slots<Flight> flights_;
+    Slots<Action> actions_;
     std::size_t begun_ = 0;  // nodes whose movement has begun
     bool running_ = false;
     bool receiving_ = false;

@@ -40,13 +40,7 @@ void Engine::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {
         throw std::invalid_argument("a router may not send while it receives: set a timer");
     }
     emit(Transmitted{now_, frame, heard_from});
-    std::size_t slot = flights_.size();
-    if (free_flights_.empty()) {
-        flights_.emplace_back();
-    } else {
-        slot = free_flights_.back();
-        free_flights_.pop_back();
-    }
+    const std::size_t slot = flights_.take();
     Flight& flight = flights_[slot];
     flight.frame = frame;
     flight.receptions.clear();
@@ -54,7 +48,7 @@ void Engine::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {
     const Time end = now_ + airtime(medium_.radio(frame.sender), messages_[frame.message].size);
     medium_.receivers(frame.sender, now_, end, legs_, flight.receptions);
     if (flight.receptions.empty()) {
-        free_flights_.push_back(slot);
+        flights_.release(slot);
         return;
     }
     messages_.hold(frame.message);
@@ -87,7 +81,7 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
         }
     }
     const MessageId message = flight.frame.message;
-    free_flights_.push_back(event.payload.data);
+    flights_.release(event.payload.data);
     release(message);
 }
 

@@ -64,14 +64,8 @@ bool FloodRouter::lifts(const Frame& frame, const Knowledge& known) const {
 
 /// Keeps a copy for its delay; returns where.
 std::uint32_t FloodRouter::wait(LinkLayer& link, const Frame& frame, const Reception& reception) {
-    auto copy = static_cast<std::uint32_t>(copies_.size());
-    if (free_copies_.empty()) {
-        copies_.push_back(frame);
-    } else {
-        copy = free_copies_.back();
-        free_copies_.pop_back();
-        copies_[copy] = frame;
-    }
+    const auto copy = static_cast<std::uint32_t>(copies_.take());
+    copies_[copy] = frame;
     link.hold(frame.message);
     // A node sends one message once under "suppress"; copies of one message differ by their path.
     const std::uint64_t which = flood_.duplicates == Duplicates::forward ? frame.path : 0;
@@ -83,7 +77,7 @@ std::uint32_t FloodRouter::wait(LinkLayer& link, const Frame& frame, const Recep
 
 void FloodRouter::on_timer(LinkLayer& link, NodeId node, std::uint64_t copy) {
     const Frame heard = copies_[copy];
-    free_copies_.push_back(static_cast<std::uint32_t>(copy));
+    copies_.release(copy);
     known(link, heard.message, node).state = Knowledge::sent;
     if (link.is_on(node)) {
         link.broadcast({.message = heard.message,

@@ -3,6 +3,7 @@
 
 #include "sim/fields.hpp"
 #include "sim/ports.hpp"
+#include "sim/slots.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -73,8 +74,7 @@ class FloodRouter {
 
     Flood flood_;
     std::vector<std::vector<Knowledge>> known_;  // by message, then by node
-    std::vector<Frame> copies_;                  // as received, waiting for their delay
-    std::vector<std::uint32_t> free_copies_;
+    Slots<Frame> copies_;                        // as received, waiting for their delay
 };
 
 }  // namespace rovernet
