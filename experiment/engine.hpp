@@ -47,6 +47,9 @@ struct Node {
     std::uint64_t key;
     Meters radius;
     Movement movement;
+    MetersPerSecond top_speed;
+    std::optional<double> turn_rate;  // [rad/s]
+    std::uint32_t movements = 0;      // begun so far
     std::uint32_t messages_sent = 0;
     bool moving = false;                  // its movement has begun
     std::optional<Leg> interrupted = {};  // by switching off
@@ -128,7 +131,7 @@ class Engine final : public LinkLayer {
     void begin_movements();
     void next_leg(NodeId id);
     void take(NodeId id, const Leg& leg);
-    Mover mover(NodeId id) { return {now_, legs_.position(id, now_), node(id).radius, planners_}; }
+    Mover mover(NodeId id);
 
     Time now_ = start_of_run;
     Time end_of_run_ = start_of_run;  // of the current run_until

@@ -22,11 +22,32 @@ NodeId Engine::add(Robot robot) {
     }
     const auto key = name_key(robot.name);
     medium_.add(robot.radio, key, robot.propagation.value_or(settings_.propagation));
-    const NodeId id = legs_.add({.start = now_, .from = robot.at, .to = robot.at});
+    const NodeId id =
+        legs_.add({.start = now_, .from = robot.at, .to = robot.at, .heading = robot.heading});
     by_name_[robot.name] = id;
-    nodes_.push_back({std::move(robot.name), key, robot.radius, std::move(robot.move)});
+    nodes_.push_back({.name = std::move(robot.name),
+                      .key = key,
+                      .radius = robot.radius,
+                      .movement = std::move(robot.move),
+                      .top_speed = robot.top_speed,
+                      .turn_rate = robot.turn_rate});
     if (running_) begin_movements();
     return id;
+}
+
+Mover Engine::mover(NodeId id) {
+    const Node& robot = node(id);
+    return {.now = now_,
+            .position = legs_.position(id, now_),
+            .radius = robot.radius,
+            .planners = planners_,
+            .legs = legs_,
+            .heading = legs_.leg(id).heading_at(now_),
+            .top_speed = robot.top_speed,
+            .draws = {.seed = settings_.seed,
+                      .replication = settings_.replication,
+                      .a = robot.key,
+                      .b = robot.movements}};
 }
 
 void Engine::begin_movements() {

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -33,6 +34,10 @@ struct Robot {
     Radio radio = {};
     std::optional<Propagation> propagation = std::nullopt;  ///< the Network's default if not given
     Movement move = Fixed{};
+    double heading = 0;  ///< [rad] at the start, counter-clockwise from the x axis
+    MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};  ///< > 0
+    /// [rad/s] > 0: it turns in place before it moves off; none: it turns at once.
+    std::optional<double> turn_rate = std::nullopt;
 };
 
 /// What a Network is made with.

@@ -64,8 +64,15 @@ Table section(const PlaceTable& place) {
 /// The keys of a robot's radio that differ from [radio].
 Table difference(const Radio& own, const Radio& usual) {
     Table table;
+    const auto append = [&](std::string_view name, const auto& value) {
+        if constexpr (requires { value.has_value(); }) {
+            if (value) table.set(name, to_value(*value));
+        } else {
+            table.set(name, to_value(value));
+        }
+    };
     for_each_field<Radio>([&](const auto& f) {
-        if (own.*f.member != usual.*f.member) table.set(f.name, to_value(own.*f.member));
+        if (own.*f.member != usual.*f.member) append(f.name, own.*f.member);
     });
     return table;
 }

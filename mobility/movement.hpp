@@ -5,10 +5,12 @@
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"
 #include "sim/legs.hpp"
+#include "sim/random.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
 #include <concepts>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -21,6 +23,22 @@ struct Mover {
     Vec3 position;       ///< [m] now
     Meters radius;       ///< of the robot's body
     Planners& planners;  ///< ways around the scene's walls
+    const Legs& legs;    ///< where everybody is, for models that go by others
+    double heading = 0;  ///< [rad] now, counter-clockwise from the x axis
+    /// No leg of the library's models is faster [m/s].
+    MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};
+    /// Seed, replication, the robot's key (a) and the number of its movement (b): what its draws
+    /// depend on.
+    Key draws = {};
+
+    const Scene& scene() const { return planners.scene(); }
+    /// The key of the robot's draw `index` of this movement.
+    Key key(std::uint64_t index) const {
+        Key key = draws;
+        key.purpose = Purpose::movement;
+        key.index = index;
+        return key;
+    }
 };
 
 /// The movement is over, the robot has arrived: it rests where it is.
@@ -34,15 +52,18 @@ struct Blocked {
 using Step = std::variant<Leg, AtRest, Blocked>;
 
 /// A movement model: a generator of legs, asked whenever a leg has run out. Nothing ticks. A leg
-/// starts at mover.now at mover.position and lasts at least a nanosecond.
+/// starts at mover.now at mover.position and lasts at least a nanosecond; only the first leg of a
+/// run may start elsewhere: that is where the robot then starts.
 template <class T>
 concept MovementModel = std::copy_constructible<T> && requires(T model, Mover& mover) {
     { model.next_leg(mover) } -> std::same_as<Step>;
 };
 
-/// The straight leg from where the mover is to `to` at `speed` [m/s], > 0.
+/// The straight leg from where the mover is to `to` at `speed` [m/s], > 0, or at its top speed if
+/// that is less.
 Leg straight_leg(const Mover& mover, Vec3 to, MetersPerSecond speed);
-/// The straight leg from where the mover is to `to`, which it reaches at `arrival` > mover.now.
+/// The straight leg from where the mover is to `to`, which it reaches at `arrival` > mover.now, or
+/// later if its top speed is too low for that.
 Leg straight_leg(const Mover& mover, Vec3 to, Time arrival);
 
 /// Any movement model, held by value.
@@ -78,7 +99,8 @@ class Movement {
 
 /// A leg without end where the mover is.
 inline Leg standing_leg(const Mover& mover) {
-    return {.start = mover.now, .from = mover.position, .to = mover.position};
+    return {
+        .start = mover.now, .from = mover.position, .to = mover.position, .heading = mover.heading};
 }
 
 /// Stays where it is, for ever: it never comes to rest from a movement.

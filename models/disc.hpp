@@ -11,6 +11,7 @@ namespace rovernet {
 /// Source: the 2007 thesis's "simple" model; link iff d <= range.
 struct Disc {
     static constexpr std::string_view name = "disc";
+    static constexpr LossShape shape = LossShape::by_distance;
     static constexpr double outside_db = 1000;
 
     Meters range{unset};  ///< [m], >= 0; there is no default

@@ -25,6 +25,7 @@ inline double free_space_db(double d, Hertz f) {
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 struct Friis {
     static constexpr std::string_view name = "friis";
+    static constexpr LossShape shape = LossShape::by_distance;
 
     static constexpr auto fields() { return describe(); }
 

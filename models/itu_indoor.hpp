@@ -28,6 +28,7 @@ struct EnumNames<Environment> {
 /// editions.
 struct ItuIndoor {
     static constexpr std::string_view name = "itu_indoor";
+    static constexpr LossShape shape = LossShape::by_distance;
 
     std::optional<double> coefficient = std::nullopt;  ///< N [-], > 0; 30 if neither is given
     std::optional<Environment> environment =

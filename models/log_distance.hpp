@@ -15,6 +15,7 @@ namespace rovernet {
 /// Source: T. S. Rappaport, Wireless Communications, 2nd ed., section 4.9.
 struct LogDistance {
     static constexpr std::string_view name = "log_distance";
+    static constexpr LossShape shape = LossShape::by_distance;
     static constexpr double cut_sigmas = 5;
 
     double exponent = 2.5;           ///< n [-], > 0; 2 free space, about 4 an obstructed office

@@ -136,6 +136,11 @@ std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
     return static_cast<std::uint32_t>(frontier.size() - 1);
 }
 
+bool Medium::link_up(NodeId from, NodeId to, Time t, const Legs& legs) const {
+    return from != to && is_on(from) && is_on(to) &&
+           path_loss(from, to, t, legs) <= link_budget(radio(from), radio(to));
+}
+
 Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
     const Station& sender = stations_[from.index()];
     const Vec3 position = antenna(to, t, legs);

@@ -49,6 +49,12 @@ class Medium {
     /// Path loss [dB] from `from` to `to` at `t`, with nothing given up.
     Db path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const;
 
+    /// `to` can hear `from` at `t`: both are on, may link, and the budget allows it. A switched-off
+    /// or gated link is down whatever its level.
+    bool link_up(NodeId from, NodeId to, Time t, const Legs& legs) const;
+    /// The model that rules what `node` transmits.
+    const Propagation& model(NodeId node) const { return models_[stations_[node.index()].model]; }
+
     /// A node's antenna at `t` [m].
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
 

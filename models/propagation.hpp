@@ -52,6 +52,19 @@ concept BoundedModel = requires(const T& model, Db loss, Hertz frequency) {
     { model.reach(loss, frequency) } -> std::same_as<Meters>;
 };
 
+/// How a link's loss may change while its ends move; tells where to look for link changes.
+enum class LossShape {
+    by_distance,  ///< never falls while the antennas draw apart
+    by_walls,  ///< so apart from walls: smooth but where the line of sight passes a wall's corner
+    unknown,   ///< anyhow
+};
+
+/// A model that knows its shape; others are `unknown`.
+template <class T>
+concept ShapedModel = requires {
+    { T::shape } -> std::convertible_to<LossShape>;
+};
+
 /// A model that cannot work with every frequency says so by std::invalid_argument.
 template <class T>
 concept FrequencyCheckedModel = requires(const T& model, Hertz frequency) {
@@ -72,6 +85,7 @@ class Propagation {
     }
     Meters reach(Db loss, Hertz frequency) const { return self_->reach(loss, frequency); }
     void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
+    LossShape shape() const { return self_->shape(); }
     /// Whether both are copies of one handle; the Network keeps one table entry for them.
     friend bool operator==(const Propagation&, const Propagation&) = default;
 
@@ -82,6 +96,7 @@ class Propagation {
         virtual void loss(const LinkBatch&, Db, std::span<double>) const = 0;
         virtual Meters reach(Db, Hertz) const = 0;
         virtual void check_frequency(Hertz) const = 0;
+        virtual LossShape shape() const = 0;
     };
     template <class T>
     struct Holder final : Concept {
@@ -98,6 +113,10 @@ class Propagation {
         }
         void check_frequency(Hertz frequency) const override {
             if constexpr (FrequencyCheckedModel<T>) model.check_frequency(frequency);
+        }
+        LossShape shape() const override {
+            if constexpr (ShapedModel<T>) return T::shape;
+            return LossShape::unknown;
         }
         T model;
     };

@@ -5,9 +5,30 @@
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
+#include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace rovernet {
+
+/// Who a radio can have links with.
+enum class Gate {
+    network,  ///< radios of its network only: same essid ("any" joins all), channel and frequency
+    none,     ///< every radio that is near enough
+};
+template <>
+struct EnumNames<Gate> {
+    static constexpr std::array<std::string_view, 2> values = {"network", "none"};
+};
+
+/// How a wireless device takes part in its network (IEEE 802.11), for the robot's own tables.
+enum class WifiMode { automatic, adhoc, infrastructure, master, repeater, secondary };
+template <>
+struct EnumNames<WifiMode> {
+    static constexpr std::array<std::string_view, 6> values = {
+        "auto", "adhoc", "infrastructure", "master", "repeater", "secondary"};
+};
 
 /// A robot's radio. The defaults are the 2007 device's where it had one (45 mW, 2450 MHz, -75 dBm)
 /// and IEEE 802.11b's otherwise (11 Mb/s, long preamble).
@@ -20,6 +41,21 @@ struct Radio {
     Db antenna_gain{0};             ///< [dBi]
     Db cable_loss{0};               ///< [dB]
     Meters antenna_height{1};       ///< [m] above the robot's own z
+    Hertz bandwidth{22e6};          ///< [Hz] of the receiver's filter, for its noise
+    Db noise_figure{7};             ///< [dB] of the receiver
+    double success_rate = 1;        ///< [-] share of its frames that get through where they reach
+
+    std::string essid = "any";  ///< name of its network; "any" joins all
+    int channel = 0;            ///< number that both ends must share; 0 if not used
+    Gate gate = Gate::network;  ///< with whom it may have links
+    std::optional<std::string> ip =
+        std::nullopt;                       ///< unique; the Network gives one if there is none
+    std::string netmask = "255.255.255.0";  ///< a label
+    std::optional<std::string> mac =
+        std::nullopt;                            ///< unique; the Network gives one if there is none
+    WifiMode mode = WifiMode::adhoc;             ///< a label
+    bool encryption = false;                     ///< a label
+    std::optional<Dbm> range_db = std::nullopt;  ///< [dBm] level that pictures draw as a contour
 
     static constexpr auto fields() {
         return describe(
@@ -30,7 +66,21 @@ struct Radio {
             field("preamble", &Radio::preamble, non_negative, "sent before the first bit"),
             field("antenna_gain", &Radio::antenna_gain, "antenna gain, both ways"),
             field("cable_loss", &Radio::cable_loss, non_negative, "loss between radio and antenna"),
-            field("antenna_height", &Radio::antenna_height, "antenna above the robot's own z"));
+            field("antenna_height", &Radio::antenna_height, "antenna above the robot's own z"),
+            field("bandwidth", &Radio::bandwidth, positive, "of the receiver's filter"),
+            field("noise_figure", &Radio::noise_figure, non_negative, "of the receiver"),
+            field("success_rate", &Radio::success_rate,
+                  Range{.low = 0, .high = 1, .text = "from 0 to 1"},
+                  "share of its frames that get through where they reach"),
+            field("essid", &Radio::essid, "name of its network; \"any\" joins all"),
+            field("channel", &Radio::channel, non_negative, "number that both ends must share"),
+            field("gate", &Radio::gate, "network: same essid, channel and frequency; or none"),
+            field("ip", &Radio::ip, "address; unique, given if left out"),
+            field("netmask", &Radio::netmask, "of its address; a label"),
+            field("mac", &Radio::mac, "hardware address; unique, given if left out"),
+            field("mode", &Radio::mode, "how it takes part in its network; a label"),
+            field("encryption", &Radio::encryption, "a label"),
+            field("range_db", &Radio::range_db, "level that pictures draw as a contour"));
     }
 };
 

@@ -16,6 +16,7 @@ namespace rovernet {
 /// Source: the 2007 thesis, algorithm 1; formula of ITU-R P.1238-2.
 struct Raytrace2007 {
     static constexpr std::string_view name = "raytrace_2007";
+    static constexpr LossShape shape = LossShape::by_walls;
 
     double coefficient = 30;  ///< N [-], > 0
     double wall_factor = 1;   ///< w [dB/cm], >= 0

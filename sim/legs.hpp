@@ -5,6 +5,7 @@
 #include "sim/ids.hpp"
 #include "sim/time.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -17,10 +18,16 @@ struct Leg {
     Vec3 from = {};      ///< [m] position at `start`
     Vec3 velocity = {};  ///< [m/s]
     Vec3 to = {};        ///< [m] position at `end`; equal to `from` for a leg at rest
+    double heading = 0;  ///< [rad] at `start`, counter-clockwise from the x axis
+    double turning = 0;  ///< [rad/s], counter-clockwise; a robot turns at rest only
 
     Vec3 position(Time t) const {
         if (t >= end) return to;
         return from + seconds(t - start) * velocity;
+    }
+    /// Heading at `t` [rad], not wrapped: turning on adds up.
+    double heading_at(Time t) const {
+        return turning == 0 ? heading : heading + seconds(std::min(t, end) - start) * turning;
     }
 };
 

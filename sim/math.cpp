@@ -135,5 +135,8 @@ double log2(double x) { return scaled_log(x, base_2); }
 double log10(double x) { return scaled_log(x, base_10); }
 double exp2(double x) { return power(power_of_2, x); }
 double exp10(double x) { return power(power_of_10, x); }
+double exp(double x) { return exp2(x * 1.4426950408889634); }
+SinCos sincos(double x) { return {std::sin(x), std::cos(x)}; }
+double atan2(double y, double x) { return std::atan2(y, x); }
 
 }  // namespace rovernet::math

@@ -14,6 +14,8 @@ enum class Purpose : std::uint16_t {
     placement = 3,
     order = 4,
     destination = 5,
+    movement = 6,
+    link_success = 7,
 };
 
 /// The meaning of one draw, and all that decides it: the same key gives the same number, in any

@@ -88,6 +88,20 @@ struct NoWay {
     Vec3 goal;  ///< [m]
 };
 
+/// From now on `to` can hear `from`. Links are ordered: the way back is a link of its own.
+struct LinkUp {
+    Time time;
+    NodeId from;
+    NodeId to;
+};
+
+/// From now on `to` cannot hear `from` any more.
+struct LinkDown {
+    Time time;
+    NodeId from;
+    NodeId to;
+};
+
 /// A node's radio is switched on or off.
 struct Switched {
     Time time;
@@ -96,7 +110,8 @@ struct Switched {
 };
 
 /// Everything observable. A lost packet is a record: never an exception, never a log line.
-using Record = std::variant<Sent, Transmitted, Received, Dropped, Moved, Arrived, NoWay, Switched>;
+using Record = std::variant<Sent, Transmitted, Received, Dropped, Moved, Arrived, NoWay, Switched,
+                            LinkUp, LinkDown>;
 
 /// A set of record kinds, for sinks to say what they want.
 using KindMask = std::uint32_t;
@@ -135,6 +150,17 @@ template <>
 constexpr KindMask kind_of<Switched>() {
     return 1U << 7;
 }
+
+template <>
+constexpr KindMask kind_of<LinkUp>() {
+    return 1U << 8;
+}
+template <>
+constexpr KindMask kind_of<LinkDown>() {
+    return 1U << 9;
+}
+/// Both link records. They cost a search for link changes, which runs only if a sink asks.
+inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();
 
 /// Not a record: asks that Sent carries `reachable`, which costs a search of the network.
 inline constexpr KindMask kind_reachable = 1U << 31;

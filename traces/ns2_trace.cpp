@@ -113,6 +113,8 @@ class Ns2Trace::Writer {
     void lines(const Arrived&, const RecordContext&) {}
     void lines(const NoWay&, const RecordContext&) {}
     void lines(const Switched&, const RecordContext&) {}
+    void lines(const LinkUp&, const RecordContext&) {}
+    void lines(const LinkDown&, const RecordContext&) {}
 
     void packet(const PacketLine&, const RecordContext&);
     void old_packet(const PacketLine&, const Message&);

@@ -61,6 +61,8 @@ struct Text {
     }
     static std::string text(Vec3 v) { return fmt::format("({} {} {})", v.x, v.y, v.z); }
 
+    void tell(const LinkUp& r) { add(r.time, r.to, fmt::format("can hear {}", r.from.value)); }
+    void tell(const LinkDown& r) { add(r.time, r.to, fmt::format("lost {}", r.from.value)); }
     void tell(const Sent& r) { add(r.time, r.node, fmt::format("sends, ttl {}", r.ttl)); }
     void tell(const Transmitted& r) {
         add(r.time, r.frame.sender,

@@ -209,7 +209,8 @@ TEST_CASE("waypoints: a path that leads nowhere or to where the robot is rests a
 TEST_CASE("waypoints: a speed that is not > 0 is refused") {
     const Scene field;
     Planners planners(field);
-    Mover mover{start_of_run, {}, 0.2_m, planners};
+    const Legs legs;
+    Mover mover{start_of_run, {}, 0.2_m, planners, legs};
     const double inf = std::numeric_limits<double>::infinity();
     for (const double speed : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), inf}) {
         CAPTURE(speed);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "scene/p2040.hpp"
+
+#include "sim/math.hpp"
+
+#include <cmath>
+#include <complex>
+
+namespace rovernet {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// eps_r = a f^b, sigma = c f^d [S/m], f in GHz.
+struct Law {
+    double a, b, c, d;
+};
+
+/// ITU-R P.2040-3, table 3, in the order of ItuMaterial; floorboard is tabulated for 50-100 GHz.
+constexpr std::array<Law, EnumNames<ItuMaterial>::values.size()> laws = {{
+    {5.24, 0, 0.0462, 0.7822},   // concrete
+    {3.91, 0, 0.0238, 0.16},     // brick
+    {2.73, 0, 0.0085, 0.9395},   // plasterboard
+    {1.99, 0, 0.0047, 1.0718},   // wood
+    {6.31, 0, 0.0036, 1.3394},   // glass
+    {1.48, 0, 0.0011, 1.0750},   // ceiling board
+    {2.58, 0, 0.0217, 0.78},     // chipboard
+    {2.71, 0, 0.33, 0},          // plywood
+    {7.074, 0, 0.0055, 0.9262},  // marble
+    {3.66, 0, 0.0044, 1.3515},   // floorboard
+    {1, 0, 1e7, 0},              // metal
+}};
+
+double power(double base, double exponent) { return math::exp2(exponent * math::log2(base)); }
+
+/// The square root in the right half plane.
+Complex square_root(Complex z) {
+    const double real = std::sqrt((std::sqrt(std::norm(z)) + z.real()) / 2);
+    return {real, z.imag() / (2 * real)};
+}
+
+/// e^(-j q) for q = k a, the lossy part left out when it has vanished.
+Complex wave(double k, Complex a) {
+    const double decay = k * -a.imag();  // >= 0, in nepers
+    if (decay > 300) return 0;
+    const auto [s, c] = math::sincos(k * a.real());
+    return math::exp(-decay) * Complex{c, -s};
+}
+
+double decibels(Complex z) { return 10 * math::log10(std::norm(z)); }
+
+}  // namespace
+
+Permittivity permittivity(ItuMaterial material, Hertz frequency) {
+    constexpr double per_farad = 17.97510;  // 1 / (2 pi eps_0) in GHz m / S
+    const Law& law = laws[static_cast<std::size_t>(material)];
+    const double f = frequency.value / 1e9;
+    return {law.a * power(f, law.b), per_farad * law.c * power(f, law.d) / f};
+}
+
+Db slab_loss(ItuMaterial material, Meters thickness, Hertz frequency) {
+    constexpr double db_per_neper = 8.685889638065037;
+    const Permittivity p = permittivity(material, frequency);
+    const Complex a = square_root({p.real, -p.imaginary});
+    const Complex r = (1.0 - a) / (1.0 + a);
+    constexpr double two_pi_over_c = 6.283185307179586 / 299'792'458;
+    const double k = two_pi_over_c * frequency.value * thickness.value;
+    // |T| = |1 - r^2| |e^-jq| / |1 - r^2 e^-2jq|; the middle factor in decibels, where a thick
+    // sheet of metal cannot underflow.
+    return {db_per_neper * k * -a.imag() - decibels(1.0 - r * r) +
+            decibels(1.0 - r * r * wave(2 * k, a))};
+}
+
+}  // namespace rovernet
