@@ -4,6 +4,7 @@
 #include "models/itu_indoor.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace rovernet {
 
@@ -12,6 +13,7 @@ Meters Raytrace2007::reach(Db loss, Hertz f) const {
 }
 
 void Raytrace2007::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+    if (!links.scene->plain_walls()) return loss_by_materials(links, give_up, out_db);
     const double db_per_metre = 100 * wall_factor;
     // A hair more than the budget buys, so that rounding never cuts a link that is just up.
     constexpr double slack = 1 + 1e-12;
@@ -22,6 +24,23 @@ void Raytrace2007::loss(const LinkBatch& links, Db give_up, std::span<double> ou
         if (db_per_metre == 0 || free > give_up.value) continue;
         const double enough = (give_up.value - free) / db_per_metre * slack;
         out_db[i] += db_per_metre * links.scene->wall_length(links.from, links.to[i], enough);
+    }
+}
+
+void Raytrace2007::loss_by_materials(const LinkBatch& links, Db give_up,
+                                     std::span<double> out_db) const {
+    std::vector<WallRate> rates;
+    for (const Material& material : links.scene->materials()) {
+        rates.push_back(wall_rate(material, links.frequency, 100 * wall_factor));
+    }
+    std::vector<Crossing> scratch;
+    for (std::size_t i = 0; i < out_db.size(); ++i) {
+        const double free =
+            std::max(0.0, itu_indoor_db(links.distance(i), links.frequency, coefficient, 0));
+        out_db[i] = free;
+        if (free > give_up.value) continue;
+        out_db[i] += links.scene->wall_loss(links.from, links.to[i], rates,
+                                            give_up.value - free + 1e-9, scratch);
     }
 }
 

@@ -32,6 +32,9 @@ struct Raytrace2007 {
 
     Meters reach(Db loss, Hertz f) const;
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+
+  private:
+    void loss_by_materials(const LinkBatch&, Db give_up, std::span<double> out_db) const;
 };
 
 }  // namespace rovernet

@@ -228,11 +228,15 @@ template <class CellOf>
 void fill(OccupancyGrid& grid, const Image& image, CellOf cell_of_pixel) {
     grid.columns = image.width;
     grid.rows = image.height;
-    grid.cells.reserve(static_cast<std::size_t>(image.width) *
-                       static_cast<std::size_t>(image.height));
+    const auto pixels =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    grid.cells.reserve(pixels);
+    grid.greys.reserve(pixels);
     for (int row = image.height - 1; row >= 0; --row)
-        for (int column = 0; column < image.width; ++column)
+        for (int column = 0; column < image.width; ++column) {
             grid.cells.push_back(cell_of_pixel(column, row));
+            grid.greys.push_back(static_cast<std::uint8_t>((image.rgb_sum(column, row) + 1) / 3));
+        }
 }
 
 }  // namespace

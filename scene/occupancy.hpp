@@ -23,7 +23,15 @@ struct OccupancyGrid {
     Vec3 origin{};            ///< lower-left corner of cell (0, 0) [m]
     double yaw = 0;           ///< rotation about the origin, counter-clockwise [rad]
     std::vector<Cell> cells;  ///< columns * rows; row 0 is the bottom row
+    /// Mean of red, green and blue of each cell's pixel [0..255]; empty if there is no picture.
+    std::vector<std::uint8_t> greys = {};
+    std::uint8_t material = 0;  ///< of all walls, an index into the scene's materials
+    std::vector<std::uint8_t> cell_materials = {};  ///< of each cell, instead; empty if all are one
 
+    /// Material of the cell with that index; says something of walls only.
+    std::uint8_t material_of(std::size_t cell) const {
+        return cell_materials.empty() ? material : cell_materials[cell];
+    }
     /// The cell in that column and row; both must lie in the grid.
     Cell at(int column, int row) const {
         return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +

@@ -10,11 +10,11 @@ namespace {
 /// The cells still to be covered.
 class Uncovered {
   public:
-    Uncovered(const OccupancyGrid& grid, Solid solid)
+    /// @param is_solid  of a cell, by its index
+    template <class IsSolid>
+    Uncovered(const OccupancyGrid& grid, IsSolid is_solid)
         : columns_(grid.columns), rows_(grid.rows), left_(grid.cells.size()) {
-        for (std::size_t i = 0; i < left_.size(); ++i)
-            left_[i] = grid.cells[i] == Cell::occupied ||
-                       (solid == Solid::obstacles && grid.cells[i] == Cell::unknown);
+        for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = is_solid(i);
     }
 
     bool at(int column, int row) const { return left_[index(column, row)]; }
@@ -67,10 +67,7 @@ class Uncovered {
     std::vector<bool> left_;
 };
 
-}  // namespace
-
-std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, Solid solid) {
-    Uncovered uncovered(grid, solid);
+std::vector<CellRectangle> cover(const OccupancyGrid& grid, Uncovered uncovered) {
     std::vector<CellRectangle> rectangles;
     for (int row = 0; row < grid.rows; ++row)
         for (int column = 0; column < grid.columns; ++column)
@@ -79,6 +76,22 @@ std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, Solid sol
                 uncovered.cover(rectangles.back());
             }
     return rectangles;
+}
+
+}  // namespace
+
+std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, Solid solid) {
+    return cover(grid, Uncovered(grid, [&](std::size_t i) {
+                     return grid.cells[i] == Cell::occupied ||
+                            (solid == Solid::obstacles && grid.cells[i] == Cell::unknown);
+                 }));
+}
+
+std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, WallsOf walls) {
+    return cover(grid, Uncovered(grid, [&](std::size_t i) {
+                     return grid.cells[i] == Cell::occupied &&
+                            grid.material_of(i) == walls.material;
+                 }));
 }
 
 }  // namespace rovernet

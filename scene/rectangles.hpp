@@ -3,6 +3,7 @@
 
 #include "scene/occupancy.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace rovernet {
@@ -27,5 +28,11 @@ enum class Solid {
 /// Greedy and deterministic: from the lowest, then leftmost, cell not covered yet, the larger of
 /// the rectangle grown right then up and the one grown up then right. None can grow right or up.
 std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, Solid solid);
+
+/// The same for the walls of one material.
+struct WallsOf {
+    std::uint8_t material;  ///< index into the scene's materials
+};
+std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, WallsOf walls);
 
 }  // namespace rovernet

@@ -1,95 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene.hpp"
 
+#include "scene/planning_grid.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace rovernet {
 namespace {
 
-/// Distances are compared with a radius this generously [m]: touching is allowed.
-constexpr double touching = 1e-9;
+/// Gaps and pieces of wall up to this length [m] are none.
+constexpr double shortest = 1e-9;
 
-/// A rectangle in the map's own axes [m].
-struct Box {
-    double x0, y0, x1, y1;
-};
-
-Box box_of(const CellRectangle& r, const MapFrame& frame) {
-    return {r.column0 * frame.cell_width(), r.row0 * frame.cell_height(),
-            r.column1 * frame.cell_width(), r.row1 * frame.cell_height()};
-}
-
-/// A point in the map's own axes [m].
-Vec3 on_map(CellPoint p, const MapFrame& frame) {
-    return {p.u * frame.cell_width(), p.v * frame.cell_height(), 0};
-}
-
-double squared_distance(Vec3 p, const Box& box) {
-    const double dx = std::max({0.0, box.x0 - p.x, p.x - box.x1});
-    const double dy = std::max({0.0, box.y0 - p.y, p.y - box.y1});
-    return dx * dx + dy * dy;
-}
-
-/// From the point to the segment a-b.
-double squared_distance(Vec3 p, Vec3 a, Vec3 b) {
-    const Vec3 along = b - a;
-    const double squared_length = dot(along, along);
-    const double t = squared_length > 0 ? dot(p - a, along) / squared_length : 0;
-    return squared_distance(p, a + std::clamp(t, 0.0, 1.0) * along);
-}
-
-/// From the segment a-b to a box that it does not enter: the nearest pair has a corner of one.
-double squared_distance(Vec3 a, Vec3 b, const Box& box) {
-    double nearest = std::min(squared_distance(a, box), squared_distance(b, box));
-    for (const Vec3 corner :
-         {Vec3{box.x0, box.y0}, Vec3{box.x1, box.y0}, Vec3{box.x1, box.y1}, Vec3{box.x0, box.y1}})
-        nearest = std::min(nearest, squared_distance(corner, a, b));
-    return nearest;
-}
-
-double nearest_in_tile(Vec3 p, std::span<const CellRectangle> tile, const MapFrame& frame) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const CellRectangle& r : tile)
-        nearest = std::min(nearest, squared_distance(p, box_of(r, frame)));
-    return nearest;
-}
-
-/// The tile of a coordinate [m], or the nearest one.
-int tile_of(double x, double tile_side, int tiles) {
-    return static_cast<int>(std::clamp(std::floor(x / tile_side), 0.0, tiles - 1.0));
-}
-
-/// The part of a-b with low <= y <= high, as the range of its x; a.y <= b.y.
-std::pair<double, double> x_range(Vec3 a, Vec3 b, double low, double high) {
-    const double slope = b.y > a.y ? (b.x - a.x) / (b.y - a.y) : 0;
-    const double from = low > a.y && b.y > a.y ? a.x + (low - a.y) * slope : a.x;
-    const double to = high < b.y ? a.x + (high - a.y) * slope : b.x;
-    return std::minmax(from, to);
-}
-
-bool near_obstacle(const WallIndex& index, const MapFrame& frame, Vec3 a, Vec3 b, double radius) {
-    if (b.y < a.y) std::swap(a, b);
-    const double width = WallIndex::tile_size * frame.cell_width();
-    const double height = WallIndex::tile_size * frame.cell_height();
-    const int last_row = tile_of(b.y + radius, height, index.tile_rows());
-    for (int row = tile_of(a.y - radius, height, index.tile_rows()); row <= last_row; ++row) {
-        const auto [left, right] =
-            x_range(a, b, row * height - radius, (row + 1) * height + radius);
-        const int last = tile_of(right + radius, width, index.tile_columns());
-        for (int i = tile_of(left - radius, width, index.tile_columns()); i <= last; ++i)
-            for (const CellRectangle& r : index.tile(i, row))
-                if (squared_distance(a, b, box_of(r, frame)) < radius * radius) return true;
-    }
-    return false;
-}
-
-void check(const OccupancyGrid& grid) {
+void check(const OccupancyGrid& grid, std::size_t materials) {
     const auto refuse = [](const std::string& what) {
         throw std::invalid_argument("Scene: " + what);
     };
@@ -102,28 +33,103 @@ void check(const OccupancyGrid& grid) {
     for (const double side : {grid.cell_width, grid.cell_height})
         if (!(side > 0 && std::isfinite(side)))
             refuse(fmt::format("a cell's sides must be > 0 m, got {} m", side));
+    if (!grid.cell_materials.empty() && grid.cell_materials.size() != grid.cells.size())
+        refuse("there must be a material for each cell, or none");
+    for (std::size_t i = 0; i < grid.cells.size(); ++i)
+        if (grid.material_of(i) >= materials)
+            refuse(fmt::format("there is no material number {}", grid.material_of(i)));
     if (!std::isfinite(grid.origin.x + grid.origin.y + grid.yaw))
         refuse("origin [m] and yaw [rad] must be finite");
 }
 
+std::array<Vec3, 4> corners_of(const CellRectangle& r, const MapFrame& frame) {
+    const double left = r.column0, bottom = r.row0, right = r.column1, top = r.row1;
+    return {frame.to_world({left, bottom}), frame.to_world({right, bottom}),
+            frame.to_world({right, top}), frame.to_world({left, top})};
+}
+
+bool has_unknown(const OccupancyGrid& grid) {
+    return std::find(grid.cells.begin(), grid.cells.end(), Cell::unknown) != grid.cells.end();
+}
+
+/// Materials of the walls of a map, in ascending order.
+std::set<std::uint8_t> materials_of(const OccupancyGrid& grid) {
+    std::set<std::uint8_t> found;
+    for (std::size_t i = 0; i < grid.cells.size(); ++i)
+        if (grid.cells[i] == Cell::occupied) found.insert(grid.material_of(i));
+    return found;
+}
+
+bool comes_before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+
+/// Joins crossings of one material that overlap or touch; leaves them in order of entry.
+void join(std::vector<Crossing>& crossings) {
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing& p, const Crossing& q) {
+        return std::tie(p.material, p.entry, p.exit) < std::tie(q.material, q.entry, q.exit);
+    });
+    std::size_t kept = 0;
+    for (const Crossing& c : crossings) {
+        Crossing* last = kept > 0 ? &crossings[kept - 1] : nullptr;
+        if (last && last->material == c.material && c.entry - last->exit <= shortest) {
+            if (c.exit <= last->exit) continue;
+            last->exit = c.exit;
+            last->length = last->exit - last->entry;
+        } else {
+            crossings[kept++] = c;
+        }
+    }
+    crossings.resize(kept);
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing& p, const Crossing& q) {
+        return std::tie(p.entry, p.exit, p.material) < std::tie(q.entry, q.exit, q.material);
+    });
+}
+
 }  // namespace
 
-Scene::Scene(OccupancyGrid grid) : grid_(std::move(grid)) {
-    check(grid_);
-    if (open_field()) return;
+Scene::Scene(OccupancyGrid grid, std::vector<Material> materials)
+    : Scene(std::vector<OccupancyGrid>{std::move(grid)}, std::move(materials)) {}
+
+Scene::Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials)
+    : materials_(std::move(materials)) {
+    if (materials_.empty()) materials_.push_back({});
+    for (const OccupancyGrid& map : maps) check(map, materials_.size());
+    std::erase_if(maps, [](const OccupancyGrid& map) { return map.columns == 0; });
+    if (maps.empty()) return;
+    for (const OccupancyGrid& map : maps) add_map(map);
+    grid_ = maps.size() == 1 ? std::move(maps.front()) : planning_grid(maps);
     frame_ = MapFrame(grid_);
-    walls_ = WallIndex(grid_.columns, grid_.rows, solid_rectangles(grid_, Solid::walls));
-    obstacles_ = solid_rectangles(grid_, Solid::obstacles);
-    const auto count = [&](Cell kind) {
-        return std::count(grid_.cells.begin(), grid_.cells.end(), kind);
+    obstacle_cells_ = solid_rectangles(grid_, Solid::obstacles);
+    plain_ = std::all_of(layers_.begin(), layers_.end(), [&](const WallLayer& layer) {
+        return materials_[layer.material].follows_model() && !std::isfinite(layer.height);
+    });
+}
+
+void Scene::add_map(const OccupancyGrid& grid) {
+    const MapFrame frame(grid);
+    const auto index = [&](const std::vector<CellRectangle>& rectangles) {
+        return std::make_shared<const WallIndex>(grid.columns, grid.rows, rectangles);
     };
-    if (count(Cell::unknown) > 0) obstacle_index_.emplace(grid_.columns, grid_.rows, obstacles_);
-    occupied_cells_ = static_cast<std::size_t>(count(Cell::occupied));
-    lower_left_ = upper_right_ = frame_.to_world({0, 0});
+    const auto used = materials_of(grid);
+    for (const std::uint8_t material : used) {
+        const auto walls = solid_rectangles(grid, WallsOf{material});
+        layers_.push_back(
+            {frame, walls, index(walls), material, materials_[material].height.value});
+    }
+    const bool walls_are_all = used.size() == 1 && !has_unknown(grid);
+    obstacles_.emplace_back(frame, walls_are_all ? layers_.back().walls
+                                                 : index(solid_rectangles(grid, Solid::obstacles)));
+    occupied_cells_ +=
+        static_cast<std::size_t>(std::count(grid.cells.begin(), grid.cells.end(), Cell::occupied));
+    bound(grid, frame);
+}
+
+/// Makes the box around the maps take in one more.
+void Scene::bound(const OccupancyGrid& grid, const MapFrame& frame) {
+    const double right = grid.columns, top = grid.rows;
+    if (obstacles_.size() == 1) lower_left_ = upper_right_ = frame.to_world({0, 0});
     for (const CellPoint corner :
-         {CellPoint{grid_.columns + 0.0, 0}, CellPoint{0, grid_.rows + 0.0},
-          CellPoint{grid_.columns + 0.0, grid_.rows + 0.0}}) {
-        const Vec3 p = frame_.to_world(corner);
+         {CellPoint{0, 0}, CellPoint{right, 0}, CellPoint{0, top}, CellPoint{right, top}}) {
+        const Vec3 p = frame.to_world(corner);
         lower_left_ = {std::min(lower_left_.x, p.x), std::min(lower_left_.y, p.y), 0};
         upper_right_ = {std::max(upper_right_.x, p.x), std::max(upper_right_.y, p.y), 0};
     }
@@ -131,8 +137,26 @@ Scene::Scene(OccupancyGrid grid) : grid_(std::move(grid)) {
 
 void Scene::crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const {
     out.clear();
-    if (walls_.empty() || a == b) return;
-    walls_.crossings(frame_.to_cells(a), frame_.to_cells(b), distance(a, b), out);
+    if (layers_.empty() || a == b) return;
+    const WallLayer& first = layers_.front();
+    if (layers_.size() == 1 && !std::isfinite(first.height)) {
+        first.walls->crossings(first.frame.to_cells(a), first.frame.to_cells(b), distance(a, b),
+                               out);
+        for (Crossing& c : out) c.material = first.material;
+        return;
+    }
+    merged_crossings(a, b, out);
+}
+
+void Scene::merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const {
+    const bool reversed = comes_before(b, a);
+    if (reversed) std::swap(a, b);
+    for (const WallLayer& layer : layers_) layer.crossings(a, b, out);
+    join(out);
+    if (!reversed) return;
+    const double length = distance(a, b);
+    for (Crossing& c : out) c = {length - c.exit, length - c.entry, c.length, c.material};
+    std::reverse(out.begin(), out.end());
 }
 
 std::vector<Crossing> Scene::crossings(Vec3 a, Vec3 b) const {
@@ -142,14 +166,34 @@ std::vector<Crossing> Scene::crossings(Vec3 a, Vec3 b) const {
 }
 
 double Scene::wall_length(Vec3 a, Vec3 b, double enough) const {
-    if (walls_.empty() || a == b) return 0;
-    return walls_.solid_length(frame_.to_cells(a), frame_.to_cells(b), distance(a, b), enough);
+    if (layers_.empty() || a == b) return 0;
+    const WallLayer& first = layers_.front();
+    if (layers_.size() == 1 && !std::isfinite(first.height)) {
+        return first.walls->solid_length(first.frame.to_cells(a), first.frame.to_cells(b),
+                                         distance(a, b), enough);
+    }
+    if (comes_before(b, a)) std::swap(a, b);  // sums in one order
+    double sum = 0;
+    for (const Crossing& c : crossings(a, b)) sum += c.length;
+    return sum;
+}
+
+double Scene::wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
+                        std::vector<Crossing>& scratch) const {
+    if (comes_before(b, a)) std::swap(a, b);
+    crossings(a, b, scratch);
+    double sum = 0;
+    for (const Crossing& c : scratch) {
+        sum += rates[c.material].per_crossing + rates[c.material].per_metre * c.length;
+        if (sum > enough) break;
+    }
+    return sum;
 }
 
 bool Scene::occupied(Vec3 p) const {
-    const CellPoint c = frame_.to_cells(p);
-    return c.u >= 0 && c.u < grid_.columns && c.v >= 0 && c.v < grid_.rows &&
-           grid_.at(static_cast<int>(c.u), static_cast<int>(c.v)) == Cell::occupied;
+    return std::any_of(layers_.begin(), layers_.end(), [&](const WallLayer& layer) {
+        return layer.walls->holds(layer.frame.to_cells(p));
+    });
 }
 
 bool Scene::inside_map(Vec3 p) const {
@@ -159,50 +203,22 @@ bool Scene::inside_map(Vec3 p) const {
 }
 
 double Scene::clearance(Vec3 p) const {
-    const WallIndex& index = obstacle_index();
-    if (index.empty()) return std::numeric_limits<double>::infinity();
-    const Vec3 q = on_map(frame_.to_cells(p), frame_);
-    const double width = WallIndex::tile_size * frame_.cell_width();
-    const double height = WallIndex::tile_size * frame_.cell_height();
-    const int column = tile_of(q.x, width, index.tile_columns());
-    const int row = tile_of(q.y, height, index.tile_rows());
     double nearest = std::numeric_limits<double>::infinity();
-    // Ring by ring: the tiles of ring k are at least k - 1 tiles away.
-    for (int k = 0; k <= std::max(index.tile_columns(), index.tile_rows()); ++k) {
-        const double ring = (k - 1) * std::min(width, height);
-        if (ring > 0 && nearest <= ring * ring) break;
-        const int top = std::min(row + k, index.tile_rows() - 1);
-        const int right = std::min(column + k, index.tile_columns() - 1);
-        for (int j = std::max(row - k, 0); j <= top; ++j) {
-            const bool whole_row = j == row - k || j == row + k;
-            for (int i = std::max(column - k, 0); i <= right; ++i)
-                if (whole_row || i == column - k || i == column + k)
-                    nearest = std::min(nearest, nearest_in_tile(q, index.tile(i, j), frame_));
-        }
-    }
-    return std::sqrt(nearest);
+    for (const Obstacles& map : obstacles_) nearest = std::min(nearest, map.clearance(p));
+    return nearest;
 }
 
 bool Scene::passable(Vec3 a, Vec3 b, Meters radius) const {
-    const WallIndex& index = obstacle_index();
-    if (index.empty()) return true;
-    CellPoint from = frame_.to_cells(a);
-    CellPoint to = frame_.to_cells(b);
-    if (std::pair(to.u, to.v) < std::pair(from.u, from.v)) std::swap(from, to);
-    if (index.solid_length(from, to, 1, 0) > 0) return false;
-    const double reach = radius.value - touching;
-    return reach <= 0 ||
-           !near_obstacle(index, frame_, on_map(from, frame_), on_map(to, frame_), reach);
+    return std::all_of(obstacles_.begin(), obstacles_.end(),
+                       [&](const Obstacles& map) { return map.passable(a, b, radius); });
 }
 
-std::vector<std::array<Vec3, 4>> Scene::wall_rectangles() const {
-    std::vector<std::array<Vec3, 4>> corners;
-    for (const CellRectangle& r : solid_rectangles(grid_, Solid::walls)) {
-        const double left = r.column0, bottom = r.row0, right = r.column1, top = r.row1;
-        corners.push_back({frame_.to_world({left, bottom}), frame_.to_world({right, bottom}),
-                           frame_.to_world({right, top}), frame_.to_world({left, top})});
-    }
-    return corners;
+std::vector<WallRectangle> Scene::wall_rectangles() const {
+    std::vector<WallRectangle> all;
+    for (const WallLayer& layer : layers_)
+        for (const CellRectangle& r : layer.rectangles)
+            all.push_back({corners_of(r, layer.frame), layer.material});
+    return all;
 }
 
 }  // namespace rovernet

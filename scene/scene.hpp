@@ -2,38 +2,52 @@
 #pragma once
 
 #include "scene/map_frame.hpp"
+#include "scene/material.hpp"
+#include "scene/obstacles.hpp"
 #include "scene/occupancy.hpp"
 #include "scene/rectangles.hpp"
 #include "scene/wall_index.hpp"
+#include "scene/wall_layer.hpp"
 #include "sim/geometry.hpp"
 #include "sim/units.hpp"
 
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <optional>
+#include <span>
 #include <vector>
 
 namespace rovernet {
 
-/// The world's walls: one map that radio, motion and pictures read. Never changes once built.
+/// A rectangular piece of wall.
+struct WallRectangle {
+    std::array<Vec3, 4> corners;  ///< [m], counter-clockwise
+    std::size_t material;         ///< index into the scene's materials
+};
+
+/// The world's walls: what radio, motion and pictures read. Never changes once built.
 ///
-/// A default Scene is an open field: no walls, no end. Walls are the union of the occupied cells,
-/// infinitely high. A segment along the common edge of two occupied cells is inside the wall, along
-/// an outer edge it is outside; touching a corner or an edge counts nothing; wall against wall is
-/// one crossing. Unknown cells are no walls for radio, but obstacles for robots; beyond the map
-/// there is nothing. Coordinates and lengths within 1e-9 of a cell are equal: a point that near to
-/// a grid line lies on it, a gap that short is closed, a crossing that short is none.
+/// A default Scene is an open field: no walls, no end. Walls are the union of the occupied cells of
+/// its maps (usually one), of one material or several, from the floor to their material's height. A
+/// segment along the common edge of two occupied cells is inside the wall, along an outer edge it
+/// is outside; touching a corner or an edge counts nothing; wall against wall of one material is
+/// one crossing. Where walls of two materials overlap, both count. Unknown cells are no walls for
+/// radio, but obstacles for robots; beyond the maps there is nothing. Coordinates and lengths
+/// within 1e-9 of a cell are equal: a point that near to a grid line lies on it, a gap that short
+/// is closed, a crossing that short is none.
 class Scene {
   public:
     Scene() = default;
-    /// @throws std::invalid_argument if the grid's sizes, cells or placement make no sense
-    explicit Scene(OccupancyGrid grid);
+    /// @throws std::invalid_argument if the grid's sizes, cells or placement make no sense, or a
+    ///         material that it names is not there
+    explicit Scene(OccupancyGrid grid, std::vector<Material> materials = {Material{}});
+    /// Several maps, each in its place; they may overlap.
+    Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials);
 
     /// There is no map.
     bool open_field() const { return grid_.columns == 0; }
 
-    /// Walls between two points: x and y decide, lengths [m] are along the 3-D segment from a.
+    /// Walls between two points; lengths [m] are along the 3-D segment from a.
     ///
     /// From b to a the crossings come in the opposite order with the same `length`, to the last
     /// bit. A segment straight up inside a wall is one crossing.
@@ -49,9 +63,20 @@ class Scene {
     /// says only that, any other is exact.
     double wall_length(Vec3 a, Vec3 b, double enough) const;
 
+    /// What the walls take from a signal [dB], by the rate of each material; may stop counting once
+    /// the total exceeds `enough` [dB]. The same bits from a to b as from b to a.
+    /// @param rates    one per material
+    /// @param scratch  any vector, for its memory
+    double wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
+                     std::vector<Crossing>& scratch) const;
+    /// What its walls are made of; at least one.
+    const std::vector<Material>& materials() const { return materials_; }
+    /// All walls follow the propagation model and are infinitely high: their length tells all.
+    bool plain_walls() const { return plain_; }
+
     /// The point lies in an occupied cell; left and lower edges belong to a cell, others do not.
     bool occupied(Vec3 p) const;
-    /// The point lies on the map, edges included; everywhere on an open field.
+    /// The point lies within the maps, edges included; everywhere on an open field.
     bool inside_map(Vec3 p) const;
     /// Distance to the nearest obstacle [m]: 0 inside or touching, infinity if there is none.
     double clearance(Vec3 p) const;
@@ -60,25 +85,30 @@ class Scene {
     /// Exact: the distance from the segment to each obstacle, less 1e-9 m, against the radius.
     bool passable(Vec3 a, Vec3 b, Meters radius) const;
 
-    /// Corners of the smallest upright box around the map [m]; both (0, 0) on an open field.
+    /// Corners of the smallest upright box around the maps [m]; both (0, 0) on an open field.
     Vec3 lower_left() const { return lower_left_; }
     Vec3 upper_right() const { return upper_right_; }
-    /// The walls as disjoint rectangles, each by its corners [m], counter-clockwise.
-    std::vector<std::array<Vec3, 4>> wall_rectangles() const;
-    /// Where robots must not go, in cells.
-    const std::vector<CellRectangle>& obstacles() const { return obstacles_; }
-    std::size_t occupied_cells() const { return occupied_cells_; }
+    /// The walls as rectangles, disjoint on each map.
+    std::vector<WallRectangle> wall_rectangles() const;
+    /// The map; of several, a grid around them all where a cell is free if no obstacle enters it.
     const OccupancyGrid& grid() const { return grid_; }
     const MapFrame& frame() const { return frame_; }
+    /// Where robots must not go, in cells of grid().
+    const std::vector<CellRectangle>& obstacles() const { return obstacle_cells_; }
+    std::size_t occupied_cells() const { return occupied_cells_; }  ///< of all maps
 
   private:
-    const WallIndex& obstacle_index() const { return obstacle_index_ ? *obstacle_index_ : walls_; }
+    void add_map(const OccupancyGrid& grid);
+    void bound(const OccupancyGrid& grid, const MapFrame& frame);
+    void merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
 
     OccupancyGrid grid_;
     MapFrame frame_;
-    WallIndex walls_;
-    std::optional<WallIndex> obstacle_index_;  ///< only if some cell is unknown
-    std::vector<CellRectangle> obstacles_;
+    std::vector<CellRectangle> obstacle_cells_;
+    std::vector<Material> materials_ = {Material{}};
+    std::vector<WallLayer> layers_;
+    std::vector<Obstacles> obstacles_;
+    bool plain_ = true;
     std::size_t occupied_cells_ = 0;
     Vec3 lower_left_{};
     Vec3 upper_right_{};

@@ -115,6 +115,11 @@ bool WallIndex::solid(int column, int row) const {
                   static_cast<std::size_t>(column)];
 }
 
+bool WallIndex::holds(CellPoint p) const {
+    return p.u >= 0 && p.u < columns_ && p.v >= 0 && p.v < rows_ &&
+           solid(static_cast<int>(p.u), static_cast<int>(p.v));
+}
+
 bool WallIndex::surrounds(CellPoint p) const {
     if (!(p.u >= 0 && p.u <= columns_ && p.v >= 0 && p.v <= rows_)) return false;
     const int column = static_cast<int>(p.u);

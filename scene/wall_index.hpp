@@ -12,9 +12,10 @@ namespace rovernet {
 
 /// One passage of a segment a-b through walls, measured along the segment from a.
 struct Crossing {
-    double entry;   ///< [m]
-    double exit;    ///< [m]
-    double length;  ///< exit - entry [m]; the same bits from a to b as from b to a
+    double entry;              ///< [m]
+    double exit;               ///< [m]
+    double length;             ///< exit - entry [m]; the same bits from a to b as from b to a
+    std::size_t material = 0;  ///< index into the scene's materials
     friend constexpr bool operator==(Crossing, Crossing) = default;
 };
 
@@ -47,6 +48,8 @@ class WallIndex {
     void crossings(CellPoint a, CellPoint b, double length, std::vector<Crossing>& out) const;
     /// Sum of the crossings' lengths [m]; stops counting once the sum exceeds `enough` [m].
     double solid_length(CellPoint a, CellPoint b, double length, double enough) const;
+    /// The point lies in a solid cell; left and lower edges belong to a cell, others do not.
+    bool holds(CellPoint p) const;
     /// Every cell that holds or touches the point is solid.
     bool surrounds(CellPoint p) const;
 

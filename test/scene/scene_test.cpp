@@ -285,7 +285,7 @@ TEST_CASE("clearance: the distance to the nearest of all rectangles") {
         for (int i = 0; i < 50; ++i) {
             const Vec3 p{draw.uniform(-20, 60), draw.uniform(-20, 95), 0};
             double nearest = std::numeric_limits<double>::infinity();
-            for (const auto& corners : scene.wall_rectangles()) {
+            for (const auto& [corners, material] : scene.wall_rectangles()) {
                 const double dx = std::max({0.0, corners[0].x - p.x, p.x - corners[2].x});
                 const double dy = std::max({0.0, corners[0].y - p.y, p.y - corners[2].y});
                 nearest = std::min(nearest, std::sqrt(dx * dx + dy * dy));
@@ -342,7 +342,7 @@ TEST_CASE("passable: on a large map nothing near the way is overlooked") {
             const Vec3 b{draw.uniform(-9, 140), draw.uniform(-9, 110), 0};
             const double radius = draw.uniform(0.1, 12);
             double nearest = std::numeric_limits<double>::infinity();
-            for (const auto& corners : scene.wall_rectangles()) {
+            for (const auto& [corners, material] : scene.wall_rectangles()) {
                 const Vec3 low = corners[0], high = corners[2];
                 nearest = std::min(nearest, walked_distance(a, b, low.x, low.y, high.x, high.y));
             }
@@ -361,10 +361,10 @@ TEST_CASE("scene: bounds, rectangles and counts are in metres") {
     CHECK(scene.upper_right() == Vec3{11, 21, 0});
     CHECK(scene.occupied_cells() == 2);
     REQUIRE(scene.wall_rectangles().size() == 1);
-    CHECK(scene.wall_rectangles()[0][0] == Vec3{10, 20, 0});
-    CHECK(scene.wall_rectangles()[0][1] == Vec3{11, 20, 0});
-    CHECK(scene.wall_rectangles()[0][2] == Vec3{11, 20.5, 0});
-    CHECK(scene.wall_rectangles()[0][3] == Vec3{10, 20.5, 0});
+    CHECK(scene.wall_rectangles()[0].corners[0] == Vec3{10, 20, 0});
+    CHECK(scene.wall_rectangles()[0].corners[1] == Vec3{11, 20, 0});
+    CHECK(scene.wall_rectangles()[0].corners[2] == Vec3{11, 20.5, 0});
+    CHECK(scene.wall_rectangles()[0].corners[3] == Vec3{10, 20.5, 0});
     grid.yaw = pi / 2;
     const Scene turned(grid);
     CHECK(near(turned.lower_left().x, 9));

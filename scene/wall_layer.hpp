@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/map_frame.hpp"
+#include "scene/wall_index.hpp"
+#include "sim/geometry.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace rovernet {
+
+/// The walls of one material on one map.
+struct WallLayer {
+    MapFrame frame;
+    std::vector<CellRectangle> rectangles;   ///< disjoint, as few as the map's cutting gives
+    std::shared_ptr<const WallIndex> walls;  ///< of these rectangles
+    std::size_t material = 0;                ///< index into the scene's materials
+    double height =
+        std::numeric_limits<double>::infinity();  ///< [m] the walls stand from 0 to here
+
+    /// Appends the crossings of the segment, in order from a.
+    void crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
+};
+
+}  // namespace rovernet
