@@ -123,6 +123,7 @@ class Engine final : public LinkLayer {
     bool comes_next(Key key) {
         return key.time() <= end_of_run_ && queue_.runs_before_next(key);
     }
+    void garble(Flight& flight);
     void arrive(const Scheduler<Occurrence>::Event& event);
     void receive(Flight& flight, std::span<Reception> receptions);
     void hand_over(const Flight& flight, std::span<const Reception> receptions);

@@ -47,6 +47,7 @@ void Engine::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {
     flight.arrived = 0;
     const Time end = now_ + airtime(medium_.radio(frame.sender), messages_[frame.message].size);
     medium_.receivers(frame.sender, now_, end, legs_, flight.receptions);
+    if (medium_.radio(frame.sender).success_rate < 1) garble(flight);
     if (flight.receptions.empty()) {
         flights_.release(slot);
         return;
@@ -54,6 +55,21 @@ void Engine::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {
     messages_.hold(frame.message);
     queue_.schedule(flight.receptions.front().time, Priority::frame_end,
                     {Occurrence::Kind::frame, frame.sender, slot});
+}
+
+/// Decides which receivers get the frame with errors, by its sender's success rate.
+void Engine::garble(Flight& flight) {
+    const Frame& frame = flight.frame;
+    const double success = medium_.radio(frame.sender).success_rate;
+    for (Reception& r : flight.receptions) {
+        const Key draw{settings_.seed,
+                       settings_.replication,
+                       Purpose::link_success,
+                       combine(key(frame.sender), key(r.node)),
+                       combine(messages_[frame.message].key, frame.path),
+                       frame.hops};
+        if (uniform(draw) >= success) r.fate = Fate::garbled;
+    }
 }
 
 /// Serves the receptions of a transmission by one event: as many as come before anything else can
@@ -89,11 +105,15 @@ void Engine::receive(Flight& flight, std::span<Reception> receptions) {
     receiving_ = true;
     auto next = receptions.begin();
     while (next != receptions.end()) {
-        const auto heard = [&](const Reception& r) { return medium_.is_on(r.node); };
+        const auto heard = [&](const Reception& r) {
+            return medium_.is_on(r.node) && r.fate != Fate::garbled;
+        };
         const auto deaf = std::find_if_not(next, receptions.end(), heard);
         if (next != deaf) router_->on_receive(*this, flight.frame, {next, deaf});
         next = std::find_if(deaf, receptions.end(), heard);
-        for (auto r = deaf; r != next; ++r) r->fate = Fate::off;
+        for (auto r = deaf; r != next; ++r) {
+            if (!medium_.is_on(r->node)) r->fate = Fate::off;
+        }
     }
     receiving_ = false;
     emit(Received{flight.frame, receptions});

@@ -8,6 +8,8 @@
 #include "sim/record.hpp"
 
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -35,7 +37,11 @@ class Medium {
 
     void switch_radio(NodeId node, bool on) { stations_[node.index()].on = on; }
     bool is_on(NodeId node) const { return stations_[node.index()].on; }
-    const Radio& radio(NodeId node) const { return stations_[node.index()].radio; }
+    const Radio& radio(NodeId node) const { return radios_[node.index()]; }
+    /// The gates of both let them have a link: one of them is open, or they share a network.
+    bool may_link(NodeId a, NodeId b) const {
+        return !gated_ || Membership::match(memberships_[a.index()], memberships_[b.index()]);
+    }
     std::string_view propagation(NodeId node) const;
 
     /// Appends to `out` the nodes that hear `from` when it sends at `start`, in the order in which
@@ -59,21 +65,38 @@ class Medium {
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
 
   private:
+    /// What is looked at for every candidate of every transmission.
     struct Station {
-        Radio radio;
         std::uint64_t key;
-        std::uint32_t model;  // index into models_
+        double antenna_height;  // [m]
+        std::uint32_t model;    // index into models_
         bool on = true;
         double reach2 = -1;  // [m^2] nobody farther hears it; < 0: to be computed
     };
+    /// A radio's network, as numbers that are equal where the settings are.
+    struct Membership {
+        std::uint32_t essid;    // 0: any
+        std::uint32_t channel;  // number and frequency
+        bool gated;
+        static bool match(const Membership& a, const Membership& b) {
+            return !a.gated || !b.gated ||
+                   (a.channel == b.channel && (a.essid == b.essid || !a.essid || !b.essid));
+        }
+    };
 
     void gather(NodeId from, Time t, const Legs& legs);
-    void keep_those_in_budget(const Station& sender);
-    double squared_reach(Station& sender) const;
-    LinkBatch batch(const Station& sender, Vec3 from) const;
+    void keep_those_in_budget(NodeId from);
+    double squared_reach(NodeId from);
+    LinkBatch batch(NodeId from, Vec3 origin) const;
+    Membership membership(const Radio& radio);
 
     Settings settings_;
     std::vector<Station> stations_;
+    std::vector<Radio> radios_;
+    std::vector<Membership> memberships_;
+    std::vector<std::string> essids_ = {"any"};
+    std::vector<std::pair<int, Hertz>> channels_;
+    bool gated_ = false;  // some two radios do not match
     std::vector<Propagation> models_;
     Db best_receiver_{-1e300};  // gain - cable loss - sensitivity of the most sensitive station
 

@@ -20,6 +20,7 @@ enum class Fate : std::uint8_t {
     ttl,        ///< crossed its last hop: not forwarded
     duplicate,  ///< suppressed: the receiver had a copy already
     off,        ///< the receiver was switched off between the start and the end of the frame
+    garbled,    ///< reached the receiver with errors
 };
 
 /// One receiver of one transmission.

@@ -6,7 +6,7 @@
 namespace rovernet {
 namespace {
 
-enum Drop : std::size_t { dup, ttl, slp };  // the order of MetricValues::drops
+enum Drop : std::size_t { dup, ttl, slp, err };  // the order of MetricValues::drops
 
 /// The p-th percentile by nearest rank, of n > 0 sorted delays [s].
 double percentile(const std::vector<Duration>& sorted, std::size_t p) {
@@ -73,8 +73,8 @@ void Metrics::count(const Transmitted& transmitted, const RecordContext& context
 
 void Metrics::count(const Received& received, const RecordContext& context) {
     for (const Reception& rx : received.receptions) {
-        if (rx.fate == Fate::off) {
-            ++totals_.drops[slp].count;
+        if (rx.fate == Fate::off || rx.fate == Fate::garbled) {
+            ++totals_.drops[rx.fate == Fate::off ? slp : err].count;
             continue;
         }
         ++totals_.receptions;

@@ -39,7 +39,7 @@ struct MetricValues {
 
     /// Copies not forwarded, by reason: DUP suppressed as duplicates, TTL crossed their last hop
     /// (a delivered copy can be one), SLP found the radio off.
-    std::array<DropCount, 3> drops{{{"DUP"}, {"TTL"}, {"SLP"}}};
+    std::array<DropCount, 4> drops{{{"DUP"}, {"TTL"}, {"SLP"}, {"ERR"}}};
 
     /// deliveries / sum over messages of (robots when it was sent - 1) [-], the packet delivery
     /// ratio with every other robot as a destination and without duplicates; nothing if that sum

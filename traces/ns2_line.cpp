@@ -137,8 +137,9 @@ std::optional<Event> event_of(char op, std::string_view layer, std::string_view 
         if (reason == "TTL") return Event::ended_by_ttl;
         if (reason == "DUP") return Event::suppressed;
         if (reason == "SLP") return Event::off_while_waiting;
-    } else if (layer == "MAC" && op == 'D' && reason == "SLP") {
-        return Event::off_while_receiving;
+    } else if (layer == "MAC" && op == 'D') {
+        if (reason == "SLP") return Event::off_while_receiving;
+        if (reason == "ERR") return Event::garbled;
     }
     return std::nullopt;
 }
@@ -187,7 +188,7 @@ void read_last_hop(Ns2Packet& p, const Tokens& tokens, Token transmitter, Token 
     } else if (p.event == Event::received) {
         p.event = Event::own;
     }
-    if (!p.heard_from && p.event == Event::off_while_receiving) {
+    if (!p.heard_from && (p.event == Event::off_while_receiving || p.event == Event::garbled)) {
         tokens.fail(ethertype, "an ethertype, as a robot has received the packet");
     }
 }

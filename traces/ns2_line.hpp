@@ -16,15 +16,16 @@ namespace rovernet {
 /// What a packet line of an ns-2 trace tells of a robot's message, in either format.
 struct Ns2Packet {
     enum class Event : std::uint8_t {
-        sent,                ///< `s AGT`
-        own,                 ///< `r RTR` of the own packet on its way down
-        transmitted,         ///< `s RTR`, `f RTR`
-        received,            ///< `r RTR`
-        delivered,           ///< `r AGT`
-        ended_by_ttl,        ///< `D RTR TTL`
-        suppressed,          ///< `D RTR DUP`
-        off_while_waiting,   ///< `D RTR SLP`
-        off_while_receiving  ///< `D MAC SLP`
+        sent,                 ///< `s AGT`
+        own,                  ///< `r RTR` of the own packet on its way down
+        transmitted,          ///< `s RTR`, `f RTR`
+        received,             ///< `r RTR`
+        delivered,            ///< `r AGT`
+        ended_by_ttl,         ///< `D RTR TTL`
+        suppressed,           ///< `D RTR DUP`
+        off_while_waiting,    ///< `D RTR SLP`
+        off_while_receiving,  ///< `D MAC SLP`
+        garbled               ///< `D MAC ERR`
     };
     Event event{};
     Time time;

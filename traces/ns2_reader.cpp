@@ -244,7 +244,9 @@ void Replay::on(const Ns2Packet& p) {
     } else if (p.event == Event::off_while_waiting) {
         emit(Dropped{p.time, p.node, frame, DropReason::off});
     } else {
-        const auto fate = p.event == Event::received ? Fate::waiting : Fate::off;
+        const auto fate = p.event == Event::received  ? Fate::waiting
+                          : p.event == Event::garbled ? Fate::garbled
+                                                      : Fate::off;
         open_ = Copy{frame, {p.node, p.time, fate, false}, p.uid};
     }
 }

@@ -170,8 +170,9 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     for (const Reception& rx : r.receptions) {
         PacketLine line{'r',   rx.time,      rx.node,       "RTR",
                         "---", frame.sender, frame.message, frame.ttl};
-        if (rx.fate == Fate::off) {
-            line.op = 'D', line.layer = "MAC", line.reason = "SLP";
+        if (rx.fate == Fate::off || rx.fate == Fate::garbled) {
+            line.op = 'D', line.layer = "MAC";
+            line.reason = rx.fate == Fate::off ? "SLP" : "ERR";
             packet(line, context);
             continue;
         }

@@ -38,7 +38,8 @@ Radio random_radio(test::Draw& draw) {
             .frequency = {draw.uniform(1800e6, 2700e6)},
             .antenna_gain = {draw.uniform(-3, 6)},
             .cable_loss = {draw.uniform(0, 4)},
-            .antenna_height = {draw.uniform(0, 2)}};
+            .antenna_height = {draw.uniform(0, 2)},
+            .gate = Gate::none};
 }
 
 /// Robots at random places and on random ways, with radios of their own.
