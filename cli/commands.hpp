@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/scenario.hpp"
+
 #include <csignal>
 #include <cstdint>
 #include <optional>
@@ -14,10 +16,16 @@ namespace rovernet::cli {
 /// Set by Ctrl-C.
 extern volatile std::sig_atomic_t stop_requested;
 
-struct RunArguments {
+/// FILE and what may be said over it: a scenario, a Stage world or a movement file.
+struct FileArguments {
     std::string file;
     std::optional<std::uint64_t> seed, replication;
-    std::vector<std::string> set;
+    ScenarioOptions options;
+};
+/// Reads FILE, and says its notices.
+Scenario scenario_of(const FileArguments& arguments);
+
+struct RunArguments : FileArguments {
     std::optional<std::string> out;
     std::optional<double> speed;
     bool json = false;
@@ -35,14 +43,48 @@ struct LossArguments {
 };
 void loss(const LossArguments& arguments);
 
-struct LinkArguments {
-    std::string file, from, to;
+struct LinkArguments : FileArguments {
+    std::string from, to;
     std::string at = "0 s";
-    std::optional<std::uint64_t> seed;
-    std::vector<std::string> set;
     bool json = false;
 };
 void link(const LinkArguments& arguments);
+
+struct LinksArguments : FileArguments {
+    std::string at = "0 s";
+    std::optional<std::string> robot;
+    bool history = false;
+    bool json = false;
+};
+void links(const LinksArguments& arguments);
+
+struct SceneArguments : FileArguments {
+    std::string at = "0 s";
+    std::optional<std::string> size;  ///< of a bare picture, WIDTHxHEIGHT in metres
+    bool json = false;
+};
+void scene(const SceneArguments& arguments);
+
+struct WhereArguments : FileArguments {
+    std::vector<std::string> at;
+    bool json = false;
+};
+void where(const WhereArguments& arguments);
+
+struct DrawArguments : FileArguments {
+    std::string at = "0 s";
+    std::optional<std::string> coverage;
+    bool links = false;
+    bool trails = false;
+    int width = 1200;
+    std::string out;
+};
+void draw(const DrawArguments& arguments);
+
+struct ConvertArguments : FileArguments {
+    std::string out;
+};
+void convert_movements(const ConvertArguments& arguments);
 
 void models(bool json);
 void trace_stats(const std::string& file, bool json);

@@ -65,14 +65,33 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* what, int& ex
     return sub;
 }
 
+/// FILE and the options that go over it.
+void add_file(CLI::App& command, cli::FileArguments& a, const char* what) {
+    command.add_option("FILE", a.file, what)->required();
+    command.add_option("--seed", a.seed, "seed of every random draw");
+    command.add_option("--replication", a.replication, "which independent repetition");
+    command
+        .add_option("--set", a.options.set,
+                    "key=value over the file's, such as radio.power=\"15 dBm\"")
+        ->allow_extra_args(false);
+    command
+        .add_option("--world-path", a.options.world_path,
+                    "folder for the includes and bitmaps of a Stage world")
+        ->allow_extra_args(false);
+    command
+        .add_option("--bitmap", a.options.bitmaps,
+                    "OLD=NEW: another bitmap for one that a Stage world names")
+        ->allow_extra_args(false);
+    command.add_flag("--lenient", a.options.lenient,
+                     "go on without an include or bitmap that is missing");
+}
+
+constexpr const char* any_file = "scenario (.toml), Stage world (.world) or movement file";
+
 void add_run(CLI::App& app, int& exit) {
     static cli::RunArguments a;
     CLI::App* run = add_command(app, "run", "Run a scenario", exit, [] { cli::run(a); });
-    run->add_option("FILE", a.file, "scenario file (.toml)")->required();
-    run->add_option("--seed", a.seed, "seed of every random draw");
-    run->add_option("--replication", a.replication, "which independent repetition");
-    run->add_option("--set", a.set, "key=value over the file's, such as radio.power=\"15 dBm\"")
-        ->allow_extra_args(false);
+    add_file(*run, a, any_file);
     run->add_option("--out", a.out, "folder for the results (default: runs/NAME-sSEED)");
     run->add_option("--speed", a.speed, "pace the run: 1 is real time, 2 (or x2) twice as fast")
         ->transform(
@@ -102,13 +121,70 @@ void add_link(CLI::App& app, int& exit) {
     static cli::LinkArguments a;
     CLI::App* link = add_command(app, "link", "The budget of the link from robot A to robot B",
                                  exit, [] { cli::link(a); });
-    link->add_option("FILE", a.file, "scenario file (.toml)")->required();
+    add_file(*link, a, any_file);
     link->add_option("A", a.from, "transmitting robot")->required();
     link->add_option("B", a.to, "receiving robot")->required();
     link->add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
-    link->add_option("--seed", a.seed, "seed of every random draw");
-    link->add_option("--set", a.set, "key=value over the file's")->allow_extra_args(false);
     link->add_flag("--json", a.json, "print one JSON document");
+}
+
+void add_links(CLI::App& app, int& exit) {
+    static cli::LinksArguments a;
+    CLI::App* links =
+        add_command(app, "links", "What every robot's radio hears", exit, [] { cli::links(a); });
+    add_file(*links, a, any_file);
+    links->add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
+    links->add_option("--robot", a.robot, "of this robot only");
+    CLI::Option* history =
+        links->add_flag("--history", a.history, "every link change of the run, as CSV");
+    links->add_flag("--json", a.json, "print one JSON document")->excludes(history);
+}
+
+void add_scene(CLI::App& app, int& exit) {
+    static cli::SceneArguments a;
+    CLI::App* scene = add_command(app, "scene", "The map, the robots and how links join them", exit,
+                                  [] { cli::scene(a); });
+    add_file(*scene, a, "as for run; or a map alone: map.yaml, or a picture with --size");
+    scene->add_option("--size", a.size, "of a picture, in metres: 16x16");
+    scene->add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
+    scene->add_flag("--json", a.json, "print one JSON document, with every wall");
+}
+
+void add_where(CLI::App& app, int& exit) {
+    static cli::WhereArguments a;
+    CLI::App* where =
+        add_command(app, "where", "Where every robot is", exit, [] { cli::where(a); });
+    add_file(*where, a, any_file);
+    where->add_option("--at", a.at, "times of the run, such as 10s,31.25s")
+        ->delimiter(',')
+        ->required();
+    where->add_flag("--json", a.json, "print one JSON document");
+}
+
+void add_draw(CLI::App& app, int& exit) {
+    static cli::DrawArguments a;
+    CLI::App* draw =
+        add_command(app, "draw", "Draw map, robots and radio", exit, [] { cli::draw(a); });
+    add_file(*draw, a, any_file);
+    draw->add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
+    draw->add_option("--coverage", a.coverage, "robot whose received power is shown");
+    draw->add_flag("--links", a.links, "show who hears whom");
+    draw->add_flag("--trails", a.trails, "show where the robots have been");
+    draw->add_option("--width", a.width, "of the picture, in pixels")
+        ->check(CLI::Range(100, 10000))
+        ->capture_default_str();
+    draw->add_option("-o,--output", a.out, "picture to write: NAME.svg or NAME.png")->required();
+}
+
+void add_move(CLI::App& app, int& exit) {
+    static cli::ConvertArguments a;
+    CLI::App* move = app.add_subcommand("move", "Work with movement files");
+    move->require_subcommand(1);
+    CLI::App* convert =
+        add_command(*move, "convert", "Write the motion of a scenario or movement file for others",
+                    exit, [] { cli::convert_movements(a); });
+    add_file(*convert, a, any_file);
+    convert->add_option("OUT", a.out, "NAME.tcl (ns-2) or NAME.movements (BonnMotion)")->required();
 }
 
 void add_others(CLI::App& app, int& exit) {
@@ -146,6 +222,11 @@ int main(int argc, char** argv) {
     add_run(app, exit);
     add_loss(app, exit);
     add_link(app, exit);
+    add_links(app, exit);
+    add_scene(app, exit);
+    add_where(app, exit);
+    add_draw(app, exit);
+    add_move(app, exit);
     add_others(app, exit);
     if (argc > 1 && is_unknown_command(app, argv[1])) return usage;
     try {

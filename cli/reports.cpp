@@ -22,11 +22,12 @@ Table as_table(const LinkReport& report) {
     table.set("at_s", seconds(report.at));
     table.set("distance_m", report.distance_m);
     Array walls;
-    for (const auto& wall : report.walls) {
+    for (std::size_t i = 0; i < report.walls.size(); ++i) {
         Table crossing;
-        crossing.set("entry_m", wall.entry);
-        crossing.set("exit_m", wall.exit);
-        crossing.set("length_m", wall.length);
+        crossing.set("entry_m", report.walls[i].entry);
+        crossing.set("exit_m", report.walls[i].exit);
+        crossing.set("length_m", report.walls[i].length);
+        crossing.set("material", report.materials[i]);
         walls.emplace_back(std::move(crossing));
     }
     table.set("walls", std::move(walls));
@@ -41,9 +42,9 @@ Table as_table(const LinkReport& report) {
 void print_budget(const LinkReport& r) {
     fmt::print("{} -> {} at {:.9g} s: {:.3f} m, model {}\n\n", r.from, r.to, seconds(r.at),
                r.distance_m, r.model);
-    for (const auto& wall : r.walls) {
-        fmt::print("  wall from {:8.3f} m to {:8.3f} m: {:.3f} m\n", wall.entry, wall.exit,
-                   wall.length);
+    for (std::size_t i = 0; i < r.walls.size(); ++i) {
+        fmt::print("  {} from {:8.3f} m to {:8.3f} m: {:.3f} m\n", r.materials[i], r.walls[i].entry,
+                   r.walls[i].exit, r.walls[i].length);
     }
     if (!r.walls.empty()) fmt::print("  {:.3f} m of wall in all\n\n", r.wall_m);
     const auto line = [](std::string_view what, double value, std::string_view unit) {
@@ -96,11 +97,8 @@ void loss(const LossArguments& a) {
 }
 
 void link(const LinkArguments& a) {
-    auto options = a.set;
-    if (a.seed) options.push_back(fmt::format("scenario.seed={}", *a.seed));
     const Duration at = option_time("--at", a.at);
-    const auto report =
-        report_link(load_scenario(a.file, options), a.from, a.to, start_of_run + at);
+    const auto report = report_link(scenario_of(a), a.from, a.to, start_of_run + at);
     if (a.json) {
         fmt::print("{}", to_json(as_table(report)));
     } else {

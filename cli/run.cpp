@@ -2,6 +2,7 @@
 #include "experiment/run.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/diagnostics.hpp"
 #include "experiment/json.hpp"
 #include "experiment/toml.hpp"
 
@@ -85,11 +86,19 @@ void print_result(const Scenario& scenario, const RunResult& result) {
 
 }  // namespace
 
+Scenario scenario_of(const FileArguments& a) {
+    ScenarioOptions options = a.options;
+    if (a.seed) options.set.push_back(fmt::format("scenario.seed={}", *a.seed));
+    if (a.replication) {
+        options.set.push_back(fmt::format("scenario.replication={}", *a.replication));
+    }
+    Scenario scenario = load_scenario(a.file, options);
+    for (const std::string& text : scenario.notices) notice(text);
+    return scenario;
+}
+
 void run(const RunArguments& a) {
-    auto options = a.set;
-    if (a.seed) options.push_back(fmt::format("scenario.seed={}", *a.seed));
-    if (a.replication) options.push_back(fmt::format("scenario.replication={}", *a.replication));
-    const Scenario scenario = load_scenario(a.file, options);
+    const Scenario scenario = scenario_of(a);
     if (a.print_scenario) {
         fmt::print("{}", to_toml(to_document(scenario)));
         return;

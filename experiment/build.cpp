@@ -1,107 +1,57 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
 
-#include "mobility/planners.hpp"
-#include "mobility/waypoints.hpp"
-#include "scene/occupancy.hpp"
-#include "sim/random.hpp"
+#include "experiment/build_motion.hpp"
+#include "experiment/located.hpp"
+#include "experiment/movement_play.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 namespace rovernet {
 namespace {
-
-/// Runs `make`; a caller's-fault exception in it is the input's fault at `where`.
-auto located(const Location& where, auto&& make) {
-    try {
-        return make();
-    } catch (const InputError&) {
-        throw;
-    } catch (const std::invalid_argument& error) {
-        throw InputError(where, error.what());
-    }
-}
-
-OccupancyGrid load_map(const Scenario& scenario) {
-    namespace fs = std::filesystem;
-    const auto& scene = scenario.scene;
-    const fs::path path = fs::path(scenario.file).parent_path() / *scene.map;
-    const auto extension = path.extension();
-    const bool yaml = extension == ".yaml" || extension == ".yml";
-    if (yaml && scene.size) {
-        throw InputError(scenario.map_where,
-                         "map: a map.yaml has its own size; leave out the key size");
-    }
-    if (!yaml && fs::is_regular_file(path) && !scene.size) {
-        throw InputError(scenario.map_where,
-                         fmt::format("map: \"{}\" is a picture without a scale; expected a ROS "
-                                     "map.yaml, or also size = [\"40 m\", \"20 m\"]",
-                                     *scene.map));
-    }
-    try {
-        if (yaml) return read_ros_map(path.string());
-        const auto size = scene.size.value_or(std::vector<Meters>{{1}, {1}});
-        return image_map(path.string(), size[0], size[1]);
-    } catch (const InputError& error) {
-        throw InputError(scenario.map_where, std::string("map: ") + error.what());
-    }
-}
-
-std::string coordinates(Vec3 p) { return fmt::format("({}, {})", p.x, p.y); }
 
 /// Builds the robots of one scenario into one network.
 class Builder {
   public:
     Builder(Network& network, const Scenario& scenario)
-        : network_(network), scenario_(scenario), planners_(network.scene()) {}
+        : network_(network), scenario_(scenario), motion_(network, scenario) {
+        for (const FileRobot& robot : scenario.movement.robots) in_file_[robot.name] = &robot;
+    }
 
     void add_robots();
+    void add_reactions();
     void add_traffic();
 
   private:
-    /// What a robot does after a message is a plan of its own, with draws of its own.
-    enum Plan : std::uint64_t { from_the_start, after_a_message };
-
-    Key key(Purpose purpose, const std::string& name, std::uint64_t index,
-            Plan plan = from_the_start) const {
-        return {scenario_.scenario.seed,
-                static_cast<std::uint32_t>(scenario_.scenario.replication),
-                purpose,
-                name_key(name),
-                plan,
-                index};
-    }
+    /// A robot that is built, for what comes later.
+    struct Built {
+        NodeId node;
+        const RobotTable* table;
+        Vec3 at;
+    };
 
     std::optional<Propagation> own_propagation(const RobotTable& table) const;
     void add_robot(const RobotTable& table, const std::string& name,
                    const std::optional<Propagation>& propagation);
-    Vec3 start(const RobotTable& table, const std::string& name) const;
-    Vec3 drawn_place(const RobotTable& table, const std::string& name) const;
-    bool fits(Vec3 p, Meters radius) const { return network_.scene().clearance(p) >= radius.value; }
-    Movement movement(const MoveTable& table, const RobotTable& robot, const std::string& name,
-                      Vec3 from, Plan plan);
-    Waypoints waypoints(const WaypointsTable& table, const std::string& name, Plan plan) const;
-    void check_way(Vec3 from, Vec3 to, const RobotTable& robot, const Location& where);
-    void react(NodeId node, const RobotTable& table, const std::string& name, Vec3 at);
+    void react(const Built& robot, const ReactionTable& reaction, MotionBuilder::Plan plan);
+    std::function<void()> answer(const Built& robot, const ReactionTable& reaction,
+                                 MotionBuilder::Plan plan);
 
     Network& network_;
     const Scenario& scenario_;
-    Planners planners_;
+    MotionBuilder motion_;
+    std::map<std::string_view, const FileRobot*> in_file_;  // where the movement file has it first
+    std::vector<Built> built_;
 };
 
 void Builder::add_robots() {
-    for (const auto& table : scenario_.robots) {
+    for (const RobotTable& table : scenario_.robots) {
         const auto own = own_propagation(table);
-        if (!table.count) {
-            add_robot(table, table.name, own);
-            continue;
-        }
-        for (int i = 0; i < *table.count; ++i) {
-            add_robot(table, fmt::format("{}{}", table.name, i), own);
-        }
+        for (int i = 0; i < table.count.value_or(1); ++i) add_robot(table, table.name_of(i), own);
     }
 }
 
@@ -120,115 +70,77 @@ std::optional<Propagation> Builder::own_propagation(const RobotTable& table) con
 
 void Builder::add_robot(const RobotTable& table, const std::string& name,
                         const std::optional<Propagation>& propagation) {
-    const Vec3 at = start(table, name);
+    const auto found = in_file_.find(name);
+    const FileRobot* file = found == in_file_.end() ? nullptr : found->second;
+    const Vec3 at = file ? file->start : motion_.start(table, name);
+    const auto plan = MotionBuilder::from_the_start;
+    const Movement move = file ? Fixed{} : motion_.movement(table.move, table, name, at, plan);
     const NodeId node = located(table.radio_where, [&] {
         return network_.add({.name = name,
                              .at = at,
                              .radius = table.radius,
                              .radio = table.radio,
                              .propagation = propagation,
-                             .move = movement(table.move, table, name, at, from_the_start)});
+                             .move = move,
+                             .heading = table.heading,
+                             .top_speed = table.top_speed.value_or(Mover::any_speed),
+                             .turn_rate = table.turn_rate});
     });
+    built_.push_back({node, &table, at});
     for (const Duration t : table.off) {
         network_.at(start_of_run + t, [this_ = &network_, node] { this_->switch_off(node); });
     }
     for (const Duration t : table.on) {
         network_.at(start_of_run + t, [this_ = &network_, node] { this_->switch_on(node); });
     }
-    if (table.on_receive) react(node, table, name, at);
 }
 
-Vec3 Builder::start(const RobotTable& table, const std::string& name) const {
-    const Vec3 at = table.at ? *table.at : drawn_place(table, name);
-    if (!fits(at, table.radius)) {
-        throw InputError(
-            table.at ? table.at_where : table.place->where,
-            fmt::format("robot \"{}\" at {} m is inside a wall or nearer to one than its radius "
-                        "of {} m (clearance {:.3f} m); move it or give it a smaller radius",
-                        name, coordinates(at), table.radius.value, network_.scene().clearance(at)));
+void Builder::add_reactions() {
+    for (const Built& robot : built_) {
+        MotionBuilder::Plan plan = MotionBuilder::from_the_start;
+        for (const ReactionTable& reaction : robot.table->reactions) react(robot, reaction, ++plan);
     }
-    return at;
 }
 
-Vec3 Builder::drawn_place(const RobotTable& table, const std::string& name) const {
-    const PlaceTable& place = *table.place;
-    if (place.model == PlaceTable::Model::choice) {
-        return place.points[below(key(Purpose::placement, name, 0), place.points.size())];
+/// What the robot does when the reaction's condition holds.
+std::function<void()> Builder::answer(const Built& robot, const ReactionTable& reaction,
+                                      MotionBuilder::Plan plan) {
+    std::optional<Movement> move;
+    if (reaction.move) {
+        move = motion_.movement(*reaction.move, *robot.table, network_.name(robot.node), robot.at,
+                                plan);
     }
-    constexpr std::uint64_t most_tries = 10'000;
-    const Vec3 low = place.area[0], high = place.area[1];
-    Vec3 p;
-    for (std::uint64_t i = 0; i < most_tries; ++i) {
-        p = {low.x + uniform(key(Purpose::placement, name, 2 * i)) * (high.x - low.x),
-             low.y + uniform(key(Purpose::placement, name, 2 * i + 1)) * (high.y - low.y), low.z};
-        if (fits(p, table.radius)) return p;
-    }
-    throw InputError(place.where, fmt::format("area: no room for robot \"{}\" after {} tries; "
-                                              "expected an area with space free of walls",
-                                              name, most_tries));
+    std::optional<std::uint32_t> size;
+    if (reaction.size) size = reaction.size->value;
+    return [this_ = &network_, node = robot.node, move, size, send = reaction.send,
+            stop = reaction.stop, once = reaction.once, done = false]() mutable {
+        if (once && std::exchange(done, true)) return;
+        if (stop) this_->stop(node);
+        if (move) this_->move(node, *move);
+        if (send) this_->broadcast(node, *send, size);
+    };
 }
 
-Movement Builder::movement(const MoveTable& table, const RobotTable& robot, const std::string& name,
-                           Vec3 from, Plan plan) {
-    if (const auto* path = std::get_if<WaypointsTable>(&table.model)) {
-        const Waypoints model = waypoints(*path, name, plan);
-        Vec3 at = from;
-        for (const Vec3 place : path->path) {
-            check_way(std::exchange(at, place), place, robot, table.where);
-        }
-        return model;
+void Builder::react(const Built& robot, const ReactionTable& reaction, MotionBuilder::Plan plan) {
+    auto act = answer(robot, reaction, plan);
+    const auto from = reaction.from ? network_.find(*reaction.from) : std::nullopt;
+    switch (reaction.trigger) {
+        case Trigger::on_receive:
+            return network_.on_receive(
+                robot.node, [act, from, prefix = reaction.payload, hops = reaction.hops](
+                                const Message& message, const Heard& heard) mutable {
+                    const bool wanted = message.payload.starts_with(prefix) &&
+                                        (!from || message.origin == *from) &&
+                                        (!hops || heard.hops <= *hops);
+                    if (wanted) act();
+                });
+        case Trigger::on_arrival: return network_.on_arrival(robot.node, std::move(act));
+        case Trigger::on_link_lost:
+            return network_.on_link_lost(robot.node, [act, from](NodeId lost) mutable {
+                if (!from || lost == *from) act();
+            });
+        case Trigger::on_time: return network_.at(start_of_run + reaction.time, std::move(act));
     }
-    if (const auto* goal = std::get_if<GoalTable>(&table.model)) {
-        const auto choices = goal->among.size();
-        const Vec3 to = goal->to
-                            ? *goal->to
-                            : goal->among[below(key(Purpose::destination, name, 0, plan), choices)];
-        check_way(from, to, robot, table.where);
-        return ToGoal{.to = to, .speed = goal->speed};
-    }
-    return Fixed{};
-}
-
-Waypoints Builder::waypoints(const WaypointsTable& table, const std::string& name,
-                             Plan plan) const {
-    Waypoints model{.speed = table.speed};
-    auto path = table.path;
-    if (table.order == WaypointsTable::Order::shuffled) {
-        for (std::size_t i = path.size(); i > 1; --i) {
-            std::swap(path[i - 1], path[below(key(Purpose::order, name, i, plan), i)]);
-        }
-    }
-    if (!table.times) {
-        model.path = std::move(path);
-        return model;
-    }
-    for (std::size_t i = 0; i < path.size(); ++i)
-        model.timed.push_back({(*table.times)[i], path[i]});
-    return model;
-}
-
-void Builder::check_way(Vec3 from, Vec3 to, const RobotTable& robot, const Location& where) {
-    if (network_.scene().open_field()) return;
-    if (planners_.of_radius(robot.radius).shortest_path(from, to)) return;
-    const bool fits_there = network_.scene().inside_map(to) && fits(to, robot.radius);
-    throw InputError(where, fmt::format("move: no way from {} m to {} m for a robot of radius {} "
-                                        "m: {}; expected a place that can be reached",
-                                        coordinates(from), coordinates(to), robot.radius.value,
-                                        fits_there ? "walls are all around"
-                                                   : "it is in a wall, too near to one, or off "
-                                                     "the map"));
-}
-
-void Builder::react(NodeId node, const RobotTable& table, const std::string& name, Vec3 at) {
-    const OnReceiveTable& reaction = *table.on_receive;
-    network_.on_receive(
-        node, [this_ = &network_, node, prefix = reaction.payload, once = reaction.once,
-               done = false, move = movement(*reaction.move, table, name, at, after_a_message)](
-                  const Message& message) mutable {
-            if (!message.payload.starts_with(prefix) || (once && done)) return;
-            done = true;
-            this_->move(node, move);
-        });
 }
 
 /// A source of messages: sends, and sees to its own next sending.
@@ -256,6 +168,21 @@ void Builder::add_traffic() {
     }
 }
 
+/// The robots that only the movement file names, and the file's commands for all that it names.
+void play_file(Network& network, const Scenario& scenario) {
+    if (!scenario.movement.file) return;
+    const auto path = std::filesystem::path(scenario.file).parent_path() / *scenario.movement.file;
+    std::vector<NodeId> nodes;
+    MovementFile file(path.string(), scenario.movement.syntax);
+    for (const FileRobot& robot : file.robots()) {
+        const auto known = network.find(robot.name);
+        nodes.push_back(
+            known ? *known
+                  : network.add({.name = robot.name, .at = robot.start, .radio = scenario.radio}));
+    }
+    play(network, std::move(file), std::move(nodes));
+}
+
 }  // namespace
 
 NetworkSettings network_settings(const Scenario& scenario) {
@@ -265,13 +192,12 @@ NetworkSettings network_settings(const Scenario& scenario) {
         .propagation =
             located(scenario.propagation_where, [&] { return scenario.propagation.make(); }),
         .floor_height = scenario.scene.floor_height,
+        .links = {.tolerance = scenario.links.tolerance, .min_dwell = scenario.links.min_dwell},
         .propagation_delay = scenario.medium.propagation_delay,
         .event_limit = scenario.scenario.event_limit,
     };
-    if (scenario.scene.map) {
-        settings.scene = located(scenario.map_where,
-                                 [&] { return std::make_shared<const Scene>(load_map(scenario)); });
-    }
+    std::vector<std::string> notices;
+    settings.scene = load_scene(scenario.scene, scenario.file, scenario.world.get(), notices);
     return settings;
 }
 
@@ -279,6 +205,8 @@ void populate(Network& network, const Scenario& scenario) {
     network.route(scenario.routing.flood);
     Builder builder(network, scenario);
     builder.add_robots();
+    play_file(network, scenario);
+    builder.add_reactions();
     builder.add_traffic();
 }
 

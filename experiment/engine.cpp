@@ -67,9 +67,9 @@ void Engine::serve(const Scheduler<Occurrence>::Event& event) {
         case Occurrence::Kind::leg_end:
             if (legs_.version(node_id) == data) next_leg(node_id);
             return;
-        case Occurrence::Kind::handed_over:
-            return react(node_id, MessageId{static_cast<std::uint32_t>(data)});
+        case Occurrence::Kind::handed_over: return react(node_id, data);
         case Occurrence::Kind::action: return act(data);
+        case Occurrence::Kind::link_change: return change_links();
     }
 }
 
@@ -85,6 +85,7 @@ bool Engine::advance(Time end, std::uint64_t most_events) {
     running_ = true;
     end_of_run_ = end;
     begin_movements();
+    if (links_wanted_ && !watch_) start_watch();
     for (auto next = queue_.next_time(); next && *next <= end; next = queue_.next_time()) {
         if (most_events-- == 0) return false;
         check_event_limit();

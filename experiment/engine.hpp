@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/link_watch.hpp"
 #include "experiment/network.hpp"
 #include "mobility/planners.hpp"
 #include "sim/scheduler.hpp"
@@ -19,7 +20,14 @@ namespace rovernet {
 
 /// What an event is about; `data` means what `kind` says.
 struct Occurrence {
-    enum class Kind : std::uint32_t { frame, router_timer, leg_end, handed_over, action };
+    enum class Kind : std::uint32_t {
+        frame,
+        router_timer,
+        leg_end,
+        handed_over,
+        action,
+        link_change
+    };
     Kind kind;
     NodeId node;
     std::uint64_t data;
@@ -48,13 +56,15 @@ struct Node {
     Meters radius;
     Movement movement;
     MetersPerSecond top_speed;
-    std::optional<double> turn_rate;  // [rad/s]
-    std::uint32_t movements = 0;      // begun so far
+    std::optional<RadiansPerSecond> turn_rate;
+    std::uint32_t movements = 0;  // begun so far
     std::uint32_t messages_sent = 0;
     bool moving = false;                  // its movement has begun
     std::optional<Leg> interrupted = {};  // by switching off
-    std::vector<Callback<const Message&>> on_receive = {};
+    std::optional<Leg> after_turn = {};   // begins when the turn on the current leg is over
+    std::vector<Callback<const Message&, const Heard&>> on_receive = {};
     std::vector<Callback<>> on_arrival = {};
+    std::vector<Callback<NodeId>> on_link_lost = {};
 };
 
 /// What stands behind a Network: serves the events, and is the link layer to the router.
@@ -87,13 +97,17 @@ class Engine final : public LinkLayer {
     void route(Router router);
     void add_sink(Sink sink) {
         wanted_ |= sink.kinds();
+        links_wanted_ = links_wanted_ || (sink.kinds() & kind_links) != 0;
         sinks_.push_back(std::move(sink));
     }
     void send(NodeId node, std::string payload, std::uint32_t bytes);
     void move(NodeId node, Movement movement);
+    void place(NodeId node, Vec3 at);
     void switch_robot(NodeId node, bool on);
     void schedule(Time time, Action action);
     bool advance(Time end, std::uint64_t most_events);
+    /// Link changes are wanted from now on.
+    void watch_links() { links_wanted_ = true; }
     Node& node(NodeId id) { return nodes_.at(id.index()); }
 
     // What the public class shows.
@@ -127,11 +141,17 @@ class Engine final : public LinkLayer {
     void arrive(const Scheduler<Occurrence>::Event& event);
     void receive(Flight& flight, std::span<Reception> receptions);
     void hand_over(const Flight& flight, std::span<const Reception> receptions);
-    void react(NodeId node, MessageId id);
+    void react(NodeId node, std::uint64_t handed_over);
     void act(std::size_t slot);
     void begin_movements();
     void next_leg(NodeId id);
+    void begin_leg(NodeId id, const Leg& leg);
+    void end_movement(NodeId id);
+    void start_watch();
+    void change_links();
+    void expect_link_change();
     void take(NodeId id, const Leg& leg);
+    void put(NodeId id, const Leg& leg);
     Mover mover(NodeId id);
 
     Time now_ = start_of_run;
@@ -145,6 +165,9 @@ class Engine final : public LinkLayer {
     Slots<Flight> flights_;
     Slots<Action> actions_;
     std::size_t begun_ = 0;  // nodes whose movement has begun
+    bool links_wanted_ = false;
+    std::optional<LinkWatch> watch_;  // once links are wanted and the run has begun
+    Time link_event_ = never;         // the next one queued
     bool running_ = false;
     bool receiving_ = false;
 };

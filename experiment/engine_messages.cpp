@@ -124,19 +124,24 @@ void Engine::hand_over(const Flight& flight, std::span<const Reception> receptio
     for (const auto& r : receptions) {
         if (!r.delivered || node(r.node).on_receive.empty()) continue;
         messages_.hold(flight.frame.message);
-        queue_.schedule(r.time + least_reaction, Priority::user,
-                        {Occurrence::Kind::handed_over, r.node, flight.frame.message.value});
+        const std::uint64_t hops = flight.frame.hops;
+        queue_.schedule(
+            r.time + least_reaction, Priority::user,
+            {Occurrence::Kind::handed_over, r.node, hops << 32 | flight.frame.message.value});
     }
 }
 
-void Engine::react(NodeId id, MessageId message) {
+/// @param handed_over  the message's id, and above its 32 bits the hops
+void Engine::react(NodeId id, std::uint64_t handed_over) {
+    const MessageId message{static_cast<std::uint32_t>(handed_over)};
+    const Heard how{static_cast<int>(handed_over >> 32)};
     const Message heard = messages_[message];  // a copy: reactions may send
     release(message);
     if (!medium_.is_on(id)) return;
     auto& reactions = node(id).on_receive;
     for (std::size_t i = 0; i < reactions.size(); ++i) {
         const auto reaction = reactions[i];
-        (*reaction)(heard);
+        (*reaction)(heard, how);
     }
 }
 

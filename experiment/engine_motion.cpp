@@ -4,10 +4,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 namespace rovernet {
+namespace {
+
+void check_place(Vec3 at) {
+    for (const double x : {at.x, at.y, at.z}) {
+        if (!any.contains(x)) throw_out_of_range("robot", "at", "finite", x);
+    }
+}
+
+}  // namespace
 
 NodeId Engine::add(Robot robot) {
     if (robot.name.empty()) robot.name = fmt::format("r{}", nodes_.size());
@@ -17,13 +28,20 @@ NodeId Engine::add(Robot robot) {
     if (!non_negative.contains(robot.radius.value)) {
         throw_out_of_range("robot", "radius", non_negative.text, robot.radius.value);
     }
-    for (const double x : {robot.at.x, robot.at.y, robot.at.z}) {
-        if (!any.contains(x)) throw_out_of_range("robot", "at", "finite", x);
+    if (!positive.contains(robot.turn_rate.value_or(RadiansPerSecond{1}).value)) {
+        throw_out_of_range("robot", "turn_rate", positive.text, robot.turn_rate->value);
     }
+    if (!(robot.top_speed.value > 0)) {
+        throw_out_of_range("robot", "top_speed", positive.text, robot.top_speed.value);
+    }
+    if (!any.contains(robot.heading.value)) {
+        throw_out_of_range("robot", "heading", any.text, robot.heading.value);
+    }
+    check_place(robot.at);
     const auto key = name_key(robot.name);
     medium_.add(robot.radio, key, robot.propagation.value_or(settings_.propagation));
-    const NodeId id =
-        legs_.add({.start = now_, .from = robot.at, .to = robot.at, .heading = robot.heading});
+    const NodeId id = legs_.add(
+        {.start = now_, .from = robot.at, .to = robot.at, .heading = robot.heading.value});
     by_name_[robot.name] = id;
     nodes_.push_back({.name = std::move(robot.name),
                       .key = key,
@@ -31,6 +49,7 @@ NodeId Engine::add(Robot robot) {
                       .movement = std::move(robot.move),
                       .top_speed = robot.top_speed,
                       .turn_rate = robot.turn_rate});
+    if (watch_) watch_->added(id, now_);
     if (running_) begin_movements();
     return id;
 }
@@ -42,7 +61,7 @@ Mover Engine::mover(NodeId id) {
             .radius = robot.radius,
             .planners = planners_,
             .legs = legs_,
-            .heading = legs_.leg(id).heading_at(now_),
+            .heading = wrapped(legs_.leg(id).heading_at(now_)),
             .top_speed = robot.top_speed,
             .draws = {.seed = settings_.seed,
                       .replication = settings_.replication,
@@ -62,16 +81,17 @@ void Engine::begin_movements() {
 }
 
 void Engine::next_leg(NodeId id) {
+    if (const auto leg = std::exchange(node(id).after_turn, std::nullopt)) return take(id, *leg);
     Mover asking = mover(id);
     const Step step = node(id).movement.next_leg(asking);
     const bool begins = !std::exchange(node(id).moving, true);
-    if (const auto* leg = std::get_if<Leg>(&step)) return take(id, *leg);
+    if (const auto* leg = std::get_if<Leg>(&step)) return begin_leg(id, *leg);
 
     const Leg rest = standing_leg(asking);
     if (begins)
         take(id, rest);  // where it is has not been told yet
     else
-        legs_.replace(id, rest);
+        put(id, rest);
     if (const auto* blocked = std::get_if<Blocked>(&step)) {
         emit(NoWay{now_, id, blocked->goal});
         return;
@@ -82,24 +102,74 @@ void Engine::next_leg(NodeId id) {
     }
 }
 
+/// Takes a leg of the movement model, after turning towards it if the robot turns in place.
+void Engine::begin_leg(NodeId id, const Leg& leg) {
+    const auto& rate = node(id).turn_rate;
+    const double facing = wrapped(legs_.leg(id).heading_at(now_));
+    const double turn = wrapped(leg.heading - facing);
+    if (!rate || leg.velocity == Vec3{} || turn == 0) return take(id, leg);
+    const Duration turning = std::max(from_seconds(std::abs(turn) / rate->value), Duration{1});
+    Leg later = leg;
+    later.start += turning;
+    if (later.end != never) later.end += turning;
+    node(id).after_turn = later;
+    take(id, {.start = now_,
+              .end = now_ + turning,
+              .from = leg.from,
+              .to = leg.from,
+              .heading = facing,
+              .turning = turn / seconds(turning)});
+}
+
+/// Replaces the leg, and tells of it.
 void Engine::take(NodeId id, const Leg& leg) {
-    legs_.replace(id, leg);
+    put(id, leg);
     emit(Moved{now_, id, leg});
     if (leg.end == never) return;
     queue_.schedule(leg.end, Priority::timer, {Occurrence::Kind::leg_end, id, legs_.version(id)});
 }
 
+void Engine::put(NodeId id, const Leg& leg) {
+    legs_.replace(id, leg);
+    if (!watch_) return;
+    watch_->leg_changed(id, now_);
+    expect_link_change();
+}
+
+/// What the robot was about to do is void.
+void Engine::end_movement(NodeId id) {
+    Node& robot = node(id);
+    ++robot.movements;
+    robot.moving = false;
+    robot.interrupted.reset();
+    robot.after_turn.reset();
+}
+
 void Engine::move(NodeId id, Movement movement) {
+    end_movement(id);
     node(id).movement = std::move(movement);
-    node(id).moving = false;
-    node(id).interrupted.reset();
     if (running_ && medium_.is_on(id)) next_leg(id);
+}
+
+void Engine::place(NodeId id, Vec3 at) {
+    check_place(at);
+    end_movement(id);
+    node(id).movement = Fixed{};
+    node(id).moving = true;
+    Leg leg = standing_leg(mover(id));
+    leg.from = leg.to = at;
+    if (running_) return take(id, leg);
+    legs_.replace(id, leg);
 }
 
 void Engine::switch_robot(NodeId id, bool on) {
     if (medium_.is_on(id) == on) return;
     medium_.switch_radio(id, on);
     emit(Switched{now_, id, on});
+    if (watch_) {
+        watch_->switched(id, now_);
+        expect_link_change();
+    }
     if (!running_) return;
     Node& robot = node(id);
     if (!on) {
@@ -114,7 +184,13 @@ void Engine::switch_robot(NodeId id, bool on) {
                   .end = unending ? never : leg->end + off,
                   .from = legs_.position(id, now_),
                   .velocity = leg->velocity,
-                  .to = unending ? legs_.position(id, now_) : leg->to});
+                  .to = unending ? legs_.position(id, now_) : leg->to,
+                  .heading = wrapped(legs_.leg(id).heading_at(now_)),
+                  .turning = leg->turning});
+        if (robot.after_turn) {
+            robot.after_turn->start += off;
+            if (robot.after_turn->end != never) robot.after_turn->end += off;
+        }
     }
 }
 

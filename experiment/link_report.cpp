@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 namespace rovernet {
-namespace {
 
 NodeId robot_named(const Network& network, const std::string& name) {
     if (const auto node = network.find(name)) return *node;
@@ -19,15 +18,19 @@ NodeId robot_named(const Network& network, const std::string& name) {
                                             network.size() > most_listed ? " ..." : ""));
 }
 
-}  // namespace
+std::unique_ptr<Network> network_at(const Scenario& scenario, Time at) {
+    auto network = std::make_unique<Network>(network_settings(scenario));
+    populate(*network, scenario);
+    network->run_until(at);
+    return network;
+}
 
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
                        Time at) {
-    Network network(network_settings(scenario));
-    populate(network, scenario);
+    const auto built = network_at(scenario, at);
+    const Network& network = *built;
     const NodeId a = robot_named(network, from), b = robot_named(network, to);
     if (a == b) throw std::invalid_argument("a link needs two robots, got \"" + from + "\" twice");
-    network.run_until(at);
 
     const Medium& medium = network.medium();
     const Vec3 pa = medium.antenna(a, at, network.legs());
@@ -38,6 +41,7 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
                       .at = at,
                       .distance_m = distance(pa, pb),
                       .walls = network.scene().crossings(pa, pb),
+                      .materials = {},
                       .wall_m = network.scene().wall_length(pa, pb),
                       .sender = medium.radio(a),
                       .receiver = medium.radio(b),
@@ -47,7 +51,10 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
                       .up = false};
     report.received = received_power(report.sender, report.receiver, report.path_loss);
     report.margin = link_budget(report.sender, report.receiver) - report.path_loss;
-    report.up = report.margin.value >= 0 && medium.is_on(a) && medium.is_on(b);
+    report.up = medium.link_up(a, b, at, network.legs());
+    for (const Crossing& wall : report.walls) {
+        report.materials.push_back(network.scene().materials()[wall.material].name);
+    }
     return report;
 }
 

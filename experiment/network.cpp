@@ -29,8 +29,12 @@ void Network::broadcast(NodeId node, std::string payload, std::optional<std::uin
 }
 
 void Network::on_receive(NodeId node, std::function<void(const Message&)> react) {
+    on_receive(node, [react = std::move(react)](const Message& m, const Heard&) { react(m); });
+}
+
+void Network::on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react) {
     engine_->node(node).on_receive.push_back(
-        std::make_shared<std::function<void(const Message&)>>(std::move(react)));
+        std::make_shared<std::function<void(const Message&, const Heard&)>>(std::move(react)));
     engine_->has_reactions_ = true;
 }
 
@@ -38,7 +42,15 @@ void Network::on_arrival(NodeId node, std::function<void()> react) {
     engine_->node(node).on_arrival.push_back(callback(std::move(react)));
 }
 
+void Network::on_link_lost(NodeId node, std::function<void(NodeId)> react) {
+    engine_->watch_links();
+    engine_->node(node).on_link_lost.push_back(
+        std::make_shared<std::function<void(NodeId)>>(std::move(react)));
+}
+
 void Network::move(NodeId node, Movement movement) { engine_->move(node, std::move(movement)); }
+void Network::place(NodeId node, Vec3 at) { engine_->place(node, at); }
+void Network::stop(NodeId node) { engine_->place(node, position(node)); }
 void Network::switch_off(NodeId node) { engine_->switch_robot(node, false); }
 void Network::switch_on(NodeId node) { engine_->switch_robot(node, true); }
 
@@ -69,6 +81,14 @@ std::optional<NodeId> Network::find(std::string_view name) const {
 }
 
 Vec3 Network::position(NodeId node) const { return engine_->legs_.position(node, now()); }
+Radians Network::heading(NodeId node) const {
+    return {wrapped(engine_->legs_.leg(node).heading_at(now()))};
+}
+
+std::vector<Neighbour> Network::links(NodeId node, Time t) const {
+    return neighbours(engine_->medium_, engine_->legs_, node, t);
+}
+
 const Legs& Network::legs() const { return engine_->legs_; }
 const Medium& Network::medium() const { return engine_->medium_; }
 const Scene& Network::scene() const { return *engine_->scene_; }

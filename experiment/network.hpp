@@ -3,7 +3,9 @@
 
 #include "mobility/movement.hpp"
 #include "models/friis.hpp"
+#include "models/link_changes.hpp"
 #include "models/medium.hpp"
+#include "models/neighbour.hpp"
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
 #include "sim/ids.hpp"
@@ -34,10 +36,15 @@ struct Robot {
     Radio radio = {};
     std::optional<Propagation> propagation = std::nullopt;  ///< the Network's default if not given
     Movement move = Fixed{};
-    double heading = 0;  ///< [rad] at the start, counter-clockwise from the x axis
+    Radians heading{0};                                                  ///< at the start
     MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};  ///< > 0
-    /// [rad/s] > 0: it turns in place before it moves off; none: it turns at once.
-    std::optional<double> turn_rate = std::nullopt;
+    /// > 0: it turns in place before it moves off; none: it turns at once.
+    std::optional<RadiansPerSecond> turn_rate = std::nullopt;
+};
+
+/// How a message came.
+struct Heard {
+    int hops;  ///< that it crossed
 };
 
 /// What a Network is made with.
@@ -47,6 +54,7 @@ struct NetworkSettings {
     Propagation propagation = Friis{};             ///< of robots that do not have their own
     std::shared_ptr<const Scene> scene = nullptr;  ///< null: an open field
     Meters floor_height{3};                        ///< [m] of one storey
+    LinkSearch links = {};                         ///< how link changes are looked for
     bool propagation_delay = true;                 ///< frames travel at the speed of light
     std::uint64_t event_limit = 100'000'000;       ///< a run that needs more events fails
     bool metrics = true;                           ///< keep Metrics; off saves a search per message
@@ -81,10 +89,18 @@ class Network {
     void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {});
     /// Calls `react` whenever `node` is handed a message, 1 us after it was received.
     void on_receive(NodeId node, std::function<void(const Message&)> react);
+    void on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react);
     /// Calls `react` whenever `node` comes to rest at the end of a movement, 1 us later.
     void on_arrival(NodeId node, std::function<void()> react);
+    /// Calls `react(from)` whenever `node` cannot hear `from` any more, 1 us later. Watching links
+    /// costs a search whenever a robot begins a new leg.
+    void on_link_lost(NodeId node, std::function<void(NodeId from)> react);
     /// Replaces the node's movement, now.
     void move(NodeId node, Movement movement);
+    /// Puts a robot somewhere else at once, at rest; its movement is over.
+    void place(NodeId node, Vec3 at);
+    /// The robot rests where it is; its movement is over.
+    void stop(NodeId node);
     /// Switches a robot off (it stops, its radio is silent and deaf) or on again (it goes on).
     void switch_off(NodeId node);
     void switch_on(NodeId node);
@@ -106,7 +122,11 @@ class Network {
     std::uint64_t events() const;  ///< served so far
     const std::string& name(NodeId node) const;
     std::optional<NodeId> find(std::string_view name) const;
-    Vec3 position(NodeId node) const;  ///< [m] now
+    Vec3 position(NodeId node) const;    ///< [m] now
+    Radians heading(NodeId node) const;  ///< now, -pi ... pi
+    /// Whom `node` hears at `t` >= now(), everybody on the leg that they are on now; in order of
+    /// id.
+    std::vector<Neighbour> links(NodeId node, Time t) const;
     const Legs& legs() const;
     const Medium& medium() const;
     const Scene& scene() const;

@@ -12,18 +12,27 @@ namespace rovernet {
 /// What a picture of a scenario shows beyond map and robots.
 struct PictureOptions {
     Time at = start_of_run;
-    std::optional<std::string> coverage;  ///< robot whose received power is drawn as a heat map
-    bool links = false;
-    bool trails = false;
-    int cells = 200'000;  ///< of the heat map, about
-    int width = 1200;     ///< [px] of the picture
+    /// Robot whose level is drawn, as a heat map and with contours at its sensitivity and at its
+    /// range_db; as a radio like its own receives it, at the same antenna height, without
+    /// shadowing.
+    std::optional<std::string> coverage = std::nullopt;
+    bool links = false;   ///< who hears whom, by margin
+    bool trails = false;  ///< where the robots have been
+    int cells = 200'000;  ///< of the heat map, about; from 1 to most_coverage_cells
+    int width = 1200;  ///< [px] of the picture at most, from 400 to 10000; a tall one is narrower
 };
 
-/// Runs the scenario until `at` and draws it. The same bytes on every machine.
-/// @throws InputError, RunError; std::invalid_argument for a robot that there is not
+/// Runs the scenario until `at` and draws it, as a Scalable Vector Graphics document.
+///
+/// It shows the whole map and all robots; of an open field the robots, and as much of the reach of
+/// the robot whose coverage is drawn as leaves the robots apart. The same bytes on every machine,
+/// but for the heat map's compression, which is zlib's.
+/// @throws InputError, RunError; std::invalid_argument for a robot that there is not, a time before
+///         the start, or an option out of its range
 std::string draw_svg(const Scenario& scenario, const PictureOptions& options);
 
-/// The picture as a PNG, by rsvg-convert. @throws RunError if that is missing or fails
+/// The picture as a PNG, by rsvg-convert; `path` never holds half of it.
+/// @throws RunError if that program is missing or fails, or the file cannot be written
 void write_png(const std::string& svg, const std::string& path);
 
 }  // namespace rovernet

@@ -35,6 +35,11 @@ constexpr Unit rates[] = {{"Mb/s", 1e6}, {"kb/s", 1e3},   {"Gb/s", 1e9},  {"b/s"
                           {"bit/s", 1},  {"kbit/s", 1e3}, {"Mbit/s", 1e6}};
 constexpr Unit sizes[] = {{"B", 1}, {"kB", 1e3}, {"KiB", 1024}, {"MB", 1e6}};
 
+constexpr double degree = 3.14159265358979323846 / 180;
+constexpr Unit angles[] = {{"deg", degree}, {"rad", 1}};
+constexpr Unit turn_rates[] = {{"deg/s", degree}, {"rad/s", 1}};
+constexpr Unit attenuations[] = {{"dB/m", 1}, {"dB/cm", 100}};
+
 constexpr Kind kinds[] = {
     {"a power", "15 dBm", powers},
     {"a ratio", "2 dB", gains},
@@ -44,6 +49,9 @@ constexpr Kind kinds[] = {
     {"a time", "10 s", times},
     {"a bit rate", "11 Mb/s", rates},
     {"a size", "64 B", sizes},
+    {"an angle", "90 deg", angles},
+    {"a turn rate", "45 deg/s", turn_rates},
+    {"an attenuation", "75 dB/m", attenuations},
 };
 
 const Kind& kind(Dimension dimension) { return kinds[static_cast<std::size_t>(dimension)]; }

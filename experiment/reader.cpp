@@ -69,6 +69,15 @@ void read_value(const Value& value, std::string_view key, MetersPerSecond& out) 
 void read_value(const Value& value, std::string_view key, BitRate& out) {
     out = {read_quantity(value, key, Dimension::bit_rate)};
 }
+void read_value(const Value& value, std::string_view key, Radians& out) {
+    out = {read_quantity(value, key, Dimension::angle)};
+}
+void read_value(const Value& value, std::string_view key, RadiansPerSecond& out) {
+    out = {read_quantity(value, key, Dimension::turn_rate)};
+}
+void read_value(const Value& value, std::string_view key, DbPerMeter& out) {
+    out = {read_quantity(value, key, Dimension::attenuation)};
+}
 
 void read_value(const Value& value, std::string_view key, Duration& out) {
     constexpr double longest = 9e9;
@@ -121,6 +130,9 @@ Value to_value(Hertz v) { return quantity_text(v.value, Dimension::frequency); }
 Value to_value(Meters v) { return quantity_text(v.value, Dimension::length); }
 Value to_value(MetersPerSecond v) { return quantity_text(v.value, Dimension::speed); }
 Value to_value(BitRate v) { return quantity_text(v.value, Dimension::bit_rate); }
+Value to_value(Radians v) { return quantity_text(v.value, Dimension::angle); }
+Value to_value(RadiansPerSecond v) { return quantity_text(v.value, Dimension::turn_rate); }
+Value to_value(DbPerMeter v) { return quantity_text(v.value, Dimension::attenuation); }
 Value to_value(Bytes v) { return quantity_text(v.value, Dimension::size); }
 
 Value to_value(Duration v) {

@@ -33,6 +33,9 @@ void read_value(const Value& value, std::string_view key, Hertz& out);
 void read_value(const Value& value, std::string_view key, Meters& out);
 void read_value(const Value& value, std::string_view key, MetersPerSecond& out);
 void read_value(const Value& value, std::string_view key, BitRate& out);
+void read_value(const Value& value, std::string_view key, Radians& out);
+void read_value(const Value& value, std::string_view key, RadiansPerSecond& out);
+void read_value(const Value& value, std::string_view key, DbPerMeter& out);
 void read_value(const Value& value, std::string_view key, Duration& out);
 void read_value(const Value& value, std::string_view key, Bytes& out);
 void read_value(const Value& value, std::string_view key, Vec3& out);
@@ -83,6 +86,9 @@ Value to_value(Hertz v);
 Value to_value(Meters v);
 Value to_value(MetersPerSecond v);
 Value to_value(BitRate v);
+Value to_value(Radians v);
+Value to_value(RadiansPerSecond v);
+Value to_value(DbPerMeter v);
 Value to_value(Duration v);
 Value to_value(Bytes v);
 Value to_value(Vec3 v);
@@ -143,17 +149,20 @@ class TableReader {
     std::vector<std::string> known_;
 };
 
-/// A described struct as a table; optional parameters without a value are left out.
+/// One parameter as an entry; an optional one without a value is left out.
+template <class M>
+void append_field(Table& table, std::string_view name, const M& member) {
+    if constexpr (requires { member.has_value(); }) {
+        if (member) table.set(name, to_value(*member));
+    } else {
+        table.set(name, to_value(member));
+    }
+}
+
+/// A described struct as a table.
 template <Described T>
 void append_fields(Table& table, const T& value) {
-    const auto append = [&]<class M>(std::string_view name, const M& member) {
-        if constexpr (requires { member.has_value(); }) {
-            if (member) table.set(name, to_value(*member));
-        } else {
-            table.set(name, to_value(member));
-        }
-    };
-    for_each_field<T>([&](const auto& f) { append(f.name, value.*f.member); });
+    for_each_field<T>([&](const auto& f) { append_field(table, f.name, value.*f.member); });
 }
 
 }  // namespace rovernet

@@ -1,68 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/move_table.hpp"
 #include "experiment/propagation_table.hpp"
+#include "experiment/reader.hpp"
 #include "models/radio.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace rovernet {
-
-/// move = { model = "waypoints", ... }
-struct WaypointsTable {
-    enum class Order { given, shuffled };
-
-    std::vector<Vec3> path;  ///< [m]
-    MetersPerSecond speed{1};
-    std::optional<std::vector<Duration>> times;  ///< one per point of the path; instead of speed
-    Order order = Order::given;
-
-    static constexpr auto fields() {
-        return describe(
-            field("path", &WaypointsTable::path, "places to go to, one after the other"),
-            field("speed", &WaypointsTable::speed, positive, "between the places"),
-            field("times", &WaypointsTable::times,
-                  "when to be at each place of the path, instead of a speed"),
-            field("order", &WaypointsTable::order, "given, or shuffled anew in each replication"));
-    }
-};
-template <>
-struct EnumNames<WaypointsTable::Order> {
-    static constexpr std::array<std::string_view, 2> values = {"given", "shuffled"};
-};
-
-/// move = { model = "goal", ... }
-struct GoalTable {
-    std::optional<Vec3> to;   ///< [m]
-    std::vector<Vec3> among;  ///< [m] one of them is drawn in each replication, instead of `to`
-    MetersPerSecond speed{1};
-
-    static constexpr auto fields() {
-        return describe(field("to", &GoalTable::to, "where to go, around the walls"),
-                        field("among", &GoalTable::among,
-                              "instead of to: one of these, drawn anew in each replication"),
-                        field("speed", &GoalTable::speed, positive, "on the way"));
-    }
-};
-
-/// move = { model = "fixed" }
-struct FixedTable {
-    static constexpr auto fields() { return describe(); }
-};
-
-/// A movement as a file gives it, and where, for errors found when it is built.
-struct MoveTable {
-    std::variant<FixedTable, WaypointsTable, GoalTable> model;
-    Location where;
-};
-inline constexpr std::array<std::string_view, 3> move_models = {"fixed", "waypoints", "goal"};
 
 /// place = { ... }: a start that is drawn anew in each replication.
 struct PlaceTable {
@@ -85,11 +38,27 @@ struct EnumNames<PlaceTable::Model> {
     static constexpr std::array<std::string_view, 2> values = {"uniform", "choice"};
 };
 
-/// on_receive = { ... }
-struct OnReceiveTable {
-    std::string payload;  ///< what the message must begin with
-    bool once = true;
-    std::optional<MoveTable> move;
+/// What a robot reacts to; the names are those of the robot's keys.
+enum class Trigger { on_receive, on_arrival, on_link_lost, on_time };
+template <>
+struct EnumNames<Trigger> {
+    static constexpr std::array<std::string_view, 4> values = {"on_receive", "on_arrival",
+                                                               "on_link_lost", "on_time"};
+};
+
+/// on_receive = { ... } and its kind; a list of such tables stands for several reactions.
+struct ReactionTable {
+    Trigger trigger{};
+    std::string payload = {};              ///< on_receive: what the message begins with
+    std::optional<std::string> from = {};  ///< on_receive, on_link_lost: only this robot
+    std::optional<int> hops = {};          ///< on_receive: over at most so many hops
+    Duration time{0};                      ///< on_time
+    bool once = true;                      ///< the first time only
+    std::optional<MoveTable> move = {};    ///< then it moves so,
+    std::optional<std::string> send = {};  ///< broadcasts this,
+    std::optional<Bytes> size = {};        ///< of that many bytes, if not its length
+    bool stop = false;                     ///< or stops
+    Location where = {}, from_where = {};
 };
 
 /// [[robot]], one or `count` of a kind.
@@ -98,13 +67,28 @@ struct RobotTable {
     std::optional<int> count;  ///< robots name0, name1, ...
     std::optional<Vec3> at;    ///< [m]
     std::optional<PlaceTable> place;
+    Radians heading{0};
     Meters radius{0.2};
+    std::optional<MetersPerSecond> top_speed;
+    std::optional<RadiansPerSecond> turn_rate;
     Radio radio;  ///< [radio] with the robot's own keys over it
     std::optional<PropagationTable> propagation;
     MoveTable move;
-    std::optional<OnReceiveTable> on_receive;
+    std::vector<ReactionTable> reactions;
     std::vector<Duration> off, on;  ///< when the robot is switched off and on
     Location where, at_where, radio_where, propagation_where;
+
+    /// The i-th robot's name.
+    std::string name_of(int i) const { return count ? name + std::to_string(i) : name; }
 };
+
+struct Scenario;
+
+/// Reads a [[robot]], over the defaults of the scenario's other tables. @throws InputError
+/// @param needs_place  false for a robot that something else places
+RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_place);
+
+/// The reverse: what differs from the scenario's defaults.
+Table robot_document(const RobotTable& robot, const Scenario& scenario);
 
 }  // namespace rovernet

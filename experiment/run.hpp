@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/network.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/timeline.hpp"
 #include "experiment/value.hpp"
 #include "traces/metrics.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,12 +50,19 @@ void append_metrics(Table& table, const MetricValues& metrics);
 /// What `run --json` prints: the results; times and the machine's part are in summary.json only.
 Table run_summary(const Scenario& scenario, const RunResult& result);
 
+/// The robot of that name. @throws std::invalid_argument, naming some that there are
+NodeId robot_named(const Network& network, const std::string& name);
+
+/// A network as the scenario's is at `at`, its traffic and reactions included.
+std::unique_ptr<Network> network_at(const Scenario& scenario, Time at);
+
 /// The link from A to B at a time.
 struct LinkReport {
     std::string from, to, model;
     Time at;
     double distance_m;
     std::vector<Crossing> walls;
+    std::vector<std::string> materials;  ///< of the walls, one each
     double wall_m;
     Radio sender, receiver;
     Db path_loss;

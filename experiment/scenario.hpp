@@ -4,13 +4,18 @@
 #include "experiment/propagation_table.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/robot_table.hpp"
+#include "experiment/scene_table.hpp"
 #include "experiment/value.hpp"
+#include "mobility/movement_file.hpp"
+#include "models/link_changes.hpp"
 #include "models/radio.hpp"
 #include "routing/flood.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,21 +45,6 @@ struct ScenarioTable {
     }
 };
 
-/// [scene]
-struct SceneTable {
-    std::optional<std::string> map;           ///< ROS map.yaml, or a picture with a `size`
-    std::optional<std::vector<Meters>> size;  ///< [m] width and height of a picture
-    Meters floor_height{3};
-
-    static constexpr auto fields() {
-        return describe(
-            field("map", &SceneTable::map,
-                  "ROS map.yaml, or a PNG or PGM with a size; relative to the scenario file"),
-            field("size", &SceneTable::size, "width and height of a picture used as a map"),
-            field("floor_height", &SceneTable::floor_height, positive, "of one storey"));
-    }
-};
-
 /// [medium]
 struct MediumTable {
     bool propagation_delay = true;
@@ -62,6 +52,42 @@ struct MediumTable {
     static constexpr auto fields() {
         return describe(field("propagation_delay", &MediumTable::propagation_delay,
                               "frames travel at the speed of light, not at once"));
+    }
+};
+
+/// [links]: how link changes are looked for
+struct LinksTable {
+    Duration tolerance = LinkSearch{}.tolerance;
+    Duration min_dwell = LinkSearch{}.min_dwell;
+
+    static constexpr auto fields() {
+        constexpr Range step{.low = 1e-9, .high = 1e6, .text = "from 1 ns to 1e6 s"};
+        constexpr Range dwell{.low = 1e-6, .high = 1e6, .text = "from 1 us to 1e6 s"};
+        return describe(field("tolerance", &LinksTable::tolerance, step,
+                              "a link change behind walls is known to this"),
+                        field("min_dwell", &LinksTable::min_dwell, dwell,
+                              "of models of unknown shape: shorter states of a link are missed"));
+    }
+};
+
+template <>
+struct EnumNames<MovementSyntax> {
+    static constexpr std::array<std::string_view, 2> values = {"strict", "tolerant"};
+};
+
+/// [movement]
+struct MovementTable {
+    std::optional<std::string> file;  ///< ns-2, BonnMotion or SUMO movements
+    MovementSyntax syntax = MovementSyntax::strict;
+    std::vector<FileRobot> robots = {};  ///< that the file names
+    Location where = {};
+
+    static constexpr auto fields() {
+        return describe(
+            field("file", &MovementTable::file,
+                  "movements of ns-2 (setdest), BonnMotion or SUMO (FCD), for the robots it names"),
+            field("syntax", &MovementTable::syntax,
+                  "strict: a line that means nothing is an error; tolerant: it is left out"));
     }
 };
 
@@ -145,24 +171,40 @@ struct Scenario {
     std::string file;  ///< as the user named it; maps are relative to it
     ScenarioTable scenario;
     SceneTable scene;
-    Location map_where;
+    std::shared_ptr<const WorldFile> world;  ///< the scene's, if it is a Stage world
     Radio radio;
     MediumTable medium;
     PropagationTable propagation;
     Location propagation_where;
     ReceptionTable reception;
+    LinksTable links;
+    MovementTable movement;
     std::vector<RobotTable> robots;
     RoutingTable routing;
     std::vector<TrafficTable> traffic;
     TraceTable trace;
     StudyTable study;
+    std::vector<std::string> notices;  ///< what a person should know of the files read
 };
 
 /// Reads a scenario from its document. @throws InputError at the first mistake
 Scenario read_scenario(const Value& document, const std::string& file);
 
-/// Reads a scenario file, with "path=value" options over it.
-Scenario load_scenario(const std::string& path, const std::vector<std::string>& options);
+/// Reads [propagation] or a robot's own over `out`. @throws InputError at the first mistake
+void read_propagation(const Value& value, PropagationTable& out);
+/// The reverse: the chosen model's parameters, and those of others that differ from their defaults.
+Table propagation_document(const PropagationTable& propagation);
+
+/// What the command line says over a scenario file.
+struct ScenarioOptions {
+    std::vector<std::string> set = {};         ///< "path=value"
+    std::vector<std::string> world_path = {};  ///< folders, relative to where we are
+    std::vector<std::string> bitmaps = {};     ///< "OLD=NEW"
+    bool lenient = false;
+};
+
+/// Reads a scenario file, or a Stage world (NAME.world) as a scenario of its own.
+Scenario load_scenario(const std::string& path, const ScenarioOptions& options);
 
 /// The scenario as a document with every default; it reads back as the same scenario.
 Table to_document(const Scenario& scenario);

@@ -25,8 +25,8 @@ struct Mover {
     Planners& planners;  ///< ways around the scene's walls
     const Legs& legs;    ///< where everybody is, for models that go by others
     double heading = 0;  ///< [rad] now, counter-clockwise from the x axis
-    /// No leg of the library's models is faster [m/s].
-    MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};
+    static constexpr MetersPerSecond any_speed{std::numeric_limits<double>::infinity()};
+    MetersPerSecond top_speed = any_speed;  ///< [m/s] no leg of the library's models is faster
     /// Seed, replication, the robot's key (a) and the number of its movement (b): what its draws
     /// depend on.
     Key draws = {};

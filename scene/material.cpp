@@ -9,7 +9,7 @@ WallRate wall_rate(const Material& material, Hertz frequency, double usual_per_m
     if (material.slab)
         rate.per_crossing = slab_loss(*material.slab, material.thickness, frequency).value;
     if (material.per_crossing) rate.per_crossing = material.per_crossing->value;
-    if (material.per_metre) rate.per_metre = *material.per_metre;
+    if (material.per_metre) rate.per_metre = material.per_metre->value;
     return rate;
 }
 

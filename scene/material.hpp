@@ -15,10 +15,10 @@ namespace rovernet {
 /// A material that gives no loss of its own follows the propagation model's (its wall factor).
 struct Material {
     std::string name = "wall";
-    std::optional<Db> per_crossing = std::nullopt;   ///< [dB] whatever the length inside
-    std::optional<double> per_metre = std::nullopt;  ///< [dB/m] of length inside, >= 0
-    std::optional<ItuMaterial> slab = std::nullopt;  ///< a slab of this, whatever is drawn ...
-    Meters thickness{0};                             ///< ... and its thickness [m], > 0
+    std::optional<Db> per_crossing = std::nullopt;       ///< [dB] whatever the length inside
+    std::optional<DbPerMeter> per_metre = std::nullopt;  ///< [dB/m] of length inside, >= 0
+    std::optional<ItuMaterial> slab = std::nullopt;      ///< a slab of this, whatever is drawn ...
+    Meters thickness{0};                                 ///< ... and its thickness [m], > 0
     Meters height{std::numeric_limits<double>::infinity()};  ///< [m] the wall stands from 0 to here
 
     bool follows_model() const { return !per_crossing && !per_metre && !slab; }

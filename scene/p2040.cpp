@@ -52,7 +52,8 @@ double decibels(Complex z) { return 10 * math::log10(std::norm(z)); }
 }  // namespace
 
 Permittivity permittivity(ItuMaterial material, Hertz frequency) {
-    constexpr double per_farad = 17.97510;  // 1 / (2 pi eps_0) in GHz m / S
+    // 1 / (2 pi eps_0) in GHz m / S, with eps_0 = 8.8541878128e-12 F/m (CODATA 2018).
+    constexpr double per_farad = 17.975103584522344;
     const Law& law = laws[static_cast<std::size_t>(material)];
     const double f = frequency.value / 1e9;
     return {law.a * power(f, law.b), per_farad * law.c * power(f, law.d) / f};

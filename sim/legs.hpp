@@ -6,6 +6,7 @@
 #include "sim/time.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct Leg {
         return turning == 0 ? heading : heading + seconds(std::min(t, end) - start) * turning;
     }
 };
+
+/// The same heading [rad] within -pi ... pi.
+inline double wrapped(double heading) { return std::remainder(heading, 6.283185307179586); }
 
 /// Where everybody is, as data: one current leg per node. Movement models write legs; the medium,
 /// the scene and the pictures only read them.

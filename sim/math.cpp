@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/math.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -80,6 +81,17 @@ struct PowerBase {
     std::array<double, 11> curve;
 };
 // curve: (base^r - 1 - slope r) / r^2 for base^|r| <= sqrt 2; minimax, error 2e-19 of base^r.
+constexpr PowerBase power_of_e{
+    .limit = 750,
+    .log2 = 0x1.71547652b82fep+0,
+    .two_hi = base_e.two_hi,
+    .two_lo = base_e.two_lo,
+    .slope = 1,
+    .slope_lo = 0,
+    .curve = {0x1p-1, 0x1.5555555555557p-3, 0x1.5555555555556p-5, 0x1.11111111100cep-7,
+              0x1.6c16c16c162ccp-10, 0x1.a01a01abef415p-13, 0x1.a01a01a6dcaffp-16,
+              0x1.71de021a90822p-19, 0x1.27e4db57442fbp-22, 0x1.af4e196027428p-26,
+              0x1.1f731ea5352cap-29}};
 constexpr PowerBase power_of_2{
     .limit = 1100,
     .log2 = 1,
@@ -128,6 +140,104 @@ double power(const PowerBase& base, double x) {
     return y * power_of_two(half) * power_of_two(exponent - half);
 }
 
+// A number in two parts, hi + lo.
+struct TwoParts {
+    double hi, lo;
+};
+
+// The sum without an error. D. Knuth, The Art of Computer Programming, vol. 2, 4.2.2, theorem B.
+TwoParts exact_sum(double a, double b) {
+    const double sum = a + b;
+    const double b_part = sum - a;
+    return {sum, (a - (sum - b_part)) + (b - b_part)};
+}
+
+// pi / 2; the first four parts have 23 bits, so that their multiples up to 2^30 are exact.
+constexpr std::array<double, 5> quarter_turn{0x1.921fb4p+0, 0x1.4442dp-24, 0x1.846988p-48,
+                                             0x1.8cc514p-72, 0x1.80dc1cd129025p-95};
+
+// x - n pi / 2, below 2^-60 of itself off. Method: W. Cody and W. Waite, Software Manual for the
+// Elementary Functions, 1980, chapter 8.
+TwoParts turned_back(double x, double n) {
+    double hi = x;
+    double lo = 0;
+    for (const double part : quarter_turn) {
+        const TwoParts rest = exact_sum(hi, -(n * part));
+        hi = rest.hi;
+        lo += rest.lo;
+    }
+    const double sum = hi + lo;
+    return {sum, (hi - sum) + lo};
+}
+
+// (sin r - r) / r^3 and (cos r - 1 + r^2 / 2) / r^4 in r^2, for |r| <= pi / 4; minimax, error of
+// the functions 6e-18.
+constexpr std::array<double, 7> sin_tail{
+    -0x1.5555555555555p-3,  0x1.111111111111p-7,   -0x1.a01a01a019937p-13, 0x1.71de3a54607a5p-19,
+    -0x1.ae64541295cdfp-26, 0x1.61217ee5cca1bp-33, -0x1.ab17bdcbd3414p-41};
+constexpr std::array<double, 7> cos_tail{
+    0x1.5555555555555p-5,  -0x1.6c16c16c16c16p-10, 0x1.a01a01a019d0ap-16, -0x1.27e4fb7712ca2p-22,
+    0x1.1eed8deb82809p-29, -0x1.9394b9eb4d56dp-37, 0x1.ab78473be59d7p-45};
+
+SinCos first_octant(TwoParts r) {
+    const double z = r.hi * r.hi;
+    const double half = 0.5 * z;
+    const double sin_rest = r.hi * (z * polynomial(sin_tail, z)) + r.lo * (1 - half);
+    const double line = 1 - half;
+    const double cos_rest = ((1 - line) - half) + (z * (z * polynomial(cos_tail, z)) - r.hi * r.lo);
+    return {r.hi + sin_rest, line + cos_rest};
+}
+
+// Angles of the slopes 0, 1/8 ... 1.
+constexpr std::array<TwoParts, 9> eighths{{{0, 0},
+                                           {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
+                                           {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
+                                           {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
+                                           {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
+                                           {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
+                                           {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
+                                           {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
+                                           {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}};
+constexpr TwoParts half_turn{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
+constexpr TwoParts right_angle{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+
+// (atan s - s) / s^3 in s^2, for |s| <= 1/16; minimax, error of the function 6e-19.
+constexpr std::array<double, 5> atan_tail{-0x1.5555555555553p-2, 0x1.999999998a25ep-3,
+                                          -0x1.249248a94e1b2p-3, 0x1.c719c125bffb4p-4,
+                                          -0x1.714b378610818p-4};
+
+// The angle of slope b / a, for 0 <= b <= a, 2^-900 < a < 2^1000: the nearest eighth's angle, and
+// that of s = (b - c a) / (a + c b) more.
+TwoParts angle_of_slope(double b, double a) {
+    const auto nearest = static_cast<std::size_t>(8 * (b / a) + 0.5);
+    const double c = 0.125 * static_cast<double>(nearest);
+    const auto upper_bits = ~std::uint64_t{0x7ffffff};  // 26 bits: c a_hi and c a_lo are exact
+    const double a_hi = std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) & upper_bits);
+    const double s = ((b - c * a_hi) - c * (a - a_hi)) / (a + c * b);
+    const double z = s * s;
+    const TwoParts angle = exact_sum(eighths[nearest].hi, s);
+    return {angle.hi, angle.lo + (eighths[nearest].lo + s * z * polynomial(atan_tail, z))};
+}
+
+// from + sign * angle
+double turned(TwoParts from, double sign, TwoParts angle) {
+    const TwoParts sum = exact_sum(from.hi, sign * angle.hi);
+    return sum.hi + (sum.lo + (from.lo + sign * angle.lo));
+}
+
+// The angle of (x, y) from the x axis, for finite x, y >= 0 that are not both 0.
+double angle_from_axis(double y, double x, bool behind) {
+    const bool steep = y > x;
+    double a = steep ? y : x;
+    double b = steep ? x : y;
+    const double scale = a > 0x1p900 ? 0x1p-200 : a < 0x1p-800 ? 0x1p300 : 1;
+    a *= scale;
+    b *= scale;
+    const TwoParts angle = angle_of_slope(b, a);
+    if (steep) return turned(right_angle, behind ? 1 : -1, angle);
+    return behind ? turned(half_turn, -1, angle) : angle.hi + angle.lo;
+}
+
 }  // namespace
 
 double log(double x) { return scaled_log(x, base_e); }
@@ -135,8 +245,33 @@ double log2(double x) { return scaled_log(x, base_2); }
 double log10(double x) { return scaled_log(x, base_10); }
 double exp2(double x) { return power(power_of_2, x); }
 double exp10(double x) { return power(power_of_10, x); }
-double exp(double x) { return exp2(x * 1.4426950408889634); }
-SinCos sincos(double x) { return {std::sin(x), std::cos(x)}; }
-double atan2(double y, double x) { return std::atan2(y, x); }
+double exp(double x) { return power(power_of_e, x); }
+
+SinCos sincos(double x) {
+    constexpr double limit = 1e9;
+    if (!(std::abs(x) <= limit)) return {not_a_number, not_a_number};
+    if (std::abs(x) < 0x1p-27) return {x, 1};
+    constexpr double round = 0x1.8p52;
+    const double n = (x * 0x1.45f306dc9c883p-1 + round) - round;
+    const SinCos r = first_octant(turned_back(x, n));
+    switch (static_cast<std::int64_t>(n) & 3) {
+        case 0: return r;
+        case 1: return {r.cos, -r.sin};
+        case 2: return {-r.sin, -r.cos};
+        default: return {-r.cos, r.sin};
+    }
+}
+
+double atan2(double y, double x) {
+    if (std::isnan(x) || std::isnan(y)) return not_a_number;
+    if (x == 0 && y == 0) return 0;
+    double v = std::abs(y);
+    double u = std::abs(x);
+    if (std::max(u, v) == infinity) {  // only which of them is infinite counts
+        v = v == infinity ? 1 : 0;
+        u = u == infinity ? 1 : 0;
+    }
+    return std::copysign(angle_from_axis(v, u, x < 0), y);
+}
 
 }  // namespace rovernet::math

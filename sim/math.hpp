@@ -17,19 +17,24 @@ double log10(double x);  ///< as log, to base 10
 /// 2^x; error below 1 ulp, exact for integers. Overflow gives infinity, underflow 0 by way of the
 /// subnormal numbers, NaN gives NaN.
 double exp2(double x);
-/// e^x; error below 2 ulp for |x| < 700. Overflow, underflow and NaN as exp2.
+/// e^x; error below 1 ulp, exact for 0. Overflow, underflow and NaN as exp2.
 double exp(double x);
 /// 10^x; error below 1.1 ulp, exact for 0 ... 22. Overflow, underflow and NaN as exp2.
 double exp10(double x);
 
-/// Sine and cosine of x [rad], |x| <= 1e9; error below 1 ulp (of 1 near a zero of either).
+/// Sine and cosine of x [rad], each with an error below 1 ulp; sin(-x) = -sin(x) and
+/// cos(-x) = cos(x) to the last bit.
 struct SinCos {
     double sin;
     double cos;
 };
+/// For |x| <= 1e9; beyond (a step from one double to the next is 1e-7 rad there), for infinity and
+/// for NaN both are NaN.
 SinCos sincos(double x);
-/// Angle of the vector (x, y) [rad], -pi ... pi; 0 for the zero vector. Error below 2 ulp; exact
-/// for multiples of a quarter turn.
+
+/// Angle of the vector (x, y) [rad], -pi ... pi with the sign of y, counter-clockwise from the x
+/// axis; 0 for the zero vector. Error below 1.6 ulp, exact (the nearest double) for multiples of an
+/// eighth of a turn. NaN gives NaN.
 double atan2(double y, double x);
 
 }  // namespace rovernet::math

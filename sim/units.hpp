@@ -18,12 +18,15 @@ struct Quantity {
     friend constexpr double operator/(Quantity a, Quantity b) { return a.value / b.value; }
 };
 
-using Db = Quantity<struct DecibelUnit>;             ///< [dB], a ratio
-using MilliWatts = Quantity<struct MilliWattUnit>;   ///< [mW]
-using Hertz = Quantity<struct HertzUnit>;            ///< [Hz]
-using Meters = Quantity<struct MeterUnit>;           ///< [m]
-using MetersPerSecond = Quantity<struct SpeedUnit>;  ///< [m/s]
-using BitRate = Quantity<struct BitsPerSecondUnit>;  ///< [bit/s]
+using Db = Quantity<struct DecibelUnit>;              ///< [dB], a ratio
+using DbPerMeter = Quantity<struct AttenuationUnit>;  ///< [dB/m]
+using MilliWatts = Quantity<struct MilliWattUnit>;    ///< [mW]
+using Hertz = Quantity<struct HertzUnit>;             ///< [Hz]
+using Meters = Quantity<struct MeterUnit>;            ///< [m]
+using MetersPerSecond = Quantity<struct SpeedUnit>;   ///< [m/s]
+using Radians = Quantity<struct RadianUnit>;          ///< [rad], counter-clockwise from the x axis
+using RadiansPerSecond = Quantity<struct TurnRateUnit>;  ///< [rad/s]
+using BitRate = Quantity<struct BitsPerSecondUnit>;      ///< [bit/s]
 
 /// A power level [dBm]. Levels do not add: `Dbm + Dbm` does not compile, `Dbm - Dbm` is a ratio.
 struct Dbm {

@@ -31,6 +31,11 @@ event_limit = 5000
 map = "m.png"
 size = ["48 m", "24 m"]
 floor_height = "4 m"
+wall_height = "3 m"
+
+[scene.materials]
+glass = { greys = [90, 110], itu = "glass", thickness = "6 mm", height = "2 m" }
+door = { grey = 50, color = "red", per_crossing = "2 dB", per_metre = "5 dB/m" }
 
 [radio]
 power = "21 dBm"
@@ -41,6 +46,16 @@ preamble = "96 us"
 antenna_gain = "2 dB"
 cable_loss = "1 dB"
 antenna_height = "150 cm"
+bandwidth = "20 MHz"
+noise_figure = "5 dB"
+success_rate = 0.9
+essid = "search"
+channel = 6
+gate = "none"
+netmask = "255.0.0.0"
+mode = "master"
+encryption = true
+range_db = "-60 dBm"
 
 [medium]
 propagation_delay = false
@@ -59,14 +74,27 @@ wall_factor = 10.0
 [reception]
 model = "threshold"
 
+[links]
+tolerance = "1 us"
+min_dwell = "10 ms"
+
+[movement]
+syntax = "tolerant"
+
 [[robot]]
 name = "A"
 at = ["2 m", "3 m", "1 m"]
 radius = "30 cm"
-radio = { power = "5 dBm", antenna_gain = "3 dB" }
+radio = { power = "5 dBm", antenna_gain = "3 dB", ip = "10.1.1.2", mac = "00:01:02:03:04:06" }
 propagation = { model = "disc", range = "20 m" }
 move = { model = "waypoints", path = [["5 m", "3 m"], ["5 m", "9 m"]], speed = "2 m/s", times = ["1 s", "20 s"], order = "shuffled" }
-on_receive = { payload = "F", once = false, move = { model = "goal", to = ["1 m", "1 m"], speed = "3 m/s" } }
+on_receive = { payload = "F", from = "c", hops = 2, once = false, move = { model = "goal", to = ["1 m", "1 m"], speed = "3 m/s" } }
+on_arrival = [{ send = "here", size = "9 B", once = false }, { stop = true, once = false }]
+on_link_lost = { from = "c", once = false, stop = true }
+on_time = { time = "3 s", send = "three" }
+heading = "90 deg"
+top_speed = "2 m/s"
+turn_rate = "45 deg/s"
 off = ["1 s", "5 s"]
 on = ["2 s"]
 
@@ -117,7 +145,7 @@ Scenario read(const std::string& text) {
 
 Scenario with(const std::string& text, const std::vector<std::string>& options) {
     const TemporaryFolder folder;
-    return load_scenario(folder.write("s.toml", text), options);
+    return load_scenario(folder.write("s.toml", text), {.set = options});
 }
 
 std::string printed(const Scenario& scenario) { return to_toml(to_document(scenario)); }
@@ -178,8 +206,27 @@ TEST_CASE("scenario: every key of the file arrives in its field") {
     CHECK(path.path == std::vector<Vec3>{{5, 3, 0}, {5, 9, 0}});
     CHECK(path.times == std::vector<Duration>{1s, 20s});
     CHECK(path.order == WaypointsTable::Order::shuffled);
-    REQUIRE(a.on_receive);
-    CHECK_FALSE(a.on_receive->once);
+    REQUIRE(a.reactions.size() == 5);
+    const ReactionTable& heard = a.reactions[0];
+    CHECK(heard.trigger == Trigger::on_receive);
+    CHECK(heard.from == "c");
+    CHECK(heard.hops == 2);
+    CHECK_FALSE(heard.once);
+    CHECK(a.reactions[1].send == "here");
+    CHECK(a.reactions[1].size == Bytes{9});
+    CHECK(a.reactions[2].stop);
+    CHECK(a.reactions[3].trigger == Trigger::on_link_lost);
+    CHECK(a.reactions[4].time == Duration{3s});
+    CHECK(a.heading == Radians{pi / 2});
+    CHECK(a.top_speed == MetersPerSecond{2});
+    CHECK(a.turn_rate == RadiansPerSecond{pi / 4});
+    CHECK(s.radio.gate == Gate::none);
+    CHECK(s.radio.range_db == Dbm{-60});
+    CHECK(s.links.tolerance == 1us);
+    CHECK(s.movement.syntax == MovementSyntax::tolerant);
+    REQUIRE(s.scene.materials.size() == 2);
+    CHECK(s.scene.materials[0].itu == ItuMaterial::glass);
+    CHECK(s.scene.materials[1].per_metre == DbPerMeter{5});
     CHECK(s.robots[1].count == 3);
     CHECK(s.robots[1].place->area.size() == 2);
     CHECK(s.robots[2].place->points.size() == 2);

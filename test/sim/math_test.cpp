@@ -19,9 +19,12 @@ namespace {
 using Limits = std::numeric_limits<double>;
 static_assert(std::numeric_limits<long double>::digits >= 64, "the oracle needs 11 bits to spare");
 
-constexpr double log_bound_ulp = 1.0;    // as math.hpp states
-constexpr double exp2_bound_ulp = 1.0;   // as math.hpp states
-constexpr double exp10_bound_ulp = 1.1;  // as math.hpp states
+constexpr double log_bound_ulp = 1.0;     // as math.hpp states
+constexpr double exp2_bound_ulp = 1.0;    // as math.hpp states
+constexpr double exp10_bound_ulp = 1.1;   // as math.hpp states
+constexpr double exp_bound_ulp = 1.0;     // as math.hpp states
+constexpr double sincos_bound_ulp = 1.0;  // as math.hpp states
+constexpr double atan2_bound_ulp = 1.6;   // as math.hpp states
 constexpr int samples = 100'000;
 
 // The distance of `value` from `exact` in units of the last place of `exact`.
@@ -58,6 +61,33 @@ double worst_log_ulp(double from, double to) {
 long double long_exp2(long double x) { return std::exp2(x); }
 long double long_exp10(long double x) { return std::pow(10.0L, x); }
 
+double sine(double x) { return math::sincos(x).sin; }
+double cosine(double x) { return math::sincos(x).cos; }
+double angle_of_line(double x) { return math::atan2(x, 1 - x); }
+
+double worst_sincos_ulp(double from, double to) {
+    const double sin = worst_ulp(
+        sine, [](long double x) { return std::sin(x); }, from, to);
+    const double cos = worst_ulp(
+        cosine, [](long double x) { return std::cos(x); }, from, to);
+    return std::max(sin, cos);
+}
+
+// For vectors in all directions, their coordinates apart by up to 2^spread.
+double worst_atan2_ulp(int spread) {
+    double worst = 0;
+    for (int i = 0; i < samples; ++i) {
+        const double y = std::ldexp(sample(3 * i, -1, 1), i % (spread + 1));
+        const double x = sample(3 * i + 1, -1, 1);
+        const long double exact =
+            std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+        worst = std::max({worst, error_ulp(math::atan2(y, x), exact),
+                          error_ulp(math::atan2(x, y), std::atan2(static_cast<long double>(x),
+                                                                  static_cast<long double>(y)))});
+    }
+    return worst;
+}
+
 bool same_bits(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -88,6 +118,10 @@ TEST_CASE("powers: below the stated ulps, in and out of the normal range") {
     CHECK(worst_ulp(math::exp2, long_exp2, -1, 1) < exp2_bound_ulp);
     CHECK(worst_ulp(math::exp2, long_exp2, -1022, 1024) < exp2_bound_ulp);
     CHECK(worst_ulp(math::exp2, long_exp2, -1075, -1022) < exp2_bound_ulp);
+    const auto long_exp = [](long double x) { return std::exp(x); };
+    CHECK(worst_ulp(math::exp, long_exp, -1, 1) < exp_bound_ulp);
+    CHECK(worst_ulp(math::exp, long_exp, -708, 709.7) < exp_bound_ulp);
+    CHECK(worst_ulp(math::exp, long_exp, -745, -708) < exp_bound_ulp);
     CHECK(worst_ulp(math::exp10, long_exp10, -1, 1) < exp10_bound_ulp);
     CHECK(worst_ulp(math::exp10, long_exp10, -307, 308) < exp10_bound_ulp);
     CHECK(worst_ulp(math::exp10, long_exp10, -323, -307) < exp10_bound_ulp);
@@ -119,7 +153,7 @@ TEST_CASE("logarithms: zero, infinity, negative arguments, NaN") {
 }
 
 TEST_CASE("powers: overflow, underflow, infinity, NaN") {
-    for (const auto f : {math::exp2, math::exp10}) {
+    for (const auto f : {math::exp, math::exp2, math::exp10}) {
         CHECK(f(0.0) == 1);
         CHECK(f(-0.0) == 1);
         CHECK(f(Limits::infinity()) == Limits::infinity());
@@ -132,6 +166,10 @@ TEST_CASE("powers: overflow, underflow, infinity, NaN") {
     CHECK(std::isfinite(math::exp2(std::nextafter(1024, 0))));
     CHECK(same_bits(math::exp2(-1075.1), 0.0));
     CHECK(math::exp2(-1074.9) == Limits::denorm_min());
+    CHECK(math::exp(709.79) == Limits::infinity());
+    CHECK(std::isfinite(math::exp(709.78)));
+    CHECK(same_bits(math::exp(-745.2), 0.0));
+    CHECK(math::exp(-745.1) == Limits::denorm_min());
     CHECK(math::exp10(308.3) == Limits::infinity());
     CHECK(std::isfinite(math::exp10(308.25)));
     CHECK(same_bits(math::exp10(-323.7), 0.0));
@@ -196,4 +234,160 @@ TEST_CASE("powers: the same bits from every compiler") {
     }
     CHECK(fingerprint(math::exp2, -10, 10) == 0x3ff5e80db304f017);
     CHECK(fingerprint(math::exp10, -10, 10) == 0x0a24e2851806d537);
+}
+
+TEST_CASE("sine and cosine: below one ulp, in the first octant and after many turns") {
+    CHECK(worst_sincos_ulp(-0.8, 0.8) < sincos_bound_ulp);
+    CHECK(worst_sincos_ulp(-1e-5, 1e-5) < sincos_bound_ulp);
+    CHECK(worst_sincos_ulp(0.785, 0.786) < sincos_bound_ulp);  // where the range reduction jumps
+    CHECK(worst_sincos_ulp(-10, 10) < sincos_bound_ulp);
+    CHECK(worst_sincos_ulp(-1e6, 1e6) < sincos_bound_ulp);
+    CHECK(worst_sincos_ulp(-1e9, 1e9) < sincos_bound_ulp);
+}
+
+TEST_CASE("sine and cosine: next to their zeros every digit counts") {
+    // The doubles nearest to multiples of pi / 2; computed to 400 bits, then rounded.
+    struct Known {
+        double x, sin, cos;
+    };
+    const Known known[] = {
+        {0x1.921fb54442d18p+0, 0x1p+0, 0x1.1a62633145c07p-54},
+        {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53, -0x1p+0},
+        {0x1.2d97c7f3321d2p+2, -0x1p+0, -0x1.a79394c9e8a0ap-53},
+        {0x1.921fb54442d18p+2, -0x1.1a62633145c07p-52, 0x1p+0},
+        {0x1.1475cc9eedf01p+5, -0x1.3ddc5bce200bbp-49, -0x1p+0},
+        {0x1.62fffe0642fcfp+8, 0x1.b94adb917f93ep-46, -0x1p+0},
+        {0x1.7f7ec53a8d491p+20, -0x1.eacd7c60e9693p-34, 0x1p+0},
+        {0x1.dcd64ffb617e8p+29, -0x1.0cce51016c582p-26, 0x1.fffffffffffffp-1},
+    };
+    for (const auto& k : known) {
+        CAPTURE(k.x);
+        CHECK(error_ulp(math::sincos(k.x).sin, k.sin) <= 1);
+        CHECK(error_ulp(math::sincos(k.x).cos, k.cos) <= 1);
+    }
+}
+
+TEST_CASE("sine and cosine: odd and even to the last bit, exact at 0") {
+    CHECK(same_bits(sine(0.0), 0.0));
+    CHECK(same_bits(sine(-0.0), -0.0));
+    CHECK(same_bits(cosine(0.0), 1.0));
+    CHECK(same_bits(sine(Limits::denorm_min()), Limits::denorm_min()));
+    for (int i = 0; i < samples; ++i) {
+        const double x = sample(i, 0, i % 2 == 0 ? 4 : 1e9);
+        REQUIRE(same_bits(sine(-x), -sine(x)));
+        REQUIRE(same_bits(cosine(-x), cosine(x)));
+    }
+}
+
+TEST_CASE("sine and cosine: NaN beyond a thousand million radians, for infinity and for NaN") {
+    CHECK(std::isfinite(sine(1e9)));
+    for (const double x : {std::nextafter(1e9, 2e9), -2e9, Limits::max(), Limits::infinity(),
+                           -Limits::infinity(), Limits::quiet_NaN()}) {
+        CHECK(std::isnan(sine(x)));
+        CHECK(std::isnan(cosine(x)));
+    }
+}
+
+TEST_CASE("angles: below two ulps in every direction") {
+    CHECK(worst_atan2_ulp(0) < atan2_bound_ulp);
+    CHECK(worst_atan2_ulp(6) < atan2_bound_ulp);
+    CHECK(worst_atan2_ulp(1000) < atan2_bound_ulp);
+}
+
+TEST_CASE("angles: multiples of an eighth of a turn are exact") {
+    constexpr double pi = 0x1.921fb54442d18p+1;
+    for (const double r : {1.0, 0.3, 1e-320, 1e300, Limits::max(), Limits::infinity()}) {
+        CAPTURE(r);
+        CHECK(same_bits(math::atan2(0, r), 0.0));
+        CHECK(same_bits(math::atan2(r, r), pi / 4));
+        CHECK(same_bits(math::atan2(r, 0), pi / 2));
+        CHECK(same_bits(math::atan2(r, -r), 3 * (pi / 4)));
+        CHECK(same_bits(math::atan2(0, -r), pi));
+        CHECK(same_bits(math::atan2(-0.0, -r), -pi));
+        CHECK(same_bits(math::atan2(-r, -r), -3 * (pi / 4)));
+        CHECK(same_bits(math::atan2(-r, 0), -pi / 2));
+        CHECK(same_bits(math::atan2(-r, r), -pi / 4));
+    }
+    for (const double zero : {0.0, -0.0}) CHECK(same_bits(math::atan2(zero, -zero), 0.0));
+}
+
+TEST_CASE("angles: nothing overflows or underflows on the way") {
+    const double steepest = math::atan2(Limits::max(), Limits::denorm_min());
+    CHECK(same_bits(steepest, math::atan2(1, 0)));
+    CHECK(same_bits(math::atan2(Limits::denorm_min(), Limits::max()), 0.0));
+    CHECK(same_bits(math::atan2(1, Limits::infinity()), 0.0));
+    CHECK(same_bits(math::atan2(Limits::infinity(), -1), math::atan2(1, 0)));
+    CHECK(same_bits(math::atan2(0x1p-1070, 0x1p-1071), math::atan2(2, 1)));
+    CHECK(same_bits(math::atan2(0x1p1023, -0x1p1022), math::atan2(2, -1)));
+    CHECK(std::isnan(math::atan2(Limits::quiet_NaN(), 1)));
+    CHECK(std::isnan(math::atan2(1, Limits::quiet_NaN())));
+}
+
+TEST_CASE("sine, cosine, angles, e^x: the same bits from every compiler") {
+    struct Turn {
+        double x, sin, cos;
+    };
+    const Turn turns[] = {
+        {0x1p-30, 0x1p-30, 0x1p+0},
+        {0.1, 0x1.98eaecb8bcb2cp-4, 0x1.fd712f9a817c1p-1},
+        {0.5, 0x1.eaee8744b05fp-2, 0x1.c1528065b7d5p-1},
+        {0.7853981633974483, 0x1.6a09e667f3bccp-1, 0x1.6a09e667f3bcdp-1},
+        {0.7853981633974484, 0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bccp-1},
+        {1, 0x1.aed548f090ceep-1, 0x1.14a280fb5068cp-1},
+        {1.5707963267948966, 0x1p+0, 0x1.1a62633145c07p-54},
+        {2.5, 0x1.326af0dcfcab1p-1, -0x1.9a2f7ef858b7dp-1},
+        {3.141592653589793, 0x1.1a62633145c07p-53, -0x1p+0},
+        {-6.283185307179586, 0x1.1a62633145c07p-52, 0x1p+0},
+        {22, -0x1.220a29f6eb9f4p-7, -0x1.fffadd8d4acdap-1},
+        {355, -0x1.f9bd0307d1de3p-16, -0x1.fffffffc18e4cp-1},
+        {100000, 0x1.24daa9c527e96p-5, -0x1.ffac3841b3da7p-1},
+        {-1234567.875, 0x1.ecb02b0dab381p-2, -0x1.c0d7657423e83p-1},
+        {500000000, -0x1.238976ee5f7a7p-2, -0x1.eacfa519daddcp-1},
+        {1000000000, 0x1.1778cae83c69bp-1, 0x1.acff8c7364234p-1},
+    };
+    for (const auto& k : turns) {
+        CAPTURE(k.x);
+        CHECK(same_bits(sine(k.x), k.sin));
+        CHECK(same_bits(cosine(k.x), k.cos));
+    }
+    struct Direction {
+        double y, x, angle;
+    };
+    const Direction directions[] = {
+        {0.001, 1, 0x1.0624d77516e16p-10},  {0.3, 0.7, 0x1.9e9bf3d20dc71p-2},
+        {0.7, 0.3, 0x1.2a78b84fbf5fcp+0},   {2.5, -1, 0x1.f38892f1e0c88p+0},
+        {-2.5, -7, -0x1.66377fe555c41p+1},  {-1e-09, -3, -0x1.921fb5438b91p+1},
+        {1, 0x1p-40, 0x1.921fb54441d18p+0}, {1e+300, 3e-05, 0x1.921fb54442d18p+0},
+        {5e-324, -1, 0x1.921fb54442d18p+1}, {1e-310, 3e-310, 0x1.4978fa3269ee1p-2},
+    };
+    for (const auto& k : directions) {
+        CAPTURE(k.y);
+        CHECK(same_bits(math::atan2(k.y, k.x), k.angle));
+    }
+    struct Power {
+        double x, exp;
+    };
+    const Power powers[] = {
+        {-740, 0x0.0000000000055p-1022},
+        {-700.5, 0x1.4ff475c68ca02p-1011},
+        {-33.25, 0x1.057322ef4a1c2p-48},
+        {-1.5, 0x1.c8f87724b5c1dp-3},
+        {-0x1p-60, 0x1p+0},
+        {0x1p-30, 0x1.00000004p+0},
+        {0.1, 0x1.1aec7b35a00d4p+0},
+        {0.34657359027997264, 0x1.6a09e667f3bccp+0},
+        {1, 0x1.5bf0a8b145769p+1},
+        {2.5, 0x1.85d6fd931e0bbp+3},
+        {7.3, 0x1.7213320377b28p+10},
+        {123.456, 0x1.1428e1cbc0143p+178},
+        {709.75, 0x1.ef85a11e73f2dp+1023},
+    };
+    for (const auto& k : powers) {
+        CAPTURE(k.x);
+        CHECK(same_bits(math::exp(k.x), k.exp));
+    }
+    CHECK(fingerprint(sine, -1e3, 1e3) == 0x8751fc7b1cc79e0a);
+    CHECK(fingerprint(cosine, -1e3, 1e3) == 0x7979cc4a3222f19f);
+    CHECK(fingerprint(angle_of_line, -3, 3) == 0x079ed690a4fd7668);
+    CHECK(fingerprint(math::exp, -10, 10) == 0x7a50720c97576064);
 }

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.hpp"
+#include "cli/diagnostics.hpp"
+#include "experiment/json.hpp"
+#include "experiment/link_table.hpp"
+#include "experiment/loss_table.hpp"
+#include "experiment/output.hpp"
+#include "experiment/picture.hpp"
+#include "experiment/run.hpp"
+#include "experiment/scene_report.hpp"
+#include "experiment/whereabouts.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace rovernet::cli {
+namespace {
+
+Time time_of(const std::string& text) { return start_of_run + option_time("--at", text); }
+
+void print_table(const LinkTable& table) {
+    const Device& d = table.device;
+    fmt::print("{}  ip {}  mac {}  essid \"{}\"  {:g} MHz  {}{}\n", d.robot, d.ip, d.mac, d.essid,
+               d.frequency.value / 1e6, name_of(d.mode), d.encryption ? "  encrypted" : "");
+    if (table.rows.empty()) fmt::print("  hears nobody\n");
+    for (const LinkTable::Row& row : table.rows) {
+        const Device& n = row.neighbour;
+        fmt::print(
+            "  hears {:<12} ip {:<15} mac {}  essid \"{}\"  {:g} MHz  {}{}  quality {:3}  "
+            "level {:.2f} dBm  noise {:.2f} dBm\n",
+            n.robot, n.ip, n.mac, n.essid, n.frequency.value / 1e6, name_of(n.mode),
+            n.encryption ? "  encrypted" : "", row.quality, row.level.value, row.noise.value);
+    }
+}
+
+bool is_picture(const std::string& file) {
+    const auto ending = std::filesystem::path(file).extension();
+    return ending == ".png" || ending == ".pgm";
+}
+
+bool is_map(const std::string& file) {
+    const auto ending = std::filesystem::path(file).extension();
+    return is_picture(file) || ending == ".yaml" || ending == ".yml";
+}
+
+/// "16x16" or "16 m x 9 m", in metres.
+std::vector<Meters> size_of(const std::string& text) {
+    const auto cross = text.find('x');
+    if (cross == text.npos) {
+        throw InputError(Location{"--size " + text, 0, 0, true},
+                         "expected WIDTHxHEIGHT in metres; for example 16x16");
+    }
+    return {option_length("--size", text.substr(0, cross)),
+            option_length("--size", text.substr(cross + 1))};
+}
+
+/// A map alone.
+Table map_report(const SceneArguments& a) {
+    SceneTable table;
+    table.map = std::filesystem::path(a.file).filename().string();
+    table.map_where = Location{a.file};
+    if (is_picture(a.file) && !a.size) {
+        throw InputError(Location{a.file},
+                         "a picture without a scale; expected also --size WIDTHxHEIGHT in metres, "
+                         "such as --size 16x16, or a map.yaml");
+    }
+    if (a.size) table.size = size_of(*a.size);
+    std::vector<std::string> notices;
+    const auto scene = load_scene(table, a.file, nullptr, notices);
+    return scene_report(*scene, a.json);
+}
+
+void print_list(std::string_view what, const Value& names) {
+    std::string line;
+    for (const Value& name : *names.array()) line += (line.empty() ? "" : ", ") + *name.string();
+    fmt::print("{:<20} {}\n", what, line.empty() ? "none" : line);
+}
+
+void print_scene(const Table& report) {
+    const auto number = [&](std::string_view key) {
+        const std::string text = to_json(*report.find(key));
+        return text.substr(0, text.size() - 1);
+    };
+    const Array& size = *report.find("size_m")->array();
+    fmt::print("{:<20} {} x {} m\n", "size", std::get<double>(size[0].data),
+               std::get<double>(size[1].data));
+    fmt::print("{:<20} {}\n", "occupied cells", number("occupied_cells"));
+    fmt::print("{:<20} {}\n", "wall rectangles", number("wall_rectangles"));
+    fmt::print("{:<20} {} m2\n", "free area", number("free_area_m2"));
+    for (const Value& material : *report.find("materials")->array()) {
+        std::string line;
+        for (const Entry& entry : material.table()->entries) {
+            if (entry.key == "name") continue;
+            const std::string text = to_json(entry.value);
+            line += fmt::format("  {} {}", entry.key, text.substr(0, text.size() - 1));
+        }
+        fmt::print("{:<20} {}{}\n", "material", *material.table()->find("name")->string(), line);
+    }
+}
+
+void print_robots(const Table& report) {
+    for (const Value& robot : *report.find("robots")->array()) {
+        const Table& r = *robot.table();
+        const auto value = [&](std::string_view key) {
+            return std::get<double>(r.find(key)->data);
+        };
+        fmt::print("{:<20} {} at ({:.3f}, {:.3f}) m, {}, {:.2f} dBm, sensitivity {:.2f} dBm{}\n",
+                   "robot", *r.find("name")->string(), value("x_m"), value("y_m"),
+                   *r.find("model")->string(), value("power_dbm"), value("sensitivity_dbm"),
+                   std::get<bool>(r.find("on")->data) ? "" : ", off");
+    }
+    const Value* connectivity = report.find("connectivity");
+    if (!connectivity) return;
+    const Table& c = *connectivity->table();
+    for (const Value& part : *c.find("components")->array()) print_list("joined", part);
+    print_list("articulation robots", *c.find("articulation_robots"));
+    fmt::print("{:<20} {} hops\n", "diameter",
+               std::get<std::int64_t>(c.find("diameter_hops")->data));
+}
+
+}  // namespace
+
+void links(const LinksArguments& a) {
+    const Scenario scenario = scenario_of(a);
+    if (a.history) {
+        fmt::print("{}", link_history(scenario));
+        return;
+    }
+    const Time at = time_of(a.at);
+    const auto tables = link_tables(*network_at(scenario, at), a.robot);
+    if (a.json) {
+        fmt::print("{}", to_json(link_tables_document(tables, at)));
+        return;
+    }
+    for (const LinkTable& table : tables) print_table(table);
+}
+
+void scene(const SceneArguments& a) {
+    Table report;
+    if (is_map(a.file)) {
+        report = map_report(a);
+    } else {
+        const auto network = network_at(scenario_of(a), time_of(a.at));
+        report = scene_report(network->scene(), a.json);
+        append_robots(report, *network);
+    }
+    if (a.json) {
+        fmt::print("{}", to_json(report));
+        return;
+    }
+    print_scene(report);
+    if (report.find("robots")) print_robots(report);
+}
+
+void where(const WhereArguments& a) {
+    std::vector<Time> times;
+    for (const std::string& text : a.at) times.push_back(time_of(text));
+    const auto all = whereabouts(scenario_of(a), times);
+    Array list;
+    for (const Whereabouts& now : all) {
+        Array robots;
+        for (const auto& [name, p, v, heading] : now.robots) {
+            Table robot;
+            robot.set("name", name);
+            robot.set("x_m", p.x);
+            robot.set("y_m", p.y);
+            robot.set("z_m", p.z);
+            robot.set("vx", v.x);
+            robot.set("vy", v.y);
+            robot.set("heading_rad", heading);
+            robots.emplace_back(std::move(robot));
+            if (a.json) continue;
+            fmt::print(
+                "{:>12.6f} s  {:<12} at ({:.6f}, {:.6f}, {:.6f}) m, {:.6f} m/s, heading "
+                "{:.6f} rad\n",
+                seconds(now.time), name, p.x, p.y, p.z, distance(v, {}), heading);
+        }
+        Table at;
+        at.set("t_s", seconds(now.time));
+        at.set("robots", std::move(robots));
+        list.emplace_back(std::move(at));
+    }
+    Table document;
+    document.set("times", std::move(list));
+    if (a.json) fmt::print("{}", to_json(document));
+}
+
+void draw(const DrawArguments& a) {
+    const std::string ending = std::filesystem::path(a.out).extension().string();
+    if (ending != ".svg" && ending != ".png") {
+        throw InputError(Location{"--output " + a.out, 0, 0, true},
+                         "expected a name that ends in .svg or .png; for example office.svg");
+    }
+    const std::string svg = draw_svg(scenario_of(a), {.at = time_of(a.at),
+                                                      .coverage = a.coverage,
+                                                      .links = a.links,
+                                                      .trails = a.trails,
+                                                      .width = a.width});
+    if (ending == ".png") {
+        write_png(svg, a.out);
+    } else {
+        write_file(a.out, svg);
+    }
+}
+
+void convert_movements(const ConvertArguments& a) { write_movements(scenario_of(a), a.out); }
+
+}  // namespace rovernet::cli

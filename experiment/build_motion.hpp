@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/network.hpp"
+#include "experiment/scenario.hpp"
+#include "mobility/planners.hpp"
+
+#include <map>
+#include <string>
+
+namespace rovernet {
+
+/// Where a scenario's robots start and how they move, checked against the map.
+class MotionBuilder {
+  public:
+    /// What a robot does in answer to something is a plan of its own, with draws of its own.
+    using Plan = std::uint64_t;
+    static constexpr Plan from_the_start = 0;
+
+    /// Both must outlive it.
+    MotionBuilder(const Network& network, const Scenario& scenario);
+
+    /// Where the robot starts. @throws InputError if there is no room for it
+    Vec3 start(const RobotTable& table, const std::string& name);
+    /// How the robot moves from `from` on. @throws InputError for a way that there is not
+    Movement movement(const MoveTable& move, const RobotTable& robot, const std::string& name,
+                      Vec3 from, Plan plan);
+
+  private:
+    Key key(Purpose purpose, const std::string& name, std::uint64_t index,
+            Plan plan = from_the_start) const;
+    bool fits(Vec3 p, Meters radius) const;
+    Vec3 drawn_place(const RobotTable& table, const std::string& name) const;
+    Vec3 place_of_model(const RobotTable& table, const std::string& name);
+    Step first_step(Movement movement, const RobotTable& robot, const std::string& name, Vec3 from);
+    void try_out(const Movement& movement, const MoveTable& move, const RobotTable& robot,
+                 const std::string& name, Vec3 from);
+    void check_way(Vec3 from, Vec3 to, const RobotTable& robot, const Location& where);
+
+    Movement make(const FixedTable&, const MoveTable&, const RobotTable&, const std::string&, Vec3,
+                  Plan) {
+        return Fixed{};
+    }
+    Movement make(const WaypointsTable&, const MoveTable&, const RobotTable&, const std::string&,
+                  Vec3, Plan);
+    Movement make(const GoalTable&, const MoveTable&, const RobotTable&, const std::string&, Vec3,
+                  Plan);
+    template <class Model>
+    Movement make(Model model, const MoveTable& move, const RobotTable& robot,
+                  const std::string& name, Vec3 from, Plan plan);
+
+    const Network& network_;
+    const Scenario& scenario_;
+    Planners planners_;
+    std::map<std::string, NodeId, std::less<>> ids_;  // of all robots, built or to be
+};
+
+}  // namespace rovernet

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/coverage.hpp"
+
+#include "sim/random.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+
+namespace rovernet {
+namespace {
+
+/// Calls `visit(sigma, chosen)` for each model with shadowing; chosen: it is the table's model.
+template <class Visitor>
+void for_each_sigma(auto& table, Visitor visit) {
+    std::size_t index = 0;
+    const auto look = [&](auto& model) {
+        const bool chosen = index++ == table.model;
+        if constexpr (requires { model.sigma; }) visit(model.sigma, chosen);
+    };
+    std::apply([&](auto&... each) { (look(each), ...); }, table.parameters);
+}
+
+const PropagationTable& own_model(const Scenario& scenario, NodeId robot) {
+    const auto& own = robot_table(scenario, robot).propagation;
+    return own ? *own : scenario.propagation;
+}
+
+}  // namespace
+
+const RobotTable& robot_table(const Scenario& scenario, NodeId robot) {
+    std::size_t left = robot.index();
+    for (const auto& table : scenario.robots) {
+        const auto count = static_cast<std::size_t>(table.count.value_or(1));
+        if (left < count) return table;
+        left -= count;
+    }
+    throw std::invalid_argument(
+        fmt::format("robot number {} is none of the scenario's robots", robot.index()));
+}
+
+bool has_shadowing(const PropagationTable& table) {
+    bool found = false;
+    for_each_sigma(table, [&](Db sigma, bool chosen) { found |= chosen && sigma > Db{0}; });
+    return found;
+}
+
+PropagationTable without_shadowing(PropagationTable table) {
+    for_each_sigma(table, [](Db& sigma, bool) { sigma = Db{0}; });
+    return table;
+}
+
+Transmitter transmitter(const Network& network, const Scenario& scenario, NodeId robot, Time at) {
+    return {.model = without_shadowing(own_model(scenario, robot)).make(),
+            .radio = network.medium().radio(robot),
+            .antenna = network.medium().antenna(robot, at, network.legs()),
+            .key = name_key(network.name(robot)),
+            .scene = &network.scene(),
+            .floor_height = scenario.scene.floor_height,
+            .seed = scenario.scenario.seed,
+            .replication = static_cast<std::uint32_t>(scenario.scenario.replication)};
+}
+
+void received_levels(const Transmitter& transmitter, std::span<const Vec3> antennas,
+                     std::span<double> out_dbm, Dbm enough) {
+    const Radio& radio = transmitter.radio;
+    const std::vector<std::uint64_t> keys(antennas.size(), transmitter.key);
+    const LinkBatch links{.frequency = radio.frequency,
+                          .from = transmitter.antenna,
+                          .to = antennas,
+                          .from_key = transmitter.key,
+                          .to_keys = keys,
+                          .scene = transmitter.scene,
+                          .floor_height = transmitter.floor_height,
+                          .seed = transmitter.seed,
+                          .replication = transmitter.replication};
+    transmitter.model.loss(links, received_power(radio, radio, Db{0}) - enough, out_dbm);
+    for (double& v : out_dbm) v = received_power(radio, radio, Db{v}).value;
+}
+
+Vec3 CoverageMap::centre(int column, int row) const {
+    return {lower_left.x + (column + 0.5) * cell_width, lower_left.y + (row + 0.5) * cell_height,
+            lower_left.z};
+}
+
+CoverageMap coverage(const Transmitter& transmitter, Vec3 low, Vec3 high, int cells) {
+    if (!(low.x < high.x && low.y < high.y)) {
+        throw std::invalid_argument("coverage: the rectangle is empty");
+    }
+    if (cells < 1 || cells > most_coverage_cells) {
+        throw std::invalid_argument(fmt::format("coverage: cells must be from 1 to {}, got {}",
+                                                most_coverage_cells, cells));
+    }
+    const double width = high.x - low.x, height = high.y - low.y;
+    const double columns = std::clamp(std::round(std::sqrt(cells * (width / height))), 1.0,
+                                      static_cast<double>(cells));
+    CoverageMap map;
+    map.columns = static_cast<int>(columns);
+    map.rows = std::max(1, cells / map.columns);
+    map.lower_left = {low.x, low.y, transmitter.antenna.z};
+    map.cell_width = width / map.columns;
+    map.cell_height = height / map.rows;
+
+    std::vector<Vec3> antennas;
+    antennas.reserve(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
+    for (int row = 0; row < map.rows; ++row) {
+        for (int column = 0; column < map.columns; ++column) {
+            antennas.push_back(map.centre(column, row));
+        }
+    }
+    map.dbm.resize(antennas.size());
+    received_levels(transmitter, antennas, map.dbm);
+    return map;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/network.hpp"
+#include "experiment/scenario.hpp"
+#include "models/propagation.hpp"
+#include "models/radio.hpp"
+#include "sim/geometry.hpp"
+#include "sim/time.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace rovernet {
+
+/// A robot's radio on air, and what stands around it: all that its level at a place depends on.
+struct Transmitter {
+    Propagation model;
+    Radio radio = {};
+    Vec3 antenna = {};             ///< [m]
+    std::uint64_t key = 0;         ///< the robot's, for random draws
+    const Scene* scene = nullptr;  ///< not null; outlives the transmitter
+    Meters floor_height{3};        ///< [m] of one storey
+    std::uint64_t seed = 0;
+    std::uint32_t replication = 0;
+};
+
+/// The table that a robot comes from. @param robot  as numbered by populate()
+/// @throws std::invalid_argument if there are not so many robots
+const RobotTable& robot_table(const Scenario& scenario, NodeId robot);
+
+/// Whether the chosen model draws a level of its own for each pair of robots.
+bool has_shadowing(const PropagationTable& table);
+/// The same models with shadowing off: their medians.
+PropagationTable without_shadowing(PropagationTable table);
+
+/// The robot as it stands at `at`. Its model is the median: shadowing belongs to pairs of robots,
+/// and there is no robot at most places. @throws std::invalid_argument as robot_table
+Transmitter transmitter(const Network& network, const Scenario& scenario, NodeId robot, Time at);
+
+/// Levels [dBm] at which a radio like the transmitter's own would receive it.
+/// @param antennas  [m] of the receivers
+/// @param out_dbm   same size; every element written
+/// @param enough    a level below this may come out as any other level below it
+void received_levels(const Transmitter& transmitter, std::span<const Vec3> antennas,
+                     std::span<double> out_dbm,
+                     Dbm enough = {-std::numeric_limits<double>::infinity()});
+
+/// Levels over an upright rectangle, on a grid of equal cells.
+struct CoverageMap {
+    Vec3 lower_left = {};    ///< [m] corner
+    double cell_width = 1;   ///< [m]
+    double cell_height = 1;  ///< [m]
+    int columns = 0;
+    int rows = 0;
+    std::vector<double> dbm = {};  ///< at the cells' centres; row 0 is the bottom row
+
+    Vec3 centre(int column, int row) const;
+    double at(int column, int row) const {
+        return dbm[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>(column)];
+    }
+};
+
+/// The most cells that a map of the coverage may have.
+inline constexpr int most_coverage_cells = 4'000'000;
+
+/// Levels over the rectangle from `low` to `high` [m], for antennas as high as the transmitter's.
+/// @param cells  about so many, nearly square
+/// @throws std::invalid_argument for an empty rectangle, or cells outside 1 to most_coverage_cells
+CoverageMap coverage(const Transmitter& transmitter, Vec3 low, Vec3 high, int cells);
+
+}  // namespace rovernet

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/heat_layer.hpp"
+
+#include "experiment/contour.hpp"
+#include "scene/png.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+constexpr const char* contour_color = "#00501e";
+constexpr double contour_width = 1.5;  // [px]
+constexpr double contour_seam = 2.8;   // [px] of the white below it
+
+/// Where colours end [dBm]: well below the weakest contour, and where next to nothing of the
+/// picture is still above.
+std::pair<double, double> color_range(std::vector<double> dbm, double weakest) {
+    constexpr double below = 20, least = 20, step = 5;  // [dB]
+    constexpr double rest = 0.0005;
+    const auto skipped = static_cast<std::ptrdiff_t>(rest * static_cast<double>(dbm.size()));
+    std::nth_element(dbm.begin(), dbm.begin() + skipped, dbm.end(), std::greater<>());
+    const double strongest = dbm[static_cast<std::size_t>(skipped)];
+    const double low = step * std::floor((weakest - below) / step);
+    return {low, std::max(step * std::ceil(strongest / step), low + least)};
+}
+
+/// The map as a picture, its bottom row last.
+Image image_of(const CoverageMap& map, double low, double high) {
+    constexpr int colors = 256;
+    Image image{map.columns, map.rows, 3, {}};
+    image.samples.reserve(map.dbm.size() * 3);
+    std::vector<Color> table;
+    for (int i = 0; i < colors; ++i) table.push_back(lagoon.at(i / (colors - 1.0)));
+    for (int row = map.rows - 1; row >= 0; --row) {
+        for (int column = 0; column < map.columns; ++column) {
+            const double share = std::clamp((map.at(column, row) - low) / (high - low), 0.0, 1.0);
+            const Color c = table[static_cast<std::size_t>(share * (colors - 1) + 0.5)];
+            image.samples.insert(image.samples.end(), {c.red, c.green, c.blue});
+        }
+    }
+    return image;
+}
+
+/// The polygon without the points that nobody would miss.
+std::vector<PicturePoint> smoothed(const std::vector<Vec3>& polygon, const Plot& plot) {
+    constexpr double visible = 0.08;  // [px] from a straight line
+    constexpr double longest = 8;     // [px] of a side that replaces others
+    std::vector<PicturePoint> out;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const PicturePoint p = plot.at(polygon[i]);
+        if (!out.empty() && i + 1 < polygon.size()) {
+            const PicturePoint a = out.back(), b = plot.at(polygon[i + 1]);
+            const double side = std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+            const double area = std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
+            const double to_p = std::sqrt((p.x - a.x) * (p.x - a.x) + (p.y - a.y) * (p.y - a.y));
+            if (side < longest && to_p <= side && area <= visible * side) continue;
+        }
+        out.push_back(p);
+    }
+    return out;
+}
+
+void draw_line(Svg& svg, const std::string& data, bool dashed) {
+    svg.add("path", {{"d", data},
+                     {"fill", "none"},
+                     {"stroke", "#ffffff"},
+                     {"stroke-width", contour_seam},
+                     {"stroke-opacity", 0.7},
+                     {"stroke-linejoin", "round"}});
+    svg.add("path", {{"d", data},
+                     {"fill", "none"},
+                     {"stroke", contour_color},
+                     {"stroke-width", contour_width},
+                     {"stroke-linejoin", "round"},
+                     {"stroke-dasharray", dashed ? "7 4" : "none"}});
+}
+
+}  // namespace
+
+HeatLayer::HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells)
+    : map_(coverage(transmitter, plot.low, plot.high, cells)) {
+    const Radio& radio = transmitter.radio;
+    lines_.push_back({radio.sensitivity, "sensitivity", false});
+    if (radio.range_db) lines_.push_back({*radio.range_db, "range_db", true});
+    double weakest = radio.sensitivity.value;
+    for (const auto& line : lines_) weakest = std::min(weakest, line.level.value);
+    std::tie(low_, high_) = color_range(map_.dbm, weakest);
+
+    double farthest = 0;
+    for (const double x : {plot.low.x, plot.high.x}) {
+        for (const double y : {plot.low.y, plot.high.y}) {
+            const Vec3 corner{x, y, transmitter.antenna.z};
+            farthest = std::max(farthest, distance(transmitter.antenna, corner));
+        }
+    }
+    constexpr double beyond = 1.05;  // so that what ends there is not seen
+    const ContourOptions options{.farthest = {beyond * farthest}, .resolution = {0.5 / plot.scale}};
+    for (auto& line : lines_) line.polygon = contour(transmitter, line.level, options);
+}
+
+void HeatLayer::draw_levels(Svg& svg, const Plot& plot) const {
+    const std::string png = to_png(image_of(map_, low_, high_));
+    svg.add("image", {{"x", plot.left},
+                      {"y", plot.top},
+                      {"width", plot.width},
+                      {"height", plot.height},
+                      {"preserveAspectRatio", "none"},
+                      {"xlink:href", "data:image/png;base64," + base64(png)}});
+}
+
+void HeatLayer::draw_contours(Svg& svg, const Plot& plot) const {
+    for (const auto& line : lines_) {
+        SvgPath path;
+        for (const PicturePoint p : smoothed(line.polygon, plot)) {
+            path.empty() ? path.move(p.x, p.y) : path.line(p.x, p.y);
+        }
+        if (!path.empty()) draw_line(svg, path.close().text(), line.dashed);
+    }
+}
+
+void HeatLayer::draw_bar(Svg& svg, PicturePoint corner, double height) const {
+    constexpr int stops = 12;
+    constexpr double bar = 14, unit = 18;  // [px] width of the bar, room for the unit above it
+    constexpr int most_ticks = 9;
+    const double top = corner.y + unit, length = height - unit;
+    svg.open("linearGradient",
+             {{"id", "levels"}, {"x1", 0.0}, {"y1", 1.0}, {"x2", 0.0}, {"y2", 0.0}});
+    for (int i = 0; i <= stops; ++i) {
+        const double share = i / static_cast<double>(stops);
+        svg.add("stop",
+                {{"offset", fmt::format("{:.4f}", share)}, {"stop-color", lagoon.at(share)}});
+    }
+    svg.close();
+    svg.text(corner.x, corner.y + 10, "dBm", {.size = 11});
+    svg.add("rect", {{"x", corner.x},
+                     {"y", top},
+                     {"width", bar},
+                     {"height", length},
+                     {"fill", "url(#levels)"},
+                     {"stroke", "#333333"},
+                     {"stroke-width", 0.8}});
+    const auto place = [&](double dbm) { return top + length * (high_ - dbm) / (high_ - low_); };
+    SvgPath ticks;
+    for (const double dbm : round_ticks(low_, high_, most_ticks)) {
+        ticks.move(corner.x + bar, place(dbm)).horizontal(corner.x + bar + 4);
+        svg.text(corner.x + bar + 7, place(dbm) + 4, fmt::format("{:.6g}", dbm), {.size = 11});
+    }
+    svg.add("path", {{"d", ticks.text()}, {"stroke", "#333333"}, {"stroke-width", 1.0}});
+    for (const auto& line : lines_) {
+        if (line.level.value < low_ || line.level.value > high_) continue;
+        SvgPath mark;
+        mark.move(corner.x - 3, place(line.level.value)).horizontal(corner.x + bar + 3);
+        draw_line(svg, mark.text(), line.dashed);
+    }
+}
+
+void HeatLayer::append_to(Legend& legend) const {
+    for (const auto& line : lines_) {
+        legend.add({fmt::format("{:.6g} dBm, {}", line.level.value, line.meaning), 26,
+                    [dashed = line.dashed](Svg& svg, PicturePoint p) {
+                        SvgPath path;
+                        path.move(p.x, p.y).horizontal(p.x + 26);
+                        draw_line(svg, path.text(), dashed);
+                    }});
+    }
+}
+
+}  // namespace rovernet

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/link_lines.hpp"
+
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace rovernet {
+namespace {
+
+constexpr std::uint32_t most_robots = 5000;
+
+/// Lines of one look.
+struct Grade {
+    double from;   // [dB] of margin
+    double width;  // [px]
+    double shade;  // on the scale
+    const char* text;
+};
+constexpr std::array grades{
+    Grade{0, 1.3, 0.0, "0 to 5 dB"},    Grade{5, 1.8, 0.25, "5 to 10 dB"},
+    Grade{10, 2.4, 0.5, "10 to 20 dB"}, Grade{20, 3.0, 0.75, "20 to 30 dB"},
+    Grade{30, 3.6, 1.0, "over 30 dB"},
+};
+
+std::size_t grade_of(double margin) {
+    std::size_t i = grades.size() - 1;
+    while (i > 0 && margin < grades[i].from) --i;
+    return i;
+}
+
+/// What `to` has left of its budget when it hears `from` [dB]; none if it cannot hear.
+std::optional<double> margin(const Network& network, NodeId from, NodeId to, Time at) {
+    const Medium& medium = network.medium();
+    const Radio& sender = medium.radio(from);
+    const Db budget = link_budget(sender, medium.radio(to));
+    constexpr double slack = 1 + 1e-9;  // rounding of the model's inverse
+    const double d =
+        distance(medium.antenna(from, at, network.legs()), medium.antenna(to, at, network.legs()));
+    if (d > slack * medium.model(from).reach(budget, sender.frequency).value) return std::nullopt;
+    if (!medium.link_up(from, to, at, network.legs())) return std::nullopt;
+    return (budget - medium.path_loss(from, to, at, network.legs())).value;
+}
+
+void stroke(Svg& svg, const std::string& data, std::size_t grade, bool dashed, bool seam) {
+    const auto& look = grades[grade];
+    svg.add("path", {{"d", data},
+                     {"fill", "none"},
+                     {"stroke", seam ? Color{0xff, 0xff, 0xff} : ember.at(look.shade)},
+                     {"stroke-width", look.width + (seam ? 1.6 : 0)},
+                     {"stroke-dasharray", dashed && !seam ? "7 4" : "none"}});
+}
+
+/// A head at `to`, `back` [px] before its middle; none if there is no room.
+void append_head(SvgPath& heads, PicturePoint from, PicturePoint to, double back, double width) {
+    const double dx = to.x - from.x, dy = to.y - from.y;
+    const double length = std::sqrt(dx * dx + dy * dy);
+    const double size = 6 + 1.5 * width;
+    if (length < back + size) return;
+    const double ux = dx / length, uy = dy / length;
+    const PicturePoint tip{to.x - back * ux, to.y - back * uy};
+    const PicturePoint base{tip.x - size * ux, tip.y - size * uy};
+    const double half = 0.45 * size;
+    heads.move(tip.x, tip.y).line(base.x - half * uy, base.y + half * ux);
+    heads.line(base.x + half * uy, base.y - half * ux).close();
+}
+
+LegendItem sample(std::string text, std::size_t grade, bool dashed) {
+    return {std::move(text), 30, [grade, dashed](Svg& svg, PicturePoint p) {
+                SvgPath path, head;
+                path.move(p.x, p.y).horizontal(p.x + 30);
+                stroke(svg, path.text(), grade, dashed, false);
+                if (!dashed) return;
+                append_head(head, p, {p.x + 34, p.y}, 2, grades[grade].width);
+                svg.add("path", {{"d", head.text()}, {"fill", ember.at(grades[grade].shade)}});
+            }};
+}
+
+}  // namespace
+
+LinkLines::LinkLines(const Network& network, Time at) {
+    const auto robots = static_cast<std::uint32_t>(network.size());
+    if (robots > most_robots) {
+        throw RunError(fmt::format("links of {} robots make no picture; expected at most {}",
+                                   robots, most_robots));
+    }
+    for (std::uint32_t i = 0; i < robots; ++i) {
+        for (std::uint32_t j = i + 1; j < robots; ++j) {
+            const NodeId a{i}, b{j};
+            const auto there = margin(network, a, b, at), back = margin(network, b, a, at);
+            if (there && back) {
+                lines_.push_back({a, b, std::min(*there, *back), true});
+            } else if (there) {
+                lines_.push_back({a, b, *there, false});
+            } else if (back) {
+                lines_.push_back({b, a, *back, false});
+            }
+        }
+    }
+}
+
+void LinkLines::draw(Svg& svg, const RobotMarks& robots, bool on_colors) const {
+    constexpr double gap = 2;  // [px] between an arrow head and its robot
+    std::array<std::array<SvgPath, 2>, grades.size()> paths;  // by grade; one way, both ways
+    std::array<SvgPath, grades.size()> heads;
+    for (const auto& line : lines_) {
+        const auto& from = robots[line.from];
+        const auto& to = robots[line.to];
+        const std::size_t grade = grade_of(line.margin);
+        paths[grade][line.both_ways].move(from.at.x, from.at.y).line(to.at.x, to.at.y);
+        if (line.both_ways) continue;
+        append_head(heads[grade], from.at, to.at, to.radius + gap, grades[grade].width);
+    }
+    for (std::size_t i = 0; i < grades.size(); ++i) {
+        for (const bool both_ways : {false, true}) {
+            if (paths[i][both_ways].empty()) continue;
+            if (on_colors) stroke(svg, paths[i][both_ways].text(), i, !both_ways, true);
+            stroke(svg, paths[i][both_ways].text(), i, !both_ways, false);
+        }
+        if (heads[i].empty()) continue;
+        svg.add("path", {{"d", heads[i].text()},
+                         {"fill", ember.at(grades[i].shade)},
+                         {"stroke", "#ffffff"},
+                         {"stroke-width", on_colors ? 1.0 : 0.0},
+                         {"paint-order", "stroke"}});
+    }
+}
+
+void LinkLines::keep_off(LabelPlaces& places, const RobotMarks& robots) const {
+    constexpr std::size_t many = 500;
+    if (lines_.size() > many) return;
+    for (const auto& line : lines_) places.avoid(robots[line.from].at, robots[line.to].at);
+}
+
+void LinkLines::append_to(Legend& legend) const {
+    std::array<bool, grades.size()> used{};
+    std::optional<std::size_t> one_way;
+    for (const auto& line : lines_) {
+        used[grade_of(line.margin)] = true;
+        if (!line.both_ways) one_way = grade_of(line.margin);
+    }
+    bool first = true;
+    for (std::size_t i = 0; i < grades.size(); ++i) {
+        if (!used[i]) continue;
+        legend.add(
+            sample(fmt::format("{}{}", first ? "link margin " : "", grades[i].text), i, false));
+        first = false;
+    }
+    if (one_way) legend.add(sample("one way only", *one_way, true));
+}
+
+}  // namespace rovernet

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/link_table.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/run.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <set>
+
+namespace rovernet {
+namespace {
+
+std::string ip_of(std::uint32_t number) {
+    return fmt::format("10.{}.{}.{}", number >> 16 & 255, number >> 8 & 255, number & 255);
+}
+
+std::string mac_of(std::uint32_t number) {
+    return fmt::format("02:00:{:02x}:{:02x}:{:02x}:{:02x}", number >> 24, number >> 16 & 255,
+                       number >> 8 & 255, number & 255);
+}
+
+/// Makes addresses that nobody has been given, one after the other.
+class Addresses {
+  public:
+    using Make = std::string (*)(std::uint32_t);
+    Addresses(const Medium& medium, std::size_t robots, std::optional<std::string> Radio::*given,
+              Make make)
+        : given_(given), make_(make) {
+        for (std::uint32_t i = 0; i < robots; ++i) {
+            if (const auto& address = medium.radio(NodeId{i}).*given) taken_.insert(*address);
+        }
+    }
+
+    std::string of(const Radio& radio, NodeId node) {
+        if (radio.*given_) return *(radio.*given_);
+        std::string address = make_(node.value + 1);
+        while (!taken_.insert(address).second) address = make_(first_spare_++);
+        return address;
+    }
+
+  private:
+    std::optional<std::string> Radio::*given_;
+    Make make_;
+    std::set<std::string> taken_;
+    std::uint32_t first_spare_ = 0x800001;  // beyond the robots' own numbers
+};
+
+Table device_document(const Device& device) {
+    Table table;
+    table.set("robot", device.robot);
+    table.set("ip", device.ip);
+    table.set("mac", device.mac);
+    table.set("essid", device.essid);
+    table.set("frequency_hz", device.frequency.value);
+    table.set("mode", name_of(device.mode));
+    table.set("encryption", device.encryption);
+    return table;
+}
+
+/// Writes link records down as lines.
+struct History {
+    const Network* network;
+    std::string text = "time_s,from,to,event\n";
+
+    KindMask kinds() const { return kind_links; }
+    void on(const Record& record, const RecordContext&) {
+        if (const auto* up = std::get_if<LinkUp>(&record)) add(up->time, up->from, up->to, "up");
+        if (const auto* down = std::get_if<LinkDown>(&record)) {
+            add(down->time, down->from, down->to, "down");
+        }
+    }
+
+  private:
+    static std::string quoted(const std::string& name) {
+        if (name.find_first_of(",\"\r") == name.npos) return name;
+        std::string text = "\"";
+        for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+        return text + '"';
+    }
+    void add(Time t, NodeId from, NodeId to, std::string_view event) {
+        const std::int64_t ns = t.time_since_epoch().count();
+        text += fmt::format("{}.{:09},{},{},{}\n", ns / 1'000'000'000, ns % 1'000'000'000,
+                            quoted(network->name(from)), quoted(network->name(to)), event);
+    }
+};
+
+}  // namespace
+
+std::vector<Device> devices(const Network& network) {
+    Addresses ips(network.medium(), network.size(), &Radio::ip, ip_of);
+    Addresses macs(network.medium(), network.size(), &Radio::mac, mac_of);
+    std::vector<Device> all;
+    for (std::uint32_t i = 0; i < network.size(); ++i) {
+        const Radio& radio = network.medium().radio(NodeId{i});
+        all.push_back({network.name(NodeId{i}), ips.of(radio, NodeId{i}), macs.of(radio, NodeId{i}),
+                       radio.essid, radio.frequency, radio.mode, radio.encryption});
+    }
+    return all;
+}
+
+std::vector<LinkTable> link_tables(const Network& network,
+                                   const std::optional<std::string>& robot) {
+    const auto all = devices(network);
+    std::vector<LinkTable> tables;
+    const auto only = robot ? std::optional(robot_named(network, *robot)) : std::nullopt;
+    for (std::uint32_t i = 0; i < network.size(); ++i) {
+        const NodeId node{i};
+        if (only && node != *only) continue;
+        LinkTable table{all[i], {}};
+        for (const Neighbour& n : network.links(node, network.now())) {
+            table.rows.push_back({all[n.node.index()], n.quality, n.level, n.noise});
+        }
+        tables.push_back(std::move(table));
+    }
+    return tables;
+}
+
+Table link_tables_document(const std::vector<LinkTable>& tables, Time at) {
+    Array robots;
+    for (const LinkTable& table : tables) {
+        Table robot = device_document(table.device);
+        Array links;
+        for (const LinkTable::Row& row : table.rows) {
+            Table link = device_document(row.neighbour);
+            link.set("quality", row.quality);
+            link.set("level_dbm", row.level.value);
+            link.set("noise_dbm", row.noise.value);
+            links.emplace_back(std::move(link));
+        }
+        robot.set("links", std::move(links));
+        robots.emplace_back(std::move(robot));
+    }
+    Table document;
+    document.set("time_s", seconds(at));
+    document.set("robots", std::move(robots));
+    return document;
+}
+
+std::string link_history(const Scenario& scenario) {
+    Network network(network_settings(scenario));
+    populate(network, scenario);
+    const auto history = std::make_shared<History>(History{&network});
+    network.add_sink(history);
+    network.run_until(start_of_run + scenario.scenario.duration);
+    return history->text;
+}
+
+}  // namespace rovernet

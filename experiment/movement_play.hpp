@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/network.hpp"
+#include "mobility/movement_file.hpp"
+#include "sim/ids.hpp"
+
+#include <vector>
+
+namespace rovernet {
+
+/// Moves robots as the file says, from now on. A robot that appears later is off until then.
+/// @param nodes  for each of file.robots(), in their order
+void play(Network& network, MovementFile file, std::vector<NodeId> nodes);
+
+}  // namespace rovernet

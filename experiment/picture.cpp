@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/picture.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/heat_layer.hpp"
+#include "experiment/link_lines.hpp"
+#include "experiment/map_layer.hpp"
+#include "experiment/robot_marks.hpp"
+#include "experiment/trail_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+namespace rovernet {
+namespace {
+
+constexpr double margin = 16;        // [px] around everything
+constexpr double title_size = 16;    // [px]
+constexpr double caption_size = 12;  // [px]
+constexpr double title_line = 22;    // [px]
+constexpr double caption_line = 17;  // [px]
+constexpr double gap = 10;           // [px] between the parts
+constexpr std::uint32_t most_robots = 100'000;
+
+void check_range(const char* name, double value, double low, double high) {
+    if (value >= low && value <= high) return;
+    throw std::invalid_argument(
+        fmt::format("picture: {} must be from {} to {}, got {}", name, low, high, value));
+}
+
+NodeId robot_named(const Network& network, const std::string& name) {
+    if (const auto node = network.find(name)) return *node;
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < network.size(); ++i) names.push_back(network.name(NodeId{i}));
+    throw std::invalid_argument(
+        fmt::format("coverage: there is no robot \"{}\"; expected one of "
+                    "the scenario's {}; {}",
+                    name, names.size(), did_you_mean(name, names)));
+}
+
+/// Draws one scenario at one time.
+class Painter {
+  public:
+    Painter(const Scenario& scenario, const PictureOptions& options);
+    std::string paint();
+
+  private:
+    void run();
+    Extent extent() const;
+    Plot plot() const;
+    /// How far from the robot whose coverage is drawn an open field is shown [m].
+    double shown_reach(const Extent& robots) const;
+    std::vector<std::string> caption() const;
+    void draw_world(Svg& svg, const Plot& plot, const RobotMarks& robots) const;
+
+    const Scenario& scenario_;
+    const PictureOptions& options_;
+    Network network_;
+    std::shared_ptr<Trails> trails_ = std::make_shared<Trails>();
+    std::vector<Meters> radii_ = {};  // of the robots
+    std::optional<NodeId> source_ = std::nullopt;
+    std::optional<Transmitter> transmitter_ = std::nullopt;
+    std::optional<MapLayer> map_ = std::nullopt;
+    std::optional<HeatLayer> heat_ = std::nullopt;
+    std::optional<TrailLines> ways_ = std::nullopt;
+    std::optional<LinkLines> links_ = std::nullopt;
+};
+
+Painter::Painter(const Scenario& scenario, const PictureOptions& options)
+    : scenario_(scenario), options_(options), network_(network_settings(scenario)) {
+    check_range("width", options.width, 400, 10'000);
+    check_range("cells", options.cells, 1, most_coverage_cells);
+    if (options.at < start_of_run) throw std::invalid_argument("picture: at must be >= 0 s");
+    for (const auto& table : scenario.robots) {
+        radii_.insert(radii_.end(), static_cast<std::size_t>(table.count.value_or(1)),
+                      table.radius);
+    }
+    if (radii_.size() > most_robots) {
+        throw RunError(fmt::format("a picture of {} robots cannot be drawn; expected at most {}",
+                                   radii_.size(), most_robots));
+    }
+}
+
+void Painter::run() {
+    if (options_.trails) network_.add_sink(trails_);
+    populate(network_, scenario_);
+    if (options_.coverage) source_ = robot_named(network_, *options_.coverage);
+    network_.run_until(options_.at);
+
+    map_.emplace(network_.scene());
+    if (source_) transmitter_ = transmitter(network_, scenario_, *source_, options_.at);
+    if (options_.links) links_.emplace(network_, options_.at);
+    if (options_.trails) {
+        ways_.emplace(*trails_, static_cast<std::uint32_t>(network_.size()), options_.at);
+    }
+}
+
+double Painter::shown_reach(const Extent& robots) const {
+    constexpr double most = 4;  // times the size of the robots' extent
+    const Radio& radio = transmitter_->radio;
+    const double reach =
+        transmitter_->model.reach(link_budget(radio, radio), radio.frequency).value;
+    const double size = std::max(robots.width(), robots.height());
+    const double limit = network_.size() > 1 ? most * size : 1e6;
+    return std::min(reach, std::max(limit, 1.0));
+}
+
+Extent Painter::extent() const {
+    constexpr double share = 0.03;  // of the margin in the larger side
+    Extent out;
+    for (std::uint32_t i = 0; i < network_.size(); ++i) {
+        out.include(network_.legs().position(NodeId{i}, options_.at), radii_[i].value);
+    }
+    if (ways_) ways_->include_in(out);
+    const Scene& scene = network_.scene();
+    if (!scene.open_field()) {
+        out.include(scene.lower_left());
+        out.include(scene.upper_right());
+    } else if (transmitter_) {
+        out.include(transmitter_->antenna, shown_reach(out));
+    } else if (network_.size() == 1 && out.width() < 10 && out.height() < 10) {
+        out.grow(5, 5);
+    }
+    const double more = share * std::max(out.width(), out.height());
+    out.grow(more, more);
+    return out;
+}
+
+Plot Painter::plot() const {
+    constexpr double tallest = 0.75;  // of the picture's width
+    constexpr double narrowest = 420, lowest = 160;
+    const double right = source_ ? gap + HeatLayer::bar_width : 0;
+    const double width = options_.width - 2 * margin - right;
+    return Plot(extent(), {margin, margin},
+                {.width = width,
+                 .height = tallest * options_.width,
+                 .least_width = std::min(narrowest, width),
+                 .least_height = lowest});
+}
+
+/// The chosen model's name and parameters: "log_distance: exponent 4, sigma 5 dB".
+std::string model_text(const PropagationTable& table) {
+    std::string text;
+    std::size_t index = 0;
+    const auto append = [&]<class M>(const M& model) {
+        if (index++ != table.model) return;
+        Table parameters;
+        append_fields(parameters, model);
+        text = M::name;
+        const char* between = ": ";
+        for (const auto& entry : parameters.entries) {
+            const std::string* quantity = entry.value.string();
+            const auto* number = std::get_if<double>(&entry.value.data);
+            const auto* whole = std::get_if<std::int64_t>(&entry.value.data);
+            text += fmt::format("{}{} {}", std::exchange(between, ", "), entry.key,
+                                quantity ? *quantity
+                                : number ? fmt::format("{}", *number)
+                                : whole  ? fmt::format("{}", *whole)
+                                         : entry.value.description());
+        }
+    };
+    std::apply([&](const auto&... each) { (append(each), ...); }, table.parameters);
+    return text;
+}
+
+std::vector<std::string> Painter::caption() const {
+    std::vector<std::string> parts{fmt::format("t = {:.6g} s", seconds(options_.at)),
+                                   model_text(scenario_.propagation)};
+    for (const auto& table : scenario_.robots) {
+        if (!table.propagation) continue;
+        parts.emplace_back("some robots have a model of their own");
+        break;
+    }
+    if (!source_) return parts;
+    const auto& own = robot_table(scenario_, *source_);
+    const Radio& radio = transmitter_->radio;
+    const bool median = has_shadowing(own.propagation.value_or(scenario_.propagation));
+    parts.push_back(fmt::format("coverage of {}: {} for a radio like its own, antenna {:.6g} m up",
+                                shortened(*options_.coverage, 40),
+                                median ? "median level" : "level", radio.antenna_height.value));
+    parts.push_back(
+        fmt::format("{:.4g} dBm at {:.6g} MHz", radio.power.value, radio.frequency.value / 1e6));
+    if (own.propagation) parts.push_back("its model is " + model_text(*own.propagation));
+    return parts;
+}
+
+void Painter::draw_world(Svg& svg, const Plot& plot, const RobotMarks& robots) const {
+    const SvgAttributes frame{
+        {"x", plot.left}, {"y", plot.top}, {"width", plot.width}, {"height", plot.height}};
+    svg.open("clipPath", {{"id", "plot"}});
+    svg.add("rect", frame);
+    svg.close();
+    svg.open("g", {{"clip-path", "url(#plot)"}});
+    if (heat_) heat_->draw_levels(svg, plot);
+    map_->draw(svg, plot, heat_.has_value());
+    if (heat_) heat_->draw_contours(svg, plot);
+    if (ways_) ways_->draw(svg, plot, heat_.has_value());
+    if (links_) links_->draw(svg, robots, heat_.has_value());
+    LabelPlaces places({plot.left, plot.top, plot.right(), plot.bottom()});
+    if (links_) links_->keep_off(places, robots);
+    robots.draw(svg, places);
+    svg.close();
+    svg.add("rect", {{"x", plot.left},
+                     {"y", plot.top},
+                     {"width", plot.width},
+                     {"height", plot.height},
+                     {"fill", "none"},
+                     {"stroke", "#555555"},
+                     {"stroke-width", 1.0}});
+}
+
+std::string Painter::paint() {
+    run();
+    Plot plot = this->plot();
+    if (transmitter_) heat_.emplace(*transmitter_, plot, options_.cells);
+    const double right = source_ ? gap + HeatLayer::bar_width : 0;
+    const double text_wide = plot.width + right;
+    const auto titles = wrapped({shortened(scenario_.scenario.name, 100)}, text_wide, title_size);
+    const auto lines = wrapped(caption(), text_wide, caption_size);
+    plot.top = margin + title_line * static_cast<double>(titles.size()) +
+               caption_line * static_cast<double>(lines.size());
+
+    const RobotMarks robots(network_, radii_, source_, options_.at, plot);
+    Legend legend;
+    legend.add(scale_bar(plot));
+    map_->append_to(legend, heat_.has_value());
+    robots.append_to(legend);
+    if (heat_) heat_->append_to(legend);
+    if (links_) links_->append_to(legend);
+    if (ways_) ways_->append_to(legend);
+
+    const double width = plot.right() + right + margin;
+    const double height = plot.bottom() + gap + legend.height(text_wide) + margin / 2;
+    Svg svg(std::ceil(width), std::ceil(height));
+    svg.title(scenario_.scenario.name);
+    svg.add("rect",
+            {{"width", std::ceil(width)}, {"height", std::ceil(height)}, {"fill", "#ffffff"}});
+    double y = margin;
+    for (const auto& line : titles) {
+        svg.text(margin, y + title_size - 2, line, {.size = title_size, .bold = true});
+        y += title_line;
+    }
+    for (const auto& line : lines) {
+        svg.text(margin, y + caption_size - 2, line,
+                 {.size = caption_size, .color = {0x44, 0x44, 0x44}});
+        y += caption_line;
+    }
+    draw_world(svg, plot, robots);
+    if (heat_) {
+        heat_->draw_bar(svg, {plot.right() + gap, plot.top}, std::min(plot.height, 420.0));
+    }
+    legend.draw(svg, {margin, plot.bottom() + gap}, text_wide);
+    return svg.finish();
+}
+
+}  // namespace
+
+std::string draw_svg(const Scenario& scenario, const PictureOptions& options) {
+    return Painter(scenario, options).paint();
+}
+
+}  // namespace rovernet

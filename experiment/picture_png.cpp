@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/picture.hpp"
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <memory>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace rovernet {
+namespace {
+
+constexpr const char* program = "rsvg-convert";
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// A file without a name, to hand to the program.
+File unnamed_file() {
+    File file(std::tmpfile());
+    if (!file) throw RunError("no temporary file can be made; check the space on the disk");
+    return file;
+}
+
+/// What the program said, on one line.
+std::string complaint(std::FILE* file) {
+    char text[400] = {};
+    std::rewind(file);
+    std::size_t size = std::fread(text, 1, sizeof text - 1, file);
+    while (size > 0 && text[size - 1] == '\n') text[--size] = 0;
+    for (char& c : text) c = c == '\n' ? ' ' : c;
+    return text;
+}
+
+struct FileActions {
+    posix_spawn_file_actions_t actions;
+    FileActions() { posix_spawn_file_actions_init(&actions); }
+    ~FileActions() { posix_spawn_file_actions_destroy(&actions); }
+    FileActions(const FileActions&) = delete;
+    FileActions& operator=(const FileActions&) = delete;
+};
+
+/// Runs the program from `in` to the file `out`; its exit status, 127 if it is not there.
+int convert(std::FILE* in, const std::string& out, std::FILE* errors) {
+    FileActions files;
+    posix_spawn_file_actions_adddup2(&files.actions, fileno(in), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files.actions, fileno(errors), STDERR_FILENO);
+    std::string words[] = {program, "--unlimited", "--format=png", "--output=" + out};
+    char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(),
+                         nullptr};
+    pid_t child = 0;
+    if (posix_spawnp(&child, program, &files.actions, nullptr, arguments, environ) != 0) return 127;
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) return 1;
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+}  // namespace
+
+void write_png(const std::string& svg, const std::string& path) {
+    const std::string part = path + ".part";
+    const File in = unnamed_file(), errors = unnamed_file();
+    const bool written = std::fwrite(svg.data(), 1, svg.size(), in.get()) == svg.size() &&
+                         std::fflush(in.get()) == 0;
+    if (!written) throw RunError("the picture cannot be stored; check the space on the disk");
+    std::rewind(in.get());
+    const int status = convert(in.get(), part, errors.get());
+    if (status == 127) {
+        throw RunError(
+            fmt::format("{}: a PNG needs the program {}, which is not there; install "
+                        "the package librsvg2-bin, or draw an .svg",
+                        path, program));
+    }
+    if (status != 0) {
+        std::remove(part.c_str());
+        throw RunError(fmt::format("{}: {} failed: {}", path, program, complaint(errors.get())));
+    }
+    if (std::rename(part.c_str(), path.c_str()) != 0) {
+        std::remove(part.c_str());
+        throw RunError(fmt::format("{}: cannot be written ({})", path, std::strerror(errno)));
+    }
+}
+
+}  // namespace rovernet

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/scene_table.hpp"
+#include "experiment/toml.hpp"
+#include "scene/occupancy.hpp"
+#include "scene/stage_walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace rovernet {
+namespace {
+
+namespace fs = std::filesystem;
+
+Material made_of(const MaterialTable& table, std::optional<Meters> usual_height) {
+    Material material{.name = table.name,
+                      .per_crossing = table.per_crossing,
+                      .per_metre = table.per_metre,
+                      .slab = table.itu};
+    if (table.thickness) material.thickness = *table.thickness;
+    if (const auto height = table.height ? table.height : usual_height) material.height = *height;
+    return material;
+}
+
+/// The materials file beside a map: NAME.materials.toml for NAME.png or NAME.yaml.
+std::vector<MaterialTable> sidecar(const fs::path& map) {
+    const fs::path path = fs::path(map).replace_extension(".materials.toml");
+    if (!fs::is_regular_file(path)) return {};
+    Table scene;
+    scene.set("materials", read_toml(path.string()));
+    return read_scene(Value(std::move(scene))).materials;
+}
+
+OccupancyGrid load_map(const SceneTable& scene, const fs::path& path) {
+    const auto extension = path.extension();
+    const bool yaml = extension == ".yaml" || extension == ".yml";
+    if (yaml && scene.size) {
+        throw InputError(scene.map_where,
+                         "map: a map.yaml has its own size; leave out the key size");
+    }
+    if (!yaml && fs::is_regular_file(path) && !scene.size) {
+        throw InputError(scene.map_where,
+                         fmt::format("map: \"{}\" is a picture without a scale; expected a ROS "
+                                     "map.yaml, or also size = [\"40 m\", \"20 m\"]",
+                                     *scene.map));
+    }
+    if (yaml) return read_ros_map(path.string());
+    const auto size = scene.size.value_or(std::vector<Meters>{{1}, {1}});
+    return image_map(path.string(), size[0], size[1]);
+}
+
+/// Gives each wall the first material that has its grey level; 0 is the usual one.
+void assign_materials(OccupancyGrid& grid, const std::vector<MaterialTable>& tables) {
+    if (tables.empty()) return;
+    std::vector<std::uint8_t> by_level(256, 0);
+    for (int level = 0; level < 256; ++level) {
+        const auto found = std::find_if(tables.begin(), tables.end(),
+                                        [&](const auto& t) { return t.has_grey(level); });
+        if (found != tables.end()) {
+            by_level[static_cast<std::size_t>(level)] =
+                static_cast<std::uint8_t>(found - tables.begin() + 1);
+        }
+    }
+    grid.cell_materials.resize(grid.cells.size());
+    for (std::size_t i = 0; i < grid.cells.size(); ++i) {
+        grid.cell_materials[i] = by_level[grid.greys[i]];
+    }
+}
+
+std::shared_ptr<const Scene> map_scene(const SceneTable& scene, const std::string& file) {
+    const fs::path path = fs::path(file).parent_path() / *scene.map;
+    std::vector<MaterialTable> tables = scene.materials;
+    for (const MaterialTable& more : sidecar(path)) tables.push_back(more);
+    constexpr std::size_t most = 254;
+    if (tables.size() > most) {
+        throw InputError(tables[most].where, "materials: expected at most 254 of them");
+    }
+    OccupancyGrid grid = load_map(scene, path);
+    assign_materials(grid, tables);
+    std::vector<Material> materials{made_of({}, scene.wall_height)};
+    materials.front().name = "wall";
+    for (const MaterialTable& table : tables) {
+        materials.push_back(made_of(table, scene.wall_height));
+    }
+    return std::make_shared<const Scene>(std::move(grid), std::move(materials));
+}
+
+std::shared_ptr<const Scene> world_scene(const SceneTable& scene, const std::string& file,
+                                         const WorldFile& world,
+                                         std::vector<std::string>& notices) {
+    StageWalls walls = stage_walls(world, world_options(scene, file));
+    notices.insert(notices.end(), walls.notices.begin(), walls.notices.end());
+    for (Material& material : walls.materials) {
+        const auto found =
+            std::find_if(scene.materials.begin(), scene.materials.end(),
+                         [&](const MaterialTable& t) { return t.color == material.name; });
+        material = found == scene.materials.end() ? Material{.name = material.name}
+                                                  : made_of(*found, std::nullopt);
+        if (scene.wall_height && found == scene.materials.end())
+            material.height = *scene.wall_height;
+    }
+    if (walls.grids.empty()) return nullptr;
+    return std::make_shared<const Scene>(std::move(walls.grids), std::move(walls.materials));
+}
+
+}  // namespace
+
+WorldOptions world_options(const SceneTable& scene, const std::string& file) {
+    const fs::path folder = fs::path(file).parent_path();
+    WorldOptions options{.lenient = scene.lenient};
+    for (const std::string& path : scene.world_path.value_or(std::vector<std::string>{})) {
+        options.search_path.push_back((folder / path).string());
+    }
+    for (const std::string& pair : scene.bitmaps.value_or(std::vector<std::string>{})) {
+        const auto equals = pair.find('=');
+        options.bitmaps.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+    }
+    return options;
+}
+
+std::shared_ptr<const Scene> load_scene(const SceneTable& scene, const std::string& file,
+                                        const WorldFile* world, std::vector<std::string>& notices) {
+    try {
+        if (scene.world && world) return world_scene(scene, file, *world, notices);
+        if (scene.map) return map_scene(scene, file);
+        return nullptr;
+    } catch (const InputError& error) {
+        if (scene.world || error.where().source == scene.map_where.source) throw;
+        throw InputError(scene.map_where, std::string("map: ") + error.what());
+    } catch (const std::invalid_argument& error) {
+        throw InputError(scene.map_where, error.what());
+    }
+}
+
+}  // namespace rovernet

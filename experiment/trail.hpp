@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ids.hpp"
+#include "sim/legs.hpp"
+#include "sim/record.hpp"
+
+#include <vector>
+
+namespace rovernet {
+
+/// Where robots have been: a sink that keeps every leg that began.
+class Trails {
+  public:
+    KindMask kinds() const { return kind_of<Moved>(); }
+    void on(const Record& record, const RecordContext& context);
+
+    /// Corners of a robot's way until `at`, in order [m]; empty if it never had a leg.
+    std::vector<Vec3> corners(NodeId node, Time at) const;
+    /// Where a robot was at `start`, start + every, ... and until `at` [m]; `every` > 0.
+    std::vector<Vec3> marks(NodeId node, Time at, Duration every) const;
+
+  private:
+    /// The legs of a node; none for one that was never heard of.
+    const std::vector<Leg>& legs(NodeId node) const;
+
+    std::vector<std::vector<Leg>> legs_;  // by node
+};
+
+}  // namespace rovernet

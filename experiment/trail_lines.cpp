@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/trail_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+namespace rovernet {
+namespace {
+
+constexpr const char* ink = "#1f4e79";
+constexpr double line_width = 1.2;  // [px]
+constexpr double dot_radius = 2.6;  // [px]
+constexpr double ring_radius = 3;   // [px]
+constexpr double visible = 0.3;     // [px] a corner nearer to the last one is left out
+
+/// About a dozen dots in all, at round times; every 10 s if that is less.
+Duration dot_period(Time at) {
+    constexpr std::int64_t most_dots = 12;
+    Duration period = std::chrono::seconds(10);
+    for (std::int64_t factor : {2, 3, 6, 12, 30, 60, 180, 360, 1080, 2160, 8640}) {
+        if (at.time_since_epoch() / most_dots <= period) return period;
+        period = factor * std::chrono::seconds(10);
+    }
+    while (at.time_since_epoch() / most_dots > period) period *= 10;
+    return period;
+}
+
+std::string period_text(Duration period) {
+    const double s = seconds(period);
+    if (s >= 86400) return fmt::format("{:.6g} d", s / 86400);
+    if (s >= 3600) return fmt::format("{:.6g} h", s / 3600);
+    if (s >= 60) return fmt::format("{:.6g} min", s / 60);
+    return fmt::format("{:.6g} s", s);
+}
+
+void append_disc(SvgPath& path, PicturePoint p, double radius) {
+    // A diamond would do for the eye; eight corners look round at this size.
+    const double d = radius * 0.7071;
+    path.move(p.x + radius, p.y).line(p.x + d, p.y + d).line(p.x, p.y + radius);
+    path.line(p.x - d, p.y + d).line(p.x - radius, p.y).line(p.x - d, p.y - d);
+    path.line(p.x, p.y - radius).line(p.x + d, p.y - d).close();
+}
+
+/// Appends a way, without corners that nobody sees.
+void append_way(SvgPath& path, const std::vector<PicturePoint>& way) {
+    PicturePoint last = way.front();
+    path.move(last.x, last.y);
+    for (std::size_t i = 1; i < way.size(); ++i) {
+        const bool seen = std::abs(way[i].x - last.x) + std::abs(way[i].y - last.y) >= visible;
+        if (!seen && i + 1 < way.size()) continue;
+        last = way[i];
+        path.line(last.x, last.y);
+    }
+}
+
+}  // namespace
+
+TrailLines::TrailLines(const Trails& trails, std::uint32_t robots, Time at)
+    : trails_(trails), robots_(robots), at_(at), every_(dot_period(at)) {}
+
+void TrailLines::include_in(Extent& extent) const {
+    for (std::uint32_t i = 0; i < robots_; ++i) {
+        for (const Vec3 p : trails_.corners(NodeId{i}, at_)) extent.include(p);
+    }
+}
+
+void TrailLines::draw(Svg& svg, const Plot& plot, bool on_colors) const {
+    SvgPath ways, dots, rings;
+    for (std::uint32_t i = 0; i < robots_; ++i) {
+        std::vector<PicturePoint> way;
+        for (const Vec3 p : trails_.corners(NodeId{i}, at_)) way.push_back(plot.at(p));
+        if (way.size() < 2) continue;
+        append_way(ways, way);
+        append_disc(rings, way.front(), ring_radius);
+        for (const Vec3 p : trails_.marks(NodeId{i}, at_, every_)) {
+            append_disc(dots, plot.at(p), dot_radius);
+        }
+    }
+    if (ways.empty()) return;
+    for (const bool seam : {true, false}) {
+        if (seam && !on_colors) continue;
+        svg.add("path", {{"d", ways.text()},
+                         {"fill", "none"},
+                         {"stroke", seam ? "#ffffff" : ink},
+                         {"stroke-width", line_width + (seam ? 2 : 0)},
+                         {"stroke-linejoin", "round"}});
+    }
+    svg.add("path", {{"d", dots.text()}, {"fill", ink}});
+    svg.add(
+        "path",
+        {{"d", rings.text()}, {"fill", "#ffffff"}, {"stroke", ink}, {"stroke-width", line_width}});
+}
+
+void TrailLines::append_to(Legend& legend) const {
+    legend.add(
+        {fmt::format("trail, a dot every {}", period_text(every_)), 34,
+         [](Svg& svg, PicturePoint p) {
+             SvgPath line, dot, ring;
+             line.move(p.x + ring_radius, p.y).horizontal(p.x + 34);
+             append_disc(dot, {p.x + 20, p.y}, dot_radius);
+             append_disc(ring, {p.x + ring_radius, p.y}, ring_radius);
+             svg.add("path", {{"d", line.text()}, {"stroke", ink}, {"stroke-width", line_width}});
+             svg.add("path", {{"d", dot.text()}, {"fill", ink}});
+             svg.add("path", {{"d", ring.text()},
+                              {"fill", "#ffffff"},
+                              {"stroke", ink},
+                              {"stroke-width", line_width}});
+         }});
+}
+
+}  // namespace rovernet

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/legend.hpp"
+#include "experiment/plot.hpp"
+#include "experiment/svg.hpp"
+#include "experiment/trail.hpp"
+
+#include <cstdint>
+
+namespace rovernet {
+
+/// The ways that robots have gone, in a picture: thin lines from a ring at the start, with dots at
+/// equal times.
+class TrailLines {
+  public:
+    /// @param trails  of `robots` nodes; outlives the lines
+    TrailLines(const Trails& trails, std::uint32_t robots, Time at);
+
+    void include_in(Extent& extent) const;
+    void draw(Svg& svg, const Plot& plot, bool on_colors) const;
+    void append_to(Legend& legend) const;
+
+  private:
+    const Trails& trails_;
+    std::uint32_t robots_;
+    Time at_;
+    Duration every_{0};  // between dots
+};
+
+}  // namespace rovernet

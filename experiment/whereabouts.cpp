@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/whereabouts.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+namespace rovernet {
+namespace {
+
+Whereabouts everybody(const Network& network) {
+    Whereabouts now{network.now(), {}};
+    for (std::uint32_t i = 0; i < network.size(); ++i) {
+        const NodeId node{i};
+        const Leg& leg = network.legs().leg(node);
+        const bool moves = now.time < leg.end;
+        now.robots.push_back({network.name(node), network.position(node),
+                              moves ? leg.velocity : Vec3{}, network.heading(node).value});
+    }
+    return now;
+}
+
+/// Writes down everybody's legs.
+struct Recorder {
+    std::vector<std::vector<Leg>> legs = {};
+
+    KindMask kinds() const { return kind_of<Moved>(); }
+    void on(const Record& record, const RecordContext&) {
+        const auto* moved = std::get_if<Moved>(&record);
+        if (!moved) return;
+        const std::size_t i = moved->node.index();
+        if (i >= legs.size()) legs.resize(i + 1);
+        auto& mine = legs[i];
+        if (!mine.empty() && mine.back().start == moved->time) mine.pop_back();
+        if (!mine.empty()) end(mine.back(), moved->time);
+        mine.push_back(moved->leg);
+    }
+
+  private:
+    /// Cuts a leg that was interrupted, or lengthens its rest at the end.
+    static void end(Leg& leg, Time t) {
+        if (t >= leg.end) return;
+        leg.to = leg.position(t);
+        leg.end = t;
+    }
+};
+
+}  // namespace
+
+std::vector<Whereabouts> whereabouts(const Scenario& scenario, std::vector<Time> times) {
+    std::sort(times.begin(), times.end());
+    Network network(network_settings(scenario));
+    populate(network, scenario);
+    std::vector<Whereabouts> all;
+    for (const Time t : times) {
+        network.run_until(t);
+        all.push_back(everybody(network));
+    }
+    return all;
+}
+
+std::vector<Track> tracks(const Scenario& scenario) {
+    Network network(network_settings(scenario));
+    populate(network, scenario);
+    const auto recorder = std::make_shared<Recorder>();
+    network.add_sink(recorder);
+    network.run_until(start_of_run + scenario.scenario.duration);
+    std::vector<Track> all;
+    recorder->legs.resize(network.size());
+    for (std::uint32_t i = 0; i < network.size(); ++i) {
+        all.push_back({network.name(NodeId{i}), std::move(recorder->legs[i])});
+    }
+    return all;
+}
+
+void write_movements(const Scenario& scenario, const std::string& path) {
+    const std::filesystem::path out(path);
+    const std::string ending = out.extension().string();
+    const Time end = start_of_run + scenario.scenario.duration;
+    if (ending == ".tcl" || ending == ".ns_movements") {
+        return write_file(path, setdest_text(tracks(scenario), end));
+    }
+    if (ending != ".movements") {
+        throw std::invalid_argument(
+            fmt::format("{}: unknown ending \"{}\"; expected .tcl or .ns_movements for ns-2, "
+                        ".movements for BonnMotion",
+                        path, ending));
+    }
+    const auto all = tracks(scenario);
+    write_file(path, bonnmotion_text(all, end));
+    std::filesystem::path params(out);
+    write_file(params.replace_extension(".params").string(), bonnmotion_params(all, end));
+}
+
+}  // namespace rovernet

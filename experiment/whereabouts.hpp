@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/network.hpp"
+#include "experiment/scenario.hpp"
+#include "mobility/movement_writer.hpp"
+#include "sim/time.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// Where every robot is at a time.
+struct Whereabouts {
+    struct Row {
+        std::string name;
+        Vec3 position;   ///< [m]
+        Vec3 velocity;   ///< [m/s]
+        double heading;  ///< [rad], -pi ... pi
+    };
+    Time time;
+    std::vector<Row> robots;
+};
+
+/// Runs the scenario through all these times, in ascending order.
+std::vector<Whereabouts> whereabouts(const Scenario& scenario, std::vector<Time> times);
+
+/// Everybody's legs of the scenario's run.
+std::vector<Track> tracks(const Scenario& scenario);
+
+/// Writes the scenario's motion as a movement file: NAME.movements (and NAME.params beside it) for
+/// BonnMotion, NAME.tcl or NAME.ns_movements for ns-2.
+/// @throws std::invalid_argument for another ending
+void write_movements(const Scenario& scenario, const std::string& path);
+
+}  // namespace rovernet

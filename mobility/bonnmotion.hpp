@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mobility/movement_reader.hpp"
+
+#include <memory>
+
+namespace rovernet {
+
+/// Reads BonnMotion's .movements: a line per node, a time and a place again and again, in metres
+/// and seconds; comment lines begin with #. The node of line i, from 0, is "n<i>".
+///
+/// Whether a place is `x y` or `x y z` says NAME.params beside NAME.movements (`z=` and `J=`), or
+/// else the file: what gives every line whole places and rising times; x y if both do. The status
+/// that the model DisasterArea adds to each place is left out, if NAME.params names this model.
+/// @throws InputError
+std::unique_ptr<MovementFile::Reader> read_bonnmotion(TextSource source);
+
+}  // namespace rovernet

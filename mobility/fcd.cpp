@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include "mobility/fcd.hpp"
+
+#include "mobility/word.hpp"
+#include "mobility/xml_tags.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <unordered_set>  // order never observed
+
+namespace rovernet {
+namespace {
+
+using Kind = MovementCommand::Kind;
+
+/// Robots by name. The set holds their indices only.
+class RobotNames {
+  public:
+    explicit RobotNames(const std::vector<FileRobot>& robots)
+        : indices_(16, Key{robots}, Key{robots}) {}
+
+    std::optional<std::uint32_t> find(std::string_view name) const {
+        const auto found = indices_.find(name);
+        return found == indices_.end() ? std::nullopt : std::optional(*found);
+    }
+    void add(std::uint32_t robot) { indices_.insert(robot); }
+
+  private:
+    struct Key {
+        using is_transparent = void;
+        const std::vector<FileRobot>& robots;
+
+        std::string_view name(std::uint32_t robot) const { return robots[robot].name; }
+        std::string_view name(std::string_view text) const { return text; }
+        template <class T>
+        std::size_t operator()(const T& key) const {
+            return XXH3_64bits(name(key).data(), name(key).size());
+        }
+        template <class A, class B>
+        bool operator()(const A& a, const B& b) const {
+            return name(a) == name(b);
+        }
+    };
+    std::unordered_set<std::uint32_t, Key, Key> indices_;
+};
+
+/// Whether a name can be printed: UTF-8 without control characters.
+bool is_text(std::string_view name) {
+    for (std::size_t i = 0; i < name.size();) {
+        const auto lead = static_cast<unsigned char>(name[i++]);
+        if (lead < 0x20 || lead == 0x7F || (lead >= 0x80 && lead < 0xC2) || lead > 0xF4)
+            return false;
+        const int more = lead < 0x80 ? 0 : lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3;
+        for (int k = 0; k < more; ++k, ++i) {
+            if (i == name.size() || (static_cast<unsigned char>(name[i]) & 0xC0U) != 0x80)
+                return false;
+        }
+    }
+    return !name.empty();
+}
+
+class FcdReader final : public MovementFile::Reader {
+  public:
+    FcdReader(TextSource source, MovementSyntax syntax)
+        : tags_(std::move(source)), tolerant_(syntax == MovementSyntax::tolerant) {
+        enter_root();
+        while (read_step()) end = time_;
+        scanned_ = true;
+        states_.shrink_to_fit();
+        start_over();
+        if (skipped_ > 0) {
+            notices.push_back(fmt::format("{} element{} left out; the first: {}", skipped_,
+                                          skipped_ == 1 ? " is" : "s are", first_skipped_));
+        }
+    }
+
+    std::optional<MovementCommand> next() override;
+
+  private:
+    /// A robot in one timestep.
+    struct Sighting {
+        std::uint32_t robot;
+        Vec3 at;
+    };
+    struct State {
+        Vec3 at;                   ///< [m] in the last timestep that has it
+        std::uint64_t step = 0;    ///< number of this timestep, from 1; 0 = none yet
+        std::uint64_t before = 0;  ///< of the one before
+    };
+
+    void enter_root();
+    void start_over();
+    bool read_step();
+    void read_robots();
+    void read_robot();
+    Word needed(std::string_view attribute);
+    double length(std::string_view attribute) {
+        return coordinate(needed(attribute), tags_.where());
+    }
+    std::uint32_t robot_of(Word id);
+    void skip_unknown();
+    void skip(const InputError& error) {
+        if (skipped_++ == 0) first_skipped_ = error.what();
+    }
+    std::optional<MovementCommand> goes_on(const Sighting& before) const;
+
+    XmlTags tags_;
+    bool tolerant_;
+    bool scanned_ = false;
+    std::uint64_t skipped_ = 0;
+    std::string first_skipped_;
+    RobotNames names_{robots};
+    std::vector<State> states_;  ///< by robot
+
+    std::uint64_t step_ = 0;  ///< number of the current timestep, from 1
+    Time time_ = start_of_run;
+    Time time_before_ = start_of_run;
+    std::vector<Sighting> now_;
+    std::vector<Sighting> before_;
+    std::size_t next_before_ = 0;  ///< of before_: what it does now is the next command
+    std::size_t next_now_ = 0;     ///< of now_: its appearance is the next command
+};
+
+void FcdReader::enter_root() {
+    tags_.next();
+    if (tags_.name() != "fcd-export") {
+        fail_at(tags_.where(), {tags_.name(), tags_.where().column + 1},
+                "fcd-export: the only kind of XML that holds movements here");
+    }
+}
+
+void FcdReader::start_over() {
+    tags_.rewind();
+    enter_root();
+    step_ = 0;
+    time_ = time_before_ = start_of_run;
+    now_.clear();
+    before_.clear();
+    next_before_ = next_now_ = 0;
+    for (State& state : states_) state = {};
+}
+
+/// False at the end of the file.
+bool FcdReader::read_step() {
+    while (true) {
+        const auto kind = tags_.next();
+        if (kind == XmlTags::Kind::end_of_file) return false;
+        if (kind == XmlTags::Kind::close) continue;
+        if (tags_.name() == "timestep") break;
+        skip_unknown();
+    }
+    std::swap(before_, now_);
+    now_.clear();
+    next_before_ = next_now_ = 0;
+    const Word word = needed("time");
+    time_before_ = time_;
+    time_ = moment(word, tags_.where());
+    if (step_ > 0 && time_ <= time_before_) {
+        fail_at(tags_.where(), word, "a later time than that of the timestep before");
+    }
+    ++step_;
+    read_robots();
+    return true;
+}
+
+void FcdReader::read_robots() {
+    while (tags_.next() == XmlTags::Kind::open) {
+        if (tags_.name() != "vehicle" && tags_.name() != "person" && tags_.name() != "container") {
+            skip_unknown();
+            continue;
+        }
+        if (!tolerant_) {
+            read_robot();
+        } else {
+            try {
+                read_robot();
+            } catch (const InputError& error) {
+                skip(error);
+            }
+        }
+        tags_.skip_element();
+    }
+}
+
+void FcdReader::read_robot() {
+    Sighting sighting{.robot = 0, .at = {length("x"), length("y"), 0}};
+    if (tags_.value("z")) sighting.at.z = length("z");
+    const Word id = needed("id");
+    sighting.robot = robot_of(id);
+    State& state = states_[sighting.robot];
+    if (state.step == step_) fail_at(tags_.where(), id, "each id once in a timestep");
+    if (!scanned_ && state.step == 0) {
+        robots[sighting.robot].start = sighting.at;
+        robots[sighting.robot].appears = time_;
+    }
+    state.before = state.step;
+    state.step = step_;
+    state.at = sighting.at;
+    now_.push_back(sighting);
+}
+
+Word FcdReader::needed(std::string_view attribute) {
+    const auto word = tags_.value(attribute);
+    if (word && !word->text.empty()) return *word;
+    throw InputError(tags_.where(), fmt::format("found <{}> without {}, expected {}=\"...\"",
+                                                tags_.name(), attribute, attribute));
+}
+
+std::uint32_t FcdReader::robot_of(Word id) {
+    if (const auto known = names_.find(id.text)) return *known;
+    constexpr std::size_t longest_id = 256;
+    if (!is_text(id.text) || id.text.size() > longest_id) {
+        fail_at(tags_.where(), id, "an id of 1 to 256 bytes of UTF-8 without control characters");
+    }
+    if (scanned_) fail_changed(tags_.source());
+    if (robots.size() == most_file_robots) fail_at(tags_.where(), id, "at most 10000000 robots");
+    const auto robot = static_cast<std::uint32_t>(robots.size());
+    robots.push_back({.name = std::string(id.text), .start = {}});
+    states_.emplace_back();
+    names_.add(robot);
+    return robot;
+}
+
+/// An element that is none of FCD's.
+void FcdReader::skip_unknown() {
+    const auto suggestion =
+        did_you_mean(tags_.name(), {"timestep", "vehicle", "person", "container"});
+    const InputError error(
+        tags_.where(), fmt::format("found <{}>, expected <timestep> with <vehicle>, <person> or "
+                                   "<container>{}{}",
+                                   tags_.name(), suggestion.empty() ? "" : "; ", suggestion));
+    if (!tolerant_) throw error;
+    skip(error);
+    tags_.skip_element();
+}
+
+/// What a robot does from the timestep before to this one.
+std::optional<MovementCommand> FcdReader::goes_on(const Sighting& before) const {
+    const State& state = states_[before.robot];
+    MovementCommand command{
+        .time = time_before_, .robot = before.robot, .kind = Kind::vanish, .to = before.at};
+    if (state.step != step_) return command;
+    if (state.at == before.at) return std::nullopt;
+    command.kind = Kind::reach;
+    command.to = state.at;
+    command.arrival = time_;
+    return command;
+}
+
+std::optional<MovementCommand> FcdReader::next() {
+    while (true) {
+        while (next_before_ < before_.size()) {
+            if (const auto command = goes_on(before_[next_before_++])) return command;
+        }
+        while (next_now_ < now_.size()) {
+            const Sighting& s = now_[next_now_++];
+            const bool was_there = states_[s.robot].before + 1 == step_;
+            if (was_there || time_ == start_of_run) continue;
+            return MovementCommand{
+                .time = time_, .robot = s.robot, .kind = Kind::appear, .to = s.at};
+        }
+        if (!read_step()) return std::nullopt;
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<MovementFile::Reader> read_fcd(TextSource source, MovementSyntax syntax) {
+    return std::make_unique<FcdReader>(std::move(source), syntax);
+}
+
+}  // namespace rovernet

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mobility/area.hpp"
+#include "mobility/intervals.hpp"
+#include "mobility/movement.hpp"
+#include "sim/fields.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// Speed and direction with a memory, new every `step`: the Gauss-Markov model.
+///   s' = a s + (1 - a) mean_speed + sqrt(1 - a^2) speed_sigma w,   w normal; direction alike.
+///
+/// Speed is normal with mean_speed and speed_sigma at all times, and its autocorrelation over k
+/// steps is a^k; a speed below 0 drives along the opposite direction. Within a tenth of the area's
+/// shorter side from a border the mean direction turns to the middle, and stays so until the next
+/// border. A leg that would cross a border or a wall ends there (a micrometre before a wall), with
+/// a new step: at a border towards the middle, at a wall turned round. A robot goes no faster than
+/// its top speed.
+/// Sources: B. Liang, Z. Haas, Predictive distance-based mobility management for PCS networks,
+/// INFOCOM 1999; T. Camp, J. Boleng, V. Davies, A survey of mobility models for ad hoc network
+/// research, Wireless Communications and Mobile Computing 2(5), 2002, section 2.5.
+struct GaussMarkov {
+    static constexpr std::string_view name = "gauss_markov";
+
+    std::vector<Vec3> area = {};                          ///< [m] as in the other models
+    MetersPerSecond mean_speed{1};                        ///< [m/s], >= 0
+    MetersPerSecond speed_sigma{0.2};                     ///< [m/s], >= 0
+    std::optional<double> mean_direction = std::nullopt;  ///< [rad] at first; none: drawn, uniform
+    double direction_sigma = 0.4;                         ///< [rad], >= 0
+    double memory = 0.75;                                 ///< a [-], 0 ... 1
+    Duration step = std::chrono::seconds{1};              ///< [ns], from 1 us
+    StartPlace start = StartPlace::uniform;
+
+    static constexpr auto fields() {
+        constexpr Range share{.low = 0, .high = 1, .text = "from 0 to 1"};
+        constexpr Range angle{.low = -1e6, .high = 1e6, .text = "from -1e6 to 1e6 rad"};
+        constexpr Range spread{.low = 0, .high = 1e6, .text = "from 0 to 1e6 rad"};
+        return describe(
+            field("area", &GaussMarkov::area,
+                  "lower-left and upper-right corner; the whole map if not given"),
+            field("mean_speed", &GaussMarkov::mean_speed, non_negative, "of the speeds drawn"),
+            field("speed_sigma", &GaussMarkov::speed_sigma, non_negative,
+                  "standard deviation of the speed"),
+            field("mean_direction", &GaussMarkov::mean_direction, angle,
+                  "at first, counter-clockwise from the x axis [rad]; drawn if not given"),
+            field("direction_sigma", &GaussMarkov::direction_sigma, spread,
+                  "standard deviation of the direction from its mean [rad]"),
+            field("memory", &GaussMarkov::memory, share,
+                  "a, correlation of one step with the next: 0 none, 1 never changes"),
+            field("step", &GaussMarkov::step, step_length, "time from one draw to the next"),
+            field("start", &GaussMarkov::start, "at a uniform place, or here"));
+    }
+
+    /// @throws std::invalid_argument for a parameter out of its range
+    Step next_leg(Mover& mover);
+
+    /// Left to the model.
+    struct Progress {
+        bool begun = false;
+        Draws draws = {};
+        double speed = 0;           // [m/s]
+        double direction = 0;       // [rad]
+        double mean_direction = 0;  // [rad]
+    } progress = {};
+
+  private:
+    void begin(const Mover& mover);
+    void advance(const Mover& mover, const Area& field);
+    void turn_to_middle(const Area& field, Vec3 p);
+    void turn_round();
+};
+
+}  // namespace rovernet

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mobility/movement_file.hpp"
+#include "mobility/text_source.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// What a MovementFile does for one kind of file. One that is made has read the file through.
+struct MovementFile::Reader {
+    virtual ~Reader() = default;
+    virtual std::optional<MovementCommand> next() = 0;
+
+    std::vector<FileRobot> robots;
+    std::vector<std::string> notices;
+    Time end = start_of_run;
+};
+
+/// The notice that says that `legs` legs of a file are in memory.
+std::string kept_notice(const std::string& file, std::uint64_t legs);
+
+/// @throws InputError, always: the file is not the one that was read before
+[[noreturn]] void fail_changed(const std::string& file);
+
+}  // namespace rovernet

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mobility/area.hpp"
+#include "mobility/intervals.hpp"
+#include "mobility/movement.hpp"
+#include "mobility/speed_range.hpp"
+#include "sim/fields.hpp"
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// The law of the direction in which a robot leaves a border.
+enum class BorderTurn {
+    cosine,   ///< of density cos of the angle to the border's normal (Lambert's law)
+    uniform,  ///< all angles are equally likely
+};
+template <>
+struct EnumNames<BorderTurn> {
+    static constexpr std::array<std::string_view, 2> values = {"cosine", "uniform"};
+};
+
+/// In a random direction as far as the border of the area or a wall, at a speed uniform between the
+/// two; a rest; and again in a new direction: the random direction model.
+///
+/// With border_turn = cosine, an open field, no pause and min_speed > 0 it is stationary from a
+/// uniform start: the density of places is uniform at all times, and the first speed is drawn with
+/// density 1/v for that. With border_turn = uniform, the rule of the source, robots are denser
+/// along the borders. It stops a micrometre before a wall and leaves it at a uniform angle. Speeds
+/// above the robot's top speed are not drawn.
+/// Source: E. Royer, P. Melliar-Smith, L. Moser, An analysis of the optimum node density for ad hoc
+/// mobile networks, ICC 2001.
+struct RandomDirection {
+    static constexpr std::string_view name = "random_direction";
+
+    std::vector<Vec3> area = {};     ///< [m] lower-left and upper-right; empty: the map
+    MetersPerSecond min_speed{0.5};  ///< [m/s], >= 0
+    MetersPerSecond max_speed{1.5};  ///< [m/s], > 0, >= min_speed
+    Duration pause{0};               ///< [ns] rest at each border or wall
+    BorderTurn border_turn = BorderTurn::cosine;
+    StartPlace start = StartPlace::uniform;
+
+    static constexpr auto fields() {
+        return describe(field("area", &RandomDirection::area,
+                              "lower-left and upper-right corner; the whole map if not given"),
+                        field("min_speed", &RandomDirection::min_speed, non_negative, "of a leg"),
+                        field("max_speed", &RandomDirection::max_speed, positive, "of a leg"),
+                        field("pause", &RandomDirection::pause, rest_length, "after each leg"),
+                        field("border_turn", &RandomDirection::border_turn,
+                              "law of the angle to the border's normal"),
+                        field("start", &RandomDirection::start, "at a uniform place, or here"));
+    }
+
+    /// @throws std::invalid_argument for a parameter out of its range
+    Step next_leg(Mover& mover);
+
+    /// Left to the model.
+    struct Progress {
+        bool begun = false;
+        bool rested = true;  // since the last leg
+        Draws draws = {};
+    } progress = {};
+
+  private:
+    Vec3 new_direction(const Mover& mover, const Area& field);
+};
+
+}  // namespace rovernet

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mobility/area.hpp"
+#include "mobility/intervals.hpp"
+#include "mobility/movement.hpp"
+#include "mobility/speed_range.hpp"
+#include "sim/fields.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// Every `step` a new direction, uniform, and a new speed, uniform between the two; the borders of
+/// the area reflect: the random walk model.
+///
+/// On an open field, from a uniform start, the density of places is uniform and that of speeds is
+/// as drawn at all times. Where a wall or the map's end would be hit, the step ends a micrometre
+/// before it and the next one begins. Speeds above the robot's top speed are not drawn.
+/// Source: T. Camp, J. Boleng, V. Davies, A survey of mobility models for ad hoc network research,
+/// Wireless Communications and Mobile Computing 2(5), 2002, section 2.1.
+struct RandomWalk {
+    static constexpr std::string_view name = "random_walk";
+
+    std::vector<Vec3> area = {};               ///< [m] lower-left and upper-right; empty: the map
+    MetersPerSecond min_speed{0.5};            ///< [m/s], >= 0
+    MetersPerSecond max_speed{1.5};            ///< [m/s], > 0, >= min_speed
+    Duration step = std::chrono::seconds{10};  ///< [ns], from 1 us
+    StartPlace start = StartPlace::uniform;
+
+    static constexpr auto fields() {
+        return describe(
+            field("area", &RandomWalk::area,
+                  "lower-left and upper-right corner; the whole map if not given"),
+            field("min_speed", &RandomWalk::min_speed, non_negative, "of a step"),
+            field("max_speed", &RandomWalk::max_speed, positive, "of a step"),
+            field("step", &RandomWalk::step, step_length, "time from one direction to the next"),
+            field("start", &RandomWalk::start, "at a uniform place, or here"));
+    }
+
+    /// @throws std::invalid_argument for a parameter out of its range
+    Step next_leg(Mover& mover);
+
+    /// Left to the model.
+    struct Progress {
+        bool begun = false;
+        Draws draws = {};
+        Time step_end = start_of_run;
+        Vec3 direction = {};  // of length 1
+        MetersPerSecond speed = {};
+    } progress = {};
+
+  private:
+    void begin_step(const Mover& mover, const SpeedRange& speeds);
+};
+
+}  // namespace rovernet

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/error.hpp"
+#include "sim/time.hpp"
+
+#include <cstdint>
+#include <string_view>
+
+namespace rovernet {
+
+/// One line of an ns-2 movement file.
+struct SetdestLine {
+    enum class Kind : std::uint8_t {
+        nothing,  ///< blank, a comment, or what only ns-2's god is told
+        place,    ///< `$node_(i) set X_ v`: before the run
+        jump,     ///< `$ns_ at T "$node_(i) set X_ v"`
+        setdest,  ///< `$ns_ at T "$node_(i) setdest x y speed"`
+    };
+    Kind kind = Kind::nothing;
+    std::uint32_t node = 0;
+    Time time = {};
+    std::uint8_t axis = 0;  ///< of `place` and `jump`: 0 = X_, 1 = Y_, 2 = Z_
+    double x = 0;           ///< [m]; of `place` and `jump`: the coordinate
+    double y = 0;           ///< [m]
+    double speed = 0;       ///< [m/s]
+};
+
+/// @throws InputError if the line means nothing
+SetdestLine parse_setdest_line(std::string_view line, const Location& where);
+
+}  // namespace rovernet

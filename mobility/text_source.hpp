@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/error.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct gzFile_s;
+
+namespace rovernet {
+
+/// The bytes of a file, unpacked if it is a gzip file, in portions: memory does not grow with it.
+/// A byte order mark of UTF-8 is not among them.
+class TextSource {
+  public:
+    /// @throws InputError if `path` is no file that can be read; later calls too, if it is damaged
+    explicit TextSource(const std::string& path);
+
+    /// What has been read and not yet taken; valid until the next call of more().
+    std::string_view window() const { return {buffer_.data() + begin_, end_ - begin_}; }
+    /// Makes the window longer; it moves. False at the end of the file.
+    bool more();
+    /// Makes the window at least `bytes` long, or all that is left of the file.
+    void ensure(std::size_t bytes) {
+        while (end_ - begin_ < bytes && more()) continue;
+    }
+    /// Moves the window's begin; n <= window().size().
+    void take(std::size_t n) { begin_ += n; }
+    /// How many bytes have been taken since the start.
+    std::uint64_t taken() const { return before_buffer_ + begin_; }
+    /// Back to the start of the file.
+    void rewind();
+
+    const std::string& name() const { return name_; }
+
+  private:
+    void skip_mark();
+    [[noreturn]] void fail(const std::string& message) const;
+
+    struct Close {
+        void operator()(gzFile_s* file) const;
+    };
+    std::string name_;
+    std::unique_ptr<gzFile_s, Close> file_;
+    std::vector<char> buffer_;
+    std::size_t begin_ = 0;
+    std::size_t end_ = 0;
+    std::uint64_t before_buffer_ = 0;
+    bool at_end_ = false;
+};
+
+/// The lines of a file.
+class TextLines {
+  public:
+    static constexpr std::size_t longest = 64 * 1024;  ///< [bytes]
+
+    explicit TextLines(TextSource source)
+        : source_(std::move(source)), where_{.source = source_.name(), .line = 0, .column = 1} {}
+
+    /// The next line without its end, LF or CR LF; nothing after the last. Valid until the next
+    /// call.
+    /// @throws InputError if a line is longer than `longest`
+    std::optional<std::string_view> next();
+    /// Back to the first line.
+    void rewind();
+    /// The line that next() gave last.
+    const Location& where() const { return where_; }
+
+  private:
+    TextSource source_;
+    Location where_;
+    std::size_t last_ = 0;  ///< bytes of the last line
+};
+
+}  // namespace rovernet

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "mobility/word.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace rovernet {
+namespace {
+
+constexpr std::string_view a_coordinate = "a coordinate from -1e9 to 1e9 [m]";
+constexpr std::string_view a_moment = "a time from 0 to 9e9 [s]";
+constexpr std::string_view a_pace = "a speed from 0 to 1e9 [m/s]";
+
+/// A broken word, fit to be shown.
+std::string quoted(std::string_view text) {
+    constexpr std::size_t longest = 40;
+    std::string shown(text.substr(0, longest));
+    for (char& c : shown) {
+        if (c < ' ' || c > '~') c = '?';
+    }
+    return '"' + shown + (text.size() > longest ? "...\"" : "\"");
+}
+
+}  // namespace
+
+void fail_at(Location line, Word word, std::string_view expected) {
+    line.column = word.column;
+    const auto found =
+        word.text.empty() ? "the line ends" : fmt::format("found {}", quoted(word.text));
+    throw InputError(std::move(line), fmt::format("{}, expected {}", found, expected));
+}
+
+double any_number(Word word, const Location& line, std::string_view expected) {
+    std::string_view text = word.text;
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    double v = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, v);
+    if (error != std::errc{} || stop != end || !std::isfinite(v)) fail_at(line, word, expected);
+    return v;
+}
+
+double coordinate(double v, Word word, const Location& line) {
+    if (!(std::abs(v) <= farthest)) fail_at(line, word, a_coordinate);
+    return v;
+}
+
+Time moment(double v, Word word, const Location& line) {
+    if (!(v >= 0 && v <= latest)) fail_at(line, word, a_moment);
+    return start_of_run + from_seconds(v);
+}
+
+double coordinate(Word word, const Location& line) {
+    return coordinate(any_number(word, line, a_coordinate), word, line);
+}
+
+Time moment(Word word, const Location& line) {
+    return moment(any_number(word, line, a_moment), word, line);
+}
+
+double pace(Word word, const Location& line) {
+    const double v = any_number(word, line, a_pace);
+    if (!(v >= 0 && v <= fastest)) fail_at(line, word, a_pace);
+    return v;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mobility/text_source.hpp"
+#include "mobility/word.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// The tags of an XML file of elements and attributes, without text between them, in memory that
+/// does not grow with the file. Comments and processing instructions are left out; a document type
+/// and CDATA are errors. UTF-8 or ASCII.
+class XmlTags {
+  public:
+    enum class Kind { open, close, end_of_file };
+
+    explicit XmlTags(TextSource source)
+        : source_(std::move(source)), where_{.source = source_.name(), .line = 1, .column = 1} {}
+
+    /// The next tag; an empty element `<a/>` has both. name() and value() are of this tag, until
+    /// the next call.
+    /// @throws InputError if the file is not well-formed, a tag is longer than 64 KiB or has more
+    ///         than 64 attributes, or elements are nested deeper than 64
+    Kind next();
+    /// Goes on after the end of the element whose open tag next() gave last.
+    void skip_element();
+    void rewind();
+
+    std::string_view name() const { return name_; }
+    /// An attribute's value, with its character references resolved; valid until the next call.
+    std::optional<Word> value(std::string_view attribute);
+    /// Where the tag begins; after value(), the line of that value.
+    const Location& where() const { return where_; }
+    const std::string& source() const { return source_.name(); }
+
+  private:
+    struct Attribute {
+        std::string_view name;
+        std::string_view value;  // as it is written
+    };
+
+    bool find_tag();
+    void skip_past(std::string_view end, std::size_t from);
+    std::string_view tag();
+    void advance(std::size_t bytes);
+    void parse_open(std::string_view text);
+    std::size_t parse_attribute(std::string_view text, std::size_t at);
+    void parse_close(std::string_view text);
+    Kind close_file();
+    Word word_at(std::string_view text);
+    std::string_view resolved(Word value);
+    [[noreturn]] void fail(std::string_view found, std::string_view expected);
+
+    TextSource source_;
+    int line_ = 1;                  ///< of the window's begin
+    std::uint64_t line_start_ = 0;  ///< bytes before this line
+    std::size_t length_ = 0;        ///< bytes of the tag, with which the window begins
+
+    Location where_;
+    std::string_view name_;
+    std::vector<Attribute> attributes_;
+    bool empty_ = false;  ///< the close tag is still to be given
+    std::vector<std::string> open_;
+    bool had_root_ = false;
+    std::string resolved_;
+};
+
+}  // namespace rovernet

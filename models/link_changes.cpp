@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+#include "models/link_changes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace rovernet {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration instant = 1ns;
+
+/// The link has one state at `before` and the other at `after`.
+struct Bracket {
+    Time before;
+    Time after;
+};
+
+/// The time `s` seconds after `begin`, not outside begin ... end.
+Time time_within(Time begin, double s, Time end) {
+    if (!(s > 0)) return begin;
+    if (s >= seconds(end - begin)) return end;
+    return std::min(end, begin + Duration{std::llround(s * 1e9)});
+}
+
+/// A time in which both ends move straight, and how; t = 0 is its begin.
+struct Piece {
+    Time begin;
+    Time end;
+    StraightMotion a = {}, b = {};
+
+    Vec3 apart() const { return b.from - a.from; }
+    Vec3 speed() const { return b.velocity - a.velocity; }
+    Time at(double s) const { return time_within(begin, s, end); }
+    Time closest_approach() const {
+        const double speed2 = dot(speed(), speed());
+        return speed2 > 0 ? at(-dot(apart(), speed()) / speed2) : begin;
+    }
+    /// The line of sight turns by less than 1/4 rad from `p` to `q`.
+    bool keeps_direction(Time p, Time q) const {
+        constexpr double least_cosine = 0.9689;  // of 1/4 rad
+        const double s = seconds(p - begin), t = seconds(q - begin);
+        const Vec3 one = b.at(s) - a.at(s), other = b.at(t) - a.at(t);
+        return dot(one, other) >= least_cosine * std::sqrt(dot(one, one) * dot(other, other));
+    }
+    Piece part(Time first, Time last) const {
+        const double s = seconds(first - begin);
+        return {first, last, {a.at(s), a.velocity}, {b.at(s), b.velocity}};
+    }
+};
+
+/// The search for the next change of one link.
+class Search {
+  public:
+    Search(const Medium& medium, const Legs& legs, const WallPassages& walls, NodeId from,
+           NodeId to, const LinkSearch& settings)
+        : medium_(medium),
+          legs_(legs),
+          walls_(walls),
+          from_(from),
+          to_(to),
+          settings_(settings),
+          budget_(link_budget(medium.radio(from), medium.radio(to))),
+          reach_(medium.model(from).reach(budget_, medium.radio(from).frequency).value) {}
+
+    std::optional<Time> next_change(Time after, Time until);
+
+  private:
+    bool is_up(Time t) const { return medium_.link_up(from_, to_, t, legs_); }
+    double margin(Time t) const {
+        return (budget_ - medium_.path_loss(from_, to_, t, legs_)).value;
+    }
+    bool changed(double some_margin) const { return (some_margin >= 0) != up_; }
+    bool out_of_reach(Time t) const;
+    StraightMotion motion(NodeId node, Time t) const;
+    Piece piece(Time begin, Time end) const;
+    LossShape shape() const;
+
+    std::optional<Time> change_in(const Piece& all);
+    std::optional<Piece> in_reach(const Piece& all) const;
+    std::optional<Bracket> by_distance(const Piece& piece) const;
+    Bracket about(Bracket bracket, const Piece& piece) const;
+    std::optional<Bracket> by_walls(const Piece& piece) const;
+    std::optional<Bracket> by_samples(const Piece& piece) const;
+    struct Look {
+        Time time;
+        double margin;  // [dB]
+    };
+    struct Smooth {
+        const Piece& piece;
+        Duration least;  // is not halved any more
+    };
+    std::optional<Bracket> between_passages(const Piece& piece, Look first, Time last) const;
+    std::optional<Bracket> smooth_change(const Smooth& smooth, Look p, Look q) const;
+    Time bisect(Bracket bracket) const;
+
+    const Medium& medium_;
+    const Legs& legs_;
+    const WallPassages& walls_;
+    const NodeId from_;
+    const NodeId to_;
+    const LinkSearch& settings_;
+    const Db budget_;
+    const double reach_;  // [m] beyond it the link is down
+    bool up_ = false;     // at the begin of the search
+};
+
+/// A hair more than the model's reach, for rounding.
+constexpr double slack = 1 + 1e-9;
+
+bool Search::out_of_reach(Time t) const {
+    return distance(medium_.antenna(from_, t, legs_), medium_.antenna(to_, t, legs_)) >
+           reach_ * slack;
+}
+
+StraightMotion Search::motion(NodeId node, Time t) const {
+    const Leg& leg = legs_.leg(node);
+    return {medium_.antenna(node, t, legs_), t < leg.end ? leg.velocity : Vec3{}};
+}
+
+/// The ends in an order of their own, so that the way back has its changes at the same times.
+Piece Search::piece(Time begin, Time end) const {
+    const auto values = [](const StraightMotion& m) {
+        return std::tie(m.from.x, m.from.y, m.from.z, m.velocity.x, m.velocity.y, m.velocity.z);
+    };
+    Piece piece{begin, end, motion(from_, begin), motion(to_, begin)};
+    if (values(piece.b) < values(piece.a)) std::swap(piece.a, piece.b);
+    return piece;
+}
+
+LossShape Search::shape() const {
+    const LossShape shape = medium_.model(from_).shape();
+    return shape == LossShape::by_walls && walls_.empty() ? LossShape::by_distance : shape;
+}
+
+std::optional<Time> Search::next_change(Time after, Time until) {
+    up_ = is_up(after);
+    std::array<Time, 3> ends{std::min(legs_.leg(from_).end, until),
+                             std::min(legs_.leg(to_).end, until), until};
+    std::sort(ends.begin(), ends.end());
+    for (const Time end : ends) {
+        if (end <= after) continue;
+        if (const auto change = change_in(piece(after, end))) return change;
+        after = end;
+    }
+    return std::nullopt;
+}
+
+std::optional<Time> Search::change_in(const Piece& all) {
+    if (all.a.velocity == Vec3{} && all.b.velocity == Vec3{}) return std::nullopt;
+    std::optional<Bracket> found;
+    Time looked = all.begin;
+    if (const auto piece = in_reach(all)) {
+        looked = piece->end;
+        switch (shape()) {
+            case LossShape::by_distance: found = by_distance(*piece); break;
+            case LossShape::by_walls: found = by_walls(*piece); break;
+            case LossShape::unknown: found = by_samples(*piece); break;
+        }
+    }
+    if (!found && looked < all.end && (up_ || !out_of_reach(all.end)) && is_up(all.end) != up_)
+        found = Bracket{looked, all.end};
+    if (!found) return std::nullopt;
+    return bisect(*found);
+}
+
+/// The part of a piece outside which the link is down; none if there is no such part.
+std::optional<Piece> Search::in_reach(const Piece& all) const {
+    if (up_ || !std::isfinite(reach_)) return all;
+    if (all.speed() == Vec3{}) {
+        if (out_of_reach(all.begin)) return std::nullopt;
+        return all;
+    }
+    const auto passage = range_crossing(all.apart(), all.speed(), reach_ * slack);
+    if (!passage || passage->leave <= 0 || passage->enter >= seconds(all.end - all.begin))
+        return std::nullopt;
+    const Time enter = all.at(passage->enter), leave = all.at(passage->leave);
+    const Time first = enter > all.begin ? enter - instant : enter;
+    const Time last = leave < all.end ? leave + instant : leave;
+    return all.part(first, last);
+}
+
+std::optional<Bracket> Search::by_distance(const Piece& piece) const {
+    Time before = piece.begin;
+    for (const Time t : {piece.closest_approach(), piece.end}) {
+        if (t <= before) continue;
+        if (is_up(t) != up_) return about({before, t}, piece);
+        before = t;
+    }
+    return std::nullopt;
+}
+
+/// Narrowed to about the time at which the model says that its reach ends.
+Bracket Search::about(Bracket bracket, const Piece& piece) const {
+    const auto passage = range_crossing(piece.apart(), piece.speed(), reach_);
+    if (!passage) return bracket;
+    const Time guess = piece.at(up_ ? passage->leave : passage->enter);
+    for (const Duration off : {-2 * instant, 2 * instant}) {
+        const Time t = guess + off;
+        if (t <= bracket.before || t >= bracket.after) continue;
+        (is_up(t) == up_ ? bracket.before : bracket.after) = t;
+    }
+    return bracket;
+}
+
+std::optional<Bracket> Search::by_samples(const Piece& piece) const {
+    constexpr std::int64_t looks_per_step = 65536;
+    Time before = piece.begin;
+    Duration step = settings_.min_dwell;
+    for (std::int64_t looks = 1; before < piece.end; ++looks) {
+        const Time t = piece.end - before > step ? before + step : piece.end;
+        if (is_up(t) != up_) return Bracket{before, t};
+        before = t;
+        if (looks % looks_per_step == 0 && step < Duration::max() / 2) step *= 2;
+    }
+    return std::nullopt;
+}
+
+std::optional<Bracket> Search::by_walls(const Piece& piece) const {
+    std::vector<double> passages;
+    walls_.times(piece.a, piece.b, seconds(piece.end - piece.begin), passages);
+    std::vector<Time> cuts{piece.begin, piece.closest_approach(), piece.end};
+    for (const double s : passages) cuts.push_back(piece.at(s));
+    std::sort(cuts.begin(), cuts.end());
+    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+
+    Time before = piece.begin;
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+        // On a corner itself a line of sight may be as before it, as after it, or neither.
+        const Time first = cuts[i] + instant, last = cuts[i + 1] - instant;
+        if (first > last) continue;
+        const Look begin{first, margin(first)};
+        if (changed(begin.margin)) return Bracket{before, first};
+        if (const auto found = between_passages(piece, begin, last)) return found;
+        before = last;
+    }
+    if (changed(margin(piece.end))) return Bracket{before, piece.end};
+    return std::nullopt;
+}
+
+/// A change in a time in which the loss is smooth, and at whose beginning there is none.
+std::optional<Bracket> Search::between_passages(const Piece& piece, Look first, Time last) const {
+    constexpr int most_halvings = 20;
+    if (first.time == last) return std::nullopt;
+    const Duration least = (last - first.time) / (1 << most_halvings);
+    return smooth_change({piece, std::max(settings_.tolerance, least)}, first,
+                         {last, margin(last)});
+}
+
+std::optional<Bracket> Search::smooth_change(const Smooth& smooth, Look p, Look q) const {
+    constexpr double safety = 2;
+    constexpr double rounding = 1e-11;  // [dB] of a loss
+    const Duration length = q.time - p.time;
+    const Time middle = p.time + length / 2;
+    const bool ends_changed = changed(q.margin);
+    if (length <= smooth.least || middle == p.time)
+        return ends_changed ? std::optional<Bracket>({p.time, q.time}) : std::nullopt;
+    const Look m{middle, margin(middle)};
+    if (changed(m.margin)) return Bracket{p.time, m.time};
+    // Between the three a parabola through them exceeds the nearest by bend / 8 at most.
+    const double bend = std::abs(p.margin - 2 * m.margin + q.margin);
+    const double clear = std::min({std::abs(p.margin), std::abs(m.margin), std::abs(q.margin)});
+    if (clear >= safety * (bend - rounding) && smooth.piece.keeps_direction(p.time, q.time))
+        return ends_changed ? std::optional<Bracket>({m.time, q.time}) : std::nullopt;
+    if (const auto found = smooth_change(smooth, p, m)) return found;
+    return smooth_change(smooth, m, q);
+}
+
+/// The first time of the new state, for one change in the bracket.
+Time Search::bisect(Bracket bracket) const {
+    const bool exact = shape() == LossShape::by_distance;
+    const Duration tolerance = exact ? instant : settings_.tolerance;
+    while (bracket.after - bracket.before > tolerance) {
+        const Time middle = bracket.before + (bracket.after - bracket.before) / 2;
+        (is_up(middle) == up_ ? bracket.before : bracket.after) = middle;
+    }
+    return bracket.after;
+}
+
+}  // namespace
+
+std::optional<Time> next_link_change(const Medium& medium, const Legs& legs,
+                                     const WallPassages& walls, NodeId from, NodeId to, Time after,
+                                     Time until, const LinkSearch& search) {
+    if (search.tolerance < instant || search.min_dwell < instant)
+        throw std::invalid_argument("LinkSearch: tolerance and min_dwell must be at least 1 ns");
+    if (until == never) until -= instant;  // at `never` itself a leg without end has ended
+    if (from == to || until <= after || !medium.is_on(from) || !medium.is_on(to) ||
+        !medium.may_link(from, to))
+        return std::nullopt;
+    return Search(medium, legs, walls, from, to, search).next_change(after, until);
+}
+
+std::optional<Time> next_link_change(const Medium& medium, const Legs& legs, const Scene& scene,
+                                     NodeId from, NodeId to, Time after, Time until,
+                                     const LinkSearch& search) {
+    const bool by_walls = medium.model(from).shape() == LossShape::by_walls;
+    return next_link_change(medium, legs, by_walls ? WallPassages(scene) : WallPassages(), from, to,
+                            after, until, search);
+}
+
+}  // namespace rovernet

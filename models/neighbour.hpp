@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/medium.hpp"
+#include "models/radio.hpp"
+#include "sim/ids.hpp"
+#include "sim/legs.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <vector>
+
+namespace rovernet {
+
+/// A robot that another one hears, as its radio sees it.
+struct Neighbour {
+    NodeId node;
+    Dbm level;    ///< of the neighbour's signal here
+    Dbm noise;    ///< here: thermal noise in the receiver's bandwidth, and its noise figure
+    int quality;  ///< 0 ... 100, see link_quality
+};
+
+/// Thermal noise at 290 K in the radio's bandwidth, plus its noise figure:
+/// -173.975 dBm + 10 log10(B / 1 Hz) + NF. Source: k T_0 with the CODATA 2018 value of k.
+Dbm noise_floor(const Radio& radio);
+
+/// 2 per decibel above the receiver's sensitivity: 0 at a margin of 0 dB, 100 from 50 dB on.
+int link_quality(Db margin);
+
+/// Whom `node` hears at `t`, in order of id.
+std::vector<Neighbour> neighbours(const Medium& medium, const Legs& legs, NodeId node, Time t);
+
+}  // namespace rovernet

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/worldfile.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// Where the includes and bitmaps of a world are looked for: the folder of the world, then
+/// WorldOptions::search_path, then the folders of the environment variable STAGEPATH.
+class WorldSearch {
+  public:
+    /// @param world_path  the top file, as the user named it
+    WorldSearch(const std::string& world_path, const WorldOptions& options);
+
+    /// What a search has come to.
+    struct Result {
+        std::optional<std::string> path = {};  ///< of the first regular file there is
+        std::vector<std::string> tried = {};   ///< every place looked at, in order
+
+        /// The places tried, for an error: "a, b and c".
+        std::string places() const;
+    };
+
+    /// Looks for `name` in each folder, then for its last part alone in each. An absolute name is
+    /// first looked for as it stands.
+    Result find(const std::string& name) const;
+
+  private:
+    std::vector<std::string> folders_;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/coverage.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/toml.hpp"
+#include "models/friis.hpp"
+#include "models/log_distance.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+const std::string office_folder = ROVERNET_EXAMPLES "/rescue/";
+
+Scenario office(const std::string& robots) {
+    const std::string text =
+        "[scene]\nmap = \"map.yaml\"\n"
+        "[propagation]\nmodel = \"raytrace_2007\"\nwall_factor = 0.3\n"
+        "[[robot]]\nname = \"A\"\nat = [\"24 m\", \"12 m\"]\n" +
+        robots;
+    const std::string file = office_folder + "test.toml";
+    return read_scenario(parse_toml(text, file), file);
+}
+
+Scenario field(const std::string& text) {
+    return read_scenario(parse_toml(text, "f.toml"), "f.toml");
+}
+
+struct Built {
+    explicit Built(const Scenario& s) : network(network_settings(s)) {
+        populate(network, s);
+        network.run_until(start_of_run);
+    }
+    Network network;
+};
+
+constexpr NodeId first{0};
+
+}  // namespace
+
+TEST_CASE("coverage: a cell has the level that the medium gives a robot there, walls and all") {
+    const Scenario alone = office("");
+    Built built(alone);
+    const Transmitter a = transmitter(built.network, alone, first, start_of_run);
+    const CoverageMap map = coverage(a, {0, 0}, {48, 24}, 800);
+    int compared = 0, walled = 0;
+    for (int i = 0; i < map.columns * map.rows; i += 37) {
+        const Vec3 p = map.centre(i % map.columns, i / map.columns);
+        if (built.network.scene().clearance(p) < 0.01) continue;
+        const Scenario both = office(fmt::format(
+            "[[robot]]\nname = \"probe\"\nradius = \"1 mm\"\nat = [\"{} m\", \"{} m\"]\n", p.x,
+            p.y));
+        Built with_probe(both);
+        const NodeId probe = *with_probe.network.find("probe");
+        const Medium& medium = with_probe.network.medium();
+        const Db loss = medium.path_loss(first, probe, start_of_run, with_probe.network.legs());
+        CHECK(map.at(i % map.columns, i / map.columns) ==
+              received_power(medium.radio(first), medium.radio(probe), loss).value);
+        ++compared;
+        walled += with_probe.network.scene().wall_length(a.antenna, p) > 0;
+    }
+    CHECK(compared > 15);
+    CHECK(walled > 10);
+}
+
+TEST_CASE("coverage: about as many cells as asked for, nearly square, over the whole rectangle") {
+    const Scene scene;
+    const Transmitter t{.model = Friis{}, .scene = &scene};
+    for (const int cells : {1, 2, 100, 4999}) {
+        for (const double width : {0.5, 10.0, 3000.0}) {
+            const CoverageMap map = coverage(t, {-1, 2}, {-1 + width, 12}, cells);
+            CHECK(map.columns * map.rows <= cells);
+            CHECK(map.columns * map.rows >= cells / 2);
+            CHECK(map.dbm.size() == static_cast<std::size_t>(map.columns * map.rows));
+            const Vec3 last = map.centre(map.columns - 1, map.rows - 1);
+            constexpr double rounding = 1e-9;
+            CHECK(std::abs(last.x + map.cell_width / 2 - (-1 + width)) < rounding);
+            CHECK(std::abs(last.y + map.cell_height / 2 - 12) < rounding);
+        }
+    }
+    const CoverageMap square = coverage(t, {0, 0}, {20, 10}, 20'000);
+    CHECK(square.columns == 200);
+    CHECK(square.rows == 100);
+}
+
+TEST_CASE("coverage: row 0 is the bottom row, and cells are as high as the transmitter's antenna") {
+    const Scene scene;
+    const Transmitter t{.model = Friis{}, .antenna = {1, 1, 2.5}, .scene = &scene};
+    const CoverageMap map = coverage(t, {0, 0}, {10, 10}, 100);
+    CHECK(map.centre(0, 0) == Vec3{0.5, 0.5, 2.5});
+    CHECK(map.at(0, 0) > map.at(0, 9));
+    CHECK(map.at(0, 0) > map.at(9, 0));
+}
+
+TEST_CASE("coverage: shadowing is off, whatever sigma is") {
+    const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n";
+    const Scenario shadowed =
+        field("[propagation]\nmodel = \"log_distance\"\nsigma = \"8 dB\"\n" + robot);
+    const Scenario flat =
+        field("[propagation]\nmodel = \"log_distance\"\nsigma = \"0 dB\"\n" + robot);
+    Built a(shadowed), b(flat);
+    const auto map = [](const Built& built, const Scenario& s) {
+        return coverage(transmitter(built.network, s, first, start_of_run), {-50, -50}, {50, 50},
+                        64)
+            .dbm;
+    };
+    CHECK(map(a, shadowed) == map(b, flat));
+    CHECK(has_shadowing(shadowed.propagation));
+    CHECK_FALSE(has_shadowing(flat.propagation));
+    CHECK_FALSE(has_shadowing(without_shadowing(shadowed.propagation)));
+}
+
+TEST_CASE("coverage: a sigma of a model that is not chosen is no shadowing") {
+    CHECK_FALSE(has_shadowing(
+        field("[propagation]\nmodel = \"friis\"\nsigma = \"8 dB\"\n[[robot]]\nname = \"A\"\nat = "
+              "[\"0 m\", \"0 m\"]\n")
+            .propagation));
+}
+
+TEST_CASE("coverage: a robot's own model and radio rule, also of one of many") {
+    const Scenario s = field(
+        "[[robot]]\nname = \"a\"\ncount = 3\nplace = { area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 "
+        "m\"]] }\n[[robot]]\nname = \"d\"\ncount = 2\nradio = { power = \"1 mW\" }\n"
+        "place = { area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 m\"]] }\n"
+        "propagation = { model = \"disc\", range = \"5 m\" }\n");
+    Built built(s);
+    for (std::uint32_t i = 0; i < 5; ++i) {
+        const Transmitter t = transmitter(built.network, s, NodeId{i}, start_of_run);
+        CHECK(t.model.name() == (i < 3 ? "friis" : "disc"));
+        CHECK(t.radio.power == built.network.medium().radio(NodeId{i}).power);
+        CHECK(t.antenna.z == 1);
+    }
+    CHECK_THROWS_AS(robot_table(s, NodeId{5}), std::invalid_argument);
+}
+
+TEST_CASE("coverage: an empty rectangle and an absurd number of cells are the caller's fault") {
+    const Scene scene;
+    const Transmitter t{.model = Friis{}, .scene = &scene};
+    CHECK_THROWS_AS(coverage(t, {0, 0}, {0, 1}, 10), std::invalid_argument);
+    CHECK_THROWS_AS(coverage(t, {0, 0}, {1, 1}, 0), std::invalid_argument);
+    CHECK_THROWS_AS(coverage(t, {0, 0}, {1, 1}, most_coverage_cells + 1), std::invalid_argument);
+}

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/picture.hpp"
+
+#include "experiment/map_layer.hpp"
+#include "experiment/toml.hpp"
+#include "experiment/trail.hpp"
+#include "mobility/waypoints.hpp"
+#include "scene/image.hpp"
+#include "sim/error.hpp"
+#include "test/experiment/well_formed.hpp"
+#include "test/scene/drawn_map.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+Scenario scenario(const std::string& text, const std::string& file = "p.toml") {
+    return read_scenario(parse_toml(text, file), file);
+}
+
+Scenario rescue() { return load_scenario(ROVERNET_EXAMPLES "/rescue/rescue.toml", {}); }
+
+std::string robot(const std::string& name, double x, double y, const std::string& more = "") {
+    return fmt::format("[[robot]]\nname = \"{}\"\nat = [\"{} m\", \"{} m\"]\n{}", name, x, y, more);
+}
+
+std::size_t count(std::string_view text, std::string_view word) {
+    std::size_t n = 0;
+    for (auto i = text.find(word); i != text.npos; i = text.find(word, i + word.size())) ++n;
+    return n;
+}
+
+bool has(std::string_view text, std::string_view word) { return count(text, word) > 0; }
+
+/// The number behind the first `key="` in the text.
+double number(std::string_view text, std::string_view key) {
+    const auto at = text.find(std::string(key) + "=\"");
+    REQUIRE(at != text.npos);
+    const char* begin = text.data() + at + key.size() + 2;
+    double v = 0;
+    std::from_chars(begin, text.data() + text.size(), v);
+    return v;
+}
+
+const PictureOptions everything{
+    .at = start_of_run + 12s, .coverage = "A", .links = true, .trails = true, .cells = 2000};
+
+/// Removes rsvg-convert from sight while it lives.
+struct EmptyPath {
+    EmptyPath() : old(std::getenv("PATH") ? std::getenv("PATH") : "") { set("/nonexistent"); }
+    ~EmptyPath() { set(old.c_str()); }
+    EmptyPath(const EmptyPath&) = delete;
+    EmptyPath& operator=(const EmptyPath&) = delete;
+    static void set(const char* path) { setenv("PATH", path, 1); }
+    std::string old;
+};
+
+}  // namespace
+
+TEST_CASE("picture: the whole rescue is well-formed, and the same bytes twice") {
+    const std::string svg = draw_svg(rescue(), everything);
+    CHECK(test::xml_fault(svg) == "");
+    CHECK(svg == draw_svg(rescue(), everything));
+}
+
+TEST_CASE("picture: the caption says the scenario, the time and the model with its parameters") {
+    const std::string svg = draw_svg(rescue(), {.at = start_of_run + 1500ms});
+    CHECK(has(svg, ">rescue</text>"));
+    CHECK(has(svg, "t = 1.5 s"));
+    CHECK(has(svg, "raytrace_2007: coefficient 30, wall_factor 0.3"));
+}
+
+TEST_CASE("picture: names are escaped, in labels and in the title") {
+    const std::string svg = draw_svg(
+        scenario("[scenario]\nname = \"<&>\"\n" + robot("a<b>&'", 0, 0) + robot("c", 3, 0)), {});
+    CHECK(test::xml_fault(svg) == "");
+    CHECK(has(svg, ">a&lt;b&gt;&amp;&#39;</text>"));
+    CHECK(has(svg, ">&lt;&amp;&gt;</text>"));
+}
+
+TEST_CASE("picture: every robot has a circle inside the frame, off the map, too") {
+    const std::string svg =
+        draw_svg(scenario("[scene]\nmap = \"map.yaml\"\n" + robot("in", 24, 12) +
+                              robot("west", -30, 5) + robot("north", 10, 60),
+                          ROVERNET_EXAMPLES "/rescue/x.toml"),
+                 {});
+    CHECK(count(svg, "<circle ") == 3);
+    const double width = number(svg, "width"), height = number(svg, "height");
+    std::string_view rest = svg;
+    for (int i = 0; i < 3; ++i) {
+        rest.remove_prefix(rest.find("<circle "));
+        CHECK(number(rest, "cx") > 0);
+        CHECK(number(rest, "cx") < width);
+        CHECK(number(rest, "cy") > 0);
+        CHECK(number(rest, "cy") < height);
+        CHECK(number(rest, "r") >= 5);
+        rest.remove_prefix(1);
+    }
+}
+
+TEST_CASE("picture: a robot is to scale where it is large enough, and its tick shows its heading") {
+    const std::string svg =
+        draw_svg(scenario(robot("big", 0, 0, "radius = \"2 m\"\n") + robot("b", 20, 0)), {});
+    // 22.2 m from rim to rim, and 3 % of that on each side.
+    const double scale = number(svg, "r") / 2;
+    constexpr double digits = 0.02;  // [px/m] two decimals of the radius
+    CHECK(std::abs(scale - (1200 - 32) / (22.2 * 1.06)) < digits);
+    const double cx = number(svg.substr(svg.find("<circle ")), "cx");
+    const double cy = number(svg.substr(svg.find("<circle ")), "cy");
+    CHECK(has(svg, fmt::format("d=\"M{:.6g} {:.6g}L", cx, cy)));
+}
+
+TEST_CASE("picture: two-way links are solid, one-way links dashed with a head at the receiver") {
+    const std::string both = robot("a", 0, 0) + robot("b", 50, 0);
+    const std::string svg = draw_svg(scenario(both), {.links = true});
+    CHECK(has(svg, "link margin"));
+    CHECK_FALSE(has(svg, "one way only"));
+    CHECK_FALSE(has(svg, "stroke-dasharray=\"7 4\""));
+
+    const std::string deaf = robot("a", 0, 0, "radio = { sensitivity = \"-20 dBm\" }\n");
+    const std::string one_way = draw_svg(scenario(deaf + robot("b", 50, 0)), {.links = true});
+    CHECK(has(one_way, "one way only"));
+    CHECK(has(one_way, "stroke-dasharray=\"7 4\""));
+
+    const std::string none = draw_svg(scenario(deaf + robot("b", 50, 0, "off = [\"1 s\"]\n")),
+                                      {.at = start_of_run + 2s, .links = true});
+    CHECK_FALSE(has(none, "link margin"));
+    CHECK(has(none, "switched off"));
+}
+
+TEST_CASE("picture: coverage brings a heat map, a bar, and a contour for each level") {
+    const auto text = robot("A", 0, 0, "radio = { range_db = \"-60 dBm\" }\n") + robot("B", 90, 9);
+    const std::string svg = draw_svg(scenario(text), {.coverage = "A", .cells = 500});
+    CHECK(has(svg, "data:image/png;base64,"));
+    CHECK(has(svg, ">dBm</text>"));
+    CHECK(has(svg, "-75 dBm, sensitivity"));
+    CHECK(has(svg, "-60 dBm, range_db"));
+    CHECK(has(svg, "stroke-dasharray=\"7 4\""));
+    const std::string other = draw_svg(scenario(text), {.coverage = "B", .cells = 500});
+    CHECK_FALSE(has(other, "range_db"));
+    CHECK_FALSE(has(other, "stroke-dasharray=\"7 4\""));
+}
+
+TEST_CASE("picture: the coverage of a shadowed model is said to be the median") {
+    const auto text = [](const char* sigma) {
+        return fmt::format("[propagation]\nmodel = \"log_distance\"\nsigma = \"{}\"\n", sigma) +
+               robot("A", 0, 0);
+    };
+    const PictureOptions options{.coverage = "A", .cells = 100};
+    CHECK(has(draw_svg(scenario(text("5 dB")), options), "median"));
+    CHECK_FALSE(has(draw_svg(scenario(text("0 dB")), options), "median"));
+}
+
+TEST_CASE("picture: trails remember corners and where a robot was at equal times") {
+    Network network;
+    const auto trails = std::make_shared<Trails>();
+    network.add_sink(trails);
+    Robot walker{.name = "w", .at = {0, 0}};
+    walker.move = Waypoints{.path = {{10, 0}, {10, 5}}, .speed = {1}};
+    const NodeId node = network.add(std::move(walker));
+    network.run_until(start_of_run + 30s);
+    CHECK(trails->corners(node, start_of_run + 30s) == std::vector<Vec3>{{0, 0}, {10, 0}, {10, 5}});
+    CHECK(trails->corners(node, start_of_run + 12s) == std::vector<Vec3>{{0, 0}, {10, 0}, {10, 2}});
+    CHECK(trails->marks(node, start_of_run + 30s, 8s) ==
+          std::vector<Vec3>{{0, 0}, {8, 0}, {10, 5}, {10, 5}});
+    CHECK(trails->corners(NodeId{7}, start_of_run).empty());
+}
+
+TEST_CASE("picture: trails are drawn if asked for") {
+    CHECK(has(draw_svg(rescue(), {.at = start_of_run + 30s, .trails = true}),
+              "trail, a dot every 10 s"));
+    CHECK_FALSE(has(draw_svg(rescue(), {.at = start_of_run + 30s}), "trail"));
+}
+
+TEST_CASE("picture: each material has a look and a line in the legend, if there are several") {
+    OccupancyGrid grid = test::drawn_map({"##..", "..##"});
+    for (std::size_t i = 0; i < grid.cells.size(); ++i) {
+        grid.cell_materials.push_back(static_cast<std::uint8_t>(i / 4));
+    }
+    const Scene two(grid, {Material{.name = "brick & co"}, Material{.name = "glass"}});
+    const Scene one(test::drawn_map({"##..", "..##"}));
+    Extent extent;
+    extent.include(two.lower_left());
+    extent.include(two.upper_right());
+    const Plot plot(extent, {}, {.width = 400, .height = 400});
+    const auto drawn = [&](const Scene& scene) {
+        const MapLayer layer(scene);
+        Svg svg(500, 500);
+        Legend legend;
+        layer.draw(svg, plot, false);
+        layer.append_to(legend, false);
+        legend.draw(svg, {0, 420}, 400);
+        return svg.finish();
+    };
+    const std::string svg = drawn(two);
+    CHECK(test::xml_fault(svg) == "");
+    CHECK(has(svg, "brick &amp; co"));
+    CHECK(has(svg, ">glass<"));
+    CHECK(has(svg, "id=\"walls1\""));
+    CHECK_FALSE(has(drawn(one), "wall<"));
+    CHECK_FALSE(has(drawn(one), "walls1"));
+}
+
+TEST_CASE("picture: walls are one path, and unknown cells are light grey") {
+    test::TemporaryFolder folder;
+    folder.write("m.pgm", "P2 4 2 255\n0 0 150 150\n255 255 255 255\n");
+    folder.write("m.yaml", "image: m.pgm\nresolution: 1\norigin: [0, 0, 0]\n");
+    const std::string svg = draw_svg(
+        scenario("[scene]\nmap = \"m.yaml\"\n" + robot("a", 1.5, 0.5), folder.path("s.toml")), {});
+    CHECK(count(svg, "id=\"walls") == 1);
+    CHECK(has(svg, ">unknown</text>"));
+    CHECK(has(svg, "fill=\"#e2e2e2\""));
+}
+
+TEST_CASE("picture: rectangles too small to be seen are thinned out, and none is lost") {
+    test::Draw draw(3);
+    OccupancyGrid grid = test::random_map(draw, 1500, 1500, 30);
+    grid.cell_width = grid.cell_height = 0.01;
+    const Scene scene(grid);
+    Extent extent;
+    extent.include(scene.lower_left());
+    extent.include(scene.upper_right());
+    const Plot plot(extent, {}, {.width = 150, .height = 150});
+    Svg svg(150, 150);
+    MapLayer(scene).draw(svg, plot, false);
+    const std::string text = svg.finish();
+    CHECK(count(text, "Z") > 100);
+    CHECK(count(text, "Z") <= 120'000);  // 300 x 300 tiles of half a pixel, and the long walls
+}
+
+TEST_CASE("picture: it is as wide as asked for, or less for a tall world, and never much higher") {
+    const auto size = [](double dx, double dy) {
+        const std::string svg = draw_svg(scenario(robot("a", 0, 0) + robot("b", dx, dy)), {});
+        return std::pair(number(svg, "width"), number(svg, "height"));
+    };
+    CHECK(size(100, 1).first == 1200);
+    CHECK(size(100, 1).second < 400);
+    CHECK(size(1, 100).first < 600);
+    CHECK(size(1, 100).second < 1100);
+    CHECK(size(50, 50).second < 1100);
+    CHECK(size(0, 0).first <= 1200);
+}
+
+TEST_CASE("picture: an unknown robot and options out of range are the caller's fault") {
+    const Scenario s = scenario(robot("alpha", 0, 0) + robot("beta", 5, 0));
+    CHECK_THROWS_WITH_AS(draw_svg(s, {.coverage = "alpa"}), doctest::Contains("\"alpha\""),
+                         std::invalid_argument);
+    CHECK_THROWS_AS(draw_svg(s, {.width = 10}), std::invalid_argument);
+    CHECK_THROWS_AS(draw_svg(s, {.coverage = "beta", .cells = 0}), std::invalid_argument);
+    CHECK_THROWS_AS(draw_svg(s, {.at = start_of_run - 1s}), std::invalid_argument);
+}
+
+TEST_CASE("picture: links among too many robots are refused, not drawn for hours") {
+    const Scenario s = scenario(
+        "[[robot]]\nname = \"r\"\ncount = 5001\n"
+        "place = { area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 m\"]] }\n");
+    CHECK_THROWS_WITH_AS(draw_svg(s, {.links = true}), doctest::Contains("at most 5000"), RunError);
+}
+
+TEST_CASE("picture: a PNG has the picture's size, and needs rsvg-convert") {
+    test::TemporaryFolder folder;
+    const std::string svg = draw_svg(rescue(), {.width = 600});
+    const std::string path = folder.path("p.png");
+    {
+        const EmptyPath nothing;
+        CHECK_THROWS_WITH_AS(write_png(svg, path), doctest::Contains("librsvg2-bin"), RunError);
+    }
+    CHECK_THROWS_AS(write_png(svg, folder.path("no/such/folder.png")), RunError);
+    try {
+        write_png(svg, path);
+    } catch (const RunError& error) {
+        if (!has(error.what(), "librsvg2-bin")) throw;
+        MESSAGE("skipped: rsvg-convert is not installed");
+        return;
+    }
+    const Image image = read_image(path);
+    CHECK(image.width == number(svg, "width"));
+    CHECK(image.height == number(svg, "height"));
+    CHECK_THROWS_WITH_AS(write_png("<svg", path), doctest::Contains("failed"), RunError);
+    CHECK(read_image(path).width == image.width);
+}

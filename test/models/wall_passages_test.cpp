@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "models/wall_passages.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+constexpr double tolerance = 1e-9;  // [s] the clock's nanosecond
+
+OccupancyGrid box(double x, double y, double width, double height, double yaw = 0) {
+    return {.columns = 1,
+            .rows = 1,
+            .cell_width = width,
+            .cell_height = height,
+            .origin = {x, y, 0},
+            .yaw = yaw,
+            .cells = {Cell::occupied}};
+}
+
+/// One of the times of 10 s is `t`.
+bool passes_at(const Scene& scene, const StraightMotion& a, const StraightMotion& b, double t) {
+    std::vector<double> times;
+    WallPassages(scene).times(a, b, 10, times);
+    return std::any_of(times.begin(), times.end(),
+                       [&](double s) { return std::abs(s - t) <= tolerance; });
+}
+
+}  // namespace
+
+TEST_CASE("wall passages: a line of sight that turns about one end passes the corners in view") {
+    const Scene scene(box(4, 2, 2, 1));
+    const StraightMotion eye{{0, 0, 0}}, far{{10, 0, 0}, {0, 1, 0}};
+    // The corner (x, y) is in line with (10, t) at t = 10 y / x.
+    for (const double t : {2 / 0.6, 5.0, 3 / 0.6, 3 / 0.4}) CHECK(passes_at(scene, eye, far, t));
+    std::vector<double> times;
+    WallPassages(scene).times(eye, {{3, 0, 0}, {0, 1, 0}}, 10, times);
+    CHECK(times.empty());  // it ends before the wall
+    WallPassages().times(eye, far, 10, times);
+    CHECK(times.empty());
+}
+
+TEST_CASE("wall passages: an end that drives through a wall passes its edges") {
+    const Scene scene(box(4, -1, 2, 2));
+    for (const double speed : {1.0, 0.625})
+        for (const double x : {4.0, 6.0}) {
+            const StraightMotion through{{0, 0.5, 0}, {speed, 0, 0}}, above{{5, 9, 0}};
+            CHECK(passes_at(scene, through, above, x / speed));
+            CHECK(passes_at(scene, above, through, x / speed));
+        }
+}
+
+TEST_CASE("wall passages: a line of sight that touches a corner and turns away is not missed") {
+    // The line from (t, 0) to (0, 10 - t) touches the parabola of the points
+    // (t^2, (10 - t)^2) / 10 from below; both roots are one.
+    const StraightMotion right{{0, 0, 0}, {1, 0, 0}}, up{{0, 10, 0}, {0, -1, 0}};
+    for (const double t : {1.0, 2.3, 3.0, 4.1, 5.0, 6.7, 7.0, 9.0}) {
+        CAPTURE(t);
+        const Scene scene(box(t * t / 10, (10 - t) * (10 - t) / 10, 1, 1));
+        CHECK(passes_at(scene, right, up, t));
+    }
+}
+
+TEST_CASE("wall passages: where the edges of overlapping walls of one material meet is a corner") {
+    // A square on its tip, (5, 1) ... (7, 3) its lower right edge, which meets x = 5.5 at 1.5.
+    const double side = std::sqrt(8.0), eighth = std::acos(-1.0) / 4;
+    const OccupancyGrid tip = box(5, 1, side, side, eighth);
+    OccupancyGrid post = box(5.5, 1, 3, 2);
+    const StraightMotion a{{0, -3.5, 0}, {0, 1, 0}}, b{{11, 1.5, 0}};
+    CHECK(passes_at(Scene({tip, post}, {Material{}}), a, b, 5));
+    post.cell_materials = {1};
+    CHECK_FALSE(passes_at(Scene({tip, post}, {Material{}, Material{}}), a, b, 5));
+}
+
+TEST_CASE("wall passages: an end that rises passes the height of the wall's top") {
+    const Scene scene(box(4, -1, 2, 2), {{.height = Meters{2}}});
+    const StraightMotion lift{{5, 0, 0}, {0, 0, 0.5}}, post{{9, 0, 3}};
+    CHECK(passes_at(scene, lift, post, 4));
+    CHECK(passes_at(scene, post, lift, 4));
+    // Over the near edge at x = 6: the height there is z + (3 - z) / 4 = 2 at z = 5 / 3.
+    CHECK(passes_at(scene, lift, post, 10.0 / 3));
+    const StraightMotion level{{5, 0.5, 1}, {0.1, 0, 0}}, beside{{9, 0.5, 1}, {0, 0.1, 0}};
+    CHECK_FALSE(passes_at(scene, level, beside, 4));
+}

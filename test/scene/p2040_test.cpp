@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "scene/p2040.hpp"
+
+#include "test/models/vectors.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+using namespace rovernet;
+using test::Vectors;
+
+namespace {
+
+/// The material of that name; none for older editions' and for the ground.
+std::optional<ItuMaterial> material_named(const std::string& name) {
+    const auto& names = EnumNames<ItuMaterial>::values;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<ItuMaterial>(found - names.begin());
+}
+
+Hertz frequency(const Vectors& vectors, std::size_t row) {
+    return {vectors.number(row, "f_GHz") * 1e9};
+}
+
+bool equal(double value, double expected, double relative) {
+    return std::abs(value - expected) <= relative * std::abs(expected);
+}
+
+}  // namespace
+
+TEST_CASE("p2040: permittivities are those of the vectors (table p2040_materials)") {
+    constexpr double relative = 1e-9;  // a dozen digits of the vectors
+    const Vectors vectors("p2040_materials.csv");
+    std::size_t rows = 0;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        const auto material = material_named(vectors.text(i, "material"));
+        if (!material) continue;
+        CAPTURE(vectors.text(i, "material"));
+        CAPTURE(vectors.text(i, "f_GHz"));
+        const Permittivity eps = permittivity(*material, frequency(vectors, i));
+        CHECK(equal(eps.real, vectors.number(i, "eps_r"), relative));
+        CHECK(equal(eps.imaginary, vectors.number(i, "eps_imag"), relative));
+        ++rows;
+    }
+    CHECK(rows == 4 * EnumNames<ItuMaterial>::values.size());
+}
+
+TEST_CASE("p2040: deep inside a material a wave loses what the vectors say per metre") {
+    const Vectors vectors("p2040_materials.csv");
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        const auto material = material_named(vectors.text(i, "material"));
+        if (!material) continue;
+        CAPTURE(vectors.text(i, "material"));
+        const double per_metre = vectors.number(i, "bulk_attenuation_dB/m");
+        // Between slabs in which the wave that is reflected twice has lost 400 dB.
+        const double thickness = 200 / per_metre;
+        const Hertz f = frequency(vectors, i);
+        const Db difference =
+            slab_loss(*material, {2 * thickness}, f) - slab_loss(*material, {thickness}, f);
+        CHECK(equal(difference.value, 200, 1e-9));
+    }
+}
+
+TEST_CASE("p2040: slabs at normal incidence lose what the vectors say (slab_transmission)") {
+    constexpr double tolerance = 1e-8;  // [dB], see the vectors' description
+    const Vectors vectors("slab_transmission.csv");
+    std::size_t rows = 0;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        const auto material = material_named(vectors.text(i, "material"));
+        if (!material || vectors.number(i, "theta_deg") != 0) continue;
+        CAPTURE(vectors.text(i, "material"));
+        CAPTURE(vectors.text(i, "thickness_m"));
+        const Db loss =
+            slab_loss(*material, {vectors.number(i, "thickness_m")}, frequency(vectors, i));
+        CHECK(test::near(loss.value, vectors.number(i, "TE_trans_loss_dB"), tolerance));
+        ++rows;
+    }
+    CHECK(rows == 23);
+}
+
+TEST_CASE("p2040: real walls have the wall factors of the vectors (wallfactor_equivalent)") {
+    constexpr double relative = 1e-9;  // the vectors' last digits
+    const Vectors vectors("wallfactor_equivalent.csv");
+    REQUIRE(vectors.size() == 7);
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        CAPTURE(vectors.text(i, "material"));
+        const double thickness = vectors.number(i, "thickness_m");
+        const auto material = material_named(vectors.text(i, "material"));
+        REQUIRE(material.has_value());
+        const double loss = slab_loss(*material, {thickness}, 2450_MHz).value;
+        CHECK(equal(loss, vectors.number(i, "slab_loss_dB_2.45GHz_normal"), relative));
+        // In dB per centimetre.
+        CHECK(
+            equal(loss / thickness / 100, vectors.number(i, "thesis_wallfactor_equiv"), relative));
+    }
+}
+
+TEST_CASE("p2040: a slab of no thickness loses nothing, and the thickest loss is finite") {
+    constexpr double rounding = 1e-13;  // [dB]
+    for (std::size_t i = 0; i < EnumNames<ItuMaterial>::values.size(); ++i) {
+        const auto material = static_cast<ItuMaterial>(i);
+        CAPTURE(i);
+        CHECK(std::abs(slab_loss(material, {0}, 2450_MHz).value) <= rounding);
+        CHECK(std::isfinite(slab_loss(material, 1000_m, 2450_MHz).value));
+    }
+}
