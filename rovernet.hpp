@@ -3,13 +3,21 @@
 
 // All of rovernet's library.
 
+#include "experiment/link_table.hpp"
+#include "experiment/movement_play.hpp"
 #include "experiment/network.hpp"
+#include "experiment/picture.hpp"
 #include "experiment/run.hpp"
 #include "experiment/scenario.hpp"
+#include "experiment/whereabouts.hpp"
+#include "mobility/movement_file.hpp"
+#include "mobility/movement_writer.hpp"
+#include "mobility/straight.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/list.hpp"
 #include "routing/flood.hpp"
 #include "scene/occupancy.hpp"
+#include "scene/stage_walls.hpp"
 #include "scene/scene.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/metrics.hpp"

@@ -87,7 +87,9 @@ void print_scene(const Table& report) {
                std::get<double>(size[1].data));
     fmt::print("{:<20} {}\n", "occupied cells", number("occupied_cells"));
     fmt::print("{:<20} {}\n", "wall rectangles", number("wall_rectangles"));
-    fmt::print("{:<20} {} m2\n", "free area", number("free_area_m2"));
+    if (const auto* free = std::get_if<double>(&report.find("free_area_m2")->data)) {
+        fmt::print("{:<20} {:.3f} m2\n", "free area", *free);
+    }
     for (const Value& material : *report.find("materials")->array()) {
         std::string line;
         for (const Entry& entry : material.table()->entries) {

@@ -29,6 +29,27 @@ const PropagationTable& own_model(const Scenario& scenario, NodeId robot) {
     return own ? *own : scenario.propagation;
 }
 
+/// A map with its cells laid out, levels to be filled in.
+CoverageMap empty_map(Vec3 low, Vec3 high, int cells) {
+    if (!(low.x < high.x && low.y < high.y)) {
+        throw std::invalid_argument("coverage: the rectangle is empty");
+    }
+    if (cells < 1 || cells > most_coverage_cells) {
+        throw std::invalid_argument(fmt::format("coverage: cells must be from 1 to {}, got {}",
+                                                most_coverage_cells, cells));
+    }
+    const double width = high.x - low.x, height = high.y - low.y;
+    const double columns = std::round(std::sqrt(cells * (width / height)));
+    CoverageMap map;
+    map.columns = static_cast<int>(std::clamp(columns, 1.0, static_cast<double>(cells)));
+    map.rows = cells / map.columns;
+    map.lower_left = low;
+    map.cell_width = width / map.columns;
+    map.cell_height = height / map.rows;
+    map.dbm.resize(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
+    return map;
+}
+
 }  // namespace
 
 const RobotTable& robot_table(const Scenario& scenario, NodeId robot) {
@@ -87,31 +108,14 @@ Vec3 CoverageMap::centre(int column, int row) const {
 }
 
 CoverageMap coverage(const Transmitter& transmitter, Vec3 low, Vec3 high, int cells) {
-    if (!(low.x < high.x && low.y < high.y)) {
-        throw std::invalid_argument("coverage: the rectangle is empty");
-    }
-    if (cells < 1 || cells > most_coverage_cells) {
-        throw std::invalid_argument(fmt::format("coverage: cells must be from 1 to {}, got {}",
-                                                most_coverage_cells, cells));
-    }
-    const double width = high.x - low.x, height = high.y - low.y;
-    const double columns = std::clamp(std::round(std::sqrt(cells * (width / height))), 1.0,
-                                      static_cast<double>(cells));
-    CoverageMap map;
-    map.columns = static_cast<int>(columns);
-    map.rows = std::max(1, cells / map.columns);
-    map.lower_left = {low.x, low.y, transmitter.antenna.z};
-    map.cell_width = width / map.columns;
-    map.cell_height = height / map.rows;
-
+    CoverageMap map = empty_map({low.x, low.y, transmitter.antenna.z}, high, cells);
     std::vector<Vec3> antennas;
-    antennas.reserve(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
+    antennas.reserve(map.dbm.size());
     for (int row = 0; row < map.rows; ++row) {
         for (int column = 0; column < map.columns; ++column) {
             antennas.push_back(map.centre(column, row));
         }
     }
-    map.dbm.resize(antennas.size());
     received_levels(transmitter, antennas, map.dbm);
     return map;
 }

@@ -67,6 +67,17 @@ std::vector<PicturePoint> smoothed(const std::vector<Vec3>& polygon, const Plot&
     return out;
 }
 
+/// Distance from `p` to the plot's farthest corner [m].
+double farthest_corner(const Plot& plot, Vec3 p) {
+    double out = 0;
+    for (const double x : {plot.low.x, plot.high.x}) {
+        for (const double y : {plot.low.y, plot.high.y}) {
+            out = std::max(out, distance(p, {x, y, p.z}));
+        }
+    }
+    return out;
+}
+
 void draw_line(Svg& svg, const std::string& data, bool dashed) {
     svg.add("path", {{"d", data},
                      {"fill", "none"},
@@ -82,6 +93,19 @@ void draw_line(Svg& svg, const std::string& data, bool dashed) {
                      {"stroke-dasharray", dashed ? "7 4" : "none"}});
 }
 
+/// The colours of the bar, from its lower to its upper end.
+void define_gradient(Svg& svg) {
+    constexpr int stops = 12;
+    svg.open("linearGradient",
+             {{"id", "levels"}, {"x1", 0.0}, {"y1", 1.0}, {"x2", 0.0}, {"y2", 0.0}});
+    for (int i = 0; i <= stops; ++i) {
+        const double share = i / static_cast<double>(stops);
+        svg.add("stop",
+                {{"offset", fmt::format("{:.4f}", share)}, {"stop-color", lagoon.at(share)}});
+    }
+    svg.close();
+}
+
 }  // namespace
 
 HeatLayer::HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells)
@@ -93,15 +117,9 @@ HeatLayer::HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells
     for (const auto& line : lines_) weakest = std::min(weakest, line.level.value);
     std::tie(low_, high_) = color_range(map_.dbm, weakest);
 
-    double farthest = 0;
-    for (const double x : {plot.low.x, plot.high.x}) {
-        for (const double y : {plot.low.y, plot.high.y}) {
-            const Vec3 corner{x, y, transmitter.antenna.z};
-            farthest = std::max(farthest, distance(transmitter.antenna, corner));
-        }
-    }
     constexpr double beyond = 1.05;  // so that what ends there is not seen
-    const ContourOptions options{.farthest = {beyond * farthest}, .resolution = {0.5 / plot.scale}};
+    const ContourOptions options{.farthest = {beyond * farthest_corner(plot, transmitter.antenna)},
+                                 .resolution = {0.5 / plot.scale}};
     for (auto& line : lines_) line.polygon = contour(transmitter, line.level, options);
 }
 
@@ -126,19 +144,12 @@ void HeatLayer::draw_contours(Svg& svg, const Plot& plot) const {
 }
 
 void HeatLayer::draw_bar(Svg& svg, PicturePoint corner, double height) const {
-    constexpr int stops = 12;
     constexpr double bar = 14, unit = 18;  // [px] width of the bar, room for the unit above it
+    constexpr double text = 11, baseline = 4;
     constexpr int most_ticks = 9;
     const double top = corner.y + unit, length = height - unit;
-    svg.open("linearGradient",
-             {{"id", "levels"}, {"x1", 0.0}, {"y1", 1.0}, {"x2", 0.0}, {"y2", 0.0}});
-    for (int i = 0; i <= stops; ++i) {
-        const double share = i / static_cast<double>(stops);
-        svg.add("stop",
-                {{"offset", fmt::format("{:.4f}", share)}, {"stop-color", lagoon.at(share)}});
-    }
-    svg.close();
-    svg.text(corner.x, corner.y + 10, "dBm", {.size = 11});
+    define_gradient(svg);
+    svg.text(corner.x, corner.y + text - 1, "dBm", {.size = text});
     svg.add("rect", {{"x", corner.x},
                      {"y", top},
                      {"width", bar},
@@ -150,7 +161,8 @@ void HeatLayer::draw_bar(Svg& svg, PicturePoint corner, double height) const {
     SvgPath ticks;
     for (const double dbm : round_ticks(low_, high_, most_ticks)) {
         ticks.move(corner.x + bar, place(dbm)).horizontal(corner.x + bar + 4);
-        svg.text(corner.x + bar + 7, place(dbm) + 4, fmt::format("{:.6g}", dbm), {.size = 11});
+        svg.text(corner.x + bar + 7, place(dbm) + baseline, fmt::format("{:.6g}", dbm),
+                 {.size = text});
     }
     svg.add("path", {{"d", ticks.text()}, {"stroke", "#333333"}, {"stroke-width", 1.0}});
     for (const auto& line : lines_) {

@@ -20,10 +20,12 @@ namespace {
 
 constexpr double margin = 16;        // [px] around everything
 constexpr double title_size = 16;    // [px]
+constexpr double bold = 1.15;        // times as wide as other text, at most
 constexpr double caption_size = 12;  // [px]
 constexpr double title_line = 22;    // [px]
 constexpr double caption_line = 17;  // [px]
-constexpr double gap = 10;           // [px] between the parts
+constexpr Color faint{0x44, 0x44, 0x44};
+constexpr double gap = 10;  // [px] between the parts
 constexpr std::uint32_t most_robots = 100'000;
 
 void check_range(const char* name, double value, double low, double high) {
@@ -42,6 +44,34 @@ NodeId robot_named(const Network& network, const std::string& name) {
                     name, names.size(), did_you_mean(name, names)));
 }
 
+/// The lines above a picture.
+class Heading {
+  public:
+    Heading(const std::string& title, const std::vector<std::string>& parts, double width)
+        : titles_(wrapped({title}, width, bold * title_size)),
+          captions_(wrapped(parts, width, caption_size)) {}
+
+    double height() const {
+        return title_line * static_cast<double>(titles_.size()) +
+               caption_line * static_cast<double>(captions_.size());
+    }
+    void draw(Svg& svg) const {
+        double y = margin - 2;
+        for (const auto& line : titles_) {
+            svg.text(margin, y + title_size, line, {.size = title_size, .bold = true});
+            y += title_line;
+        }
+        for (const auto& line : captions_) {
+            svg.text(margin, y + caption_size, line, {.size = caption_size, .color = faint});
+            y += caption_line;
+        }
+    }
+
+  private:
+    std::vector<std::string> titles_;
+    std::vector<std::string> captions_;
+};
+
 /// Draws one scenario at one time.
 class Painter {
   public:
@@ -54,7 +84,12 @@ class Painter {
     Plot plot() const;
     /// How far from the robot whose coverage is drawn an open field is shown [m].
     double shown_reach(const Extent& robots) const;
+    /// The robots' models, each once.
+    std::vector<std::string> models() const;
     std::vector<std::string> caption() const;
+    /// Room for the colour bar beside the plot [px]; 0 if there is none.
+    double bar_room() const { return source_ ? gap + HeatLayer::bar_width : 0; }
+    Legend legend(const Plot& plot, const RobotMarks& robots) const;
     void draw_world(Svg& svg, const Plot& plot, const RobotMarks& robots) const;
 
     const Scenario& scenario_;
@@ -133,8 +168,7 @@ Extent Painter::extent() const {
 Plot Painter::plot() const {
     constexpr double tallest = 0.75;  // of the picture's width
     constexpr double narrowest = 420, lowest = 160;
-    const double right = source_ ? gap + HeatLayer::bar_width : 0;
-    const double width = options_.width - 2 * margin - right;
+    const double width = options_.width - 2 * margin - bar_room();
     return Plot(extent(), {margin, margin},
                 {.width = width,
                  .height = tallest * options_.width,
@@ -167,24 +201,35 @@ std::string model_text(const PropagationTable& table) {
     return text;
 }
 
-std::vector<std::string> Painter::caption() const {
-    std::vector<std::string> parts{fmt::format("t = {:.6g} s", seconds(options_.at)),
-                                   model_text(scenario_.propagation)};
+std::vector<std::string> Painter::models() const {
+    std::vector<std::string> out;
     for (const auto& table : scenario_.robots) {
-        if (!table.propagation) continue;
-        parts.emplace_back("some robots have a model of their own");
-        break;
+        std::string text = model_text(table.propagation.value_or(scenario_.propagation));
+        if (std::find(out.begin(), out.end(), text) == out.end()) out.push_back(std::move(text));
+    }
+    return out;
+}
+
+std::vector<std::string> Painter::caption() const {
+    constexpr std::size_t most_models = 3;
+    std::vector<std::string> parts{fmt::format("t = {:.6g} s", seconds(options_.at))};
+    const auto models = this->models();
+    const auto shown = static_cast<std::ptrdiff_t>(std::min(models.size(), most_models));
+    parts.insert(parts.end(), models.begin(), models.begin() + shown);
+    if (models.size() > most_models) {
+        parts.push_back(fmt::format("and {} models more", models.size() - most_models));
     }
     if (!source_) return parts;
-    const auto& own = robot_table(scenario_, *source_);
+    const PropagationTable own =
+        robot_table(scenario_, *source_).propagation.value_or(scenario_.propagation);
     const Radio& radio = transmitter_->radio;
-    const bool median = has_shadowing(own.propagation.value_or(scenario_.propagation));
     parts.push_back(fmt::format("coverage of {}: {} for a radio like its own, antenna {:.6g} m up",
                                 shortened(*options_.coverage, 40),
-                                median ? "median level" : "level", radio.antenna_height.value));
+                                has_shadowing(own) ? "median level" : "level",
+                                radio.antenna_height.value));
     parts.push_back(
         fmt::format("{:.4g} dBm at {:.6g} MHz", radio.power.value, radio.frequency.value / 1e6));
-    if (own.propagation) parts.push_back("its model is " + model_text(*own.propagation));
+    if (models.size() > 1) parts.push_back("its model is " + model_text(own));
     return parts;
 }
 
@@ -213,47 +258,40 @@ void Painter::draw_world(Svg& svg, const Plot& plot, const RobotMarks& robots) c
                      {"stroke-width", 1.0}});
 }
 
+Legend Painter::legend(const Plot& plot, const RobotMarks& robots) const {
+    Legend out;
+    out.add(scale_bar(plot));
+    map_->append_to(out, heat_.has_value());
+    robots.append_to(out);
+    if (heat_) heat_->append_to(out);
+    if (links_) links_->append_to(out);
+    if (ways_) ways_->append_to(out);
+    return out;
+}
+
 std::string Painter::paint() {
     run();
     Plot plot = this->plot();
     if (transmitter_) heat_.emplace(*transmitter_, plot, options_.cells);
-    const double right = source_ ? gap + HeatLayer::bar_width : 0;
-    const double text_wide = plot.width + right;
-    const auto titles = wrapped({shortened(scenario_.scenario.name, 100)}, text_wide, title_size);
-    const auto lines = wrapped(caption(), text_wide, caption_size);
-    plot.top = margin + title_line * static_cast<double>(titles.size()) +
-               caption_line * static_cast<double>(lines.size());
+    const double right = bar_room();
+    const double text_width = plot.width + right;
+    const Heading heading(shortened(scenario_.scenario.name, 100), caption(), text_width);
+    plot.top = margin + heading.height();
 
     const RobotMarks robots(network_, radii_, source_, options_.at, plot);
-    Legend legend;
-    legend.add(scale_bar(plot));
-    map_->append_to(legend, heat_.has_value());
-    robots.append_to(legend);
-    if (heat_) heat_->append_to(legend);
-    if (links_) links_->append_to(legend);
-    if (ways_) ways_->append_to(legend);
-
-    const double width = plot.right() + right + margin;
-    const double height = plot.bottom() + gap + legend.height(text_wide) + margin / 2;
-    Svg svg(std::ceil(width), std::ceil(height));
+    const Legend legend = this->legend(plot, robots);
+    const double width = std::ceil(plot.right() + right + margin);
+    const double height = std::ceil(plot.bottom() + gap + legend.height(text_width) + margin / 2);
+    Svg svg(width, height);
     svg.title(scenario_.scenario.name);
-    svg.add("rect",
-            {{"width", std::ceil(width)}, {"height", std::ceil(height)}, {"fill", "#ffffff"}});
-    double y = margin;
-    for (const auto& line : titles) {
-        svg.text(margin, y + title_size - 2, line, {.size = title_size, .bold = true});
-        y += title_line;
-    }
-    for (const auto& line : lines) {
-        svg.text(margin, y + caption_size - 2, line,
-                 {.size = caption_size, .color = {0x44, 0x44, 0x44}});
-        y += caption_line;
-    }
+    svg.add("rect", {{"width", width}, {"height", height}, {"fill", "#ffffff"}});
+    heading.draw(svg);
     draw_world(svg, plot, robots);
     if (heat_) {
-        heat_->draw_bar(svg, {plot.right() + gap, plot.top}, std::min(plot.height, 420.0));
+        constexpr double highest_bar = 420;
+        heat_->draw_bar(svg, {plot.right() + gap, plot.top}, std::min(plot.height, highest_bar));
     }
-    legend.draw(svg, {margin, plot.bottom() + gap}, text_wide);
+    legend.draw(svg, {margin, plot.bottom() + gap}, text_width);
     return svg.finish();
 }
 

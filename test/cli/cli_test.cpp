@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "test/cli/process.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 
@@ -7,16 +8,10 @@
 
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <fcntl.h>
-#include <spawn.h>
 #include <sstream>
-#include <sys/wait.h>
 #include <thread>
-#include <unistd.h>
 
-using Json = nlohmann::json;
-using rovernet::test::TemporaryFolder;
+using namespace rovernet::test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -56,71 +51,6 @@ count = 4
 [trace]
 ns2 = "new"
 )";
-
-std::string content(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-struct Ended {
-    int exit;  // -1: by a signal, or not at all
-    std::string out, err;
-};
-
-/// The command with its output in files of a folder.
-class Process {
-  public:
-    Process(const TemporaryFolder& folder, std::vector<std::string> arguments)
-        : out_(folder.path("stdout")), err_(folder.path("stderr")) {
-        arguments.insert(arguments.begin(), ROVERNET_COMMAND);
-        std::vector<char*> argv;
-        for (auto& argument : arguments) argv.push_back(argument.data());
-        argv.push_back(nullptr);
-        posix_spawn_file_actions_t files;
-        posix_spawn_file_actions_init(&files);
-        constexpr int create = O_WRONLY | O_CREAT | O_TRUNC;
-        posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out_.c_str(), create, 0600);
-        posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err_.c_str(), create, 0600);
-        REQUIRE(posix_spawn(&pid_, argv[0], &files, nullptr, argv.data(), environ) == 0);
-        posix_spawn_file_actions_destroy(&files);
-    }
-
-    void interrupt() const { kill(pid_, SIGINT); }
-
-    /// Waits for its end, and kills it if that takes too long.
-    Ended wait() const {
-        using namespace std::chrono_literals;
-        int status = 0;
-        for (int i = 0; i < 6000; ++i) {
-            if (waitpid(pid_, &status, WNOHANG) == pid_) return ended(status);
-            std::this_thread::sleep_for(10ms);
-        }
-        kill(pid_, SIGKILL);
-        waitpid(pid_, &status, 0);
-        return ended(status);
-    }
-
-  private:
-    Ended ended(int status) const {
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out_), content(err_)};
-    }
-
-    std::string out_, err_;
-    pid_t pid_ = 0;
-};
-
-Ended command(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
-    return Process(folder, arguments).wait();
-}
-
-/// The one JSON document that a command prints; it must succeed.
-Json json_of(const TemporaryFolder& folder, std::vector<std::string> arguments) {
-    arguments.push_back("--json");
-    const Ended ended = command(folder, arguments);
-    CAPTURE(ended.err);
-    REQUIRE(ended.exit == 0);
-    return Json::parse(ended.out);
-}
 
 std::vector<std::string> names_in(const std::string& folder) {
     std::vector<std::string> names;

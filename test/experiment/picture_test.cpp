@@ -17,11 +17,13 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 using namespace rovernet;
@@ -61,6 +63,27 @@ double number(std::string_view text, std::string_view key) {
 const PictureOptions everything{
     .at = start_of_run + 12s, .coverage = "A", .links = true, .trails = true, .cells = 2000};
 
+/// The picture that is embedded in the document.
+Image embedded_image(std::string_view svg) {
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::string_view key = "data:image/png;base64,";
+    const auto begin = svg.find(key) + key.size();
+    const auto data = svg.substr(begin, svg.find('"', begin) - begin);
+    std::string bytes;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : data.substr(0, data.find('='))) {
+        bits = bits << 6U | static_cast<std::uint32_t>(digits.find(c));
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes += static_cast<char>(bits >> static_cast<unsigned>(count) & 0xffU);
+    }
+    test::TemporaryFolder folder;
+    return read_image(folder.write("embedded.png", bytes));
+}
+
 /// Removes rsvg-convert from sight while it lives.
 struct EmptyPath {
     EmptyPath() : old(std::getenv("PATH") ? std::getenv("PATH") : "") { set("/nonexistent"); }
@@ -84,6 +107,18 @@ TEST_CASE("picture: the caption says the scenario, the time and the model with i
     CHECK(has(svg, ">rescue</text>"));
     CHECK(has(svg, "t = 1.5 s"));
     CHECK(has(svg, "raytrace_2007: coefficient 30, wall_factor 0.3"));
+}
+
+TEST_CASE("picture: the caption names the models that robots have, each once") {
+    const std::string disc = "propagation = { model = \"disc\", range = \"5 m\" }\n";
+    const std::string all = draw_svg(scenario(robot("a", 0, 0, disc) + robot("b", 9, 0, disc)),
+                                     {.coverage = "a", .cells = 9});
+    CHECK(count(all, "disc: range 5 m") == 1);
+    CHECK_FALSE(has(all, "friis"));
+    const std::string mixed = draw_svg(scenario(robot("a", 0, 0, disc) + robot("b", 9, 0)),
+                                       {.coverage = "a", .cells = 9});
+    CHECK(has(mixed, "disc: range 5 m \xc2\xb7 friis"));
+    CHECK(has(mixed, "its model is disc"));
 }
 
 TEST_CASE("picture: names are escaped, in labels and in the title") {
@@ -137,6 +172,11 @@ TEST_CASE("picture: two-way links are solid, one-way links dashed with a head at
     const std::string one_way = draw_svg(scenario(deaf + robot("b", 50, 0)), {.links = true});
     CHECK(has(one_way, "one way only"));
     CHECK(has(one_way, "stroke-dasharray=\"7 4\""));
+    std::string_view b = one_way;
+    b.remove_prefix(one_way.find("<title>b</title>"));
+    b.remove_prefix(b.find("<circle "));
+    // The tip, 2 px before b's circle.
+    CHECK(has(one_way, fmt::format("d=\"M{} ", svg_number(number(b, "cx") - number(b, "r") - 2))));
 
     const std::string none = draw_svg(scenario(deaf + robot("b", 50, 0, "off = [\"1 s\"]\n")),
                                       {.at = start_of_run + 2s, .links = true});
@@ -155,6 +195,30 @@ TEST_CASE("picture: coverage brings a heat map, a bar, and a contour for each le
     const std::string other = draw_svg(scenario(text), {.coverage = "B", .cells = 500});
     CHECK_FALSE(has(other, "range_db"));
     CHECK_FALSE(has(other, "stroke-dasharray=\"7 4\""));
+}
+
+TEST_CASE("picture: the heat map is lightest where the robot is, and stands upright") {
+    const std::string svg =
+        draw_svg(scenario(robot("A", 0, 0) + robot("B", 40, 30)), {.coverage = "B", .cells = 3000});
+    const Image image = embedded_image(svg);
+    int best_column = 0, best_row = 0, best = 0;
+    for (int row = 0; row < image.height; ++row) {
+        for (int column = 0; column < image.width; ++column) {
+            if (image.rgb_sum(column, row) <= best) continue;
+            best = image.rgb_sum(column, row);
+            best_column = column;
+            best_row = row;
+        }
+    }
+    std::string_view frame = svg;
+    frame.remove_prefix(svg.find("<image "));
+    const double cell_x = number(frame, "width") / image.width;
+    const double cell_y = number(frame, "height") / image.height;
+    std::string_view b = svg;
+    b.remove_prefix(svg.find("<title>B</title>"));
+    b.remove_prefix(b.find("<circle "));
+    CHECK(std::abs(number(frame, "x") + (best_column + 0.5) * cell_x - number(b, "cx")) < cell_x);
+    CHECK(std::abs(number(frame, "y") + (best_row + 0.5) * cell_y - number(b, "cy")) < cell_y);
 }
 
 TEST_CASE("picture: the coverage of a shadowed model is said to be the median") {

@@ -2,6 +2,7 @@
 #include "experiment/plot.hpp"
 
 #include "experiment/label.hpp"
+#include "experiment/legend.hpp"
 
 #include <doctest/doctest.h>
 
@@ -96,6 +97,30 @@ TEST_CASE("plot: lengths carry the unit that suits them") {
     CHECK(length_text(5) == "5 m");
     CHECK(length_text(0.2) == "20 cm");
     CHECK(length_text(0.005) == "5 mm");
+}
+
+TEST_CASE("legend: the scale bar is as long as it says") {
+    const Plot plot(extent({0, 0}, {130, 60}), {0, 0}, {.width = 1000, .height = 800});
+    const LegendItem bar = scale_bar(plot);
+    CHECK(bar.text == "20 m");
+    CHECK(near(bar.width, 20 * 1000 / 130.0));
+}
+
+TEST_CASE("legend: it is as high as its rows, and one row if there is room") {
+    Legend legend;
+    CHECK(legend.height(500) == 0);
+    for (int i = 0; i < 6; ++i) legend.add({.text = "about 60 px", .draw = {}});
+    CHECK(legend.height(2000) == 20);
+    CHECK(legend.height(300) > 20);
+    CHECK(legend.height(10) == 6 * 20);
+}
+
+TEST_CASE("legend: captions break between parts, and a long part between words") {
+    const std::string dot = " \xc2\xb7 ";
+    CHECK(wrapped({"one", "two"}, 1000, 12) == std::vector<std::string>{"one" + dot + "two"});
+    CHECK(wrapped({"one", "two"}, 30, 12) == std::vector<std::string>{"one", "two"});
+    CHECK(wrapped({"one two"}, 30, 12) == std::vector<std::string>{"one", "two"});
+    CHECK(wrapped({"indivisible"}, 30, 12) == std::vector<std::string>{"indivisible"});
 }
 
 TEST_CASE("label: places are tried right, left, above, below, and none is given twice") {
