@@ -20,10 +20,12 @@ MotionBuilder::MotionBuilder(const Network& network, const Scenario& scenario)
     : network_(network), scenario_(scenario), planners_(network.scene()) {
     std::uint32_t next = 0;
     for (const RobotTable& table : scenario.robots) {
-        for (int i = 0; i < table.count.value_or(1); ++i) ids_.emplace(table.name_of(i), next++);
+        for (int i = 0; i < table.count.value_or(1); ++i) {
+            ids_.emplace(table.name_of(i), NodeId{next++});
+        }
     }
     for (const FileRobot& robot : scenario.movement.robots) {
-        if (ids_.emplace(robot.name, next).second) ++next;
+        if (ids_.emplace(robot.name, NodeId{next}).second) ++next;
     }
 }
 

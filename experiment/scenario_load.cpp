@@ -105,6 +105,9 @@ Array merged_robots(const Array& of_world, const Array& of_document) {
         if (same == all.end()) {
             all.push_back(robot);
         } else {
+            if (robot.table()->find("place")) {
+                std::erase_if(same->table()->entries, [](const Entry& e) { return e.key == "at"; });
+            }
             lay_over(*same->table(), *robot.table());
         }
     }

@@ -2,12 +2,12 @@
 #include "mobility/text_source.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <zlib.h>
 
 namespace rovernet {
 namespace {

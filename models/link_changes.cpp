@@ -43,13 +43,6 @@ struct Piece {
         const double speed2 = dot(speed(), speed());
         return speed2 > 0 ? at(-dot(apart(), speed()) / speed2) : begin;
     }
-    /// The line of sight turns by less than 1/4 rad from `p` to `q`.
-    bool keeps_direction(Time p, Time q) const {
-        constexpr double least_cosine = 0.9689;  // of 1/4 rad
-        const double s = seconds(p - begin), t = seconds(q - begin);
-        const Vec3 one = b.at(s) - a.at(s), other = b.at(t) - a.at(t);
-        return dot(one, other) >= least_cosine * std::sqrt(dot(one, one) * dot(other, other));
-    }
     Piece part(Time first, Time last) const {
         const double s = seconds(first - begin);
         return {first, last, {a.at(s), a.velocity}, {b.at(s), b.velocity}};
@@ -93,12 +86,8 @@ class Search {
         Time time;
         double margin;  // [dB]
     };
-    struct Smooth {
-        const Piece& piece;
-        Duration least;  // is not halved any more
-    };
-    std::optional<Bracket> between_passages(const Piece& piece, Look first, Time last) const;
-    std::optional<Bracket> smooth_change(const Smooth& smooth, Look p, Look q) const;
+    std::optional<Bracket> between_passages(Look first, Time last) const;
+    std::optional<Bracket> smooth_change(Look p, Look q, Duration least) const;
     Time bisect(Bracket bracket) const;
 
     const Medium& medium_;
@@ -238,7 +227,7 @@ std::optional<Bracket> Search::by_walls(const Piece& piece) const {
         if (first > last) continue;
         const Look begin{first, margin(first)};
         if (changed(begin.margin)) return Bracket{before, first};
-        if (const auto found = between_passages(piece, begin, last)) return found;
+        if (const auto found = between_passages(begin, last)) return found;
         before = last;
     }
     if (changed(margin(piece.end))) return Bracket{before, piece.end};
@@ -246,31 +235,30 @@ std::optional<Bracket> Search::by_walls(const Piece& piece) const {
 }
 
 /// A change in a time in which the loss is smooth, and at whose beginning there is none.
-std::optional<Bracket> Search::between_passages(const Piece& piece, Look first, Time last) const {
+std::optional<Bracket> Search::between_passages(Look first, Time last) const {
     constexpr int most_halvings = 20;
     if (first.time == last) return std::nullopt;
     const Duration least = (last - first.time) / (1 << most_halvings);
-    return smooth_change({piece, std::max(settings_.tolerance, least)}, first,
-                         {last, margin(last)});
+    return smooth_change(first, {last, margin(last)}, std::max(settings_.tolerance, least));
 }
 
-std::optional<Bracket> Search::smooth_change(const Smooth& smooth, Look p, Look q) const {
+std::optional<Bracket> Search::smooth_change(Look p, Look q, Duration least) const {
     constexpr double safety = 2;
     constexpr double rounding = 1e-11;  // [dB] of a loss
     const Duration length = q.time - p.time;
     const Time middle = p.time + length / 2;
     const bool ends_changed = changed(q.margin);
-    if (length <= smooth.least || middle == p.time)
+    if (length <= least || middle == p.time)
         return ends_changed ? std::optional<Bracket>({p.time, q.time}) : std::nullopt;
     const Look m{middle, margin(middle)};
     if (changed(m.margin)) return Bracket{p.time, m.time};
     // Between the three a parabola through them exceeds the nearest by bend / 8 at most.
     const double bend = std::abs(p.margin - 2 * m.margin + q.margin);
     const double clear = std::min({std::abs(p.margin), std::abs(m.margin), std::abs(q.margin)});
-    if (clear >= safety * (bend - rounding) && smooth.piece.keeps_direction(p.time, q.time))
+    if (clear >= safety * (bend - rounding))
         return ends_changed ? std::optional<Bracket>({m.time, q.time}) : std::nullopt;
-    if (const auto found = smooth_change(smooth, p, m)) return found;
-    return smooth_change(smooth, m, q);
+    if (const auto found = smooth_change(p, m, least)) return found;
+    return smooth_change(m, q, least);
 }
 
 /// The first time of the new state, for one change in the bracket.

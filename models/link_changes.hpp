@@ -27,11 +27,10 @@ struct LinkSearch {
 /// Where the link would be down without any wall (Propagation::reach) nothing is looked at.
 /// - By distance: exact to the nanosecond; a state of less than a nanosecond may be missed. About
 ///   45 looks at the link, often 8; none for a pair that stays out of reach.
-/// - By walls: a jump of the loss is exact to the nanosecond, other changes come up to `tolerance`
-///   late. With k corners passed (see WallPassages): about 4 k looks, more where the loss bends
-///   near the budget. A piece between passages is halved until the line of sight turns by less
-///   than 1/4 rad in it and its ends and middle, taken as a parabola, stay clear of the budget by
-///   16 times what the parabola could add between them.
+/// - By walls: a jump of the loss comes a nanosecond or so late (WallPassages tell where to look),
+///   other changes up to `tolerance`. With k corners passed about 4 k looks, more where the loss
+///   bends near the budget: a time between passages is halved until its ends and its middle are
+///   farther from the budget than 16 times what a parabola through them could add in between.
 /// - Unknown: a look each `min_dwell`, then as by walls; from the 65536th look on the step doubles
 ///   every 65536 looks, so that no search is endless.
 ///

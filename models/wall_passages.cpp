@@ -55,16 +55,14 @@ Box box_of(const std::array<Vec3, 4>& corners) {
     return box;
 }
 
-/// Visits the real roots of a t^2 + b t + c. Of two that rounding may have parted or joined the
-/// middle comes as well, so that a line of sight which just touches is not missed.
+/// Visits the real roots of a t^2 + b t + c. Two that rounding may have joined and lost count as
+/// one, so that a line of sight which just touches is not missed.
 template <class Visit>
 void visit_roots(double a, double b, double c, Visit visit) {
     constexpr double noise = 1e-9;
     const double square = b * b, product = 4 * a * c;
     const double discriminant = square - product;
-    const double unsure = noise * (square + std::abs(product));
-    if (discriminant < -unsure) return;
-    if (discriminant <= unsure && a != 0) visit(-b / (2 * a));
+    if (discriminant < -noise * (square + std::abs(product))) return;
     const double q = -0.5 * (b + std::copysign(std::sqrt(std::max(discriminant, 0.0)), b));
     if (a != 0) visit(q / a);
     if (q != 0) visit(c / q);

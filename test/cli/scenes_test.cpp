@@ -48,6 +48,21 @@ std::string wall_picture() {
     return png_bytes(picture);
 }
 
+/// 20 x 10 pixels, the walls of a hall of 16 x 8 in them: all around, and one across.
+std::string hall_picture() {
+    PngPicture picture{.width = 20, .height = 10, .rows = {}};
+    for (int row = 0; row < 10; ++row) {
+        std::vector<png_byte> pixels;
+        for (int column = 0; column < 20; ++column) {
+            const bool inside = column >= 2 && column < 18 && row >= 1 && row < 9;
+            const bool edge = column == 2 || column == 17 || row == 1 || row == 8;
+            pixels.push_back(inside && (edge || column == 10) ? 0 : 255);
+        }
+        picture.rows.push_back(std::move(pixels));
+    }
+    return png_bytes(picture);
+}
+
 /// A world of Stage with a map and two robots.
 const std::string world = R"(
 define robot position ( size [0.4 0.4] wifi ( model "raytrace" wall_factor 0.1 essid "x" ) )
@@ -181,17 +196,16 @@ range = "10 m"
 
 TEST_CASE("worlds: a Stage world is a FILE everywhere") {
     const TemporaryFolder folder;
-    folder.write("hall.png", wall_picture());
+    folder.write("hall.png", hall_picture());
     folder.write("w.world", world);
     const std::string file = folder.path("w.world");
     const Json scene = json_of(folder, {"scene", file});
     CHECK(scene["robots"].size() == 2);
-    // The bounding box of the wall is one column: it fills the whole 16 m. So the link is dead.
-    CHECK(scene["walls"].size() == 1);
-    CHECK(scene["connectivity"]["components"].size() == 2);
+    CHECK(scene["size_m"] == Json({16.0, 8.0}));  // the walls' bounding box, not the picture
+    CHECK(scene["connectivity"]["components"].size() == 1);
     const Json link = json_of(folder, {"link", file, "one", "two"});
-    CHECK(near(link["wall_m"], 12, 1e-9));
-    CHECK(near(link["walls"][0]["length_m"], 12, 1e-9));
+    CHECK(near(link["wall_m"], 1, 1e-9));
+    CHECK(near(link["walls"][0]["entry_m"], 6, 1e-9));
     const Json turned = json_of(folder, {"where", file, "--at", "0"});
     CHECK(near(turned["times"][0]["robots"][0]["heading_rad"], 1.5707963267948966, 1e-12));
     CHECK(command(folder, {"run", file, "--out", folder.path("out")}).exit == 0);
@@ -200,7 +214,7 @@ TEST_CASE("worlds: a Stage world is a FILE everywhere") {
 TEST_CASE(
     "worlds: a missing bitmap exits 3 and names every place tried; another can stand for it") {
     const TemporaryFolder folder;
-    folder.write("other.png", wall_picture());
+    folder.write("other.png", hall_picture());
     folder.write("w.world", world);
     const std::string file = folder.path("w.world");
     const Ended missing = command(folder, {"links", file, "--world-path", folder.path("maps")});
@@ -213,7 +227,7 @@ TEST_CASE(
 
 TEST_CASE("worlds: a scenario over a world adds to its robots by their names") {
     const TemporaryFolder folder;
-    folder.write("hall.png", wall_picture());
+    folder.write("hall.png", hall_picture());
     folder.write("w.world", world);
     folder.write("s.toml", R"([scenario]
 duration = "10 s"
@@ -225,7 +239,7 @@ radio = { power = "10 dBm" }
 move = { model = "fixed" }
 [[robot]]
 name = "three"
-at = ["-7 m", "3.5 m"]
+at = ["-6.5 m", "2 m"]
 [[traffic]]
 from = "one"
 payload = "F"

@@ -127,13 +127,13 @@ TEST_CASE("link watch: one call tells all that is due, and nothing that became v
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
     network.add(Disc{.range = 0_m}, moving(begin, {-20, 0, 0}, {20, 0, 0}, 40s));
-    network.add(Disc{.range = 0_m}, moving(begin, {-15, 0, 0}, {-25, 0, 0}, 40s));
+    network.add(Disc{.range = 0_m}, moving(begin, {-15, 0, 0}, {25, 0, 0}, 40s));
     network.watch.start(begin);
-    network.replace(b, resting({-20, 0, 0}, begin));  // would have come at 10 s
-    network.replace(c, moving(begin, {-15, 0, 0}, {25, 0, 0}, 40s));
+    network.replace(b, moving(begin, {-20, 0, 0}, {20, 0, 0}, 120s));  // would have come at 10 s
     network.serve(begin + 40s);
-    CHECK(network.take() ==
-          std::vector<LinkChange>{{begin + 5s, a, c, true}, {begin + 25s + 1ns, a, c, false}});
+    CHECK(network.take() == std::vector<LinkChange>{{begin + 5s, a, c, true},
+                                                    {begin + 25s + 1ns, a, c, false},
+                                                    {begin + 30s, a, b, true}});
 }
 
 TEST_CASE("link watch: a change at the end of a leg is told once, before or after the new leg") {

@@ -5,12 +5,12 @@
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
+#include <zlib.h>
 
 #include <fstream>
 #include <random>
 #include <string>
 #include <vector>
-#include <zlib.h>
 
 using namespace rovernet;
 using test::movement_error;

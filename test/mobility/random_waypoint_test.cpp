@@ -383,12 +383,3 @@ TEST_CASE("random_waypoint: what makes no sense is refused") {
     const RandomWaypoint slow{.area = area, .min_speed = {0}, .start = StartState::uniform};
     CHECK_FALSE(refused(slow, ""));
 }
-
-TEST_CASE("random_waypoint: an area is cut to the map, and must touch it") {
-    const Scene map(test::drawn_map({"....", "...."}));
-    CHECK(Area({{2, -5}, {50, 1}}, map, "x").lower == Vec3{2, 0});
-    CHECK(Area({{2, -5}, {50, 1}}, map, "x").upper == Vec3{4, 1});
-    CHECK(Area({}, map, "x").upper == Vec3{4, 2});
-    CHECK_THROWS_AS(Area({{5, 0}, {6, 1}}, map, "x"), std::invalid_argument);
-    CHECK_THROWS_AS(Area({{4, 0}, {6, 1}}, map, "x"), std::invalid_argument);
-}
