@@ -16,8 +16,8 @@ namespace rovernet {
 namespace {
 
 constexpr const char* contour_color = "#00501e";
-constexpr double contour_width = 1.5;  // [px]
-constexpr double contour_seam = 2.8;   // [px] of the white below it
+constexpr double contour_width = 1.8;  // [px]
+constexpr double contour_seam = 3.2;   // [px] of the white below it
 
 /// Where colours end [dBm]: well below the weakest contour, and where next to nothing of the
 /// picture is still above.

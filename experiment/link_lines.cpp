@@ -14,6 +14,7 @@ namespace rovernet {
 namespace {
 
 constexpr std::uint32_t most_robots = 5000;
+constexpr std::size_t many = 500;  // lines, from which on they fill the picture
 
 /// Lines of one look.
 struct Grade {
@@ -106,6 +107,7 @@ LinkLines::LinkLines(const Network& network, Time at) {
 
 void LinkLines::draw(Svg& svg, const RobotMarks& robots, bool on_colors) const {
     constexpr double gap = 2;  // [px] between an arrow head and its robot
+    const bool seams = on_colors && lines_.size() <= many;
     std::array<std::array<SvgPath, 2>, grades.size()> paths;  // by grade; one way, both ways
     std::array<SvgPath, grades.size()> heads;
     for (const auto& line : lines_) {
@@ -119,20 +121,19 @@ void LinkLines::draw(Svg& svg, const RobotMarks& robots, bool on_colors) const {
     for (std::size_t i = 0; i < grades.size(); ++i) {
         for (const bool both_ways : {false, true}) {
             if (paths[i][both_ways].empty()) continue;
-            if (on_colors) stroke(svg, paths[i][both_ways].text(), i, !both_ways, true);
+            if (seams) stroke(svg, paths[i][both_ways].text(), i, !both_ways, true);
             stroke(svg, paths[i][both_ways].text(), i, !both_ways, false);
         }
         if (heads[i].empty()) continue;
         svg.add("path", {{"d", heads[i].text()},
                          {"fill", ember.at(grades[i].shade)},
                          {"stroke", "#ffffff"},
-                         {"stroke-width", on_colors ? 1.0 : 0.0},
+                         {"stroke-width", seams ? 1.0 : 0.0},
                          {"paint-order", "stroke"}});
     }
 }
 
 void LinkLines::keep_off(LabelPlaces& places, const RobotMarks& robots) const {
-    constexpr std::size_t many = 500;
     if (lines_.size() > many) return;
     for (const auto& line : lines_) places.avoid(robots[line.from].at, robots[line.to].at);
 }

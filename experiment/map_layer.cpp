@@ -22,7 +22,7 @@ struct WallStyle {
 };
 constexpr double hatch_size = 6;  // [px]
 constexpr std::array wall_styles{
-    WallStyle{{0x33, 0x33, 0x33}},
+    WallStyle{{0x26, 0x26, 0x26}},
     WallStyle{{0x99, 0x99, 0x99}},
     WallStyle{{0x33, 0x33, 0x33}, "M-1 1L1 -1M0 6L6 0M5 7L7 5"},
     WallStyle{{0x66, 0x66, 0x66}},

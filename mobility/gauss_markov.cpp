@@ -27,9 +27,9 @@ double to_middle(const Area& field, Vec3 p) {
 
 void GaussMarkov::begin(const Mover& mover) {
     auto& [begun, draws, speed, direction, mean] = progress;
-    mean = mean_direction ? *mean_direction : 2 * half_turn * draws.uniform(mover);
+    mean = mean_direction ? mean_direction->value : 2 * half_turn * draws.uniform(mover);
     speed = mean_speed.value + speed_sigma.value * draws.normal(mover);
-    direction = mean + direction_sigma * draws.normal(mover);
+    direction = mean + direction_sigma.value * draws.normal(mover);
 }
 
 void GaussMarkov::advance(const Mover& mover, const Area& field) {
@@ -42,7 +42,8 @@ void GaussMarkov::advance(const Mover& mover, const Area& field) {
     const double fresh = std::sqrt(1 - a * a);
     speed =
         a * speed + (1 - a) * mean_speed.value + fresh * speed_sigma.value * draws.normal(mover);
-    direction = a * direction + (1 - a) * mean + fresh * direction_sigma * draws.normal(mover);
+    direction =
+        a * direction + (1 - a) * mean + fresh * direction_sigma.value * draws.normal(mover);
 }
 
 void GaussMarkov::turn_to_middle(const Area& field, Vec3 p) {

@@ -27,13 +27,13 @@ namespace rovernet {
 struct GaussMarkov {
     static constexpr std::string_view name = "gauss_markov";
 
-    std::vector<Vec3> area = {};                          ///< [m] as in the other models
-    MetersPerSecond mean_speed{1};                        ///< [m/s], >= 0
-    MetersPerSecond speed_sigma{0.2};                     ///< [m/s], >= 0
-    std::optional<double> mean_direction = std::nullopt;  ///< [rad] at first; none: drawn, uniform
-    double direction_sigma = 0.4;                         ///< [rad], >= 0
-    double memory = 0.75;                                 ///< a [-], 0 ... 1
-    Duration step = std::chrono::seconds{1};              ///< [ns], from 1 us
+    std::vector<Vec3> area = {};                           ///< [m] as in the other models
+    MetersPerSecond mean_speed{1};                         ///< [m/s], >= 0
+    MetersPerSecond speed_sigma{0.2};                      ///< [m/s], >= 0
+    std::optional<Radians> mean_direction = std::nullopt;  ///< at first; none: drawn, uniform
+    Radians direction_sigma{0.4};                          ///< >= 0
+    double memory = 0.75;                                  ///< a [-], 0 ... 1
+    Duration step = std::chrono::seconds{1};               ///< [ns], from 1 us
     StartPlace start = StartPlace::uniform;
 
     static constexpr auto fields() {
@@ -47,9 +47,9 @@ struct GaussMarkov {
             field("speed_sigma", &GaussMarkov::speed_sigma, non_negative,
                   "standard deviation of the speed"),
             field("mean_direction", &GaussMarkov::mean_direction, angle,
-                  "at first, counter-clockwise from the x axis [rad]; drawn if not given"),
+                  "at first, counter-clockwise from the x axis; drawn if not given"),
             field("direction_sigma", &GaussMarkov::direction_sigma, spread,
-                  "standard deviation of the direction from its mean [rad]"),
+                  "standard deviation of the direction from its mean"),
             field("memory", &GaussMarkov::memory, share,
                   "a, correlation of one step with the next: 0 none, 1 never changes"),
             field("step", &GaussMarkov::step, step_length, "time from one draw to the next"),

@@ -220,6 +220,18 @@ std::vector<Access> ways_to_cells(const Scene& scene, Meters radius,
     return ways;
 }
 
+/// Some cell of the one lies in the same part of the map as some cell of the other.
+bool joined(const std::vector<Access>& from, const std::vector<Access>& to,
+            const std::vector<std::int32_t>& part) {
+    const auto part_of = [&](const Access& access) {
+        return part[static_cast<std::size_t>(access.cell)];
+    };
+    return std::any_of(from.begin(), from.end(), [&](const Access& a) {
+        return std::any_of(to.begin(), to.end(),
+                           [&](const Access& b) { return part_of(a) == part_of(b); });
+    });
+}
+
 using Path = std::vector<Vec3>;
 
 double length_of(const Path& path) {
@@ -294,7 +306,7 @@ std::optional<std::vector<Vec3>> Planner::shortest_path(Vec3 from, Vec3 to) cons
     if (scene.passable(from, to, radius_)) return Path{from, to};
     const auto from_start = ways_to_cells(scene, radius_, space_.free, from);
     const auto to_goal = ways_to_cells(scene, radius_, space_.free, to);
-    if (from_start.empty() || to_goal.empty()) return std::nullopt;
+    if (!joined(from_start, to_goal, space_.part)) return std::nullopt;
 
     const int columns = scene.grid().columns;
     const CellNorm norm(scene.frame());

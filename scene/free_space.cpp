@@ -40,10 +40,37 @@ void take_away(std::vector<std::uint8_t>& free, const OccupancyGrid& grid, const
     }
 }
 
+/// Fills space.part, one part after the other, from its first cell on.
+void number_parts(FreeSpace& space, int columns) {
+    std::int32_t number = 0;
+    std::vector<std::size_t> open;
+    for (std::size_t first = 0; first < space.free.size(); ++first) {
+        if (!space.free[first] || space.part[first] >= 0) continue;
+        space.part[first] = number;
+        open.assign(1, first);
+        while (!open.empty()) {
+            const std::size_t cell = open.back();
+            open.pop_back();
+            for (std::size_t d = 0; d < cell_steps.size(); ++d) {
+                if (!(space.steps[cell] >> d & 1)) continue;
+                const std::size_t next =
+                    cell + static_cast<std::size_t>(
+                               std::ptrdiff_t{cell_steps[d].row * columns + cell_steps[d].column});
+                if (space.part[next] >= 0) continue;
+                space.part[next] = number;
+                open.push_back(next);
+            }
+        }
+        ++number;
+    }
+}
+
 }  // namespace
 
 FreeSpace::FreeSpace(const Scene& scene, Meters radius)
-    : free(scene.grid().cells.size(), 1), steps(scene.grid().cells.size(), 0) {
+    : free(scene.grid().cells.size(), 1),
+      steps(scene.grid().cells.size(), 0),
+      part(scene.grid().cells.size(), -1) {
     const OccupancyGrid& grid = scene.grid();
     const double reach = std::max(radius.value - touching, 0.0);
     for (const CellRectangle& r : scene.obstacles()) take_away(free, grid, r, reach);
@@ -65,6 +92,7 @@ FreeSpace::FreeSpace(const Scene& scene, Meters radius)
                 if (is_free(i, j) && is_free(column, j) && is_free(i, row))
                     steps[index(column, row)] |= static_cast<std::uint8_t>(1 << d);
             }
+    number_parts(*this, grid.columns);
 }
 
 }  // namespace rovernet

@@ -29,6 +29,8 @@ struct FreeSpace {
     /// Per cell: bit d is set if the robot may go straight to the centre of neighbour
     /// cell_steps[d]. A diagonal step needs both cells beside it: no corner is cut.
     std::vector<std::uint8_t> steps;
+    /// Per cell: the number of the part of the map that steps join it to; -1 if it is not free.
+    std::vector<std::int32_t> part;
 };
 
 }  // namespace rovernet

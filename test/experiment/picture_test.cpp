@@ -23,6 +23,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -59,6 +60,15 @@ double number(std::string_view text, std::string_view key) {
     std::from_chars(begin, text.data() + text.size(), v);
     return v;
 }
+
+/// What follows the start of the robot's circle.
+std::string_view circle_of(std::string_view svg, std::string_view name) {
+    svg.remove_prefix(svg.find(fmt::format("<title>{}</title>", name)));
+    svg.remove_prefix(svg.find("<circle "));
+    return svg;
+}
+
+constexpr double rounding = 0.021;  // [px] of differences and sums of numbers with two decimals
 
 const PictureOptions everything{
     .at = start_of_run + 12s, .coverage = "A", .links = true, .trails = true, .cells = 2000};
@@ -149,16 +159,36 @@ TEST_CASE("picture: every robot has a circle inside the frame, off the map, too"
     }
 }
 
-TEST_CASE("picture: a robot is to scale where it is large enough, and its tick shows its heading") {
+TEST_CASE("picture: a robot is to scale where it is large enough") {
     const std::string svg =
         draw_svg(scenario(robot("big", 0, 0, "radius = \"2 m\"\n") + robot("b", 20, 0)), {});
     // 22.2 m from rim to rim, and 3 % of that on each side.
-    const double scale = number(svg, "r") / 2;
-    constexpr double digits = 0.02;  // [px/m] two decimals of the radius
-    CHECK(std::abs(scale - (1200 - 32) / (22.2 * 1.06)) < digits);
-    const double cx = number(svg.substr(svg.find("<circle ")), "cx");
-    const double cy = number(svg.substr(svg.find("<circle ")), "cy");
-    CHECK(has(svg, fmt::format("d=\"M{:.6g} {:.6g}L", cx, cy)));
+    const double scale = number(circle_of(svg, "big"), "r") / 2;
+    CHECK(std::abs(scale - (1200 - 32) / (22.2 * 1.06)) < rounding);
+    CHECK(number(circle_of(svg, "b"), "r") > 5);
+    CHECK(std::abs(number(circle_of(svg, "b"), "r") - 0.2 * scale) < rounding);
+}
+
+TEST_CASE("picture: the tick of a robot shows where it goes, and north is up") {
+    const auto walker = [](const char* to) {
+        return robot("n", 0, 0,
+                     fmt::format("move = {{ model = \"waypoints\", path = [[{}]] }}\n", to));
+    };
+    for (const auto& [to, east, north] :
+         {std::tuple("\"0 m\", \"20 m\"", 0, 1), std::tuple("\"20 m\", \"0 m\"", 1, 0)}) {
+        const std::string svg =
+            draw_svg(scenario(walker(to) + robot("b", 20, 0)), {.at = start_of_run + 5s});
+        const auto circle = circle_of(svg, "n");
+        const double length = number(circle, "r") + 5;
+        std::string_view tick = svg;
+        tick.remove_prefix(svg.find("<title>n</title>"));
+        tick.remove_prefix(tick.find('L') + 1);
+        double x = 0, y = 0;
+        const auto end = std::from_chars(tick.data(), tick.data() + 20, x).ptr;
+        std::from_chars(end + 1, end + 20, y);
+        CHECK(std::abs(x - number(circle, "cx") - east * length) < rounding);
+        CHECK(std::abs(y - number(circle, "cy") + north * length) < rounding);
+    }
 }
 
 TEST_CASE("picture: two-way links are solid, one-way links dashed with a head at the receiver") {
@@ -172,9 +202,7 @@ TEST_CASE("picture: two-way links are solid, one-way links dashed with a head at
     const std::string one_way = draw_svg(scenario(deaf + robot("b", 50, 0)), {.links = true});
     CHECK(has(one_way, "one way only"));
     CHECK(has(one_way, "stroke-dasharray=\"7 4\""));
-    std::string_view b = one_way;
-    b.remove_prefix(one_way.find("<title>b</title>"));
-    b.remove_prefix(b.find("<circle "));
+    const auto b = circle_of(one_way, "b");
     // The tip, 2 px before b's circle.
     CHECK(has(one_way, fmt::format("d=\"M{} ", svg_number(number(b, "cx") - number(b, "r") - 2))));
 
@@ -198,8 +226,10 @@ TEST_CASE("picture: coverage brings a heat map, a bar, and a contour for each le
 }
 
 TEST_CASE("picture: the heat map is lightest where the robot is, and stands upright") {
+    // Heard a few metres away only, so that B is in the upper right corner.
     const std::string svg =
-        draw_svg(scenario(robot("A", 0, 0) + robot("B", 40, 30)), {.coverage = "B", .cells = 3000});
+        draw_svg(scenario("[radio]\npower = \"-30 dBm\"\n" + robot("A", 0, 0) + robot("B", 40, 30)),
+                 {.coverage = "B", .cells = 3000});
     const Image image = embedded_image(svg);
     int best_column = 0, best_row = 0, best = 0;
     for (int row = 0; row < image.height; ++row) {
@@ -214,9 +244,7 @@ TEST_CASE("picture: the heat map is lightest where the robot is, and stands upri
     frame.remove_prefix(svg.find("<image "));
     const double cell_x = number(frame, "width") / image.width;
     const double cell_y = number(frame, "height") / image.height;
-    std::string_view b = svg;
-    b.remove_prefix(svg.find("<title>B</title>"));
-    b.remove_prefix(b.find("<circle "));
+    const auto b = circle_of(svg, "B");
     CHECK(std::abs(number(frame, "x") + (best_column + 0.5) * cell_x - number(b, "cx")) < cell_x);
     CHECK(std::abs(number(frame, "y") + (best_row + 0.5) * cell_y - number(b, "cy")) < cell_y);
 }

@@ -70,8 +70,8 @@ TEST_CASE("gauss_markov: speed and direction are normal about their means, with 
         CAPTURE(a);
         const Course course({.mean_speed = {10},
                              .speed_sigma = {0.5},
-                             .mean_direction = 0.7,
-                             .direction_sigma = 0.3,
+                             .mean_direction = Radians{0.7},
+                             .direction_sigma = {0.3},
                              .memory = a},
                             legs);
         const auto check = [&](const std::vector<double>& x, double mean, double sigma) {
@@ -151,7 +151,7 @@ TEST_CASE("gauss_markov: near a border it turns before it gets there") {
     const Scene field;
     Planners planners(field);
     LoneMover robot(planners, 4);
-    GaussMarkov model{.area = {{0, 0}, {400, 400}}, .direction_sigma = 0.1, .memory = 0.5};
+    GaussMarkov model{.area = {{0, 0}, {400, 400}}, .direction_sigma = {0.1}, .memory = 0.5};
     int on_border = 0;
     for (int i = 0; i < 20'000; ++i) {
         REQUIRE(robot.walk(model));
@@ -179,8 +179,8 @@ TEST_CASE("gauss_markov: at a wall it turns round") {
     LoneMover robot(planners, 1, {1, 1.5}, 0.25_m);
     GaussMarkov model{.mean_speed = {1},
                       .speed_sigma = {0},
-                      .mean_direction = 0,
-                      .direction_sigma = 0,
+                      .mean_direction = Radians{0},
+                      .direction_sigma = {0},
                       .memory = 0,
                       .start = StartPlace::here};
     for (int i = 0; i < 3; ++i) REQUIRE(robot.walk(model));
@@ -200,7 +200,7 @@ TEST_CASE("gauss_markov: what makes no sense is refused, and without room it is 
     refused({.area = plain, .memory = 1.1});
     refused({.area = plain, .memory = -0.1});
     refused({.area = plain, .speed_sigma = {-1}});
-    refused({.area = plain, .mean_direction = std::nan("")});
+    refused({.area = plain, .mean_direction = Radians{std::nan("")}});
     refused({.area = plain, .step = 0s});
 
     const Scene map(test::drawn_map({"###", "#.#", "###"}));

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Who may link with whom, and frames that do not get through.
+#include "experiment/link_table.hpp"
+#include "experiment/network.hpp"
+#include "models/disc.hpp"
+#include "routing/flood.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// How many of two robots side by side hear each other, by their radios.
+int links_between(const Radio& a, const Radio& b) {
+    Network net;
+    const NodeId first = net.add({.name = "a", .at = {}, .radio = a});
+    const NodeId second = net.add({.name = "b", .at = {1, 0, 0}, .radio = b});
+    net.route(Flood{.ttl = 1});
+    net.broadcast(first, "x");
+    net.run_for(1s);
+    const auto heard = net.links(second, net.now()).size();
+    CHECK(net.metrics().receptions == heard);  // the table and the medium agree
+    return static_cast<int>(heard + net.links(first, net.now()).size());
+}
+
+/// Frames that got through of 2000, and those that did not.
+std::pair<std::uint64_t, std::uint64_t> through(double success_rate, bool crowd) {
+    Network net({.seed = 5, .propagation = Disc{.range = Meters{10}}});
+    net.route(Flood{.ttl = 1});
+    if (crowd) net.add({.name = "far", .at = {500, 0, 0}});
+    const NodeId a = net.add({.name = "a", .at = {}, .radio = {.success_rate = success_rate}});
+    net.add({.name = "b", .at = {1, 0, 0}});
+    for (int i = 0; i < 2000; ++i) {
+        net.broadcast(a, "x");
+        net.run_for(1ms);
+    }
+    net.run_for(1s);
+    std::uint64_t errors = 0;
+    for (const auto& drop : net.metrics().drops) {
+        if (std::string(drop.reason) == "ERR") errors = drop.count;
+    }
+    return {net.metrics().deliveries, errors};
+}
+
+}  // namespace
+
+TEST_CASE("gate: links need the same essid, and \"any\" joins all") {
+    CHECK(links_between({.essid = "x"}, {.essid = "x"}) == 2);
+    CHECK(links_between({.essid = "x"}, {.essid = "y"}) == 0);
+    CHECK(links_between({.essid = "x"}, {.essid = "any"}) == 2);
+    CHECK(links_between({}, {}) == 2);
+}
+
+TEST_CASE("gate: links need the same channel and frequency") {
+    CHECK(links_between({.channel = 1}, {.channel = 1}) == 2);
+    CHECK(links_between({.channel = 1}, {.channel = 6}) == 0);
+    CHECK(links_between({.frequency = {2412e6}}, {.frequency = {2437e6}}) == 0);
+}
+
+TEST_CASE("gate: none on either side lets every radio in") {
+    CHECK(links_between({.essid = "x", .gate = Gate::none}, {.essid = "y"}) == 2);
+    CHECK(links_between({.essid = "x"}, {.essid = "y", .channel = 3, .gate = Gate::none}) == 2);
+}
+
+TEST_CASE(
+    "success rate: that share of the frames gets through, and the others are dropped as ERR") {
+    for (const double rate : {0.3, 0.9}) {
+        const auto [delivered, errors] = through(rate, false);
+        CHECK(delivered + errors == 2000);
+        const double four_sigma = 4 * std::sqrt(2000 * rate * (1 - rate));
+        CHECK(std::abs(static_cast<double>(delivered) - 2000 * rate) < four_sigma);
+    }
+    CHECK(through(1, false).second == 0);
+    CHECK(through(0, false).first == 0);
+}
+
+TEST_CASE("success rate: another robot changes no draw") {
+    CHECK(through(0.5, false) == through(0.5, true));
+}
+
+TEST_CASE("addresses: those that are made pass over those that were given") {
+    Network net;
+    net.add({.name = "a", .at = {}});
+    net.add({.name = "b", .at = {}, .radio = {.ip = "10.0.0.1"}});
+    net.add({.name = "c", .at = {}});
+    const auto all = devices(net);
+    CHECK(all[0].ip != "10.0.0.1");
+    CHECK(all[1].ip == "10.0.0.1");
+    CHECK(all[2].ip == "10.0.0.3");
+    CHECK(all[0].ip != all[2].ip);
+}
