@@ -66,9 +66,7 @@ Table map_report(const SceneArguments& a) {
                          "such as --size 16x16, or a map.yaml");
     }
     if (a.size) table.size = size_of(*a.size);
-    std::vector<std::string> notices;
-    const auto scene = load_scene(table, a.file, nullptr, notices);
-    return scene_report(*scene, a.json);
+    return scene_report(*load_map(table, a.file), a.json);
 }
 
 void print_list(std::string_view what, const Value& names) {

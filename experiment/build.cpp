@@ -196,8 +196,8 @@ NetworkSettings network_settings(const Scenario& scenario) {
         .propagation_delay = scenario.medium.propagation_delay,
         .event_limit = scenario.scenario.event_limit,
     };
-    std::vector<std::string> notices;
-    settings.scene = load_scene(scenario.scene, scenario.file, scenario.world.get(), notices);
+    settings.scene =
+        scenario.world_walls ? scenario.world_walls : load_map(scenario.scene, scenario.file);
     return settings;
 }
 

@@ -31,6 +31,9 @@ Engine::Engine(NetworkSettings settings)
     if (!positive.contains(settings_.floor_height.value)) {
         throw_out_of_range("network", "floor_height", positive.text, settings_.floor_height.value);
     }
+    for (const Duration d : {settings_.links.tolerance, settings_.links.min_dwell}) {
+        if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
+    }
     if (settings_.metrics) {
         metrics_ = std::make_shared<Metrics>();
         add_sink(Sink{metrics_});

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -65,13 +66,17 @@ void run_in_slices(Network& network, const Scenario& scenario, const RunOptions&
 
 Value optional_value(const std::optional<double>& v) { return v ? Value(*v) : Value(); }
 
-/// The scenario as a document that can be run from `folder`: its map is named from there.
+/// The scenario as a document that can be run from `folder`: its files are named from there.
 Table document_in(const std::string& folder, Scenario scenario) {
     namespace fs = std::filesystem;
-    if (scenario.scene.map) {
-        const fs::path map = fs::path(scenario.file).parent_path() / *scenario.scene.map;
-        scenario.scene.map = fs::proximate(map, folder).string();
+    const auto rename = [&](std::string& path) {
+        path = fs::proximate(fs::path(scenario.file).parent_path() / path, folder).string();
+    };
+    auto& scene = scenario.scene;
+    for (auto* path : {&scene.map, &scene.world, &scenario.movement.file}) {
+        if (*path) rename(**path);
     }
+    if (scene.world_path) std::for_each(scene.world_path->begin(), scene.world_path->end(), rename);
     return to_document(scenario);
 }
 

@@ -171,7 +171,7 @@ struct Scenario {
     std::string file;  ///< as the user named it; maps are relative to it
     ScenarioTable scenario;
     SceneTable scene;
-    std::shared_ptr<const WorldFile> world;  ///< the scene's, if it is a Stage world
+    std::shared_ptr<const Scene> world_walls;  ///< if the scene is a Stage world with walls
     Radio radio;
     MediumTable medium;
     PropagationTable propagation;

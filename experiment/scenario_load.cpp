@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 namespace rovernet {
 namespace {
@@ -139,19 +140,18 @@ Scenario load_scenario(const std::string& path, const ScenarioOptions& options) 
     const fs::path folder = fs::path(path).parent_path();
     apply_world_options(table, options, folder);
 
-    std::shared_ptr<const WorldFile> world;
+    std::optional<WorldFile> world;
     std::vector<std::string> notices;
     const Value* scene = table.find("scene");
     if (scene && scene->table() && scene->table()->find("world")) {
         const SceneTable said = read_scene(*scene);
-        world = std::make_shared<const WorldFile>(
-            read_worldfile((folder / *said.world).string(), world_options(said, path)));
+        world = read_worldfile((folder / *said.world).string(), world_options(said, path));
         notices = world->notices;
         add_world(table, stage_document(*world, notices));
     }
     for (const auto& option : options.set) set_option(table, option);
     Scenario scenario = read_scenario(document, path);
-    scenario.world = std::move(world);
+    if (world) scenario.world_walls = load_walls(scenario.scene, path, *world, notices);
     scenario.notices.insert(scenario.notices.begin(), notices.begin(), notices.end());
     return scenario;
 }

@@ -33,7 +33,7 @@ std::vector<MaterialTable> sidecar(const fs::path& map) {
     return read_scene(Value(std::move(scene))).materials;
 }
 
-OccupancyGrid load_map(const SceneTable& scene, const fs::path& path) {
+OccupancyGrid load_grid(const SceneTable& scene, const fs::path& path) {
     const auto extension = path.extension();
     const bool yaml = extension == ".yaml" || extension == ".yml";
     if (yaml && scene.size) {
@@ -77,7 +77,7 @@ std::shared_ptr<const Scene> map_scene(const SceneTable& scene, const std::strin
     if (tables.size() > most) {
         throw InputError(tables[most].where, "materials: expected at most 254 of them");
     }
-    OccupancyGrid grid = load_map(scene, path);
+    OccupancyGrid grid = load_grid(scene, path);
     assign_materials(grid, tables);
     std::vector<Material> materials{made_of({}, scene.wall_height)};
     materials.front().name = "wall";
@@ -85,24 +85,6 @@ std::shared_ptr<const Scene> map_scene(const SceneTable& scene, const std::strin
         materials.push_back(made_of(table, scene.wall_height));
     }
     return std::make_shared<const Scene>(std::move(grid), std::move(materials));
-}
-
-std::shared_ptr<const Scene> world_scene(const SceneTable& scene, const std::string& file,
-                                         const WorldFile& world,
-                                         std::vector<std::string>& notices) {
-    StageWalls walls = stage_walls(world, world_options(scene, file));
-    notices.insert(notices.end(), walls.notices.begin(), walls.notices.end());
-    for (Material& material : walls.materials) {
-        const auto found =
-            std::find_if(scene.materials.begin(), scene.materials.end(),
-                         [&](const MaterialTable& t) { return t.color == material.name; });
-        material = found == scene.materials.end() ? Material{.name = material.name}
-                                                  : made_of(*found, std::nullopt);
-        if (scene.wall_height && found == scene.materials.end())
-            material.height = *scene.wall_height;
-    }
-    if (walls.grids.empty()) return nullptr;
-    return std::make_shared<const Scene>(std::move(walls.grids), std::move(walls.materials));
 }
 
 }  // namespace
@@ -120,18 +102,33 @@ WorldOptions world_options(const SceneTable& scene, const std::string& file) {
     return options;
 }
 
-std::shared_ptr<const Scene> load_scene(const SceneTable& scene, const std::string& file,
-                                        const WorldFile* world, std::vector<std::string>& notices) {
+std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file) {
+    if (!scene.map) return nullptr;
     try {
-        if (scene.world && world) return world_scene(scene, file, *world, notices);
-        if (scene.map) return map_scene(scene, file);
-        return nullptr;
+        return map_scene(scene, file);
     } catch (const InputError& error) {
-        if (scene.world || error.where().source == scene.map_where.source) throw;
+        if (error.where().source == scene.map_where.source) throw;
         throw InputError(scene.map_where, std::string("map: ") + error.what());
     } catch (const std::invalid_argument& error) {
         throw InputError(scene.map_where, error.what());
     }
+}
+
+std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::string& file,
+                                        const WorldFile& world, std::vector<std::string>& notices) {
+    StageWalls walls = stage_walls(world, world_options(scene, file));
+    notices.insert(notices.end(), walls.notices.begin(), walls.notices.end());
+    for (Material& material : walls.materials) {
+        const auto found =
+            std::find_if(scene.materials.begin(), scene.materials.end(),
+                         [&](const MaterialTable& t) { return t.color == material.name; });
+        material = found == scene.materials.end() ? Material{.name = material.name}
+                                                  : made_of(*found, std::nullopt);
+        if (scene.wall_height && found == scene.materials.end())
+            material.height = *scene.wall_height;
+    }
+    if (walls.grids.empty()) return nullptr;
+    return std::make_shared<const Scene>(std::move(walls.grids), std::move(walls.materials));
 }
 
 }  // namespace rovernet

@@ -86,11 +86,15 @@ Table scene_document(const SceneTable& scene);
 /// How the scene's world is to be read; folders relative to the scenario `file`.
 WorldOptions world_options(const SceneTable& scene, const std::string& file);
 
-/// The scene itself; null for an open field.
-/// @param world    the scene's world, parsed; null if it has a map or nothing
-/// @param notices  appended
+/// The scene's map; null for an open field.
+/// @param file  of the scenario
 /// @throws InputError naming the scenario's line, then the map's own error
-std::shared_ptr<const Scene> load_scene(const SceneTable& scene, const std::string& file,
-                                        const WorldFile* world, std::vector<std::string>& notices);
+std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file);
+
+/// The walls of the scene's world; null if it has none.
+/// @param notices  appended
+/// @throws InputError with its place in the world
+std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::string& file,
+                                        const WorldFile& world, std::vector<std::string>& notices);
 
 }  // namespace rovernet

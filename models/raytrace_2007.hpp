@@ -12,7 +12,8 @@ namespace rovernet {
 /// up before any wall is looked for, and a ray is given up once its walls have spent the budget.
 /// The wall factor w is in dB per centimetre; real walls have 0.15 (wood) to 0.9 (chipboard), so
 /// that the values of old world files (6 to 100) suit walls drawn a few pixels thin only. N holds
-/// the walls of a usual building already: take N = 20 when the map shows them all.
+/// the walls of a usual building already: take N = 20 when the map shows them all. A wall whose
+/// material gives a loss of its own adds that instead of 100 w l.
 /// Source: the 2007 thesis, algorithm 1; formula of ITU-R P.1238-2.
 struct Raytrace2007 {
     static constexpr std::string_view name = "raytrace_2007";

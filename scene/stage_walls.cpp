@@ -196,14 +196,22 @@ const OccupancyGrid& Builder::drawing(const std::string& path, const Location& w
 
 /// The picture to read, or none if it is missing and that is all right.
 std::optional<std::string> Builder::picture(const WorldProperty& bitmap) {
-    const std::string written = bitmap.text();
-    std::string name = written;
-    const std::string last = std::filesystem::path(written).filename().string();
+    const std::filesystem::path written(bitmap.text());
+    std::string name = written.string();
+    const std::string last = written.filename().string();
     for (const auto& [old_name, new_name] : options_.bitmaps) {
         if (old_name == written || old_name == last) name = new_name;
     }
-    const WorldSearch::Result found = search_.find(name);
+    WorldSearch::Result found = search_.find(name);
     if (found.path) return found.path;
+    if (name != written) {  // beside the one that it stands for
+        const auto beside = search_.find((written.parent_path() / name).string());
+        if (beside.path) return beside.path;
+        for (const auto& place : beside.tried) {
+            const bool known = std::count(found.tried.begin(), found.tried.end(), place) > 0;
+            if (!known) found.tried.push_back(place);
+        }
+    }
     if (options_.lenient) {
         note(bitmap.where,
              fmt::format("bitmap \"{}\" is missing and left out; tried {}", name, found.places()));

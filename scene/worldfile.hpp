@@ -42,7 +42,7 @@ struct WorldEntity {
 struct WorldOptions {
     std::vector<std::string> search_path =
         {};  ///< folders for includes and bitmaps, then STAGEPATH
-    /// Bitmaps by other names: OLD as the world names it, NEW relative to the world.
+    /// Bitmaps by other names: OLD as the world names it, NEW relative to the world or to OLD.
     std::vector<std::pair<std::string, std::string>> bitmaps = {};
     bool lenient = false;  ///< a missing include or bitmap is a notice, not an error
 };

@@ -491,7 +491,7 @@ TEST_CASE("stage world: a world whose bitmap never existed says so, and loads wi
                          doctest::Contains("wifi_ray.world:22:3: bitmap: no file "
                                            "\"bitmaps/cave_f.png\"; expected one of "),
                          InputError);
-    options.bitmaps = {{"cave_f.png", "bitmaps/cave_filled.png"}};
+    options.bitmaps = {{"cave_f.png", "cave_filled.png"}};
     const StageWalls walls = stage_walls(world, options);
     REQUIRE(!walls.grids.empty());
     CHECK(walls.grids[0].columns == 500);
