@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/scenario.hpp"
 
+#include "experiment/located.hpp"
 #include "experiment/names.hpp"
 
 #include <fmt/format.h>
@@ -119,7 +120,9 @@ void read_movement(TableReader& document, Scenario& out) {
     out.movement.where = file ? file->where : section->where;
     if (!file) return;
     const auto path = std::filesystem::path(out.file).parent_path() / *out.movement.file;
-    const MovementFile movements(path.string(), out.movement.syntax);
+    const MovementFile movements = located_file(out.movement.where, "file", [&] {
+        return MovementFile(path.string(), out.movement.syntax);
+    });
     out.movement.robots = movements.robots();
     const auto& notices = movements.notices();
     out.notices.insert(out.notices.end(), notices.begin(), notices.end());

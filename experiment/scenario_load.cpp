@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "experiment/located.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/stage_world.hpp"
 #include "experiment/toml.hpp"
@@ -145,7 +146,9 @@ Scenario load_scenario(const std::string& path, const ScenarioOptions& options) 
     const Value* scene = table.find("scene");
     if (scene && scene->table() && scene->table()->find("world")) {
         const SceneTable said = read_scene(*scene);
-        world = read_worldfile((folder / *said.world).string(), world_options(said, path));
+        world = located_file(said.map_where, "world", [&] {
+            return read_worldfile((folder / *said.world).string(), world_options(said, path));
+        });
         notices = world->notices;
         add_world(table, stage_document(*world, notices));
     }

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// What robots of a scenario do when something happens, and robots that a movement file moves.
+#include "experiment/run.hpp"
+#include "experiment/whereabouts.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+using test::TemporaryFolder;
+
+namespace {
+
+/// Robots a, b and c in a line, 8 m apart, of 10 m reach; `extra` goes to b's table.
+std::string line_of_three(const std::string& extra, const std::string& rest = "") {
+    return "[scenario]\nduration = \"60 s\"\n[propagation]\nmodel = \"disc\"\nrange = \"10 m\"\n"
+           "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n[[robot]]\nname = \"c\"\n"
+           "at = [\"16 m\", \"0 m\"]\n[[robot]]\nname = \"b\"\nat = [\"8 m\", \"0 m\"]\n" +
+           extra + "\n" + rest;
+}
+
+const std::string a_says = "[[traffic]]\nfrom = \"a\"\npayload = \"go\"\nstart = \"1 s\"\n";
+const std::string c_says = "[[traffic]]\nfrom = \"c\"\npayload = \"go\"\nstart = \"2 s\"\n";
+
+/// Who said what, in order: "b: heard".
+std::vector<std::string> said(const std::string& scenario) {
+    const TemporaryFolder folder;
+    const Scenario s = load_scenario(folder.write("s.toml", scenario), {});
+    const RunResult result = run_scenario(s, {.folder = folder.path("out"), .speed = {}});
+    std::vector<std::string> words;
+    for (const auto& happening : result.timeline) {
+        const auto& text = happening.text;
+        if (!text.starts_with("says ")) continue;
+        words.push_back(*happening.detail.find("robot")->string() + ": " +
+                        text.substr(6, text.size() - 7));
+    }
+    return words;
+}
+
+Vec3 place_of(const std::string& scenario, const std::string& robot, double t) {
+    const TemporaryFolder folder;
+    const Scenario s = load_scenario(folder.write("s.toml", scenario), {});
+    const auto then = whereabouts(s, {start_of_run + from_seconds(t)});
+    for (const auto& row : then.front().robots) {
+        if (row.name == robot) return row.position;
+    }
+    return {NAN, NAN, NAN};
+}
+
+using Words = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("reactions: to a message, by its beginning, its origin and its hops") {
+    CHECK(said(line_of_three("on_receive = { payload = \"g\", send = \"yes\" }", a_says)) ==
+          Words{"a: go", "b: yes"});
+    CHECK(said(line_of_three("on_receive = { payload = \"x\", send = \"yes\" }", a_says)) ==
+          Words{"a: go"});
+    CHECK(said(line_of_three("on_receive = { from = \"c\", send = \"yes\" }", a_says + c_says)) ==
+          Words{"a: go", "c: go", "b: yes"});
+    const std::string relayed =
+        "[[robot]]\nname = \"d\"\nat = [\"24 m\", \"0 m\"]\n"
+        "on_receive = { hops = #, send = \"near\" }\n";
+    for (const auto& [hops, answers] : {std::pair{"1", false}, {"2", true}}) {
+        std::string d = relayed;
+        d.replace(d.find('#'), 1, hops);
+        const auto words =
+            said(line_of_three("", d + "[[traffic]]\nfrom = \"b\"\npayload = \"go\"\n"));
+        CHECK(std::count(words.begin(), words.end(), "d: near") == (answers ? 1 : 0));
+    }
+}
+
+TEST_CASE("reactions: at a time, and to the end of a movement") {
+    CHECK(said(line_of_three("on_time = [{ time = \"3 s\", send = \"three\" }, "
+                             "{ time = \"5 s\", send = \"five\" }]",
+                             a_says)) == Words{"a: go", "b: three", "b: five"});
+    CHECK(said(line_of_three("move = { model = \"goal\", to = [\"8 m\", \"4 m\"] }\n"
+                             "on_arrival = { send = \"there\" }")) == Words{"b: there"});
+}
+
+TEST_CASE("reactions: a robot that loses another's signal moves, says so or stops") {
+    const std::string leaving = "move = { model = \"goal\", to = [\"8 m\", \"60 m\"] }\n";
+    // From (8, y) a robot at (0, 0) is heard up to y = 6.
+    const std::string stops =
+        line_of_three(leaving + "on_link_lost = { from = \"a\", stop = true }");
+    CHECK(std::abs(place_of(stops, "b", 30).y - 6) < 1e-4);
+    const std::string home = line_of_three(
+        leaving + "on_link_lost = { move = { model = \"goal\", to = [\"8 m\", \"0 m\"] } }");
+    CHECK(std::abs(place_of(home, "b", 8).y - 4) < 1e-4);
+    CHECK(place_of(home, "b", 30).y == 0);
+}
+
+TEST_CASE("movement file: makes the robots that it names, and moves those that are there") {
+    const TemporaryFolder folder;
+    folder.write("walk.tcl",
+                 "$node_(0) set X_ 1\n$node_(0) set Y_ 0\n$node_(1) set X_ 5\n$node_(1) set Y_ 0\n"
+                 "$ns_ at 2.0 \"$node_(0) setdest 1 10 1\"\n"
+                 "$ns_ at 7.0 \"$node_(0) setdest 11 5 2\"\n");
+    const std::string text =
+        "[scenario]\nduration = \"20 s\"\n[movement]\nfile = \"walk.tcl\"\n"
+        "[[robot]]\nname = \"n0\"\nradio = { power = \"3 dBm\" }\n"
+        "[[traffic]]\nfrom = \"n1\"\npayload = \"x\"\n";
+    const Scenario s = load_scenario(folder.write("s.toml", text), {});
+    const auto network = network_at(s, start_of_run + from_seconds(9));
+    REQUIRE(network->size() == 2);
+    const NodeId n0 = *network->find("n0");
+    CHECK(network->medium().radio(n0).power == Dbm{3});
+    // At 7 s it was at (1, 5); from there 2 s at 2 m/s.
+    CHECK(distance(network->position(n0), {5, 5, 0}) < 1e-9);
+    CHECK(network->metrics().messages == 1);
+    CHECK(to_document(s).find("movement")->table()->find("file"));
+}
+
+TEST_CASE("movement file: a vehicle is silent before it appears and after it is gone") {
+    const TemporaryFolder folder;
+    folder.write("fcd.xml", R"(<fcd-export>
+    <timestep time="0.00"><vehicle id="car" x="0" y="0" angle="90" speed="1"/></timestep>
+    <timestep time="1.00"><vehicle id="car" x="2" y="0" angle="90" speed="2"/><vehicle id="bus" x="9" y="0"/></timestep>
+    <timestep time="2.00"><vehicle id="bus" x="9" y="4"/></timestep>
+    <timestep time="3.00"/>
+</fcd-export>
+)");
+    const Scenario s = load_scenario(folder.path("fcd.xml"), {});
+    const auto at = [&](double t) { return network_at(s, start_of_run + from_seconds(t)); };
+    const auto on = [](const Network& net, const char* name) {
+        return net.medium().is_on(*net.find(name));
+    };
+    CHECK(on(*at(0.5), "car"));
+    CHECK_FALSE(on(*at(0.5), "bus"));
+    CHECK(on(*at(1.5), "bus"));
+    CHECK_FALSE(on(*at(1.5), "car"));
+    CHECK(distance(at(1.5)->position(*at(0)->find("bus")), {9, 2, 0}) < 1e-9);
+    CHECK(std::abs(at(0.5)->heading(*at(0)->find("car")).value) < 1e-9);
+}
