@@ -5,10 +5,10 @@
 #include "experiment/link_table.hpp"
 #include "experiment/loss_table.hpp"
 #include "experiment/output.hpp"
-#include "experiment/picture.hpp"
 #include "experiment/run.hpp"
 #include "experiment/scene_report.hpp"
 #include "experiment/whereabouts.hpp"
+#include "pictures/picture.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/movement_table.hpp"
 #include "experiment/propagation_table.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/robot_table.hpp"
 #include "experiment/scene_table.hpp"
 #include "experiment/value.hpp"
-#include "mobility/movement_file.hpp"
 #include "models/link_changes.hpp"
 #include "models/radio.hpp"
 #include "routing/flood.hpp"
@@ -67,27 +67,6 @@ struct LinksTable {
                               "a link change behind walls is known to this"),
                         field("min_dwell", &LinksTable::min_dwell, dwell,
                               "of models of unknown shape: shorter states of a link are missed"));
-    }
-};
-
-template <>
-struct EnumNames<MovementSyntax> {
-    static constexpr std::array<std::string_view, 2> values = {"strict", "tolerant"};
-};
-
-/// [movement]
-struct MovementTable {
-    std::optional<std::string> file;  ///< ns-2, BonnMotion or SUMO movements
-    MovementSyntax syntax = MovementSyntax::strict;
-    std::vector<FileRobot> robots = {};  ///< that the file names
-    Location where = {};
-
-    static constexpr auto fields() {
-        return describe(
-            field("file", &MovementTable::file,
-                  "movements of ns-2 (setdest), BonnMotion or SUMO (FCD), for the robots it names"),
-            field("syntax", &MovementTable::syntax,
-                  "strict: a line that means nothing is an error; tolerant: it is left out"));
     }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/plot.hpp"
+#include "pictures/plot.hpp"
 
 #include "sim/math.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/plot.hpp"
+#include "pictures/plot.hpp"
 
-#include "experiment/label.hpp"
-#include "experiment/legend.hpp"
+#include "pictures/label.hpp"
+#include "pictures/legend.hpp"
 
 #include <doctest/doctest.h>
 

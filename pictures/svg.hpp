@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/color.hpp"
+#include "pictures/color.hpp"
 
 #include <initializer_list>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/legend.hpp"
 #include "experiment/network.hpp"
-#include "experiment/robot_marks.hpp"
-#include "experiment/svg.hpp"
+#include "pictures/legend.hpp"
+#include "pictures/robot_marks.hpp"
+#include "pictures/svg.hpp"
 
 #include <vector>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/picture.hpp"
+#include "pictures/picture.hpp"
 
 #include "experiment/build.hpp"
-#include "experiment/heat_layer.hpp"
-#include "experiment/link_lines.hpp"
-#include "experiment/map_layer.hpp"
-#include "experiment/robot_marks.hpp"
-#include "experiment/trail_lines.hpp"
+#include "pictures/heat_layer.hpp"
+#include "pictures/link_lines.hpp"
+#include "pictures/map_layer.hpp"
+#include "pictures/robot_marks.hpp"
+#include "pictures/trail_lines.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/label.hpp"
+#include "pictures/label.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/legend.hpp"
-#include "experiment/plot.hpp"
-#include "experiment/svg.hpp"
+#include "pictures/legend.hpp"
+#include "pictures/plot.hpp"
+#include "pictures/svg.hpp"
 #include "scene/scene.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/link_lines.hpp"
+#include "pictures/link_lines.hpp"
 
 #include "sim/error.hpp"
 

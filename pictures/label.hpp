@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/plot.hpp"
+#include "pictures/plot.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/plot.hpp"
-#include "experiment/svg.hpp"
+#include "pictures/plot.hpp"
+#include "pictures/svg.hpp"
 
 #include <functional>
 #include <string>

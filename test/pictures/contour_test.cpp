@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/contour.hpp"
+#include "pictures/contour.hpp"
 
 #include "models/disc.hpp"
 #include "models/friis.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/coverage.hpp"
+#include "pictures/coverage.hpp"
 
 #include "experiment/build.hpp"
 #include "experiment/toml.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/legend.hpp"
-#include "experiment/plot.hpp"
-#include "experiment/svg.hpp"
-#include "experiment/trail.hpp"
+#include "pictures/legend.hpp"
+#include "pictures/plot.hpp"
+#include "pictures/svg.hpp"
+#include "pictures/trail.hpp"
 
 #include <cstdint>
 

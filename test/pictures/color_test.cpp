@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/color.hpp"
+#include "pictures/color.hpp"
 
 #include <doctest/doctest.h>
 

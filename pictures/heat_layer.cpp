@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/heat_layer.hpp"
+#include "pictures/heat_layer.hpp"
 
-#include "experiment/contour.hpp"
+#include "pictures/contour.hpp"
 #include "scene/png.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/svg.hpp"
+#include "pictures/svg.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/robot_marks.hpp"
+#include "pictures/robot_marks.hpp"
 
 #include "sim/math.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/svg.hpp"
+#include "pictures/svg.hpp"
 
-#include "test/experiment/well_formed.hpp"
+#include "test/pictures/well_formed.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/trail_lines.hpp"
+#include "pictures/trail_lines.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/coverage.hpp"
-#include "experiment/legend.hpp"
-#include "experiment/plot.hpp"
-#include "experiment/svg.hpp"
+#include "pictures/coverage.hpp"
+#include "pictures/legend.hpp"
+#include "pictures/plot.hpp"
+#include "pictures/svg.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/coverage.hpp"
+#include "pictures/coverage.hpp"
 #include "sim/geometry.hpp"
 #include "sim/units.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/legend.hpp"
+#include "pictures/legend.hpp"
 
 #include <algorithm>
 

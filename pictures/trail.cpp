@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/trail.hpp"
+#include "pictures/trail.hpp"
 
 #include <algorithm>
 #include <variant>

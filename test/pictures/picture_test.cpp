@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/picture.hpp"
+#include "pictures/picture.hpp"
 
-#include "experiment/map_layer.hpp"
 #include "experiment/toml.hpp"
-#include "experiment/trail.hpp"
 #include "mobility/waypoints.hpp"
+#include "pictures/map_layer.hpp"
+#include "pictures/trail.hpp"
 #include "scene/image.hpp"
 #include "sim/error.hpp"
-#include "test/experiment/well_formed.hpp"
+#include "test/pictures/well_formed.hpp"
 #include "test/scene/drawn_map.hpp"
 #include "test/scene/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/picture.hpp"
+#include "pictures/picture.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

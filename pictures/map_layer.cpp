@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/map_layer.hpp"
+#include "pictures/map_layer.hpp"
 
 #include <fmt/format.h>
 

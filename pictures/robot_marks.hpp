@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/label.hpp"
-#include "experiment/legend.hpp"
 #include "experiment/network.hpp"
-#include "experiment/plot.hpp"
-#include "experiment/svg.hpp"
+#include "pictures/label.hpp"
+#include "pictures/legend.hpp"
+#include "pictures/plot.hpp"
+#include "pictures/svg.hpp"
 
 #include <optional>
 #include <string>
