@@ -4,18 +4,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rovernet {
 
 NodeId robot_named(const Network& network, const std::string& name) {
     if (const auto node = network.find(name)) return *node;
-    constexpr std::uint32_t most_listed = 20;
+    constexpr std::size_t most_listed = 20, most_compared = 1000;
     std::vector<std::string> names;
-    for (std::uint32_t i = 0; i < network.size() && i < most_listed; ++i) {
+    for (std::uint32_t i = 0; i < network.size() && i < most_compared; ++i) {
         names.push_back(network.name(NodeId{i}));
     }
-    throw std::invalid_argument(fmt::format("there is no robot \"{}\"; expected one of {}{}", name,
-                                            fmt::join(names, ", "),
-                                            network.size() > most_listed ? " ..." : ""));
+    const std::string near = did_you_mean(name, names);
+    names.resize(std::min(names.size(), most_listed));
+    throw std::invalid_argument(fmt::format(
+        "there is no robot \"{}\"; expected one of {}{}{}{}", name, fmt::join(names, ", "),
+        network.size() > most_listed ? " ..." : "", near.empty() ? "" : "; ", near));
 }
 
 std::unique_ptr<Network> network_at(const Scenario& scenario, Time at) {

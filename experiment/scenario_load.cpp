@@ -18,6 +18,18 @@ namespace fs = std::filesystem;
 
 bool is_world(const std::string& path) { return fs::path(path).extension() == ".world"; }
 
+/// A map is no scenario, however alike a YAML file looks.
+void refuse_map(const std::string& path) {
+    const auto ending = fs::path(path).extension();
+    for (const char* map : {".yaml", ".yml", ".png", ".pgm"}) {
+        if (ending != map || !fs::is_regular_file(path)) continue;
+        throw InputError(
+            Location{path},
+            "a map, not a scenario; expected a scenario (.toml) that names it: [scene] "
+            "map = \"...\"; rovernet scene shows a map alone");
+    }
+}
+
 /// A Stage world alone, as the document of a scenario.
 Value world_alone(const std::string& path) {
     Table scene, scenario, document;
@@ -134,6 +146,7 @@ void add_world(Table& document, const Table& world) {
 }  // namespace
 
 Scenario load_scenario(const std::string& path, const ScenarioOptions& options) {
+    refuse_map(path);
     Value document = is_world(path)      ? world_alone(path)
                      : is_movement(path) ? movement_alone(path)
                                          : read_toml(path);

@@ -2,6 +2,7 @@
 #include "pictures/picture.hpp"
 
 #include "experiment/build.hpp"
+#include "experiment/run.hpp"
 #include "pictures/heat_layer.hpp"
 #include "pictures/link_lines.hpp"
 #include "pictures/map_layer.hpp"
@@ -32,16 +33,6 @@ void check_range(const char* name, double value, double low, double high) {
     if (value >= low && value <= high) return;
     throw std::invalid_argument(
         fmt::format("picture: {} must be from {} to {}, got {}", name, low, high, value));
-}
-
-NodeId robot_named(const Network& network, const std::string& name) {
-    if (const auto node = network.find(name)) return *node;
-    std::vector<std::string> names;
-    for (std::uint32_t i = 0; i < network.size(); ++i) names.push_back(network.name(NodeId{i}));
-    throw std::invalid_argument(
-        fmt::format("coverage: there is no robot \"{}\"; expected one of "
-                    "the scenario's {}; {}",
-                    name, names.size(), did_you_mean(name, names)));
 }
 
 /// The lines above a picture.
