@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a Network does with movements: turning, top speeds, being put elsewhere.
 #include "experiment/network.hpp"
+#include "mobility/patrol.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/disc.hpp"
 #include "routing/flood.hpp"
@@ -90,6 +91,8 @@ TEST_CASE("motion: switched off while it turns, a robot goes on with its turn") 
     net.run_until(start_of_run + 6s);
     CHECK(near(net.heading(s).value, pi_ / 4));
     net.switch_on(s);
+    net.run_until(start_of_run + 6500ms);
+    CHECK(near(net.heading(s).value, 3 * pi_ / 8));
     net.run_until(start_of_run + 7s);
     CHECK(near(net.heading(s).value, pi_ / 2));
     net.run_until(start_of_run + 12s);
@@ -189,6 +192,26 @@ TEST_CASE("links: records tell every change once, in time, and end where the sta
         CHECK(std::abs(book->changes[static_cast<std::size_t>(i)].first - t) < a_nanosecond);
         CHECK(book->changes[static_cast<std::size_t>(i)].second == (i == 0 || i == 4));
     }
+}
+
+TEST_CASE("links: plans that change leave no events behind") {
+    struct Watcher {
+        KindMask kinds() const { return kind_links; }
+        void on(const Record&, const RecordContext&) {}
+    };
+    Network net({.propagation = Disc{.range = Meters{10}}});
+    net.add_sink(Watcher{});
+    net.add({.name = "a", .at = {}});
+    const NodeId b = net.add({.name = "b", .at = {-100, 0, 0}});
+    constexpr int plans = 200;
+    for (int i = 0; i < plans; ++i) {
+        net.at(start_of_run + std::chrono::milliseconds(10 * i), [&net, b, i] {
+            // Each plan brings the next change nearer; the last one has many.
+            net.move(b, Patrol{.path = {{100, 0, 0}, {-100, 0, 0}}, .speed = {1 + 0.1 * i}});
+        });
+    }
+    net.run_until(start_of_run + 300s);
+    CHECK(net.events() < 4 * plans);  // an action each, a look each, and a few more
 }
 
 TEST_CASE("links: nobody asks, nobody searches: the events are the same with and without") {

@@ -138,6 +138,15 @@ TEST_CASE("layers: a cell of the planning grid is free only if no obstacle enter
     CHECK(in_doubt == 0);
 }
 
+TEST_CASE("layers: a planning grid of too many cells takes larger ones, as few as it must") {
+    const std::vector<OccupancyGrid> maps{drawn_map({"#..", "..."}, 0.01), box(60, 30, 1, 1)};
+    const OccupancyGrid grid = planning_grid(maps);
+    const double cells = 1.0 * grid.columns * grid.rows;
+    CHECK(cells < 4.1e6);
+    CHECK(cells > 3.5e6);
+    CHECK(grid.columns * grid.cell_width >= 61);
+}
+
 TEST_CASE("layers: a material that is not there is refused") {
     OccupancyGrid grid = box(0, 0, 1, 1);
     grid.material = 1;
