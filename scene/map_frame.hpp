@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/occupancy.hpp"
+#include "sim/math.hpp"
 
 #include <cmath>
 
@@ -22,14 +23,12 @@ inline constexpr double cell_tolerance = 1e-9;
 class MapFrame {
   public:
     MapFrame() = default;
-    /// The one place where the map's rotation is evaluated: sine and cosine come from the C
-    /// library, once per map, and are exactly 0 and 1 for yaw = 0.
     explicit MapFrame(const OccupancyGrid& grid)
-        : origin_(grid.origin),
-          cosine_(std::cos(grid.yaw)),
-          sine_(std::sin(grid.yaw)),
-          cell_width_(grid.cell_width),
-          cell_height_(grid.cell_height) {}
+        : origin_(grid.origin), cell_width_(grid.cell_width), cell_height_(grid.cell_height) {
+        const auto [sine, cosine] = math::sincos(grid.yaw);
+        sine_ = sine;
+        cosine_ = cosine;
+    }
 
     /// In cells. A coordinate within cell_tolerance of a grid line is put on it, so that decimals
     /// such as 0.15 m in cells of 0.05 m mean what they say.

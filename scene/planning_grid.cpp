@@ -52,7 +52,7 @@ bool apart(const Corners& rectangle, int column, int row) {
         const double du = q.u - p.u, dv = q.v - p.v;
         // The cell's corner that lies farthest to the left of the side.
         const double u = column + (dv < 0 ? 1 : 0), v = row + (du > 0 ? 1 : 0);
-        if (du * (v - p.v) - dv * (u - p.u) <= shrink * std::hypot(du, dv)) return true;
+        if (du * (v - p.v) - dv * (u - p.u) <= shrink * std::sqrt(du * du + dv * dv)) return true;
     }
     return false;
 }

@@ -38,8 +38,9 @@ void check(const OccupancyGrid& grid, std::size_t materials) {
     for (std::size_t i = 0; i < grid.cells.size(); ++i)
         if (grid.material_of(i) >= materials)
             refuse(fmt::format("there is no material number {}", grid.material_of(i)));
-    if (!std::isfinite(grid.origin.x + grid.origin.y + grid.yaw))
-        refuse("origin [m] and yaw [rad] must be finite");
+    constexpr double most_turned = 1e9;  // what math::sincos takes
+    if (!std::isfinite(grid.origin.x + grid.origin.y) || !(std::abs(grid.yaw) <= most_turned))
+        refuse("origin [m] must be finite and yaw [rad] within 1e9");
 }
 
 std::array<Vec3, 4> corners_of(const CellRectangle& r, const MapFrame& frame) {
