@@ -3,6 +3,7 @@
 
 #include "experiment/located.hpp"
 #include "experiment/names.hpp"
+#include "sim/math.hpp"
 
 #include <fmt/format.h>
 
@@ -128,6 +129,22 @@ void read_movement(TableReader& document, Scenario& out) {
     out.notices.insert(out.notices.end(), notices.begin(), notices.end());
 }
 
+/// A random waypoint model that does not start in its stationary state slows down for a while.
+void note_decay(Scenario& out) {
+    for (const RobotTable& robot : out.robots) {
+        const auto* model = std::get_if<RandomWaypoint>(&robot.move.model);
+        if (!model || model->start == StartState::stationary) continue;
+        const double low = model->min_speed.value, high = model->max_speed.value;
+        if (low == high) continue;
+        const double settled = low > 0 ? (high - low) / math::log(high / low) : 0;
+        out.notices.push_back(fmt::format(
+            "{}: robot \"{}\" starts its random_waypoint from \"{}\": its mean speed falls from "
+            "{:.3g} "
+            "to {:.3g} m/s; start = \"stationary\", without at or place, has no such phase",
+            robot.move.where.text(), robot.name, name_of(model->start), (low + high) / 2, settled));
+    }
+}
+
 /// Whether the movement file, which names these robots, places the robot of that table.
 bool placed_by_file(const Value& robot, const std::set<std::string_view>& names) {
     const Table* table = robot.table();
@@ -208,6 +225,7 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     if (out.robots.empty() && out.movement.robots.empty())
         document.missing("robot", "[[robot]] with a name and a place");
     check_names(out);
+    note_decay(out);
     check_addresses(out);
     return out;
 }

@@ -30,6 +30,17 @@ const std::string three =
 
 }  // namespace
 
+TEST_CASE("build: a random waypoint that starts elsewhere than in its stationary state is noted") {
+    const std::string model =
+        "move = { model = \"random_waypoint\", min_speed = \"1 m/s\", max_speed "
+        "= \"20 m/s\", area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 m\"]]";
+    const std::string r = "[[robot]]\nname = \"r\"\n";
+    CHECK(Built(r + model + " }\n").scenario.notices.empty());
+    const Built classic(r + model + ", start = \"uniform\" }\n");
+    REQUIRE(classic.scenario.notices.size() == 1);
+    CHECK(classic.scenario.notices[0].find("falls from 10.5 to 6.34 m/s") != std::string::npos);
+}
+
 TEST_CASE("build: count makes robots name0, name1, ... at places of their own in the area") {
     Built built(three);
     CHECK_FALSE(built.network.find("r"));
