@@ -6,13 +6,14 @@
 #include "models/itu_indoor.hpp"
 #include "models/log_distance.hpp"
 #include "models/raytrace_2007.hpp"
+#include "models/two_ray.hpp"
 
 #include <tuple>
 
 namespace rovernet {
 
 /// The propagation models that scenario files know by name, cheapest first.
-using PropagationModels = std::tuple<Disc, Friis, ItuIndoor, LogDistance, Raytrace2007>;
+using PropagationModels = std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, Raytrace2007>;
 
 /// Calls `visit.template operator()<Model>()` for each listed model.
 template <class Visitor>

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "models/neighbour.hpp"
 
-#include "sim/math.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 namespace rovernet {
-
-Dbm noise_floor(const Radio& radio) {
-    constexpr double thermal = -173.97518719422808;  // 10 log10(k 290 K / 1 mW), per hertz
-    return Dbm{thermal + 10 * math::log10(radio.bandwidth.value)} + radio.noise_figure;
-}
 
 int link_quality(Db margin) {
     return static_cast<int>(std::clamp(std::floor(2 * margin.value + 0.5), 0.0, 100.0));

@@ -20,10 +20,6 @@ struct Neighbour {
     int quality;  ///< 0 ... 100, see link_quality
 };
 
-/// Thermal noise at 290 K in the radio's bandwidth, plus its noise figure:
-/// -173.975 dBm + 10 log10(B / 1 Hz) + NF. Source: k T_0 with the CODATA 2018 value of k.
-Dbm noise_floor(const Radio& radio);
-
 /// 2 per decibel above the receiver's sensitivity: 0 at a margin of 0 dB, 100 from 50 dB on.
 int link_quality(Db margin);
 

@@ -57,6 +57,8 @@ struct Radio {
     bool encryption = false;                     ///< a label
     std::optional<Dbm> range_db = std::nullopt;  ///< [dBm] level that pictures draw as a contour
 
+    friend bool operator==(const Radio&, const Radio&) = default;
+
     static constexpr auto fields() {
         return describe(
             field("power", &Radio::power, "transmitter output power"),
@@ -97,6 +99,12 @@ constexpr Dbm received_power(const Radio& from, const Radio& to, Db path_loss) {
     return from.power + from.antenna_gain - from.cable_loss - path_loss + to.antenna_gain -
            to.cable_loss;
 }
+
+/// Thermal noise at 290 K in a bandwidth, plus the receiver's noise figure:
+/// -173.975 dBm + 10 log10(B / 1 Hz) + NF. Source: k T_0 with the CODATA 2018 value of k.
+Dbm noise_floor(Hertz bandwidth, Db noise_figure);
+/// That of a radio's receiver.
+Dbm noise_floor(const Radio& radio);
 
 /// Time on air of `bytes` [bytes]: preamble + bits / rate, rounded to the nearest nanosecond.
 Duration airtime(const Radio& radio, std::uint32_t bytes);

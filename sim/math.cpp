@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim/math.hpp"
 
+#include "sim/polynomial.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,20 +16,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-// Even and odd terms apart: half the latency of Horner's rule.
-template <std::size_t N>
-double polynomial(const std::array<double, N>& c, double x) {
-    static_assert(N % 2 == 1);
-    const double x2 = x * x;
-    double even = c[N - 1];
-    double odd = 0;
-    for (std::size_t i = N - 1; i > 0; i -= 2) {
-        odd = odd * x2 + c[i - 1];
-        even = even * x2 + c[i - 2];
-    }
-    return even + x * odd;
-}
 
 struct LogBase {
     double scale_hi, scale_lo;  // 1 / ln(base); hi has 31 bits
@@ -43,19 +31,10 @@ constexpr std::array<double, 7> atanh_tail{
     0x1.5555555555558p-1, 0x1.9999999995224p-2, 0x1.2492492e03df2p-2, 0x1.c71c62d04637p-3,
     0x1.7462ba254dcfbp-3, 0x1.39fdb9a93a519p-3, 0x1.2b5fb9f34d9dep-3};
 
-// x = 2^e (1 + f) with 1 + f in [sqrt 1/2, sqrt 2); ln(1 + f) = 2 atanh(f / (2 + f)), summed as
-// f - f^2/2 + s (f^2/2 + s^2 tail) in two parts. Method: FreeBSD msun, k_log.h and e_log2.c.
-double scaled_log(double x, const LogBase& base) {
-    if (!(x > 0)) return x == 0 ? -infinity : not_a_number;
-    if (x == infinity) return infinity;
-    const bool subnormal = x < std::numeric_limits<double>::min();
-    const auto image = std::bit_cast<std::int64_t>(subnormal ? x * 0x1p54 : x);
-
-    constexpr auto sqrt_half = std::int64_t{0x3fe6a09e667f3bcd};
-    const std::int64_t e = (image - sqrt_half) >> 52;
-    const double f = std::bit_cast<double>(image - (e << 52)) - 1;
-    const double exponent = static_cast<double>(subnormal ? e - 54 : e);
-
+// log(2^exponent (1 + f)) + f_lo, for 1 + f in [sqrt 1/2, sqrt 2); ln(1 + f) = 2 atanh(f / (2 +
+// f)), summed as f - f^2/2 + s (f^2/2 + s^2 tail) in two parts. Method: FreeBSD msun, k_log.h and
+// e_log2.c.
+double log_near_one(double f, double f_lo, double exponent, const LogBase& base) {
     const double s = f / (2 + f);
     const double half_square = 0.5 * f * f;
     const double z = s * s;
@@ -63,7 +42,7 @@ double scaled_log(double x, const LogBase& base) {
     const auto upper_half = std::uint64_t{0xffffffff00000000};  // 21 bits: hi * scale_hi is exact
     const double hi =
         std::bit_cast<double>(std::bit_cast<std::uint64_t>(f - half_square) & upper_half);
-    const double lo = (f - hi) - half_square + rest;
+    const double lo = (f - hi) - half_square + rest + f_lo;
 
     const double whole = exponent * base.two_hi;
     const double part = hi * base.scale_hi;
@@ -71,6 +50,30 @@ double scaled_log(double x, const LogBase& base) {
     const double error = (whole - sum) + part;
     return sum +
            (error + (lo * base.scale_hi + (lo + hi) * base.scale_lo + exponent * base.two_lo));
+}
+
+// (log(1 + x) - x) / x^2, for |x| < 2^-8; error of the logarithm 6e-21.
+constexpr std::array<double, 7> log1p_series{-1.0 / 2, 1.0 / 3, -1.0 / 4, 1.0 / 5,
+                                             -1.0 / 6, 1.0 / 7, -1.0 / 8};
+
+// x = 2^exponent (1 + f), for a positive finite x.
+struct Mantissa {
+    double f, exponent;
+};
+Mantissa split(double x) {
+    const bool subnormal = x < std::numeric_limits<double>::min();
+    const auto image = std::bit_cast<std::int64_t>(subnormal ? x * 0x1p54 : x);
+    constexpr auto sqrt_half = std::int64_t{0x3fe6a09e667f3bcd};
+    const std::int64_t e = (image - sqrt_half) >> 52;
+    return {std::bit_cast<double>(image - (e << 52)) - 1,
+            static_cast<double>(subnormal ? e - 54 : e)};
+}
+
+double scaled_log(double x, const LogBase& base) {
+    if (!(x > 0)) return x == 0 ? -infinity : not_a_number;
+    if (x == infinity) return infinity;
+    const auto [f, exponent] = split(x);
+    return log_near_one(f, 0, exponent, base);
 }
 
 struct PowerBase {
@@ -120,15 +123,22 @@ double power_of_two(int n) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52);
 }
 
-// base^x = 2^n base^r, with n the integer nearest to x log2(base), r = x - n log(2) in two parts.
-double power(const PowerBase& base, double x) {
-    if (!(std::abs(x) < base.limit)) return x > 0 ? infinity : x < 0 ? 0 : not_a_number;
+// x = n log(2) + r + r_lo, with n the integer nearest to x log2(base): base^x = 2^n base^(r +
+// r_lo).
+struct Reduced {
+    double n, r, r_lo;
+};
+Reduced reduce(const PowerBase& base, double x) {
     constexpr double round = 0x1.8p52;  // adding it leaves no bits for a fraction
     const double n = (x * base.log2 + round) - round;
     const double r_hi = x - n * base.two_hi;
     const double r = r_hi - n * base.two_lo;
-    const double r_lo = (r_hi - r) - n * base.two_lo;
+    return {n, r, (r_hi - r) - n * base.two_lo};
+}
 
+double power(const PowerBase& base, double x) {
+    if (!(std::abs(x) < base.limit)) return x > 0 ? infinity : x < 0 ? 0 : not_a_number;
+    const auto [n, r, r_lo] = reduce(base, x);
     const double line = r * base.slope;
     const double sum = 1 + line;
     const double error = (1 - sum) + line;
@@ -246,6 +256,29 @@ double log10(double x) { return scaled_log(x, base_10); }
 double exp2(double x) { return power(power_of_2, x); }
 double exp10(double x) { return power(power_of_10, x); }
 double exp(double x) { return power(power_of_e, x); }
+
+double log1p(double x) {
+    if (std::abs(x) < 0x1p-54) return x;
+    if (std::abs(x) < 0x1p-8) return x + x * (x * polynomial(log1p_series, x));
+    if (x > -0.25 && x < 0.375) return log_near_one(x, 0, 0, base_e);
+    if (!(x > -1 && x < infinity)) return x == -1 ? -infinity : x > 0 ? infinity : not_a_number;
+    const TwoParts sum = exact_sum(1, x);
+    const auto [f, exponent] = split(sum.hi);
+    return log_near_one(f, sum.lo / sum.hi, exponent, base_e);
+}
+
+double expm1(double x) {
+    if (std::abs(x) < 0x1p-54) return x;
+    if (std::abs(x) < 0.25) return x + x * x * polynomial(power_of_e.curve, x);
+    if (!(x < 40)) return exp(x);  // 1 is less than a hundredth ulp of it
+    if (x < -40) return -1;
+    const auto [n, r, r_lo] = reduce(power_of_e, x);
+    const double scale = power_of_two(static_cast<int>(n));
+    const TwoParts whole = exact_sum(scale, -1);
+    const TwoParts sum = exact_sum(whole.hi, scale * r);
+    const double rest = r * r * polynomial(power_of_e.curve, r) + r_lo;
+    return sum.hi + (sum.lo + (whole.lo + scale * rest));
+}
 
 SinCos sincos(double x) {
     constexpr double limit = 1e9;

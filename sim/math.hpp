@@ -13,6 +13,9 @@ namespace rovernet::math {
 double log(double x);
 double log2(double x);   ///< as log, to base 2
 double log10(double x);  ///< as log, to base 10
+/// log(1 + x) without the rounding of the sum; error below 1 ulp, +-0 for +-0. -1 gives -infinity,
+/// less than that and NaN give NaN, infinity gives infinity.
+double log1p(double x);
 
 /// 2^x; error below 1 ulp, exact for integers. Overflow gives infinity, underflow 0 by way of the
 /// subnormal numbers, NaN gives NaN.
@@ -21,6 +24,14 @@ double exp2(double x);
 double exp(double x);
 /// 10^x; error below 1.1 ulp, exact for 0 ... 22. Overflow, underflow and NaN as exp2.
 double exp10(double x);
+/// e^x - 1 without the rounding of the difference; error below 1.3 ulp, +-0 for +-0. Overflow gives
+/// infinity, NaN gives NaN.
+double expm1(double x);
+
+/// Complementary error function, 2 / sqrt(pi) times the integral of e^(-t^2) from x to infinity;
+/// error below 6 ulp, of subnormal results (x > 26.5) below 6 times the smallest number. NaN gives
+/// NaN.
+double erfc(double x);
 
 /// Sine and cosine of x [rad], each with an error below 1 ulp; sin(-x) = -sin(x) and
 /// cos(-x) = cos(x) to the last bit.

@@ -195,7 +195,7 @@ TEST_CASE("scenario: every key of the file arrives in its field") {
     CHECK(s.radio.preamble == 96us);
     CHECK(s.radio.rate == BitRate{54e6});
     CHECK_FALSE(s.medium.propagation_delay);
-    CHECK(s.propagation.model == 2);
+    CHECK(s.propagation.model == 3);
     REQUIRE(s.robots.size() == 3);
     const RobotTable& a = s.robots[0];
     CHECK(a.at == Vec3{2, 3, 1});
@@ -301,7 +301,7 @@ TEST_CASE("scenario: a robot's own keys lie over those of [radio] and [propagati
     CHECK(s.robots[0].radio.rate == BitRate{1e6});
     CHECK(s.radio.power == Dbm{10});
     const auto& own = std::get<LogDistance>(s.robots[0].propagation->parameters);
-    CHECK(s.robots[0].propagation->model == 3);
+    CHECK(s.robots[0].propagation->model == 4);
     CHECK(own.sigma == Db{0});
     CHECK(own.exponent == 4);
     CHECK(std::get<LogDistance>(s.propagation.parameters).sigma == Db{5});

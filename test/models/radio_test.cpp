@@ -63,3 +63,16 @@ TEST_CASE("radio: the airtime is rounded to the nearest nanosecond; no byte take
     CHECK(airtime({.rate = 1_Mbps, .preamble = Duration{0}}, 0xffffffff) ==
           Duration{34'359'738'360'000});
 }
+
+TEST_CASE("radio: the noise floors of the vectors, with the CODATA value of k") {
+    const test::Vectors vectors("noise_floor.csv");
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        const Hertz bandwidth{vectors.number(i, "bandwidth_Hz")};
+        const Db figure{vectors.number(i, "NF_dB")};
+        CAPTURE(bandwidth.value);
+        CHECK(near(noise_floor(bandwidth, figure).value,
+                   vectors.number(i, "kTB_dBm(CODATA k,290K)"), test::vector_tolerance));
+        CHECK(noise_floor({.bandwidth = bandwidth, .noise_figure = figure}) ==
+              noise_floor(bandwidth, figure));
+    }
+}

@@ -1,52 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "sim/math.hpp"
 
-#include "sim/random.hpp"
+#include "test/sim/ulp.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <string>
 
 using namespace rovernet;
+using namespace rovernet::test;
 
 namespace {
-
-using Limits = std::numeric_limits<double>;
-static_assert(std::numeric_limits<long double>::digits >= 64, "the oracle needs 11 bits to spare");
 
 constexpr double log_bound_ulp = 1.0;     // as math.hpp states
 constexpr double exp2_bound_ulp = 1.0;    // as math.hpp states
 constexpr double exp10_bound_ulp = 1.1;   // as math.hpp states
 constexpr double exp_bound_ulp = 1.0;     // as math.hpp states
+constexpr double log1p_bound_ulp = 1.0;   // as math.hpp states
+constexpr double expm1_bound_ulp = 1.3;   // as math.hpp states
 constexpr double sincos_bound_ulp = 1.0;  // as math.hpp states
 constexpr double atan2_bound_ulp = 1.6;   // as math.hpp states
-constexpr int samples = 100'000;
-
-// The distance of `value` from `exact` in units of the last place of `exact`.
-double error_ulp(double value, long double exact) {
-    const int exponent = std::max(std::ilogb(static_cast<double>(exact)), Limits::min_exponent - 1);
-    return static_cast<double>(std::abs(value - exact) /
-                               std::ldexp(1.0L, exponent - (Limits::digits - 1)));
-}
-
-double sample(int i, double from, double to) {
-    return from + (to - from) * uniform({.purpose = Purpose::order, .index = std::uint64_t(i)});
-}
-
-template <class Function, class Oracle>
-double worst_ulp(Function f, Oracle oracle, double from, double to) {
-    double worst = 0;
-    for (int i = 0; i < samples; ++i) {
-        const double x = sample(i, from, to);
-        worst = std::max(worst, error_ulp(f(x), oracle(static_cast<long double>(x))));
-    }
-    return worst;
-}
 
 double worst_log_ulp(double from, double to) {
     const double e = worst_ulp(
@@ -88,20 +63,6 @@ double worst_atan2_ulp(int spread) {
     return worst;
 }
 
-bool same_bits(double a, double b) {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
-// The bits of f over many arguments as one number.
-template <class Function>
-std::uint64_t fingerprint(Function f, double from, double to) {
-    std::uint64_t sum = 0;
-    for (int i = 0; i < samples; ++i) {
-        sum = combine(sum, std::bit_cast<std::uint64_t>(f(sample(i, from, to))));
-    }
-    return sum;
-}
-
 }  // namespace
 
 TEST_CASE("logarithms: below one ulp, near 1 and far from it") {
@@ -125,6 +86,40 @@ TEST_CASE("powers: below the stated ulps, in and out of the normal range") {
     CHECK(worst_ulp(math::exp10, long_exp10, -1, 1) < exp10_bound_ulp);
     CHECK(worst_ulp(math::exp10, long_exp10, -307, 308) < exp10_bound_ulp);
     CHECK(worst_ulp(math::exp10, long_exp10, -323, -307) < exp10_bound_ulp);
+}
+
+TEST_CASE("log(1 + x), e^x - 1: below the stated ulps, near 0 and far from it") {
+    const auto exact_log = [](long double x) { return std::log1p(x); };
+    const auto log_ulp = [&](double a, double b) {
+        return worst_ulp(math::log1p, exact_log, a, b);
+    };
+    CHECK(log_ulp(-1e-10, 1e-10) < log1p_bound_ulp);
+    CHECK(log_ulp(-0.005, 0.005) < log1p_bound_ulp);  // where the ways part
+    CHECK(log_ulp(-0.3, -0.2) < log1p_bound_ulp);
+    CHECK(log_ulp(0.3, 0.5) < log1p_bound_ulp);
+    CHECK(log_ulp(-1, 4) < log1p_bound_ulp);
+    CHECK(log_ulp(1e15, 1e17) < log1p_bound_ulp);
+    const auto exact_exp = [](long double x) { return std::expm1(x); };
+    const auto exp_ulp = [&](double a, double b) {
+        return worst_ulp(math::expm1, exact_exp, a, b);
+    };
+    CHECK(exp_ulp(-1e-10, 1e-10) < expm1_bound_ulp);
+    CHECK(exp_ulp(-2, 2) < expm1_bound_ulp);
+    CHECK(exp_ulp(-45, 0) < expm1_bound_ulp);
+    CHECK(exp_ulp(0, 45) < expm1_bound_ulp);
+    CHECK(exp_ulp(45, 709.7) < expm1_bound_ulp);
+}
+
+TEST_CASE("log(1 + x), e^x - 1: their edges, and the sign of zero") {
+    CHECK(math::log1p(-1) == -Limits::infinity());
+    CHECK(math::log1p(Limits::infinity()) == Limits::infinity());
+    CHECK(math::expm1(-Limits::infinity()) == -1);
+    CHECK(math::expm1(Limits::infinity()) == Limits::infinity());
+    for (const double x : {-1.5, -Limits::infinity()}) CHECK(std::isnan(math::log1p(x)));
+    for (const auto f : {math::log1p, math::expm1}) {
+        for (const double x : {0.0, -0.0, Limits::denorm_min(), -1e-300}) CHECK(same_bits(f(x), x));
+        CHECK(std::isnan(f(Limits::quiet_NaN())));
+    }
 }
 
 TEST_CASE("logarithms: exact wherever the result is an integer") {
@@ -323,7 +318,7 @@ TEST_CASE("angles: nothing overflows or underflows on the way") {
     CHECK(std::isnan(math::atan2(1, Limits::quiet_NaN())));
 }
 
-TEST_CASE("sine, cosine, angles, e^x: the same bits from every compiler") {
+TEST_CASE("sine, cosine, angles, e^x, e^x - 1, log(1 + x): the same bits from every compiler") {
     struct Turn {
         double x, sin, cos;
     };
@@ -390,4 +385,6 @@ TEST_CASE("sine, cosine, angles, e^x: the same bits from every compiler") {
     CHECK(fingerprint(cosine, -1e3, 1e3) == 0x7979cc4a3222f19f);
     CHECK(fingerprint(angle_of_line, -3, 3) == 0x079ed690a4fd7668);
     CHECK(fingerprint(math::exp, -10, 10) == 0x7a50720c97576064);
+    CHECK(fingerprint(math::log1p, -1, 3) == 0xc424f5d5bf945d08);
+    CHECK(fingerprint(math::expm1, -10, 10) == 0x272fb7dd612e0eb7);
 }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/units.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace rovernet {
+
+/// A modulation and coding of IEEE 802.11, named after its bit rate [Mb/s]: of 802.11b, 22 MHz
+/// wide, and of 802.11a and g, 20 MHz wide.
+enum class Modulation : std::uint8_t {
+    dsss_1,   ///< DBPSK, Barker sequence
+    dsss_2,   ///< DQPSK, Barker sequence
+    cck_5_5,  ///< complementary code keying, 4 bits a symbol
+    cck_11,   ///< complementary code keying, 8 bits a symbol
+    ofdm_6,   ///< BPSK, rate 1/2
+    ofdm_9,   ///< BPSK, rate 3/4
+    ofdm_12,  ///< QPSK, rate 1/2
+    ofdm_18,  ///< QPSK, rate 3/4
+    ofdm_24,  ///< 16-QAM, rate 1/2
+    ofdm_36,  ///< 16-QAM, rate 3/4
+    ofdm_48,  ///< 64-QAM, rate 2/3
+    ofdm_54,  ///< 64-QAM, rate 3/4
+};
+
+/// The modulation of a bit rate: 1, 2, 5.5, 11 Mb/s are DSSS and CCK; 6, 9, 12, 18, 24, 36, 48,
+/// 54 Mb/s are OFDM; nothing for other rates.
+std::optional<Modulation> modulation_of(BitRate rate);
+
+/// Bandwidth [Hz] of its receiver, in which noise and interference count: 22 or 20 MHz.
+Hertz bandwidth_of(Modulation modulation);
+
+/// Probability that a bit is wrong behind white Gaussian noise, 0 ... 0.5; relative error against
+/// its equation below 1e-10.
+///
+/// Never above 0.5, the error of a guess: the equations of DSSS 2 and OFDM pass it at low S, where
+/// they are no longer valid. Bits are independent, and S holds for all of them: no fading within.
+/// DSSS 1: e^(-22 S) / 2. J. G. Proakis, Digital Communications, 4th ed., eq. 5.2-69.
+/// DSSS 2: (sqrt 2 + 1) / sqrt(8 pi sqrt 2 x) e^(-(2 - sqrt 2) x) with x = 11 S. G. Ferrari and
+///   G. E. Corazza, Electronics Letters 40(20), 2004, eq. 8.
+/// CCK: P = 1 - integral from -b to infinity of (1 - erfc((x + b) / sqrt 2))^7 phi(x) dx, phi the
+///   normal density, is the error of a symbol of 4 bits (16 bi-orthogonal signals), b^2 = 16 S; a
+///   bit is right with (1 - P)^(1/4). At 11 Mb/s two such sets share the power, which is 5.5 Mb/s
+///   at half of S. M. B. Pursley and T. C. Royster, IEEE Trans. Comm. 57(2), 2009, eqs. 17 and 18.
+///   16 S = Es / N0 is that of G. Pei and T. Henderson, Validation of ns-3 802.11b PHY model, 2009.
+///   An ideal coherent receiver has b^2 = 2 Es / N0, so that it is 3 dB better.
+/// OFDM: union bound on the Viterbi decoder of the code (133, 171) with hard decisions, up to ten
+///   weights from the free distance on: sum of c_d D^d / (2 k), with D^2 = 4 p (1 - p), p the error
+///   of an uncoded bit and k the bits that enter the code at a time. G. Pei and T. Henderson,
+///   Validation of OFDM error rate model in ns-3, 2010 ("NIST"). Weights c_d: P. Frenger et al.,
+///   IEEE Comm. Letters 3(11), 1999, for rate 1/2; D. Haccoun and G. Begin, IEEE Trans. Comm.
+///   37(11), 1989, for 2/3 and 3/4.
+///
+/// @param  sinr  S, signal over interference and noise [-] in bandwidth_of(modulation); the result
+///               is 0.5 unless it is > 0
+double bit_error_rate(Modulation modulation, double sinr);
+
+/// Natural logarithm of the probability that a bit is right, log(0.5) ... 0. It adds up over bits
+/// and over chunks of different sinr, and keeps its digits where the bit error rate is below 1e-16.
+double log_success(Modulation modulation, double sinr);
+
+/// Probability that all bits are right, from the sum of their log_success.
+double success(double log_success_sum);
+/// Probability that some bit is wrong: 1 - success, with all its digits.
+double frame_error_rate(double log_success_sum);
+
+}  // namespace rovernet

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include "models/two_ray.hpp"
+
+#include "models/friis.hpp"
+#include "sim/math.hpp"
+
+#include <algorithm>
+
+namespace rovernet {
+
+Meters TwoRay::reach(Db loss, Hertz f) const { return Friis{}.reach(loss, f); }
+
+void TwoRay::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+    const Hertz f = links.frequency;
+    const auto height = [&](Vec3 antenna) { return std::max(antenna.z, lowest_antenna.value); };
+    const double ht = height(links.from);
+    for (std::size_t i = 0; i < out_db.size(); ++i) {
+        const double d = links.distance(i);
+        const double crossover = 4 * pi / speed_of_light * f.value * (ht * height(links.to[i]));
+        const double beyond = d > crossover ? 20 * math::log10(d / crossover) : 0;
+        out_db[i] = std::max(0.0, free_space_db(d, f) + beyond);
+    }
+}
+
+}  // namespace rovernet

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "models/two_ray.hpp"
+
+#include "models/friis.hpp"
+#include "test/models/vectors.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+using namespace rovernet;
+using test::near;
+
+namespace {
+
+/// A few roundings of losses up to 200 dB.
+constexpr double tolerance = 1e-12;  // [dB]
+/// The files of the peers carry ten digits of levels above -1000 dBm.
+constexpr double peer_tolerance = 1e-6;  // [dB]
+
+/// Between antennas at heights ht and hr [m] whose feet are d [m] apart.
+double loss_over_ground(double ht, double hr, double d, Hertz f, const TwoRay& model = {}) {
+    return test::OneLink{.frequency = f, .from = {0, 0, ht}, .to = {d, 0, hr}}.loss(model);
+}
+
+/// ns-2's speed of light, as a frequency at which ours gives the same wavelength.
+Hertz with_speed_of_ns2(double f) { return {f * (speed_of_light / 3e8)}; }
+
+/// The number behind `name=` in a peer's parameters.
+double parameter(const std::string& text, const std::string& name) {
+    return std::stod(text.substr(text.find(name + "=") + name.size() + 1));
+}
+
+}  // namespace
+
+TEST_CASE("two-ray: losses are those of the vectors, on the slant distance") {
+    const test::Vectors vectors("two_ray.csv");
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        const double d = vectors.number(i, "d_ground_m");
+        const double f = vectors.number(i, "f_Hz");
+        CAPTURE(d);
+        CAPTURE(f);
+        const double loss =
+            loss_over_ground(vectors.number(i, "ht_m"), vectors.number(i, "hr_m"), d, {f});
+        CHECK(near(loss, vectors.number(i, "ns2_simplified_dB"), test::vector_tolerance));
+    }
+}
+
+TEST_CASE("two-ray: levels are those of ns-2.35, with its speed of light") {
+    const test::Vectors vectors("peer_ns2_loss.csv");
+    int compared = 0;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        if (vectors.text(i, "model") != "TwoRayGround") continue;
+        const double d = vectors.number(i, "d_m");
+        CAPTURE(d);
+        const Hertz f = with_speed_of_ns2(vectors.number(i, "freq_hz"));
+        const double level = vectors.number(i, "tx_dbm") - loss_over_ground(1.5, 1.5, d, f);
+        CHECK(near(level, vectors.number(i, "rx_dbm"), peer_tolerance));
+        ++compared;
+    }
+    CHECK(compared == 54);
+}
+
+TEST_CASE("two-ray: levels are those of ns-3.37 beyond 0.5 m, at three heights") {
+    const test::Vectors vectors("peer_ns3_loss.csv");
+    int compared = 0;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        if (vectors.text(i, "model") != "TwoRayGroundPropagationLossModel") continue;
+        const std::string& text = vectors.text(i, "params");
+        const double d = vectors.number(i, "d_m");
+        if (d <= 0.5) continue;  // the peer loses nothing there
+        CAPTURE(text);
+        CAPTURE(d);
+        const double above = parameter(text, "HeightAboveZ");
+        const double loss =
+            loss_over_ground(above + parameter(text, "zA"), above + parameter(text, "zB"), d,
+                             {vectors.number(i, "freq_hz")});
+        CHECK(
+            near(vectors.number(i, "tx_dbm") - loss, vectors.number(i, "rx_dbm"), peer_tolerance));
+        ++compared;
+    }
+    CHECK(compared >= 120);
+}
+
+TEST_CASE("two-ray: ns-2's radio of 914 MHz receives at 250 m and senses at 550 m") {
+    constexpr double half_a_digit = 0.5e-5;  // of 3.65262e-10 W and 1.55924e-11 W, relative
+    constexpr double power = 0.28183815;     // [W]
+    const auto received = [](double d) {
+        return power * std::pow(10, -loss_over_ground(1.5, 1.5, d, 914_MHz) / 10);
+    };
+    CHECK(near(received(250) / 3.65262e-10, 1, half_a_digit));
+    CHECK(near(received(550) / 1.55924e-11, 1, half_a_digit));
+}
+
+TEST_CASE("two-ray: free space up to the crossover, and no step there") {
+    const double crossover = 4 * pi * 1.5 * 1.5 / (speed_of_light / 914e6);  // 86.2 m
+    for (const double d : {0.0, 1.0, 40.0, 0.999999 * crossover}) {
+        CHECK(loss_over_ground(1.5, 1.5, d, 914_MHz) == test::loss_at(Friis{}, d, 914_MHz));
+    }
+    const double hair = 1e-9;
+    CHECK(near(loss_over_ground(1.5, 1.5, crossover * (1 + hair), 914_MHz),
+               loss_over_ground(1.5, 1.5, crossover * (1 - hair), 914_MHz), 60 * hair));
+}
+
+TEST_CASE(
+    "two-ray: beyond the crossover twice the distance costs 40 log10(2) dB at any frequency") {
+    const auto loss = [](double d, Hertz f) { return loss_over_ground(1.5, 1.5, d, f); };
+    CHECK(near(loss(2000, 914_MHz) - loss(1000, 914_MHz), 40 * std::log10(2.0), tolerance));
+    CHECK(near(loss(2000, 914_MHz), loss(2000, 2450_MHz), tolerance));
+}
+
+TEST_CASE("two-ray: beyond the crossover an antenna of twice the height gains 20 log10(2) dB") {
+    const double flat = 1e-5;  // [dB] the slant distance grows by 6 m over 10 km
+    CHECK(near(loss_over_ground(1, 2, 1e4, 914_MHz) - loss_over_ground(1, 4, 1e4, 914_MHz),
+               20 * std::log10(2.0), flat));
+}
+
+TEST_CASE("two-ray: an antenna on the ground or below it counts as the lowest antenna") {
+    for (const double z : {0.0, -0.0, -1.0, -1e6, 0.05}) {
+        CHECK(loss_over_ground(z, z, 100, 2450_MHz) == loss_over_ground(0.1, 0.1, 100, 2450_MHz));
+    }
+    constexpr double flat = 1e-5;  // [dB] the slant distance differs by 0.5 mm over 10 km
+    CHECK(near(loss_over_ground(-3, 1.5, 1e4, 2450_MHz), loss_over_ground(0.1, 1.5, 1e4, 2450_MHz),
+               flat));
+    const TwoRay high{.lowest_antenna = 1.5_m};
+    CHECK(loss_over_ground(0, 0, 250, 914_MHz, high) == loss_over_ground(1.5, 1.5, 250, 914_MHz));
+}
+
+TEST_CASE("two-ray: the same in both directions to the last bit, beyond the crossover too") {
+    for (int i = 0; i < 1000; ++i) {
+        const double ht = 0.1 + 0.00317 * i, hr = 2.9 - 0.00213 * i;
+        CHECK(loss_over_ground(ht, hr, 3e3, 2450_MHz) == loss_over_ground(hr, ht, 3e3, 2450_MHz));
+    }
+}
+
+TEST_CASE("two-ray: a climbing antenna draws away and hears better, so that the shape is unknown") {
+    CHECK(loss_over_ground(1.5, 3, 500, 914_MHz) < loss_over_ground(1.5, 1.5, 500, 914_MHz));
+    CHECK(Propagation(TwoRay{}).shape() == LossShape::unknown);
+}
+
+TEST_CASE("two-ray: the reach is that of free space") {
+    CHECK(TwoRay{}.reach(80_dB, 2450_MHz) == Friis{}.reach(80_dB, 2450_MHz));
+}
