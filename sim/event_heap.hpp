@@ -36,10 +36,11 @@ class EventKey {
     friend constexpr bool operator<(EventKey a, EventKey b) { return a.rank() < b.rank(); }
     friend constexpr bool operator==(EventKey, EventKey) = default;
 
-  private:
+    /// The order as a number: the time above, what decides among equal times below.
     __extension__ using Int128 = __int128;
     constexpr Int128 rank() const { return (Int128{time_} << 64) | word_; }
 
+  private:
     std::int64_t time_ = std::numeric_limits<std::int64_t>::max();
     std::uint64_t word_ = ~std::uint64_t{0};
 };

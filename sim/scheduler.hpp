@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/event_heap.hpp"
+#include "sim/event_queue.hpp"
 #include "sim/time.hpp"
 
 #include <cassert>
@@ -75,32 +75,32 @@ class Scheduler {
         release(handle.slot);
         ++dead_;
         drop_dead_tops();
-        if (2 * dead_ > heap_.size()) purge();
+        if (2 * dead_ > queue_.size()) purge();
         return true;
     }
 
     /// Removes the event that is served next; there must be one.
     Event pop() {
         assert(!empty());
-        const Key key = heap_.top();
+        const Key key = queue_.top();
         last_popped_ = key.time();
         Event event{key, std::move(slots_[key.slot()].payload)};
         release(key.slot());
-        heap_.pop();
+        queue_.pop();
         drop_dead_tops();
         return event;
     }
 
     /// The time of the event that is served next.
     std::optional<Time> next_time() const {
-        return empty() ? std::nullopt : std::optional(heap_.top().time());
+        return empty() ? std::nullopt : std::optional(queue_.top().time());
     }
     /// Would an event with this key be served before everything that is queued?
-    bool runs_before_next(Key key) const { return key < heap_.top(); }
+    bool runs_before_next(Key key) const { return key < queue_.top(); }
 
-    bool empty() const { return heap_.empty(); }
-    std::size_t size() const { return heap_.size() - dead_; }  ///< events queued and not cancelled
-    std::uint64_t scheduled() const { return scheduled_; }     ///< calls of schedule() so far
+    bool empty() const { return queue_.empty(); }
+    std::size_t size() const { return queue_.size() - dead_; }  ///< events queued and not cancelled
+    std::uint64_t scheduled() const { return scheduled_; }      ///< calls of schedule() so far
 
   private:
     // The tag of a live slot is its event's sequence, perhaps with `requeued`; that of a free slot
@@ -119,7 +119,7 @@ class Scheduler {
         const std::uint32_t slot = take_slot();
         slots_[slot].tag = tag;
         slots_[slot].payload = std::move(payload);
-        heap_.push({t, priority, sequence, slot});
+        queue_.push({t, priority, sequence, slot});
         return slot;
     }
 
@@ -140,18 +140,18 @@ class Scheduler {
 
     // Keeps a live key on top, so that looking at it changes nothing.
     void drop_dead_tops() {
-        for (; dead_ > 0 && !is_live(heap_.top()); --dead_) heap_.pop();
+        for (; dead_ > 0 && !is_live(queue_.top()); --dead_) queue_.pop();
     }
 
     void purge() {
-        heap_.filter([this](Key key) { return is_live(key); });
+        queue_.filter([this](Key key) { return is_live(key); });
         dead_ = 0;
     }
 
-    EventHeap heap_;
+    EventQueue queue_;
     std::vector<Slot> slots_;
     std::uint32_t first_free_ = no_slot;
-    std::size_t dead_ = 0;  // cancelled keys that are still in the heap
+    std::size_t dead_ = 0;  // cancelled keys that are still in the queue
     std::uint64_t scheduled_ = 0;
     Time last_popped_ = Time::min();
     SchedulerLimits limits_;

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "sim/event_queue.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace rovernet {
+
+EventQueue::Place EventQueue::place(Rank rank, Rank base) {
+    const Rank differing = rank ^ base;
+    const auto high = static_cast<std::uint64_t>(differing >> 64);
+    if (high != 0) {
+        const auto level = static_cast<std::size_t>(63 - std::countl_zero(high)) / 4;
+        return {16 + level, static_cast<std::uint64_t>(rank >> 64) >> 4 * level & 15};
+    }
+    const auto low = static_cast<std::uint64_t>(differing);
+    const auto level = static_cast<std::size_t>(63 - std::countl_zero(low)) / 4;
+    return {level, static_cast<std::uint64_t>(rank) >> 4 * level & 15};
+}
+
+void EventQueue::file(EventKey key) {
+    const auto [level, digit] = place(rank(key), base_);
+    Bucket& bucket = buckets_[level][digit];
+    const std::size_t i = bucket.size % chunk_size;
+    if (i == 0) {
+        bucket.chunk = add_chunk(bucket.chunk);
+        used_levels_ |= 1U << level;
+        used_digits_[level] = static_cast<std::uint16_t>(used_digits_[level] | 1U << digit);
+    }
+    chunks_[bucket.chunk].keys[i] = key;
+    ++bucket.size;
+    ++filed_;
+}
+
+// Keys below the base can only be spilled if the buckets follow them. That moves all that is filed
+// nearby, so it waits until as much has come in: till then the heap is allowed to grow.
+void EventQueue::spill() {
+    const EventKey least = heap_.top();
+    if (rank(least) < base_) {
+        if (filed_ > 4 * heap_.size()) {
+            heap_limit_ = 2 * heap_.size();
+            return;
+        }
+        lower_base(rank(least));
+    }
+    base_ = heap_end_ = rank(least);
+    heap_.filter([&](EventKey key) {
+        if (key == least) return true;
+        file(key);
+        return false;
+    });
+    refill();
+}
+
+// All that shares more digits with the old base than the new base does, now differs from it in the
+// same digit.
+void EventQueue::lower_base(Rank base) {
+    const std::size_t end = place(base, base_).level;
+    base_ = base;
+    for (std::size_t level = 0; level < end; ++level) {
+        refile(level, [this](EventKey key) { file(key); });
+    }
+}
+
+void EventQueue::refill() {
+    heap_limit_ = small;
+    while (filed_ > 0) {
+        const Place next = nearest();
+        const std::size_t size = buckets_[next.level][next.digit].size;
+        if (heap_.size() + size > refill_most) {
+            if (!heap_.empty()) return;
+            deal_out(next);
+            continue;
+        }
+        empty_bucket(next, [this](EventKey key) { heap_.push(key); });
+        const Rank unit = Rank{1} << 4 * next.level;
+        heap_end_ = (base_ & ~(15 * unit)) | next.digit * unit | (unit - 1);
+    }
+    heap_end_ = ~Rank{0};
+}
+
+// With the least key as the base, keys fall by all the digits that they share with it at once.
+void EventQueue::deal_out(Place from) {
+    const Bucket& bucket = buckets_[from.level][from.digit];
+    EventKey least;
+    std::size_t n = (bucket.size - 1) % chunk_size + 1;
+    for (std::uint32_t i = bucket.chunk; i != none; i = chunks_[i].next, n = chunk_size) {
+        const auto& keys = chunks_[i].keys;
+        for (std::size_t k = 0; k < n; ++k) least = std::min(least, keys[k]);
+    }
+    base_ = heap_end_ = rank(least);
+    empty_bucket(from, [&](EventKey key) {
+        if (key == least) {
+            heap_.push(key);
+        } else {
+            file(key);
+        }
+    });
+}
+
+EventQueue::Place EventQueue::nearest() const {
+    const auto level = static_cast<std::size_t>(std::countr_zero(used_levels_));
+    return {level, static_cast<std::size_t>(std::countr_zero(used_digits_[level]))};
+}
+
+EventQueue::Bucket EventQueue::take(Place place) {
+    const auto [level, digit] = place;
+    const Bucket bucket = std::exchange(buckets_[level][digit], {});
+    filed_ -= bucket.size;
+    used_digits_[level] = static_cast<std::uint16_t>(used_digits_[level] & ~(1U << digit));
+    if (used_digits_[level] == 0) used_levels_ &= ~(1U << level);
+    return bucket;
+}
+
+std::uint32_t EventQueue::add_chunk(std::uint32_t next) {
+    if (free_ == none) {
+        free_ = static_cast<std::uint32_t>(chunks_.size());
+        chunks_.emplace_back();
+    }
+    const std::uint32_t chunk = free_;
+    free_ = std::exchange(chunks_[chunk].next, next);
+    return chunk;
+}
+
+void EventQueue::free_chunk(std::uint32_t chunk) {
+    chunks_[chunk].next = std::exchange(free_, chunk);
+}
+
+}  // namespace rovernet
