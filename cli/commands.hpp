@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/flood_bench.hpp"
 #include "experiment/scenario.hpp"
 
 #include <csignal>
@@ -64,6 +65,13 @@ struct SceneArguments : FileArguments {
     bool json = false;
 };
 void scene(const SceneArguments& arguments);
+
+struct BenchArguments {
+    FloodBench bench;
+    std::string reception = "threshold", mobility = "static";
+    bool json = false;
+};
+void bench_flood(BenchArguments arguments);
 
 struct WhereArguments : FileArguments {
     std::vector<std::string> at;

@@ -187,6 +187,28 @@ void add_move(CLI::App& app, int& exit) {
     convert->add_option("OUT", a.out, "NAME.tcl (ns-2) or NAME.movements (BonnMotion)")->required();
 }
 
+void add_bench(CLI::App& app, int& exit) {
+    static cli::BenchArguments a;
+    CLI::App* bench = app.add_subcommand("bench", "Measure the speed of this build here");
+    bench->require_subcommand(1);
+    CLI::App* flood = add_command(*bench, "flood", "CPU time of floods, per reception", exit,
+                                  [] { cli::bench_flood(a); });
+    flood->add_option("--nodes", a.bench.nodes, "sizes of network, such as 1000,10000")
+        ->delimiter(',')
+        ->check(CLI::Range(2, 10'000'000))
+        ->capture_default_str();
+    flood->add_option("--reception", a.reception, "threshold")->capture_default_str();
+    flood->add_option("--mobility", a.mobility, "static or random_waypoint")->capture_default_str();
+    flood->add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    flood->add_option("--cpu", a.bench.cpu_s, "seconds of CPU for each size, at least")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    flood->add_option("--seed", a.bench.seed, "of every random draw")->capture_default_str();
+    flood->add_flag("--json", a.json, "print one JSON document");
+}
+
 void add_others(CLI::App& app, int& exit) {
     static bool json = false;
     static std::string file;
@@ -227,6 +249,7 @@ int main(int argc, char** argv) {
     add_where(app, exit);
     add_draw(app, exit);
     add_move(app, exit);
+    add_bench(app, exit);
     add_others(app, exit);
     if (argc > 1 && is_unknown_command(app, argv[1])) return usage;
     try {

@@ -131,6 +131,7 @@ void Engine::take(NodeId id, const Leg& leg) {
 
 void Engine::put(NodeId id, const Leg& leg) {
     legs_.replace(id, leg);
+    medium_.moved(id, legs_);
     if (!watch_) return;
     watch_->leg_changed(id, now_);
     expect_link_change();
@@ -160,6 +161,7 @@ void Engine::place(NodeId id, Vec3 at) {
     leg.from = leg.to = at;
     if (running_) return take(id, leg);
     legs_.replace(id, leg);
+    medium_.moved(id, legs_);
 }
 
 void Engine::switch_robot(NodeId id, bool on) {

@@ -89,6 +89,11 @@ std::vector<Neighbour> Network::links(NodeId node, Time t) const {
     return neighbours(engine_->medium_, engine_->legs_, node, t);
 }
 
+void Network::find_hearers(NodeId node, std::vector<NodeId>& out) {
+    const auto hearers = engine_->medium_.hearers(node, now(), engine_->legs_);
+    out.insert(out.end(), hearers.begin(), hearers.end());
+}
+
 const Legs& Network::legs() const { return engine_->legs_; }
 const Medium& Network::medium() const { return engine_->medium_; }
 const Scene& Network::scene() const { return *engine_->scene_; }

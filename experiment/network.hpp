@@ -127,6 +127,8 @@ class Network {
     /// Whom `node` hears at `t` >= now(), everybody on the leg that they are on now; in order of
     /// id.
     std::vector<Neighbour> links(NodeId node, Time t) const;
+    /// Appends to `out` who would hear `node` if it sent now, in no order to rely on.
+    void find_hearers(NodeId node, std::vector<NodeId>& out);
     const Legs& legs() const;
     const Medium& medium() const;
     const Scene& scene() const;

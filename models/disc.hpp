@@ -21,6 +21,7 @@ struct Disc {
     }
 
     bool monotone() const { return true; }
+    bool by_distance_alone() const { return true; }
 
     Meters reach(Db loss, Hertz /*frequency*/) const {
         return loss.value < outside_db ? range : Meters{std::numeric_limits<double>::infinity()};

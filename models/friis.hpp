@@ -30,6 +30,7 @@ struct Friis {
     static constexpr auto fields() { return describe(); }
 
     bool monotone() const { return true; }
+    bool by_distance_alone() const { return true; }
 
     Meters reach(Db loss, Hertz f) const {
         return {speed_of_light / (4 * pi * f.value) * math::exp10(loss.value / 20)};

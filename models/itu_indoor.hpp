@@ -46,6 +46,7 @@ struct ItuIndoor {
     }
 
     bool monotone() const { return true; }  ///< between antennas of equal height
+    bool by_distance_alone() const { return floors || !environment; }
 
     /// @throws std::invalid_argument if no row of the table is near enough, or has so many floors
     void check_frequency(Hertz f) const;

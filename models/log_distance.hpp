@@ -32,6 +32,7 @@ struct LogDistance {
     }
 
     bool monotone() const { return sigma.value == 0; }
+    bool by_distance_alone() const { return sigma.value == 0; }
 
     Meters reach(Db loss, Hertz f) const;
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;

@@ -2,6 +2,7 @@
 #include "models/medium.hpp"
 
 #include "models/friis.hpp"
+#include "models/link_range.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +11,19 @@
 namespace rovernet {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// More kinds of radios than this are not compared with each other for being alike.
+constexpr std::size_t most_kinds = 64;
+
 /// What a receiver adds to a link budget: gain - cable loss - sensitivity.
 Db receiver_share(const Radio& radio) {
     return Db{-radio.sensitivity.value} + radio.antenna_gain - radio.cable_loss;
 }
 
-Duration flight_time(double d) { return from_seconds(d / speed_of_light); }
+/// Rounded to the nearest nanosecond; `d` [m] >= 0.
+Duration flight_time(double d) {
+    return Duration{static_cast<std::int64_t>(d * (1e9 / speed_of_light) + 0.5)};
+}
 
 /// The place of `value` in `list`, added if it is not there yet.
 template <class T>
@@ -26,6 +34,17 @@ std::uint32_t number_of(std::vector<T>& list, const T& value) {
     return place;
 }
 
+Radio without_labels(Radio radio) {
+    const Radio plain;
+    radio.ip = plain.ip;
+    radio.mac = plain.mac;
+    radio.netmask = plain.netmask;
+    radio.mode = plain.mode;
+    radio.encryption = plain.encryption;
+    radio.range_db = plain.range_db;
+    return radio;
+}
+
 }  // namespace
 
 Medium::Membership Medium::membership(const Radio& radio) {
@@ -34,19 +53,31 @@ Medium::Membership Medium::membership(const Radio& radio) {
             .gated = radio.gate == Gate::network};
 }
 
+std::uint32_t Medium::kind_of(const Radio& radio, std::uint32_t model) {
+    const Radio plain = without_labels(radio);
+    for (std::size_t i = 0; i < std::min(kinds_.size(), most_kinds); ++i) {
+        if (kinds_[i].model != model || kinds_[i].radio != plain) continue;
+        ++kinds_[i].stations;
+        return static_cast<std::uint32_t>(i);
+    }
+    kinds_.push_back({.radio = plain, .membership = membership(radio), .model = model});
+    const Membership& mine = kinds_.back().membership;
+    // All match as long as all have the same network, or none is gated.
+    gated_ = gated_ || (mine.gated && (essids_.size() > 2 || channels_.size() > 1));
+    return static_cast<std::uint32_t>(kinds_.size() - 1);
+}
+
 void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propagation) {
     check_fields(radio, "radio");
     propagation.check_frequency(radio.frequency);
-    const std::uint32_t model = number_of(models_, propagation);
-    stations_.push_back({key, radio.antenna_height.value, model});
-    memberships_.push_back(membership(radio));
-    radios_.push_back(radio);
-    // All match as long as all have the same network, or none is gated.
-    gated_ = gated_ || (memberships_.back().gated && (essids_.size() > 2 || channels_.size() > 1));
-
+    if (radios_.empty() || radios_.back() != radio) radios_.push_back(radio);
+    const std::uint32_t kind = kind_of(radio, number_of(models_, propagation));
+    stations_.push_back({key, static_cast<std::uint32_t>(radios_.size() - 1), kind});
+    index_.add(kind);
+    cells_chosen_ = false;
     if (receiver_share(radio) > best_receiver_) {
         best_receiver_ = receiver_share(radio);
-        for (auto& station : stations_) station.reach2 = -1;
+        for (auto& other : kinds_) other.reach2 = -1;
     }
 }
 
@@ -54,21 +85,42 @@ std::string_view Medium::propagation(NodeId node) const { return model(node).nam
 
 Vec3 Medium::antenna(NodeId node, Time t, const Legs& legs) const {
     Vec3 p = legs.position(node, t);
-    p.z += stations_[node.index()].antenna_height;
+    p.z += kind(node).radio.antenna_height.value;
     return p;
 }
 
-double Medium::squared_reach(NodeId from) {
-    Station& sender = stations_[from.index()];
-    if (sender.reach2 < 0) {
+double Medium::squared_reach(Kind& from) {
+    if (from.reach2 < 0) {
         constexpr double slack = 1 + 1e-9;  // rounding of the model's inverse
-        const Radio& mine = radio(from);
-        const Db budget =
-            best_receiver_ + Db{mine.power.value} + mine.antenna_gain - mine.cable_loss;
-        const double reach = model(from).reach(budget, mine.frequency).value * slack;
-        sender.reach2 = reach * reach;
+        const Db budget = best_receiver_ + Db{from.radio.power.value} + from.radio.antenna_gain -
+                          from.radio.cable_loss;
+        const double reach = models_[from.model].reach(budget, from.radio.frequency).value * slack;
+        from.reach2 = reach * reach;
     }
-    return sender.reach2;
+    return from.reach2;
+}
+
+/// The largest squared distance [m^2] over which `to` hears `from`, whose model goes by distance.
+double Medium::squared_range(Kind& from, std::uint32_t to) {
+    if (from.range2.size() <= to) from.range2.resize(kinds_.size(), std::nan(""));
+    double& range2 = from.range2[to];
+    if (std::isnan(range2)) {
+        range2 = largest_squared_distance(models_[from.model], from.radio.frequency,
+                                          link_budget(from.radio, kinds_[to].radio));
+    }
+    return range2;
+}
+
+/// Cells as wide as the reach of the median station: most queries then look at nine of them.
+void Medium::choose_cells() {
+    std::vector<std::pair<double, std::uint32_t>> reaches;
+    for (Kind& each : kinds_) reaches.emplace_back(std::sqrt(squared_reach(each)), each.stations);
+    std::sort(reaches.begin(), reaches.end());
+    std::size_t seen = 0, median = 0;
+    while (2 * (seen += reaches[median].second) < stations_.size()) ++median;
+    constexpr double widest = 1e9;  // [m] of models without a bound
+    index_.set_cell_size(std::min(1.1 * reaches[median].first, widest));
+    cells_chosen_ = true;
 }
 
 LinkBatch Medium::batch(NodeId from, Vec3 origin) const {
@@ -83,26 +135,48 @@ LinkBatch Medium::batch(NodeId from, Vec3 origin) const {
             .replication = settings_.replication};
 }
 
-void Medium::gather(NodeId from, Time t, const Legs& legs) {
-    const double reach2 = squared_reach(from);
-    nodes_.clear();
-    positions_.clear();
-    keys_.clear();
+/// Calls use(entry, antenna, squared distance) for those within reach that are on and may link.
+template <class Use>
+void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use) {
+    if (!cells_chosen_) choose_cells();
     origin_ = antenna(from, t, legs);
-    for (std::uint32_t i = 0; i < stations_.size(); ++i) {
-        const NodeId node{i};
-        if (node == from || !stations_[i].on) continue;
-        const Vec3 p = antenna(node, t, legs);
-        if (squared_distance(origin_, p) > reach2 || !may_link(from, node)) continue;
-        nodes_.push_back(node);
+    index_.visit(origin_, std::sqrt(reach2), t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p) {
+        const double dx = p.x - origin_.x, dy = p.y - origin_.y;
+        if (dx * dx + dy * dy > reach2) return;
+        p.z += kinds_[e.label].radio.antenna_height.value;
+        const double d2 = squared_distance(origin_, p);
+        if (d2 > reach2 || e.node == from || !is_on(e.node)) return;
+        if (gated_ && !may_link(from, e.node)) return;
+        use(e, p, d2);
+    });
+}
+
+/// Those whose link goes by distance alone and is up.
+void Medium::find_in_range(NodeId from, Time t, const Legs& legs) {
+    Kind& mine = kinds_[stations_[from.index()].kind];
+    const double reach2 = squared_reach(mine);
+    if (mine.range2.size() < kinds_.size()) mine.range2.resize(kinds_.size(), std::nan(""));
+    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p, double d2) {
+        double range2 = mine.range2[e.label];
+        if (std::isnan(range2)) range2 = squared_range(mine, e.label);
+        if (d2 > range2) return;
+        nodes_.push_back(e.node);
         positions_.push_back(p);
-        keys_.push_back(stations_[i].key);
-    }
+    });
+}
+
+void Medium::find_in_reach(NodeId from, Time t, const Legs& legs) {
+    const double reach2 = squared_reach(kinds_[stations_[from.index()].kind]);
+    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p, double) {
+        nodes_.push_back(e.node);
+        positions_.push_back(p);
+        keys_.push_back(stations_[e.node.index()].key);
+    });
 }
 
 void Medium::keep_those_in_budget(NodeId from) {
     if (nodes_.empty()) return;
-    Db give_up{-std::numeric_limits<double>::infinity()};
+    Db give_up{-infinity};
     for (const NodeId node : nodes_) {
         give_up = std::max(give_up, link_budget(radio(from), radio(node)));
     }
@@ -120,10 +194,18 @@ void Medium::keep_those_in_budget(NodeId from) {
     positions_.resize(kept);
 }
 
+void Medium::find_hearers(NodeId from, Time t, const Legs& legs) {
+    nodes_.clear();
+    positions_.clear();
+    keys_.clear();
+    if (model(from).by_distance_alone()) return find_in_range(from, t, legs);
+    find_in_reach(from, t, legs);
+    keep_those_in_budget(from);
+}
+
 void Medium::receivers(NodeId from, Time start, Time end, const Legs& legs,
                        std::vector<Reception>& out) {
-    gather(from, start, legs);
-    keep_those_in_budget(from);
+    find_hearers(from, start, legs);
     const auto first = static_cast<std::ptrdiff_t>(out.size());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Duration delay = settings_.propagation_delay
@@ -141,9 +223,7 @@ std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
     std::vector<NodeId> frontier{from};
     seen[from.index()] = true;
     for (std::size_t next = 0; next < frontier.size(); ++next) {
-        gather(frontier[next], t, legs);
-        keep_those_in_budget(frontier[next]);
-        for (const NodeId node : nodes_) {
+        for (const NodeId node : hearers(frontier[next], t, legs)) {
             if (seen[node.index()]) continue;
             seen[node.index()] = true;
             frontier.push_back(node);
@@ -163,7 +243,7 @@ Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
     link.to = {&position, 1};
     link.to_keys = {&stations_[to.index()].key, 1};
     double loss = 0;
-    model(from).loss(link, Db{std::numeric_limits<double>::infinity()}, {&loss, 1});
+    model(from).loss(link, Db{infinity}, {&loss, 1});
     return {loss};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/neighbour_index.hpp"
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
 #include "sim/ids.hpp"
@@ -8,13 +9,14 @@
 #include "sim/record.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace rovernet {
 
-/// The air: who hears a transmission, by the link budget alone (reception rung "threshold").
+/// The air: who hears a transmission.
 ///
 /// The transmitter's propagation model rules. Everything about a frame is fixed at its start: who
 /// is on, where everybody is, at what level. A link is up iff its path loss is within link_budget.
@@ -34,22 +36,32 @@ class Medium {
     /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot
     ///         work at the radio's frequency
     void add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
+    /// The node's leg has been replaced.
+    void moved(NodeId node, const Legs& legs) { index_.moved(node, legs); }
 
     void switch_radio(NodeId node, bool on) { stations_[node.index()].on = on; }
     bool is_on(NodeId node) const { return stations_[node.index()].on; }
-    const Radio& radio(NodeId node) const { return radios_[node.index()]; }
+    const Radio& radio(NodeId node) const { return radios_[stations_[node.index()].radio]; }
     /// The gates of both let them have a link: one of them is open, or they share a network.
     bool may_link(NodeId a, NodeId b) const {
-        return !gated_ || Membership::match(memberships_[a.index()], memberships_[b.index()]);
+        return !gated_ || Membership::match(kind(a).membership, kind(b).membership);
     }
     std::string_view propagation(NodeId node) const;
 
     /// Appends to `out` the nodes that hear `from` when it sends at `start`, in the order in which
-    /// the frame ends at them, then of NodeId. `end`: of the frame at the transmitter.
+    /// the frame ends at them, then of NodeId. `start` must not decrease from call to call.
+    /// @param end  of the frame at the transmitter
     void receivers(NodeId from, Time start, Time end, const Legs& legs,
                    std::vector<Reception>& out);
 
-    /// Nodes other than `from` that a chain of links joins to it at `t`.
+    /// Those that hear `from` when it sends at `t`, which must not decrease; in no order. The span
+    /// is good until the next call.
+    std::span<const NodeId> hearers(NodeId from, Time t, const Legs& legs) {
+        find_hearers(from, t, legs);
+        return nodes_;
+    }
+
+    /// Nodes other than `from` that a chain of links joins to it at `t`, which must not decrease.
     std::uint32_t reachable(NodeId from, Time t, const Legs& legs);
 
     /// Path loss [dB] from `from` to `to` at `t`, with nothing given up.
@@ -59,19 +71,17 @@ class Medium {
     /// or gated link is down whatever its level.
     bool link_up(NodeId from, NodeId to, Time t, const Legs& legs) const;
     /// The model that rules what `node` transmits.
-    const Propagation& model(NodeId node) const { return models_[stations_[node.index()].model]; }
+    const Propagation& model(NodeId node) const { return models_[kind(node).model]; }
 
     /// A node's antenna at `t` [m].
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
 
   private:
-    /// What is looked at for every candidate of every transmission.
     struct Station {
         std::uint64_t key;
-        double antenna_height;  // [m]
-        std::uint32_t model;    // index into models_
+        std::uint32_t radio;  // index into radios_
+        std::uint32_t kind;   // index into kinds_
         bool on = true;
-        double reach2 = -1;  // [m^2] nobody farther hears it; < 0: to be computed
     };
     /// A radio's network, as numbers that are equal where the settings are.
     struct Membership {
@@ -82,23 +92,44 @@ class Medium {
             return !a.gated || !b.gated ||
                    (a.channel == b.channel && (a.essid == b.essid || !a.essid || !b.essid));
         }
+        friend bool operator==(const Membership&, const Membership&) = default;
+    };
+    /// Stations that are alike in all that decides a link.
+    struct Kind {
+        Radio radio;  // without labels and addresses
+        Membership membership;
+        std::uint32_t model;              // index into models_
+        std::uint32_t stations = 1;       // of this kind
+        double reach2 = -1;               // [m^2] nobody farther hears it; < 0: to be computed
+        std::vector<double> range2 = {};  // [m^2] by the receiver's kind; NaN: to be computed
     };
 
-    void gather(NodeId from, Time t, const Legs& legs);
-    void keep_those_in_budget(NodeId from);
-    double squared_reach(NodeId from);
-    LinkBatch batch(NodeId from, Vec3 origin) const;
+    const Kind& kind(NodeId node) const { return kinds_[stations_[node.index()].kind]; }
+    std::uint32_t kind_of(const Radio& radio, std::uint32_t model);
     Membership membership(const Radio& radio);
+    void choose_cells();
+
+    void find_in_reach(NodeId from, Time t, const Legs& legs);
+    void find_in_range(NodeId from, Time t, const Legs& legs);
+    void find_hearers(NodeId from, Time t, const Legs& legs);
+    void keep_those_in_budget(NodeId from);
+    template <class Use>
+    void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
+    double squared_reach(Kind& kind);
+    double squared_range(Kind& from, std::uint32_t to);
+    LinkBatch batch(NodeId from, Vec3 origin) const;
 
     Settings settings_;
     std::vector<Station> stations_;
-    std::vector<Radio> radios_;
-    std::vector<Membership> memberships_;
+    std::vector<Radio> radios_;  // those that differ
+    std::vector<Kind> kinds_;
     std::vector<std::string> essids_ = {"any"};
     std::vector<std::pair<int, Hertz>> channels_;
     bool gated_ = false;  // some two radios do not match
     std::vector<Propagation> models_;
     Db best_receiver_{-1e300};  // gain - cable loss - sensitivity of the most sensitive station
+    NeighbourIndex index_;
+    bool cells_chosen_ = false;
 
     // The batch under work: candidates in reach, then those in budget; kept for their memory.
     Vec3 origin_;

@@ -65,6 +65,13 @@ concept ShapedModel = requires {
     { T::shape } -> std::convertible_to<LossShape>;
 };
 
+/// A model that can tell whether its loss is a function of the distance between the antennas alone
+/// which never falls: then links are decided by distance, and levels computed when somebody looks.
+template <class T>
+concept DistanceModel = requires(const T& model) {
+    { model.by_distance_alone() } -> std::same_as<bool>;
+};
+
 /// A model that cannot work with every frequency says so by std::invalid_argument.
 template <class T>
 concept FrequencyCheckedModel = requires(const T& model, Hertz frequency) {
@@ -86,6 +93,7 @@ class Propagation {
     Meters reach(Db loss, Hertz frequency) const { return self_->reach(loss, frequency); }
     void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
     LossShape shape() const { return self_->shape(); }
+    bool by_distance_alone() const { return self_->by_distance_alone(); }
     /// Whether both are copies of one handle; the Network keeps one table entry for them.
     friend bool operator==(const Propagation&, const Propagation&) = default;
 
@@ -97,6 +105,7 @@ class Propagation {
         virtual Meters reach(Db, Hertz) const = 0;
         virtual void check_frequency(Hertz) const = 0;
         virtual LossShape shape() const = 0;
+        virtual bool by_distance_alone() const = 0;
     };
     template <class T>
     struct Holder final : Concept {
@@ -117,6 +126,10 @@ class Propagation {
         LossShape shape() const override {
             if constexpr (ShapedModel<T>) return T::shape;
             return LossShape::unknown;
+        }
+        bool by_distance_alone() const override {
+            if constexpr (DistanceModel<T>) return model.by_distance_alone();
+            return false;
         }
         T model;
     };

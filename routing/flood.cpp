@@ -7,15 +7,17 @@ Flood::operator Router() const { return FloodRouter{*this}; }
 
 FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) { check_fields(flood, "flood"); }
 
-FloodRouter::Knowledge& FloodRouter::known(const LinkLayer& link, MessageId message, NodeId node) {
+/// What every node knows of a message.
+std::vector<FloodRouter::Knowledge>& FloodRouter::knowledge(const LinkLayer& link,
+                                                            MessageId message) {
     if (known_.size() <= message.index()) known_.resize(message.index() + 1);
     auto& by_node = known_[message.index()];
-    if (by_node.size() <= node.index()) by_node.resize(link.size());
-    return by_node[node.index()];
+    if (by_node.size() < link.size()) by_node.resize(link.size());
+    return by_node;
 }
 
 void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
-    known(link, message, node).state = Knowledge::sent;
+    knowledge(link, message)[node.index()].state = Knowledge::sent;
     link.broadcast({.message = message,
                     .sender = node,
                     .path = link.key(node),
@@ -25,15 +27,16 @@ void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
 }
 
 void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+    auto& by_node = knowledge(link, frame.message);
     for (auto& reception : receptions) {
-        const auto& before = known(link, frame.message, reception.node);
-        reception.delivered = before.state == Knowledge::unheard;
-        reception.fate = fate_of(link, frame, reception);
+        Knowledge& mine = by_node[reception.node.index()];
+        reception.delivered = mine.state == Knowledge::unheard;
+        reception.fate = fate_of(link, frame, reception, mine);
     }
 }
 
-Fate FloodRouter::fate_of(LinkLayer& link, const Frame& frame, const Reception& reception) {
-    auto& mine = known(link, frame.message, reception.node);
+Fate FloodRouter::fate_of(LinkLayer& link, const Frame& frame, const Reception& reception,
+                          Knowledge& mine) {
     const bool last_hop = frame.ttl <= 1;
     if (flood_.duplicates == Duplicates::forward) {
         if (mine.state == Knowledge::unheard) mine.state = Knowledge::ended;
@@ -78,13 +81,13 @@ std::uint32_t FloodRouter::wait(LinkLayer& link, const Frame& frame, const Recep
 void FloodRouter::on_timer(LinkLayer& link, NodeId node, std::uint64_t copy) {
     const Frame heard = copies_[copy];
     copies_.release(copy);
-    known(link, heard.message, node).state = Knowledge::sent;
+    knowledge(link, heard.message)[node.index()].state = Knowledge::sent;
     if (link.is_on(node)) {
         link.broadcast({.message = heard.message,
                         .sender = node,
                         .path = combine(heard.path, link.key(node)),
-                        .ttl = static_cast<std::uint8_t>(heard.ttl - 1),
-                        .hops = static_cast<std::uint8_t>(heard.hops + 1)},
+                        .ttl = static_cast<Hops>(heard.ttl - 1),
+                        .hops = static_cast<Hops>(heard.hops + 1)},
                        heard.sender);
     } else {
         link.drop(node, heard, DropReason::off);

@@ -27,14 +27,14 @@ struct EnumNames<Duplicates> {
 /// the flood. "forward": every copy is forwarded, also by its source, and only the TTL ends it: the
 /// 2007 thesis's rule, whose load grows as the number of walks in the network.
 struct Flood {
-    int ttl = 3;  ///< [hops], 1 ... 255
+    int ttl = 3;  ///< [hops], 1 ... 65535
     Duplicates duplicates = Duplicates::suppress;
     bool upgrade = true;                              ///< a higher TTL lifts the waiting copy
     Duration jitter = std::chrono::milliseconds{10};  ///< [ns] upper end of the uniform delay
 
     static constexpr auto fields() {
         return describe(
-            field("ttl", &Flood::ttl, Range{.low = 1, .high = 255, .text = "from 1 to 255"},
+            field("ttl", &Flood::ttl, Range{.low = 1, .high = 65535, .text = "from 1 to 65535"},
                   "hops that a message may cross"),
             field("duplicates", &Flood::duplicates, "what a node does with a second copy"),
             field("upgrade", &Flood::upgrade,
@@ -53,7 +53,7 @@ class FloodRouter {
     /// @throws std::invalid_argument if a parameter is out of its range
     explicit FloodRouter(const Flood& flood);
 
-    std::uint8_t initial_ttl() const { return static_cast<std::uint8_t>(flood_.ttl); }
+    Hops initial_ttl() const { return static_cast<Hops>(flood_.ttl); }
     void send(LinkLayer& link, NodeId node, MessageId message);
     void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions);
     void on_timer(LinkLayer& link, NodeId node, std::uint64_t copy);
@@ -67,8 +67,8 @@ class FloodRouter {
         std::uint32_t copy = 0;  // the one that waits
     };
 
-    Knowledge& known(const LinkLayer& link, MessageId message, NodeId node);
-    Fate fate_of(LinkLayer& link, const Frame& frame, const Reception& reception);
+    std::vector<Knowledge>& knowledge(const LinkLayer& link, MessageId message);
+    Fate fate_of(LinkLayer& link, const Frame& frame, const Reception& reception, Knowledge& mine);
     bool lifts(const Frame& frame, const Knowledge& known) const;
     std::uint32_t wait(LinkLayer& link, const Frame& frame, const Reception& reception);
 

@@ -21,13 +21,16 @@ struct Message {
     std::string payload;
 };
 
+/// A number of hops, such as a time-to-live.
+using Hops = std::uint16_t;
+
 /// A message on its way: what one transmission carries. A value; routers pass it on changed.
 struct Frame {
     MessageId message;
     NodeId sender;           ///< who puts this frame on air
     std::uint64_t path = 0;  ///< key of the walk that the copy took so far, for draws per copy
-    std::uint8_t ttl = 0;    ///< the hops that this copy may still cross, this one included
-    std::uint8_t hops = 0;   ///< the hops that it has crossed once received
+    Hops ttl = 0;            ///< the hops that this copy may still cross, this one included
+    Hops hops = 0;           ///< the hops that it has crossed once received
 };
 
 /// The messages that a frame in flight or a waiting copy still refers to.

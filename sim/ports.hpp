@@ -63,7 +63,7 @@ concept RouterProtocol = requires(T router, LinkLayer& link, NodeId node, Messag
     /// A slot of the message table is free for another message.
     {router.forget(message)};
     /// TTL that a message of this router starts with [hops].
-    { std::as_const(router).initial_ttl() } -> std::convertible_to<std::uint8_t>;
+    { std::as_const(router).initial_ttl() } -> std::convertible_to<Hops>;
 };
 
 /// Any routing protocol, held by value.
@@ -81,7 +81,7 @@ class Router {
         self_->on_timer(link, node, tag);
     }
     void forget(MessageId m) { self_->forget(m); }
-    std::uint8_t initial_ttl() const { return self_->initial_ttl(); }
+    Hops initial_ttl() const { return self_->initial_ttl(); }
 
   private:
     struct Concept {
@@ -90,7 +90,7 @@ class Router {
         virtual void on_receive(LinkLayer&, const Frame&, std::span<Reception>) = 0;
         virtual void on_timer(LinkLayer&, NodeId, std::uint64_t) = 0;
         virtual void forget(MessageId) = 0;
-        virtual std::uint8_t initial_ttl() const = 0;
+        virtual Hops initial_ttl() const = 0;
     };
     template <class T>
     struct Holder final : Concept {
@@ -103,7 +103,7 @@ class Router {
             protocol.on_timer(l, n, t);
         }
         void forget(MessageId m) override { protocol.forget(m); }
-        std::uint8_t initial_ttl() const override { return protocol.initial_ttl(); }
+        Hops initial_ttl() const override { return protocol.initial_ttl(); }
         T protocol;
     };
     std::unique_ptr<Concept> self_;

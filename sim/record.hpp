@@ -41,7 +41,7 @@ struct Sent {
     Time time;
     NodeId node;
     MessageId message;
-    std::uint8_t ttl;      ///< hops that the message may cross
+    Hops ttl;              ///< hops that the message may cross
     std::uint32_t robots;  ///< robots in the network now, the sender included
     /// Robots that a chain of links joins to the sender now, the sender not included; present only
     /// if a sink asks for it (see kind_reachable).

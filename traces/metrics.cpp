@@ -86,6 +86,7 @@ void Metrics::count(const Received& received, const RecordContext& context) {
 
 void Metrics::deliver(const Reception& rx, const Frame& frame, const RecordContext& context) {
     ++totals_.deliveries;
+    if (hops_.size() <= frame.hops) hops_.resize(frame.hops + std::size_t{1});
     ++hops_[frame.hops];
     delays_.push_back(rx.time - context.messages[frame.message].created);
     if (flood(frame.message).reachable_known) ++reached_;

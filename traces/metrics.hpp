@@ -100,7 +100,7 @@ class Metrics {
     std::uint64_t reached_ = 0;     ///< ... and the deliveries of those messages
     std::uint64_t forwarders_ = 0;  ///< distinct (message, robot other than the origin)
     std::vector<Duration> delays_;  ///< of the deliveries, in no order
-    std::array<std::uint64_t, 256> hops_{};
+    std::vector<std::uint64_t> hops_;  // deliveries by their hops
     std::vector<Flood> floods_;  ///< by MessageId
 };
 

@@ -165,7 +165,7 @@ void read_size(Ns2Packet& p, const Tokens& tokens, Token token) {
 }
 
 void read_ttl(Ns2Packet& p, const Tokens& tokens, Token token) {
-    p.ttl = tokens.integer<std::uint8_t>(token, "a ttl of at most 255", 255);
+    p.ttl = tokens.integer<std::uint16_t>(token, "a ttl of at most 65535", 65535);
     p.ttl_column = token.column;
 }
 

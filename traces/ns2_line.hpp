@@ -34,7 +34,7 @@ struct Ns2Packet {
     NodeId origin;
     std::uint64_t uid = 0;
     std::uint32_t size = 0;  ///< [bytes]
-    std::uint8_t ttl = 0;
+    std::uint16_t ttl = 0;
     int uid_column = 0;
     int ttl_column = 0;
 };

@@ -136,7 +136,7 @@ class Replay {
     MessageTable messages_;
     RecordContext context_;
     std::unordered_map<std::uint64_t, MessageId> by_uid_;
-    std::vector<std::uint8_t> initial_ttl_;  ///< by MessageId
+    std::vector<Hops> initial_ttl_;  ///< by MessageId
     std::vector<std::uint32_t> numbers_;     ///< by robot: its messages so far
     std::vector<bool> placed_;               ///< by robot: it has had an M line
     std::uint32_t robots_ = 0;               ///< robots that have
@@ -201,7 +201,7 @@ Frame Replay::frame_of(const Ns2Packet& p) {
                                        p.uid));
     }
     const int hops = initial_ttl_[found->second.index()] - p.ttl + 1;
-    if (hops < 1 || hops > 255) {
+    if (hops < 1 || hops > 65535) {
         fail(p.ttl_column, fmt::format("found ttl {}, expected at most that of the message, {}",
                                        p.ttl, initial_ttl_[found->second.index()]));
     }
@@ -211,7 +211,7 @@ Frame Replay::frame_of(const Ns2Packet& p) {
             .sender = sender,
             .path = 0,
             .ttl = p.ttl,
-            .hops = static_cast<std::uint8_t>(hops)};
+            .hops = static_cast<Hops>(hops)};
 }
 
 /// A line that goes on with the reception of the line before.

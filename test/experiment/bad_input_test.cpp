@@ -106,7 +106,7 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "on_arrival = {}", "4:14", {"move", "missing"}},
     {robot_a + "on_arrival = { stop = true, move = { model = \"fixed\" } }", "4:23", {"only one"}},
     {robot_a + "on_link_lost = { from = \"Z\", stop = true }", "4:25", {"no robot \"Z\""}},
-    {robot_a + "on_receive = { hops = 0, stop = true }", "4:23", {"from 1 to 255"}},
+    {robot_a + "on_receive = { hops = 0, stop = true }", "4:23", {"from 1 to 65535"}},
     {robot_a + "[[robot]]\nname = \"B\"\nat = [\"1 m\", \"1 m\"]\nradio = { ip = \"1.2.3.4\" }\n"
                "[[robot]]\nname = \"C\"\nat = [\"2 m\", \"1 m\"]\nradio = { ip = \"1.2.3.4\" }",
      "11:9",
@@ -186,8 +186,8 @@ const std::vector<Mistake> mistakes = {
      "6:1",
      {"60 MHz", "coefficient"}},
     {robot_a + "[reception]\nmodel = \"colision\"", "5:9", {"expected \"threshold\""}},
-    {robot_a + "[routing]\nttl = 0", "5:7", {"from 1 to 255"}},
-    {robot_a + "[routing]\nttl = 256", "5:7", {"from 1 to 255"}},
+    {robot_a + "[routing]\nttl = 0", "5:7", {"from 1 to 65535"}},
+    {robot_a + "[routing]\nttl = 65536", "5:7", {"from 1 to 65535"}},
     {robot_a + "[routing]\nprotocol = \"fload\"", "5:12", {"did you mean \"flood\"?"}},
     // Robots.
     {"[[robot]]\nat = [\"2 m\", \"3 m\"]", "1:1", {"\"name\" is missing"}},

@@ -280,17 +280,17 @@ TEST_CASE("flood: suppressing duplicates, the source never forwards") {
     CHECK(flooded(complete(5), {.ttl = 5}).forwards_of.count({0}) == 0);
 }
 
-TEST_CASE("flood: a TTL outside of 1 to 255 and a negative jitter are refused") {
-    for (const int ttl : {0, 256, -1}) {
+TEST_CASE("flood: a TTL outside of 1 to 65535 and a negative jitter are refused") {
+    for (const int ttl : {0, 65536, -1}) {
         CHECK_THROWS_AS(FloodRouter(Flood{.ttl = ttl}), std::invalid_argument);
     }
-    CHECK_NOTHROW(FloodRouter(Flood{.ttl = 255}));
+    CHECK_NOTHROW(FloodRouter(Flood{.ttl = 65535}));
     CHECK_THROWS_AS(FloodRouter(Flood{.jitter = Duration{-1}}), std::invalid_argument);
 }
 
-TEST_CASE("flood: TTL 255 crosses 255 hops") {
-    const Ledger run = flooded(grid(300, 1, 0), {.ttl = 255});
-    CHECK(run.delivered == 255);
+TEST_CASE("flood: TTL 260 crosses 260 hops") {
+    const Ledger run = flooded(grid(300, 1, 0), {.ttl = 260});
+    CHECK(run.delivered == 260);
 }
 
 TEST_CASE("flood: upgrade reaches more robots than first copies only, both within the TTL") {

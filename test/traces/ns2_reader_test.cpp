@@ -271,8 +271,8 @@ TEST_CASE("reader: a broken line names its place, what was found and what was ex
           "run.tr:8:16: found \"--\", expected a reason of ns-2, or ---");
     CHECK(broken("r 1.0 _1_ RTR  --- 0 message") ==
           "run.tr:8:29: the line ends, expected a size in bytes");
-    CHECK(broken("r 1.0 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 256 0] ")
-              .starts_with("run.tr:8:70: found \"256\", expected a ttl"));
+    CHECK(broken("r 1.0 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 65536 0] ")
+              .starts_with("run.tr:8:70: found \"65536\", expected a ttl"));
     CHECK(broken("r 1.0 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 4 0] ") ==
           "run.tr:8:70: found ttl 4, expected at most that of the message, 3");
     CHECK(broken("r 1.0 _1_ RTR  --- 9 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] ") ==

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/flood_bench.hpp"
+
+#include "experiment/network.hpp"
+#include "mobility/random_waypoint.hpp"
+#include "models/list.hpp"
+#include "routing/flood.hpp"
+#include "sim/random.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <malloc.h>
+#include <numbers>
+#include <stdexcept>
+#include <time.h>
+
+namespace rovernet {
+namespace {
+
+constexpr double decode_range = 250;    // [m]
+constexpr double mean_neighbours = 12;  // where there is no border
+constexpr std::uint32_t payload = 64;   // [bytes]
+
+double cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) / 1e9;
+}
+
+/// Bytes that this process has allocated and not freed.
+double allocated() {
+    const auto now = mallinfo2();
+    return static_cast<double>(now.uordblks) + static_cast<double>(now.hblkhd);
+}
+
+double side(std::uint32_t nodes) {
+    return decode_range * std::sqrt(std::numbers::pi * nodes / mean_neighbours);
+}
+
+/// Counts what a flood does.
+struct Count {
+    std::uint64_t transmissions = 0, attempts = 0, decoded = 0;
+
+    KindMask kinds() const { return kind_of<Transmitted>() | kind_of<Received>(); }
+    void on(const Record& record, const RecordContext&) {
+        if (std::holds_alternative<Transmitted>(record)) {
+            ++transmissions;
+            return;
+        }
+        const auto receptions = std::get<Received>(record).receptions;
+        attempts += receptions.size();
+        for (const Reception& r : receptions) decoded += r.fate <= Fate::duplicate;
+    }
+};
+
+Propagation model(const FloodBench& bench) {
+    // The exponent of the two-ray model far off, so that levels fall as fast as over flat ground.
+    if (bench.shadowing.value > 0) return LogDistance{.exponent = 4, .sigma = bench.shadowing};
+    return Disc{.range = {decode_range}};
+}
+
+/// A radio that reaches as far as the bench wants, at the median.
+Radio radio(const FloodBench& bench) {
+    Radio radio{.rate = {11e6}, .preamble = std::chrono::microseconds{96}};
+    if (bench.shadowing.value > 0) {
+        const double lost = free_space_db(1, radio.frequency) + 40 * std::log10(decode_range);
+        radio.sensitivity = radio.power - Db{lost};
+    }
+    return radio;
+}
+
+Movement movement(const FloodBench& bench, double side) {
+    if (bench.mobility == BenchMobility::fixed) return Fixed{};
+    return RandomWaypoint{.area = {{0, 0}, {side, side}}, .min_speed = {1}, .max_speed = {20}};
+}
+
+void add_robots(Network& network, const FloodBench& bench, std::uint32_t nodes) {
+    const double length = side(nodes);
+    const auto coordinate = [&](std::uint32_t node, std::uint64_t axis) {
+        return length *
+               uniform(
+                   {.seed = bench.seed, .purpose = Purpose::placement, .a = node, .index = axis});
+    };
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+        network.add({.name = fmt::format("r{}", i),
+                     .at = {coordinate(i, 0), coordinate(i, 1)},
+                     .radio = radio(bench),
+                     .move = movement(bench, length)});
+    }
+}
+
+/// The cost of a plain breadth-first search of the graph of who hears whom now [ns per edge].
+double search_cost(Network& network, std::uint32_t nodes) {
+    std::vector<std::uint32_t> first{0};
+    std::vector<NodeId> neighbours;
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+        network.find_hearers(NodeId{i}, neighbours);
+        first.push_back(static_cast<std::uint32_t>(neighbours.size()));
+    }
+    std::uint64_t edges = 0;
+    const double begin = cpu_seconds();
+    double spent = 0;
+    for (std::uint32_t round = 0; spent < 0.1; ++round) {
+        std::vector<bool> seen(nodes);
+        std::vector<std::uint32_t> queue{round % nodes};
+        seen[queue[0]] = true;
+        for (std::size_t next = 0; next < queue.size(); ++next) {
+            for (auto e = first[queue[next]]; e < first[queue[next] + 1]; ++e, ++edges) {
+                if (seen[neighbours[e].index()]) continue;
+                seen[neighbours[e].index()] = true;
+                queue.push_back(neighbours[e].value);
+            }
+        }
+        spent = cpu_seconds() - begin;
+    }
+    return 1e9 * spent / static_cast<double>(std::max<std::uint64_t>(edges, 1));
+}
+
+/// Sends one message and runs until nobody forwards it any more.
+void flood(Network& network, NodeId from, const Count& count) {
+    network.broadcast(from, "", payload);
+    for (std::uint64_t before = ~std::uint64_t{0}; before != count.transmissions;) {
+        before = count.transmissions;
+        network.run_for(std::chrono::milliseconds{100});
+    }
+}
+
+}  // namespace
+
+FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
+    if (nodes < 2) throw std::invalid_argument("a flood needs at least 2 nodes");
+    const double before = allocated();
+    Network network({.seed = bench.seed,
+                     .propagation = model(bench),
+                     .event_limit = ~std::uint64_t{0},
+                     .metrics = false});
+    add_robots(network, bench, nodes);
+    network.route(Flood{.ttl = 65535, .upgrade = false});
+    const auto count = std::make_shared<Count>();
+    network.add_sink(Sink{count});
+    network.run_for(Duration{0});
+
+    std::vector<double> costs;  // of the parts [ns per attempt]
+    std::uint32_t origin = 0;
+    for (int part = 0; part < 5; ++part) {
+        const std::uint64_t attempts = count->attempts;
+        const double begin = cpu_seconds();
+        double spent = 0;
+        while (spent < bench.cpu_s / 5) {
+            origin = static_cast<std::uint32_t>((origin + std::uint64_t{7919}) % nodes);
+            flood(network, NodeId{origin}, *count);
+            spent = cpu_seconds() - begin;
+        }
+        costs.push_back(
+            1e9 * spent /
+            static_cast<double>(std::max<std::uint64_t>(count->attempts - attempts, 1)));
+    }
+    std::sort(costs.begin(), costs.end());
+    const double bytes = (allocated() - before) / nodes;
+    return {.nodes = nodes,
+            .transmissions = count->transmissions,
+            .receptions = count->decoded,
+            .attempts = count->attempts,
+            .ns_per_reception = costs[2],
+            .bfs_ns_per_edge = search_cost(network, nodes),
+            .bytes_per_node = bytes};
+}
+
+}  // namespace rovernet

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/scenario.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// How the robots of a flood bench move.
+enum class BenchMobility { fixed, random_waypoint };
+template <>
+struct EnumNames<BenchMobility> {
+    static constexpr std::array<std::string_view, 2> values = {"static", "random_waypoint"};
+};
+
+/// What a flood bench measures: floods of 64-byte messages, 11 Mb/s behind a short preamble, that
+/// every robot forwards once, over robots uniform in a square that hear each other up to 250 m and
+/// have 12 neighbours on average where there is no border.
+struct FloodBench {
+    std::vector<std::uint32_t> nodes = {1000};
+    ReceptionModel reception = ReceptionModel::threshold;
+    BenchMobility mobility = BenchMobility::fixed;  ///< random waypoint: 1-20 m/s, no rest
+    Db shadowing{0};                                ///< of each link; 0: links go by distance alone
+    double cpu_s = 2;                               ///< [s] of CPU that each row takes, at least
+    std::uint64_t seed = 1;
+};
+
+/// One size of network.
+struct FloodBenchRow {
+    std::uint32_t nodes;
+    std::uint64_t transmissions;  ///< of all floods
+    std::uint64_t receptions;     ///< decoded, duplicates included
+    std::uint64_t attempts;       ///< robots within the decode range of a transmission
+    double ns_per_reception;      ///< [ns] CPU per attempt: the median of five parts of the time
+    double bfs_ns_per_edge;       ///< [ns] of a plain breadth-first search of the same graph
+    double bytes_per_node;        ///< [bytes] the network's memory after the floods
+};
+
+/// Floods until the CPU time is spent. @throws std::invalid_argument for fewer than 2 nodes
+FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes);
+
+}  // namespace rovernet

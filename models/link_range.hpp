@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/propagation.hpp"
+
+namespace rovernet {
+
+/// The largest squared distance [m^2] between antennas at which the loss is within `budget`: it is
+/// if and only if squared_distance(a, b) is no larger. Negative if the loss exceeds the budget even
+/// at 0 m; infinite if it never does.
+///
+/// Found by bisection over the numbers that a distance can have, so that no rounding separates it
+/// from the model. @param model  by_distance_alone()
+double largest_squared_distance(const Propagation& model, Hertz frequency, Db budget);
+
+}  // namespace rovernet

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "models/neighbour_index.hpp"
+
+#include "test/scene/drawn_map.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Nodes on legs of their own and an index over them.
+struct Swarm {
+    test::Draw draw;
+    Legs legs{};
+    NeighbourIndex index{};
+    Time now = start_of_run;
+
+    explicit Swarm(std::uint32_t seed) : draw(seed) {}
+
+    Leg leg(Vec3 from, double top_speed) {
+        const double speed = draw.uniform(0, top_speed), angle = draw.uniform(0, 6.3);
+        const Vec3 velocity{speed * std::cos(angle), speed * std::sin(angle), draw.uniform(-1, 1)};
+        const Duration lasts{static_cast<std::int64_t>(draw.uniform(1e6, 3e10))};
+        return {.start = now,
+                .end = now + lasts,
+                .from = from,
+                .velocity = velocity,
+                .to = from + seconds(lasts) * velocity};
+    }
+    void add(Vec3 at, double top_speed) {
+        index.add(static_cast<std::uint32_t>(legs.size()) % 7);
+        legs.add(leg(at, top_speed));
+    }
+    void replace(NodeId node, const Leg& leg) {
+        legs.replace(node, leg);
+        index.moved(node, legs);
+    }
+    /// Those within `radius` of `centre`, each once, as the index and as a look at everybody has
+    /// it.
+    void check_query(Vec3 centre, double radius) {
+        std::vector<int> seen(legs.size());
+        index.visit(centre, radius, now, legs, [&](const NeighbourIndex::Entry& e, Vec3 p) {
+            ++seen[e.node.index()];
+            CHECK(p == legs.position(e.node, now));
+            CHECK(e.label == e.node.value % 7);
+        });
+        for (std::uint32_t i = 0; i < legs.size(); ++i) {
+            const bool within = distance(centre, legs.position(NodeId{i}, now)) <= radius;
+            REQUIRE(seen[i] <= 1);
+            if (within) REQUIRE(seen[i] == 1);
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE("neighbour index: finds whom a look at everybody finds, while all move and turn") {
+    for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+        Swarm swarm(seed);
+        const double size = std::pow(10, swarm.draw.uniform(0, 5));
+        const double top_speed = std::pow(10, swarm.draw.uniform(-2, 3));
+        const auto place = [&] {
+            return Vec3{swarm.draw.uniform(-size, size), swarm.draw.uniform(-size, size),
+                        swarm.draw.uniform(0, 3)};
+        };
+        const int nodes = static_cast<int>(swarm.draw.uniform(1, 200));
+        for (int i = 0; i < nodes; ++i)
+            swarm.add(place(), i % 50 == 0 ? 30 * top_speed : top_speed);
+        swarm.index.set_cell_size(size * std::pow(10, swarm.draw.uniform(-3, 1)));
+        for (int step = 0; step < 60; ++step) {
+            swarm.now += Duration{static_cast<std::int64_t>(swarm.draw.uniform(0, 1e9))};
+            for (std::uint32_t i = 0; i < swarm.legs.size(); ++i) {
+                const NodeId node{i};
+                const bool over = swarm.now >= swarm.legs.leg(node).end;
+                if (!over && swarm.draw.uniform(0, 1) > 0.05) continue;
+                const bool jumps = swarm.draw.uniform(0, 1) < 0.02;
+                const Vec3 at = jumps ? place() : swarm.legs.position(node, swarm.now);
+                swarm.replace(node, swarm.leg(at, top_speed));
+            }
+            if (step == 30) swarm.add(place(), top_speed);
+            swarm.check_query(place(), size * swarm.draw.uniform(0, 1));
+        }
+    }
+}
+
+TEST_CASE("neighbour index: one node at 1e9 m, all in one place, a line, and no radius") {
+    Swarm swarm(3);
+    for (int i = 0; i < 300; ++i) swarm.add({5, 5, 0}, 0);
+    for (int i = 0; i < 300; ++i) swarm.add({10.0 * i, -70, 0}, 1);
+    swarm.add({1e9, 1e9, 0}, 2);
+    swarm.add({-1e300, 3, 0}, 0);
+    for (const double cell : {1e-9, 1.0, 100.0, 1e12}) {
+        swarm.index.set_cell_size(cell);
+        for (const double radius : {0.0, 1.0, 75.0, 2e9, std::numeric_limits<double>::infinity()}) {
+            swarm.now += 20ms;
+            swarm.check_query({5, 5, 0}, radius);
+            swarm.check_query({1e9, 1e9, 0}, radius);
+        }
+    }
+}
