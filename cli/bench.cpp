@@ -55,6 +55,7 @@ void print_row(const FloodBenchRow& r) {
 
 void bench_flood(BenchArguments a) {
     a.bench.reception = choice<ReceptionModel>("reception", a.reception);
+    a.bench.access = choice<AccessModel>("access", a.access);
     a.bench.mobility = choice<BenchMobility>("mobility", a.mobility);
     Array rows;
     if (!a.json) {

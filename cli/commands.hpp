@@ -68,7 +68,7 @@ void scene(const SceneArguments& arguments);
 
 struct BenchArguments {
     FloodBench bench;
-    std::string reception = "threshold", mobility = "static";
+    std::string reception = "threshold", access = "none", mobility = "static";
     bool json = false;
 };
 void bench_flood(BenchArguments arguments);

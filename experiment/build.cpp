@@ -145,8 +145,17 @@ void Builder::react(const Built& robot, const ReactionTable& reaction, MotionBui
 
 /// A source of messages: sends, and sees to its own next sending.
 void send_and_repeat(Network& network, NodeId from, const TrafficTable& table, int sent) {
-    network.broadcast(from, table.payload,
-                      table.size ? std::optional(table.size->value) : std::nullopt);
+    const auto size = table.size ? std::optional(table.size->value) : std::nullopt;
+    const auto to = table.to ? network.find(*table.to) : std::nullopt;
+    if (table.saturate) {
+        const auto length = static_cast<std::uint32_t>(table.payload.size());
+        return network.saturate(from, to.value_or(everyone), size.value_or(length));
+    }
+    if (to) {
+        network.unicast(from, *to, table.payload, size);
+    } else {
+        network.broadcast(from, table.payload, size);
+    }
     if (!table.every || sent + 1 == table.count) return;
     const Time next = network.now() + *table.every;
     if (table.stop && next >= start_of_run + *table.stop) return;
@@ -193,6 +202,8 @@ NetworkSettings network_settings(const Scenario& scenario) {
             located(scenario.propagation_where, [&] { return scenario.propagation.make(); }),
         .floor_height = scenario.scene.floor_height,
         .links = {.tolerance = scenario.links.tolerance, .min_dwell = scenario.links.min_dwell},
+        .reception = scenario.reception.make(),
+        .access = scenario.access.make(),
         .propagation_delay = scenario.medium.propagation_delay,
         .event_limit = scenario.scenario.event_limit,
     };

@@ -34,6 +34,8 @@ Engine::Engine(NetworkSettings settings)
     for (const Duration d : {settings_.links.tolerance, settings_.links.min_dwell}) {
         if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
     }
+    if (const auto* aloha = std::get_if<Aloha>(&settings_.access)) aloha_.emplace(*aloha);
+    if (const auto* csma = std::get_if<Csma>(&settings_.access)) dcf_.emplace(*csma);
     if (settings_.metrics) {
         metrics_ = std::make_shared<Metrics>();
         add_sink(Sink{metrics_});
@@ -73,6 +75,8 @@ void Engine::serve(const Scheduler<Occurrence>::Event& event) {
         case Occurrence::Kind::handed_over: return react(node_id, data);
         case Occurrence::Kind::action: return act(data);
         case Occurrence::Kind::link_change: return change_links();
+        case Occurrence::Kind::access_timer:
+            return on_access_timer(node_id, static_cast<std::uint32_t>(data));
     }
 }
 

@@ -26,7 +26,8 @@ struct Occurrence {
         leg_end,
         handed_over,
         action,
-        link_change
+        link_change,
+        access_timer
     };
     Kind kind;
     NodeId node;
@@ -35,7 +36,7 @@ struct Occurrence {
 
 /// A frame on its way to its receivers, some of which it may have reached already.
 struct Flight {
-    Frame frame;
+    AirFrame air;
     std::vector<Reception> receptions;
     std::size_t arrived = 0;
 };
@@ -68,7 +69,7 @@ struct Node {
 };
 
 /// What stands behind a Network: serves the events, and is the link layer to the router.
-class Engine final : public LinkLayer {
+class Engine final : public LinkLayer, public Air {
   public:
     explicit Engine(NetworkSettings settings);
 
@@ -79,18 +80,35 @@ class Engine final : public LinkLayer {
     bool is_on(NodeId node) const override { return medium_.is_on(node); }
     std::uint64_t key(NodeId node) const override { return nodes_[node.index()].key; }
     void broadcast(const Frame& frame, std::optional<NodeId> heard_from) override;
+    void unicast(const Frame& frame, std::optional<NodeId> heard_from) override {
+        broadcast(frame, heard_from);
+    }
     void drop(NodeId node, const Frame& frame, DropReason reason) override {
         emit(Dropped{now_, node, frame, reason});
     }
     void timer(NodeId node, Time at, std::uint64_t tag) override;
     void hold(MessageId id) override { messages_.hold(id); }
     void release(MessageId id) override {
-        if (messages_.release(id)) router_->forget(id);
+        if (messages_.release(id) && router_) router_->forget(id);
     }
     double draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t index) const override {
         return uniform(
             {settings_.seed, settings_.replication, purpose, key(node), messages_[id].key, index});
     }
+
+    // Air, for the access rungs.
+    Time transmit(const AirFrame& frame) override;
+    Duration airtime(const AirFrame& frame) const override;
+    std::uint32_t bytes(const AirFrame& frame) const override;
+    void access_timer(NodeId node, Time at, std::uint32_t tag) override {
+        queue_.schedule(at, Priority::timer, {Occurrence::Kind::access_timer, node, tag});
+    }
+    double access_draw(NodeId node, std::uint64_t index) const override {
+        return uniform(
+            {settings_.seed, settings_.replication, Purpose::backoff, key(node), 0, index});
+    }
+    void sent(const QueuedFrame& frame) override;
+    void lost(const QueuedFrame& frame, DropReason reason) override;
 
     // Network.
     NodeId add(Robot robot);
@@ -101,6 +119,8 @@ class Engine final : public LinkLayer {
         sinks_.push_back(std::move(sink));
     }
     void send(NodeId node, std::string payload, std::uint32_t bytes);
+    void send_to(NodeId node, NodeId to, std::string payload, std::uint32_t bytes);
+    void saturate(NodeId node, NodeId to, std::uint32_t bytes);
     void move(NodeId node, Movement movement);
     void place(NodeId node, Vec3 at);
     void switch_robot(NodeId node, bool on);
@@ -137,9 +157,17 @@ class Engine final : public LinkLayer {
     bool comes_next(Key key) {
         return key.time() <= end_of_run_ && queue_.runs_before_next(key);
     }
+    void fly(std::size_t slot, Time end);
+    void disturb(const Collision& rung, NodeId node, const Arrival& arrival);
     void garble(Flight& flight);
     void arrive(const Scheduler<Occurrence>::Event& event);
     void receive(Flight& flight, std::span<Reception> receptions);
+    void receive_broadcast(Flight& flight, std::span<Reception> receptions);
+    void receive_unicast(Flight& flight, std::span<Reception> receptions);
+    void tell_stations(const Flight& flight, std::span<const Reception> receptions);
+    void on_access_timer(NodeId node, std::uint32_t tag);
+    void refill(NodeId node);
+    MessageId new_message(NodeId node, std::string payload, std::uint32_t bytes);
     void hand_over(const Flight& flight, std::span<const Reception> receptions);
     void react(NodeId node, std::uint64_t handed_over);
     void act(std::size_t slot);
@@ -163,6 +191,15 @@ class Engine final : public LinkLayer {
     std::vector<Sink> sinks_;
     KindMask wanted_ = 0;
     Slots<Flight> flights_;
+    OnAir on_air_;  // at rungs above threshold
+    std::optional<AlohaAccess> aloha_;
+    std::optional<Dcf> dcf_;
+    /// A node that always has something to send.
+    struct Saturated {
+        NodeId to;
+        std::uint32_t bytes;
+    };
+    std::map<NodeId, Saturated> saturated_;
     Slots<Action> actions_;
     std::size_t begun_ = 0;  // nodes whose movement has begun
     bool links_wanted_ = false;

@@ -2,6 +2,7 @@
 #include "experiment/engine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace rovernet {
@@ -11,18 +12,22 @@ void Engine::route(Router router) {
     router_.emplace(std::move(router));
 }
 
+MessageId Engine::new_message(NodeId id, std::string payload, std::uint32_t bytes) {
+    Node& origin = node(id);
+    const std::uint32_t number = origin.messages_sent++;
+    return messages_.add({.origin = id,
+                          .uid = next_uid_++,
+                          .number = number,
+                          .key = combine(origin.key, number),
+                          .size = bytes,
+                          .created = now_,
+                          .payload = std::move(payload)});
+}
+
 void Engine::send(NodeId id, std::string payload, std::uint32_t bytes) {
     if (!router_) throw std::invalid_argument("no routing protocol: call route() before sending");
     if (!medium_.is_on(id)) return;
-    Node& origin = node(id);
-    const std::uint32_t number = origin.messages_sent++;
-    const MessageId message = messages_.add({.origin = id,
-                                             .uid = next_uid_++,
-                                             .number = number,
-                                             .key = combine(origin.key, number),
-                                             .size = bytes,
-                                             .created = now_,
-                                             .payload = std::move(payload)});
+    const MessageId message = new_message(id, std::move(payload), bytes);
     Sent sent{now_, id, message, router_->initial_ttl(), static_cast<std::uint32_t>(size()), {}};
     if (wanted_ & kind_reachable) sent.reachable = medium_.reachable(id, now_, legs_);
     emit(sent);
@@ -39,27 +44,85 @@ void Engine::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {
     if (receiving_) {
         throw std::invalid_argument("a router may not send while it receives: set a timer");
     }
-    emit(Transmitted{now_, frame, heard_from});
-    const std::size_t slot = flights_.take();
-    Flight& flight = flights_[slot];
-    flight.frame = frame;
-    flight.receptions.clear();
-    flight.arrived = 0;
-    const Time end = now_ + airtime(medium_.radio(frame.sender), messages_[frame.message].size);
-    medium_.receivers(frame.sender, now_, end, legs_, flight.receptions);
-    if (medium_.radio(frame.sender).success_rate < 1) garble(flight);
-    if (flight.receptions.empty()) {
-        flights_.release(slot);
+    if (!aloha_ && !dcf_) {
+        transmit({.frame = frame, .heard_from = heard_from});
         return;
     }
     messages_.hold(frame.message);
+    if (aloha_) return aloha_->send(*this, {frame, heard_from});
+    dcf_->send(*this, {frame, heard_from});
+}
+
+Time Engine::transmit(const AirFrame& air) {
+    const Frame& frame = air.frame;
+    if (air.kind == AirFrame::data) emit(Transmitted{now_, frame, air.heard_from});
+    const std::size_t slot = flights_.take();
+    Flight& flight = flights_[slot];
+    flight.air = air;
+    flight.receptions.clear();
+    flight.arrived = 0;
+    const Time end = now_ + airtime(air);
+    if (dcf_ || std::holds_alternative<Collision>(settings_.reception)) {
+        fly(slot, end);
+    } else {
+        medium_.receivers(frame.sender, now_, end, legs_, flight.receptions);
+    }
+    if (medium_.radio(frame.sender).success_rate < 1) garble(flight);
+    if (flight.receptions.empty()) {
+        flights_.release(slot);
+        return end;
+    }
+    if (air.kind == AirFrame::data) messages_.hold(frame.message);
     queue_.schedule(flight.receptions.front().time, Priority::frame_end,
                     {Occurrence::Kind::frame, frame.sender, slot});
+    return end;
+}
+
+/// Makes a frame known to all that sense it, where it may meet others.
+void Engine::fly(std::size_t slot, Time end) {
+    Flight& flight = flights_[slot];
+    const NodeId sender = flight.air.frame.sender;
+    const auto* rung = std::get_if<Collision>(&settings_.reception);
+    const auto tell = [&](const Medium::Hearer& h, std::uint32_t reception) {
+        const Time begin = now_ + h.delay, over = end + h.delay;
+        if (dcf_) dcf_->energy(h.node, begin, over);
+        if (!rung) return;
+        const double level = std::isnan(h.loss_db)
+                                 ? h.loss_db
+                                 : medium_.level_after(sender, h.node, h.loss_db).value;
+        disturb(*rung, h.node,
+                {.begin = begin,
+                 .end = over,
+                 .level_dbm = level,
+                 .squared_distance = h.squared_distance,
+                 .from = sender,
+                 .flight = static_cast<std::uint32_t>(slot),
+                 .reception = reception});
+    };
+    if (rung) disturb(*rung, sender, Collision::own_frame(sender, now_, end));
+    const Medium::Hearers hearers = medium_.sensed(sender, now_, legs_);
+    for (const Medium::Hearer& h : hearers.receivers) {
+        flight.receptions.push_back({.node = h.node, .time = end + h.delay});
+        tell(h, static_cast<std::uint32_t>(flight.receptions.size() - 1));
+    }
+    for (const Medium::Hearer& h : hearers.others) tell(h, Arrival::no_reception);
+}
+
+/// What an arrival does to the others at `node`, and they to it.
+void Engine::disturb(const Collision& rung, NodeId node, const Arrival& arrival) {
+    rung.add(
+        on_air_, node, arrival, now_,
+        [&](const Arrival& a) { return medium_.level(a.from, node, a.squared_distance).value; },
+        [&](const Arrival& lost) {
+            flights_[lost.flight].receptions[lost.reception].fate =
+                lost.collided ? Fate::collided : Fate::busy;
+        });
 }
 
 /// Decides which receivers get the frame with errors, by its sender's success rate.
 void Engine::garble(Flight& flight) {
-    const Frame& frame = flight.frame;
+    if (flight.air.kind != AirFrame::data) return;
+    const Frame& frame = flight.air.frame;
     const double success = medium_.radio(frame.sender).success_rate;
     for (Reception& r : flight.receptions) {
         const Key draw{settings_.seed,
@@ -67,8 +130,8 @@ void Engine::garble(Flight& flight) {
                        Purpose::link_success,
                        combine(key(frame.sender), key(r.node)),
                        combine(messages_[frame.message].key, frame.path),
-                       frame.hops};
-        if (uniform(draw) >= success) r.fate = Fate::garbled;
+                       frame.hops + (std::uint64_t{flight.air.attempt} << 16)};
+        if (is_decoded(r.fate) && uniform(draw) >= success) r.fate = Fate::garbled;
     }
 }
 
@@ -96,38 +159,49 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
             return;
         }
     }
-    const MessageId message = flight.frame.message;
+    const AirFrame air = flight.air;
     flights_.release(event.payload.data);
-    release(message);
+    if (air.kind == AirFrame::data) release(air.frame.message);
 }
 
 void Engine::receive(Flight& flight, std::span<Reception> receptions) {
+    if (flight.air.kind == AirFrame::data) {
+        if (flight.air.frame.next_hop == everyone) {
+            receive_broadcast(flight, receptions);
+        } else {
+            receive_unicast(flight, receptions);
+        }
+    }
+    if (dcf_) tell_stations(flight, receptions);
+}
+
+void Engine::receive_broadcast(Flight& flight, std::span<Reception> receptions) {
     receiving_ = true;
     auto next = receptions.begin();
     while (next != receptions.end()) {
         const auto heard = [&](const Reception& r) {
-            return medium_.is_on(r.node) && r.fate != Fate::garbled;
+            return is_decoded(r.fate) && medium_.is_on(r.node);
         };
         const auto deaf = std::find_if_not(next, receptions.end(), heard);
-        if (next != deaf) router_->on_receive(*this, flight.frame, {next, deaf});
+        if (next != deaf) router_->on_receive(*this, flight.air.frame, {next, deaf});
         next = std::find_if(deaf, receptions.end(), heard);
         for (auto r = deaf; r != next; ++r) {
             if (!medium_.is_on(r->node)) r->fate = Fate::off;
         }
     }
     receiving_ = false;
-    emit(Received{flight.frame, receptions});
+    emit(Received{flight.air.frame, receptions});
     if (has_reactions_) hand_over(flight, receptions);
 }
 
 void Engine::hand_over(const Flight& flight, std::span<const Reception> receptions) {
     for (const auto& r : receptions) {
         if (!r.delivered || node(r.node).on_receive.empty()) continue;
-        messages_.hold(flight.frame.message);
-        const std::uint64_t hops = flight.frame.hops;
-        queue_.schedule(
-            r.time + least_reaction, Priority::user,
-            {Occurrence::Kind::handed_over, r.node, hops << 32 | flight.frame.message.value});
+        const Frame& frame = flight.air.frame;
+        messages_.hold(frame.message);
+        const std::uint64_t hops = frame.hops;
+        queue_.schedule(r.time + least_reaction, Priority::user,
+                        {Occurrence::Kind::handed_over, r.node, hops << 32 | frame.message.value});
     }
 }
 

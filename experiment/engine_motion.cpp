@@ -40,6 +40,8 @@ NodeId Engine::add(Robot robot) {
     check_place(robot.at);
     const auto key = name_key(robot.name);
     medium_.add(robot.radio, key, robot.propagation.value_or(settings_.propagation));
+    if (aloha_) aloha_->add();
+    if (dcf_) dcf_->add();
     const NodeId id = legs_.add(
         {.start = now_, .from = robot.at, .to = robot.at, .heading = robot.heading.value});
     by_name_[robot.name] = id;
@@ -167,6 +169,8 @@ void Engine::place(NodeId id, Vec3 at) {
 void Engine::switch_robot(NodeId id, bool on) {
     if (medium_.is_on(id) == on) return;
     medium_.switch_radio(id, on);
+    if (!on && aloha_) aloha_->switch_off(*this, id);
+    if (!on && dcf_) dcf_->switch_off(*this, id);
     emit(Switched{now_, id, on});
     if (watch_) {
         watch_->switched(id, now_);

@@ -5,6 +5,7 @@
 #include "mobility/random_waypoint.hpp"
 #include "models/list.hpp"
 #include "routing/flood.hpp"
+#include "sim/math.hpp"
 #include "sim/random.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ namespace rovernet {
 namespace {
 
 constexpr double decode_range = 250;    // [m]
+constexpr double sensing_range = 550;   // [m] at the rungs where frames disturb each other
 constexpr double mean_neighbours = 12;  // where there is no border
 constexpr std::uint32_t payload = 64;   // [bytes]
 
@@ -51,22 +53,32 @@ struct Count {
         }
         const auto receptions = std::get<Received>(record).receptions;
         attempts += receptions.size();
-        for (const Reception& r : receptions) decoded += r.fate <= Fate::duplicate;
+        for (const Reception& r : receptions) decoded += is_decoded(r.fate);
     }
 };
 
+/// Frames disturb each other, or their senders listen: more than the decode range matters.
+bool disturbs(const FloodBench& bench) {
+    return bench.reception != ReceptionModel::threshold || bench.access == AccessModel::csma;
+}
+
+bool has_levels(const FloodBench& bench) { return bench.shadowing.value > 0 || disturbs(bench); }
+
+/// Levels fall with the fourth power of the distance, as over flat ground far off.
 Propagation model(const FloodBench& bench) {
-    // The exponent of the two-ray model far off, so that levels fall as fast as over flat ground.
-    if (bench.shadowing.value > 0) return LogDistance{.exponent = 4, .sigma = bench.shadowing};
+    if (has_levels(bench)) return LogDistance{.exponent = 4, .sigma = bench.shadowing};
     return Disc{.range = {decode_range}};
 }
 
 /// A radio that reaches as far as the bench wants, at the median.
 Radio radio(const FloodBench& bench) {
     Radio radio{.rate = {11e6}, .preamble = std::chrono::microseconds{96}};
-    if (bench.shadowing.value > 0) {
-        const double lost = free_space_db(1, radio.frequency) + 40 * std::log10(decode_range);
-        radio.sensitivity = radio.power - Db{lost};
+    const auto level_at = [&](double d) {
+        return radio.power - Db{free_space_db(1, radio.frequency) + 40 * math::log10(d)};
+    };
+    if (has_levels(bench)) radio.sensitivity = level_at(decode_range);
+    if (disturbs(bench)) {
+        radio.carrier_sense_threshold = level_at(sensing_range);
     }
     return radio;
 }
@@ -132,12 +144,16 @@ void flood(Network& network, NodeId from, const Count& count) {
 FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
     if (nodes < 2) throw std::invalid_argument("a flood needs at least 2 nodes");
     const double before = allocated();
-    Network network({.seed = bench.seed,
-                     .propagation = model(bench),
-                     .event_limit = ~std::uint64_t{0},
-                     .metrics = false});
+    Network network(
+        {.seed = bench.seed,
+         .propagation = model(bench),
+         .reception = ReceptionTable{.model = bench.reception}.make(),
+         .access = AccessTable{.model = bench.access, .basic_rate = BitRate{11e6}}.make(),
+         .event_limit = ~std::uint64_t{0},
+         .metrics = false});
     add_robots(network, bench, nodes);
-    network.route(Flood{.ttl = 65535, .upgrade = false});
+    const Duration jitter{bench.access == AccessModel::csma ? 50'000'000 : 10'000'000};
+    network.route(Flood{.ttl = 65535, .upgrade = false, .jitter = jitter});
     const auto count = std::make_shared<Count>();
     network.add_sink(Sink{count});
     network.run_for(Duration{0});

@@ -22,6 +22,7 @@ struct EnumNames<BenchMobility> {
 struct FloodBench {
     std::vector<std::uint32_t> nodes = {1000};
     ReceptionModel reception = ReceptionModel::threshold;
+    AccessModel access = AccessModel::none;         ///< csma: jitter of 50 ms instead of 10 ms
     BenchMobility mobility = BenchMobility::fixed;  ///< random waypoint: 1-20 m/s, no rest
     Db shadowing{0};                                ///< of each link; 0: links go by distance alone
     double cpu_s = 2;                               ///< [s] of CPU that each row takes, at least

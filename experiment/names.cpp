@@ -87,6 +87,7 @@ void check_names(const Scenario& scenario) {
     }
     for (const TrafficTable& traffic : scenario.traffic) {
         names.check(traffic.from, "from", traffic.from_where);
+        if (traffic.to) names.check(*traffic.to, "to", traffic.to_where);
     }
 }
 

@@ -28,6 +28,15 @@ void Network::broadcast(NodeId node, std::string payload, std::optional<std::uin
     engine_->send(node, std::move(payload), bytes);
 }
 
+void Network::unicast(NodeId node, NodeId to, std::string payload,
+                      std::optional<std::uint32_t> size) {
+    const auto bytes = size.value_or(static_cast<std::uint32_t>(payload.size()));
+    engine_->send_to(node, to, std::move(payload), bytes);
+}
+void Network::saturate(NodeId node, NodeId to, std::uint32_t size) {
+    engine_->saturate(node, to, size);
+}
+
 void Network::on_receive(NodeId node, std::function<void(const Message&)> react) {
     on_receive(node, [react = std::move(react)](const Message& m, const Heard&) { react(m); });
 }

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "mobility/movement.hpp"
+#include "models/access_rung.hpp"
 #include "models/friis.hpp"
 #include "models/link_changes.hpp"
 #include "models/medium.hpp"
 #include "models/neighbour.hpp"
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
+#include "models/reception.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
@@ -55,6 +57,8 @@ struct NetworkSettings {
     std::shared_ptr<const Scene> scene = nullptr;  ///< null: an open field
     Meters floor_height{3};                        ///< [m] of one storey
     LinkSearch links = {};                         ///< how link changes are looked for
+    ReceptionRung reception = Threshold{};         ///< what becomes of frames at a receiver
+    AccessRung access = NoAccess{};                ///< how robots get access to the medium
     bool propagation_delay = true;                 ///< frames travel at the speed of light
     std::uint64_t event_limit = 100'000'000;       ///< a run that needs more events fails
     bool metrics = true;                           ///< keep Metrics; off saves a search per message
@@ -87,6 +91,13 @@ class Network {
     /// @param size  [bytes] on air; the payload's length if not given
     /// @throws std::invalid_argument if no protocol is set
     void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {});
+    /// `node` sends a message to `to`, one hop, without routing: the access rung "csma" repeats it
+    /// until it is acknowledged or given up. @param size  as for broadcast()
+    void unicast(NodeId node, NodeId to, std::string payload,
+                 std::optional<std::uint32_t> size = {});
+    /// From now on `node` always has a message of `size` [bytes] to send to `to`, or to everyone in
+    /// one hop. @throws std::invalid_argument without an access rung: nothing would hold it back
+    void saturate(NodeId node, NodeId to, std::uint32_t size);
     /// Calls `react` whenever `node` is handed a message, 1 us after it was received.
     void on_receive(NodeId node, std::function<void(const Message&)> react);
     void on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react);

@@ -31,7 +31,8 @@ ReactionTable read_reaction(const Value& value, Trigger trigger) {
     const bool receives = trigger == Trigger::on_receive;
     if (receives) table.read("payload", reaction.payload);
     if (receives) {
-        table.read("hops", reaction.hops, Range{.low = 1, .high = 65535, .text = "from 1 to 65535"});
+        table.read("hops", reaction.hops,
+                   Range{.low = 1, .high = 65535, .text = "from 1 to 65535"});
     }
     if (receives || trigger == Trigger::on_link_lost) {
         if (table.read("from", reaction.from)) reaction.from_where = table.take("from")->where;

@@ -49,6 +49,15 @@ TrafficTable read_traffic(const Value& value) {
     table.read("kind", traffic.kind);
     if (!table.read("from", traffic.from)) table.missing("from", "from = \"A\"");
     traffic.from_where = table.take("from")->where;
+    if (table.read("to", traffic.to)) traffic.to_where = table.take("to")->where;
+    const bool to_one = traffic.kind == TrafficKind::unicast;
+    if (to_one && !traffic.to) table.missing("to", "to = \"B\": whom a unicast is for");
+    if (!to_one && traffic.to) {
+        throw InputError(traffic.to_where,
+                         "to: a broadcast is for everybody; expected kind = "
+                         "\"unicast\", or no to");
+    }
+    table.read("saturate", traffic.saturate);
     const bool payload = table.read("payload", traffic.payload);
     const bool size = table.read("size", traffic.size);
     if (!payload && !size) table.missing("payload", "payload = \"F\", or size = \"64 B\"");
@@ -57,10 +66,26 @@ TrafficTable read_traffic(const Value& value) {
     table.read("stop", traffic.stop, non_negative);
     table.read("count", traffic.count, Range{.low = 1, .text = ">= 1"});
     table.reject_unknown();
+    if (traffic.saturate && traffic.every) {
+        throw InputError(
+            table.take("every")->where,
+            "every: saturated traffic has always a message to send; expected no every");
+    }
     if (!traffic.every && (traffic.stop || traffic.count)) {
         table.missing("every", "every = \"3 s\": stop and count need it");
     }
     return traffic;
+}
+
+/// Saturated traffic without an access model would send without end at once.
+void check_traffic(const Scenario& scenario) {
+    if (scenario.access.model != AccessModel::none) return;
+    for (const TrafficTable& traffic : scenario.traffic) {
+        if (!traffic.saturate) continue;
+        throw InputError(traffic.from_where,
+                         "saturate: nothing holds this robot back; expected [access] model = "
+                         "\"csma\" or \"aloha\"");
+    }
 }
 
 void read_study(const Value& value, StudyTable& study) {
@@ -177,6 +202,39 @@ void read_propagation(const Value& value, PropagationTable& out) {
     table.reject_unknown();
 }
 
+ReceptionRung ReceptionTable::make() const {
+    switch (model) {
+        case ReceptionModel::threshold: return Threshold{};
+        case ReceptionModel::collision:
+            return Collision{.capture_ratio = capture_ratio, .capture = capture};
+    }
+    return Threshold{};
+}
+
+AccessRung AccessTable::make() const {
+    if (model == AccessModel::none) return NoAccess{};
+    const auto most = static_cast<std::uint32_t>(queue);
+    if (model == AccessModel::aloha) return Aloha{slot.value_or(Duration{0}), most};
+    WifiTiming timing = timing_of(standard);
+    timing.slot = slot.value_or(timing.slot);
+    timing.sifs = sifs.value_or(timing.sifs);
+    timing.difs = difs.value_or(timing.sifs + 2 * timing.slot);
+    timing.cca_time = cca_time.value_or(timing.cca_time);
+    timing.turnaround = turnaround.value_or(timing.turnaround);
+    timing.rx_start_delay = rx_start_delay.value_or(timing.rx_start_delay);
+    timing.cw_min = cw_min.value_or(timing.cw_min);
+    timing.cw_max = std::max(cw_max.value_or(timing.cw_max), timing.cw_min);
+    timing.basic_rate = basic_rate.value_or(timing.basic_rate);
+    return Csma{.standard = standard,
+                .timing = timing,
+                .eifs = eifs,
+                .short_retries = short_retries,
+                .long_retries = long_retries,
+                .rts_threshold = rts_threshold.value,
+                .header = header.value,
+                .queue = most};
+}
+
 Propagation PropagationTable::make() const {
     std::optional<Propagation> made;
     std::size_t index = 0;
@@ -210,6 +268,7 @@ Scenario read_scenario(const Value& value, const std::string& file) {
         read_propagation(*propagation, out.propagation);
     }
     read_section(document, "reception", out.reception);
+    read_section(document, "access", out.access);
     read_section(document, "links", out.links);
     read_movement(document, out);
     std::set<std::string_view> in_file;
@@ -225,6 +284,7 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     if (out.robots.empty() && out.movement.robots.empty())
         document.missing("robot", "[[robot]] with a name and a place");
     check_names(out);
+    check_traffic(out);
     note_decay(out);
     check_addresses(out);
     return out;

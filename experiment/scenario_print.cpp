@@ -17,6 +17,8 @@ Table section(const TrafficTable& traffic) {
     Table table;
     table.set("kind", to_value(traffic.kind));
     table.set("from", traffic.from);
+    if (traffic.to) table.set("to", *traffic.to);
+    if (traffic.saturate) table.set("saturate", true);
     table.set("payload", traffic.payload);
     if (traffic.size) table.set("size", to_value(*traffic.size));
     table.set("start", traffic.start ? to_value(*traffic.start) : Value("arrival"));
@@ -64,6 +66,7 @@ Table to_document(const Scenario& scenario) {
     document.set("medium", section(scenario.medium));
     document.set("propagation", propagation_document(scenario.propagation));
     document.set("reception", section(scenario.reception));
+    document.set("access", section(scenario.access));
     document.set("links", section(scenario.links));
     document.set("movement", section(scenario.movement));
     Array robots;

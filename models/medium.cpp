@@ -20,6 +20,13 @@ Db receiver_share(const Radio& radio) {
     return Db{-radio.sensitivity.value} + radio.antenna_gain - radio.cable_loss;
 }
 
+/// The same for sensing instead of receiving.
+Db sensor_share(const Radio& radio) {
+    Radio silent;
+    silent.power = Dbm{0};
+    return sensing_budget(silent, radio);
+}
+
 /// Rounded to the nearest nanosecond; `d` [m] >= 0.
 Duration flight_time(double d) {
     return Duration{static_cast<std::int64_t>(d * (1e9 / speed_of_light) + 0.5)};
@@ -79,6 +86,10 @@ void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propa
         best_receiver_ = receiver_share(radio);
         for (auto& other : kinds_) other.reach2 = -1;
     }
+    if (sensor_share(radio) > best_sensor_) {
+        best_sensor_ = sensor_share(radio);
+        for (auto& other : kinds_) other.sensed_reach2 = -1;
+    }
 }
 
 std::string_view Medium::propagation(NodeId node) const { return model(node).name(); }
@@ -89,26 +100,39 @@ Vec3 Medium::antenna(NodeId node, Time t, const Legs& legs) const {
     return p;
 }
 
+double Medium::squared_reach(const Kind& from, Db best_receiver) const {
+    constexpr double slack = 1 + 1e-9;  // rounding of the model's inverse
+    const Db budget = best_receiver + Db{from.radio.power.value} + from.radio.antenna_gain -
+                      from.radio.cable_loss;
+    const double reach = models_[from.model].reach(budget, from.radio.frequency).value * slack;
+    return reach * reach;
+}
+
 double Medium::squared_reach(Kind& from) {
-    if (from.reach2 < 0) {
-        constexpr double slack = 1 + 1e-9;  // rounding of the model's inverse
-        const Db budget = best_receiver_ + Db{from.radio.power.value} + from.radio.antenna_gain -
-                          from.radio.cable_loss;
-        const double reach = models_[from.model].reach(budget, from.radio.frequency).value * slack;
-        from.reach2 = reach * reach;
-    }
+    if (from.reach2 < 0) from.reach2 = squared_reach(from, best_receiver_);
     return from.reach2;
 }
 
-/// The largest squared distance [m^2] over which `to` hears `from`, whose model goes by distance.
-double Medium::squared_range(Kind& from, std::uint32_t to) {
-    if (from.range2.size() <= to) from.range2.resize(kinds_.size(), std::nan(""));
-    double& range2 = from.range2[to];
-    if (std::isnan(range2)) {
-        range2 = largest_squared_distance(models_[from.model], from.radio.frequency,
-                                          link_budget(from.radio, kinds_[to].radio));
-    }
-    return range2;
+double Medium::squared_sensed_reach(Kind& from) {
+    if (from.sensed_reach2 < 0) from.sensed_reach2 = squared_reach(from, best_sensor_);
+    return from.sensed_reach2;
+}
+
+/// The largest squared distances over which `to` hears and senses `from`, whose model goes by it.
+void Medium::compute_ranges(Kind& from, std::uint32_t to) {
+    const Radio& receiver = kinds_[to].radio;
+    const auto range = [&](Db budget) {
+        return largest_squared_distance(models_[from.model], from.radio.frequency, budget);
+    };
+    from.range2[to] = range(link_budget(from.radio, receiver));
+    from.sensed_range2[to] = range(sensing_budget(from.radio, receiver));
+}
+
+/// Makes room for the ranges to kinds that came since.
+void Medium::expect_all_kinds(Kind& from) {
+    if (from.range2.size() == kinds_.size()) return;
+    from.range2.resize(kinds_.size(), std::nan(""));
+    from.sensed_range2.resize(kinds_.size(), std::nan(""));
 }
 
 /// Cells as wide as the reach of the median station: most queries then look at nine of them.
@@ -155,11 +179,10 @@ void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use
 void Medium::find_in_range(NodeId from, Time t, const Legs& legs) {
     Kind& mine = kinds_[stations_[from.index()].kind];
     const double reach2 = squared_reach(mine);
-    if (mine.range2.size() < kinds_.size()) mine.range2.resize(kinds_.size(), std::nan(""));
+    expect_all_kinds(mine);
     visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p, double d2) {
-        double range2 = mine.range2[e.label];
-        if (std::isnan(range2)) range2 = squared_range(mine, e.label);
-        if (d2 > range2) return;
+        if (std::isnan(mine.range2[e.label])) compute_ranges(mine, e.label);
+        if (d2 > mine.range2[e.label]) return;
         nodes_.push_back(e.node);
         positions_.push_back(p);
     });
@@ -203,15 +226,77 @@ void Medium::find_hearers(NodeId from, Time t, const Legs& legs) {
     keep_those_in_budget(from);
 }
 
+/// Those that sense `from` over a link that goes by distance alone.
+void Medium::find_sensed_in_range(NodeId from, Time t, const Legs& legs) {
+    Kind& mine = kinds_[stations_[from.index()].kind];
+    const double reach2 = squared_sensed_reach(mine);
+    expect_all_kinds(mine);
+    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3, double d2) {
+        if (std::isnan(mine.range2[e.label])) compute_ranges(mine, e.label);
+        if (d2 > mine.sensed_range2[e.label]) return;
+        auto& hearers = d2 <= mine.range2[e.label] ? receivers_ : sensors_;
+        hearers.push_back({e.node, delay(std::sqrt(d2)), d2, std::nan("")});
+    });
+}
+
+void Medium::find_sensed_in_reach(NodeId from, Time t, const Legs& legs) {
+    const Radio& mine = kind(from).radio;
+    Db give_up{-infinity};
+    nodes_.clear();
+    positions_.clear();
+    keys_.clear();
+    const double reach2 = squared_sensed_reach(kinds_[stations_[from.index()].kind]);
+    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p, double) {
+        nodes_.push_back(e.node);
+        positions_.push_back(p);
+        keys_.push_back(stations_[e.node.index()].key);
+        give_up = std::max(give_up, sensing_budget(mine, kinds_[e.label].radio));
+    });
+    loss_db_.resize(nodes_.size());
+    if (!nodes_.empty()) model(from).loss(batch(from, origin_), give_up, loss_db_);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const Radio& theirs = kind(nodes_[i]).radio;
+        if (loss_db_[i] > sensing_budget(mine, theirs).value) continue;
+        const double d2 = squared_distance(origin_, positions_[i]);
+        auto& hearers = loss_db_[i] <= link_budget(mine, theirs).value ? receivers_ : sensors_;
+        hearers.push_back({nodes_[i], delay(std::sqrt(d2)), d2, loss_db_[i]});
+    }
+}
+
+Medium::Hearers Medium::sensed(NodeId from, Time t, const Legs& legs) {
+    receivers_.clear();
+    sensors_.clear();
+    if (model(from).by_distance_alone()) {
+        find_sensed_in_range(from, t, legs);
+    } else {
+        find_sensed_in_reach(from, t, legs);
+    }
+    std::sort(receivers_.begin(), receivers_.end(), [](const Hearer& a, const Hearer& b) {
+        return a.delay != b.delay ? a.delay < b.delay : a.node < b.node;
+    });
+    return {receivers_, sensors_};
+}
+
+Dbm Medium::level(NodeId from, NodeId to, double squared_distance) const {
+    const Vec3 there{std::sqrt(squared_distance), 0, 0};
+    LinkBatch link = batch(from, {});
+    link.to = {&there, 1};
+    link.to_keys = {&stations_[to.index()].key, 1};
+    double loss = 0;
+    model(from).loss(link, Db{infinity}, {&loss, 1});
+    return level_after(from, to, loss);
+}
+
+Duration Medium::delay(double distance) const {
+    return settings_.propagation_delay ? flight_time(distance) : Duration{0};
+}
+
 void Medium::receivers(NodeId from, Time start, Time end, const Legs& legs,
                        std::vector<Reception>& out) {
     find_hearers(from, start, legs);
     const auto first = static_cast<std::ptrdiff_t>(out.size());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        const Duration delay = settings_.propagation_delay
-                                   ? flight_time(distance(origin_, positions_[i]))
-                                   : Duration{0};
-        out.push_back({.node = nodes_[i], .time = end + delay});
+        out.push_back({.node = nodes_[i], .time = end + delay(distance(origin_, positions_[i]))});
     }
     std::sort(out.begin() + first, out.end(), [](const Reception& a, const Reception& b) {
         return a.time != b.time ? a.time < b.time : a.node < b.node;

@@ -54,6 +54,28 @@ class Medium {
     void receivers(NodeId from, Time start, Time end, const Legs& legs,
                    std::vector<Reception>& out);
 
+    /// One that senses a transmission.
+    struct Hearer {
+        NodeId node;
+        Duration delay;           ///< [ns] that the frame is under way
+        double squared_distance;  ///< [m^2] between the antennas
+        double loss_db;           ///< [dB]; NaN if the link goes by distance: see level()
+    };
+    struct Hearers {
+        /// Those whose link is up, in the order in which the frame ends at them, then of NodeId.
+        std::span<const Hearer> receivers;
+        std::span<const Hearer> others;  ///< who only sense it, in no order
+    };
+    /// Those that sense `from` when it sends at `t`, which must not decrease. The spans are good
+    /// until the next call.
+    Hearers sensed(NodeId from, Time t, const Legs& legs);
+    /// Received power [dBm] at `to` over a link of `from` that goes by distance.
+    Dbm level(NodeId from, NodeId to, double squared_distance) const;
+    /// Received power [dBm] at `to` after `loss` [dB].
+    Dbm level_after(NodeId from, NodeId to, double loss_db) const {
+        return received_power(kind(from).radio, kind(to).radio, Db{loss_db});
+    }
+
     /// Those that hear `from` when it sends at `t`, which must not decrease; in no order. The span
     /// is good until the next call.
     std::span<const NodeId> hearers(NodeId from, Time t, const Legs& legs) {
@@ -98,10 +120,12 @@ class Medium {
     struct Kind {
         Radio radio;  // without labels and addresses
         Membership membership;
-        std::uint32_t model;              // index into models_
-        std::uint32_t stations = 1;       // of this kind
-        double reach2 = -1;               // [m^2] nobody farther hears it; < 0: to be computed
-        std::vector<double> range2 = {};  // [m^2] by the receiver's kind; NaN: to be computed
+        std::uint32_t model;         // index into models_
+        std::uint32_t stations = 1;  // of this kind
+        // [m^2] nobody farther hears it, or senses it; < 0: to be computed
+        double reach2 = -1, sensed_reach2 = -1;
+        // [m^2] nobody of a kind farther hears it, or senses it, by distance; NaN: to be computed
+        std::vector<double> range2 = {}, sensed_range2 = {};
     };
 
     const Kind& kind(NodeId node) const { return kinds_[stations_[node.index()].kind]; }
@@ -111,12 +135,18 @@ class Medium {
 
     void find_in_reach(NodeId from, Time t, const Legs& legs);
     void find_in_range(NodeId from, Time t, const Legs& legs);
+    void find_sensed_in_range(NodeId from, Time t, const Legs& legs);
+    void find_sensed_in_reach(NodeId from, Time t, const Legs& legs);
+    double squared_reach(const Kind& from, Db best_receiver) const;
+    Duration delay(double distance) const;
     void find_hearers(NodeId from, Time t, const Legs& legs);
     void keep_those_in_budget(NodeId from);
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
-    double squared_reach(Kind& kind);
-    double squared_range(Kind& from, std::uint32_t to);
+    double squared_reach(Kind& from);
+    double squared_sensed_reach(Kind& from);
+    void compute_ranges(Kind& from, std::uint32_t to);
+    void expect_all_kinds(Kind& from);
     LinkBatch batch(NodeId from, Vec3 origin) const;
 
     Settings settings_;
@@ -128,6 +158,7 @@ class Medium {
     bool gated_ = false;  // some two radios do not match
     std::vector<Propagation> models_;
     Db best_receiver_{-1e300};  // gain - cable loss - sensitivity of the most sensitive station
+    Db best_sensor_{-1e300};    // the same for what is sensed
     NeighbourIndex index_;
     bool cells_chosen_ = false;
 
@@ -137,6 +168,7 @@ class Medium {
     std::vector<Vec3> positions_;
     std::vector<std::uint64_t> keys_;
     std::vector<double> loss_db_;
+    std::vector<Hearer> receivers_, sensors_;
 };
 
 }  // namespace rovernet

@@ -5,6 +5,7 @@
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -35,15 +36,18 @@ struct EnumNames<WifiMode> {
 struct Radio {
     Dbm power{16.532125137753436};  ///< [dBm] transmitter output; the default is 45 mW
     Dbm sensitivity{-75};           ///< [dBm] the weakest signal that is received
-    Hertz frequency{2450e6};        ///< [Hz]
-    BitRate rate{11e6};             ///< [bit/s]
-    Duration preamble{192'000};     ///< [ns] sent before the first bit
-    Db antenna_gain{0};             ///< [dBi]
-    Db cable_loss{0};               ///< [dB]
-    Meters antenna_height{1};       ///< [m] above the robot's own z
-    Hertz bandwidth{22e6};          ///< [Hz] of the receiver's filter, for its noise
-    Db noise_figure{7};             ///< [dB] of the receiver
-    double success_rate = 1;        ///< [-] share of its frames that get through where they reach
+    /// [dBm] the weakest signal that is sensed; the sensitivity if not given. Weaker ones are as if
+    /// they were not there.
+    std::optional<Dbm> carrier_sense_threshold = std::nullopt;
+    Hertz frequency{2450e6};     ///< [Hz]
+    BitRate rate{11e6};          ///< [bit/s]
+    Duration preamble{192'000};  ///< [ns] sent before the first bit
+    Db antenna_gain{0};          ///< [dBi]
+    Db cable_loss{0};            ///< [dB]
+    Meters antenna_height{1};    ///< [m] above the robot's own z
+    Hertz bandwidth{22e6};       ///< [Hz] of the receiver's filter, for its noise
+    Db noise_figure{7};          ///< [dB] of the receiver
+    double success_rate = 1;     ///< [-] share of its frames that get through where they reach
 
     std::string essid = "any";  ///< name of its network; "any" joins all
     int channel = 0;            ///< number that both ends must share; 0 if not used
@@ -63,6 +67,8 @@ struct Radio {
         return describe(
             field("power", &Radio::power, "transmitter output power"),
             field("sensitivity", &Radio::sensitivity, "the weakest signal that is received"),
+            field("carrier_sense_threshold", &Radio::carrier_sense_threshold,
+                  "the weakest signal that is sensed; the sensitivity if not given"),
             field("frequency", &Radio::frequency, positive, "carrier frequency"),
             field("rate", &Radio::rate, positive, "bit rate on air"),
             field("preamble", &Radio::preamble, non_negative, "sent before the first bit"),
@@ -92,6 +98,12 @@ struct Radio {
 constexpr Db link_budget(const Radio& from, const Radio& to) {
     return (from.power - to.sensitivity) + from.antenna_gain - from.cable_loss + to.antenna_gain -
            to.cable_loss;
+}
+
+/// The largest path loss [dB] at which `to` senses that `from` sends; no less than link_budget.
+constexpr Db sensing_budget(const Radio& from, const Radio& to) {
+    const Dbm threshold = to.carrier_sense_threshold.value_or(to.sensitivity);
+    return link_budget(from, to) + std::max(Db{0}, to.sensitivity - threshold);
 }
 
 /// Received power [dBm] after `path_loss` between the antennas.

@@ -5,6 +5,7 @@
 #include "sim/time.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,23 @@ using Hops = std::uint16_t;
 /// A message on its way: what one transmission carries. A value; routers pass it on changed.
 struct Frame {
     MessageId message;
-    NodeId sender;           ///< who puts this frame on air
-    std::uint64_t path = 0;  ///< key of the walk that the copy took so far, for draws per copy
-    Hops ttl = 0;            ///< the hops that this copy may still cross, this one included
-    Hops hops = 0;           ///< the hops that it has crossed once received
+    NodeId sender;               ///< who puts this frame on air
+    std::uint64_t path = 0;      ///< key of the walk that the copy took so far, for draws per copy
+    Hops ttl = 0;                ///< the hops that this copy may still cross, this one included
+    Hops hops = 0;               ///< the hops that it has crossed once received
+    NodeId next_hop = everyone;  ///< who it is for
+};
+
+/// A frame as it is on air, that of a message or one that only controls access.
+struct AirFrame {
+    enum Kind : std::uint8_t { data, rts, cts, ack };
+
+    Frame frame = {};  ///< of control frames sender and next_hop only
+    std::optional<NodeId> heard_from = std::nullopt;  ///< who its sender had it from
+    Kind kind = data;
+    std::uint8_t attempt = 0;  ///< of data: how often it was sent before
+    std::uint32_t number = 0;  ///< of data: the same for all attempts at one frame
+    Duration reserved{0};      ///< [ns] after its end for what belongs to it
 };
 
 /// The messages that a frame in flight or a waiting copy still refers to.

@@ -31,6 +31,9 @@ class LinkLayer {
     /// Puts `frame` on air from frame.sender now, which must be on. `heard_from`: who the sender
     /// received it from; nothing if it originates the frame.
     virtual void broadcast(const Frame& frame, std::optional<NodeId> heard_from) = 0;
+    /// Puts `frame` on air for frame.next_hop, as broadcast() does; the router is told of its end
+    /// by on_sent, if it has that.
+    virtual void unicast(const Frame& frame, std::optional<NodeId> heard_from) = 0;
     /// Records that `node` loses a copy, `frame` as received.
     virtual void drop(NodeId node, const Frame& frame, DropReason reason) = 0;
     /// Calls the router's on_timer(node, tag) at `at`; in answer to a reception that is at least
@@ -66,6 +69,12 @@ concept RouterProtocol = requires(T router, LinkLayer& link, NodeId node, Messag
     { std::as_const(router).initial_ttl() } -> std::convertible_to<Hops>;
 };
 
+/// A protocol that wants to know whether a unicast of its was acknowledged.
+template <class T>
+concept TellsOfUnicasts = requires(T router, LinkLayer& link, const Frame& frame, bool received) {
+    {router.on_sent(link, frame, received)};
+};
+
 /// Any routing protocol, held by value.
 class Router {
   public:
@@ -80,6 +89,9 @@ class Router {
     void on_timer(LinkLayer& link, NodeId node, std::uint64_t tag) {
         self_->on_timer(link, node, tag);
     }
+    void on_sent(LinkLayer& link, const Frame& frame, bool received) {
+        self_->on_sent(link, frame, received);
+    }
     void forget(MessageId m) { self_->forget(m); }
     Hops initial_ttl() const { return self_->initial_ttl(); }
 
@@ -89,6 +101,7 @@ class Router {
         virtual void send(LinkLayer&, NodeId, MessageId) = 0;
         virtual void on_receive(LinkLayer&, const Frame&, std::span<Reception>) = 0;
         virtual void on_timer(LinkLayer&, NodeId, std::uint64_t) = 0;
+        virtual void on_sent(LinkLayer&, const Frame&, bool) = 0;
         virtual void forget(MessageId) = 0;
         virtual Hops initial_ttl() const = 0;
     };
@@ -101,6 +114,9 @@ class Router {
         }
         void on_timer(LinkLayer& l, NodeId n, std::uint64_t t) override {
             protocol.on_timer(l, n, t);
+        }
+        void on_sent(LinkLayer& l, const Frame& f, bool received) override {
+            if constexpr (TellsOfUnicasts<T>) protocol.on_sent(l, f, received);
         }
         void forget(MessageId m) override { protocol.forget(m); }
         Hops initial_ttl() const override { return protocol.initial_ttl(); }

@@ -16,6 +16,7 @@ enum class Purpose : std::uint16_t {
     destination = 5,
     movement = 6,
     link_success = 7,
+    backoff = 8,
 };
 
 /// The meaning of one draw, and all that decides it: the same key gives the same number, in any

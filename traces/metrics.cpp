@@ -6,7 +6,25 @@
 namespace rovernet {
 namespace {
 
-enum Drop : std::size_t { dup, ttl, slp, err };  // the order of MetricValues::drops
+enum Drop : std::size_t { dup, ttl, slp, err, col, bsy, ifq, ret, end };  // as MetricValues::drops
+
+Drop drop_of(Fate loss) {
+    switch (loss) {
+        case Fate::garbled: return err;
+        case Fate::collided: return col;
+        case Fate::busy: return bsy;
+        default: return slp;
+    }
+}
+
+Drop drop_of(DropReason reason) {
+    switch (reason) {
+        case DropReason::queue_full: return ifq;
+        case DropReason::retries: return ret;
+        case DropReason::end: return end;
+        default: return slp;
+    }
+}
 
 /// The p-th percentile by nearest rank, of n > 0 sorted delays [s].
 double percentile(const std::vector<Duration>& sorted, std::size_t p) {
@@ -46,7 +64,7 @@ void Metrics::on(const Record& record, const RecordContext& context) {
     } else if (const auto* sent = std::get_if<Sent>(&record)) {
         count(*sent);
     } else if (std::holds_alternative<Dropped>(record)) {
-        ++totals_.drops[slp].count;
+        ++totals_.drops[drop_of(std::get<Dropped>(record).reason)].count;
     }
 }
 
@@ -73,8 +91,8 @@ void Metrics::count(const Transmitted& transmitted, const RecordContext& context
 
 void Metrics::count(const Received& received, const RecordContext& context) {
     for (const Reception& rx : received.receptions) {
-        if (rx.fate == Fate::off || rx.fate == Fate::garbled) {
-            ++totals_.drops[rx.fate == Fate::off ? slp : err].count;
+        if (!is_decoded(rx.fate)) {
+            ++totals_.drops[drop_of(rx.fate)].count;
             continue;
         }
         ++totals_.receptions;

@@ -38,8 +38,11 @@ struct MetricValues {
     std::uint64_t deliveries = 0;     ///< first copies, handed to an application
 
     /// Copies not forwarded, by reason: DUP suppressed as duplicates, TTL crossed their last hop
-    /// (a delivered copy can be one), SLP found the radio off.
-    std::array<DropCount, 4> drops{{{"DUP"}, {"TTL"}, {"SLP"}, {"ERR"}}};
+    /// (a delivered copy can be one), SLP found the radio off; ERR bit errors, COL collisions, BSY
+    /// the receiver sending itself; IFQ a full queue, RET unicasts that were
+    /// given up; END frames queued when the radio was switched off.
+    std::array<DropCount, 9> drops{
+        {{"DUP"}, {"TTL"}, {"SLP"}, {"ERR"}, {"COL"}, {"BSY"}, {"IFQ"}, {"RET"}, {"END"}}};
 
     /// deliveries / sum over messages of (robots when it was sent - 1) [-], the packet delivery
     /// ratio with every other robot as a destination and without duplicates; nothing if that sum
@@ -94,14 +97,14 @@ class Metrics {
     void deliver(const Reception&, const Frame&, const RecordContext&);
     Flood& flood(MessageId);
 
-    MetricValues totals_;           ///< only its counts
-    std::uint64_t others_ = 0;      ///< sum of (robots - 1)
-    std::uint64_t reachable_ = 0;   ///< sum of reachable, where known ...
-    std::uint64_t reached_ = 0;     ///< ... and the deliveries of those messages
-    std::uint64_t forwarders_ = 0;  ///< distinct (message, robot other than the origin)
-    std::vector<Duration> delays_;  ///< of the deliveries, in no order
+    MetricValues totals_;              ///< only its counts
+    std::uint64_t others_ = 0;         ///< sum of (robots - 1)
+    std::uint64_t reachable_ = 0;      ///< sum of reachable, where known ...
+    std::uint64_t reached_ = 0;        ///< ... and the deliveries of those messages
+    std::uint64_t forwarders_ = 0;     ///< distinct (message, robot other than the origin)
+    std::vector<Duration> delays_;     ///< of the deliveries, in no order
     std::vector<std::uint64_t> hops_;  // deliveries by their hops
-    std::vector<Flood> floods_;  ///< by MessageId
+    std::vector<Flood> floods_;        ///< by MessageId
 };
 
 }  // namespace rovernet

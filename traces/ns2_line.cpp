@@ -126,6 +126,14 @@ bool is_reason(std::string_view text) {
     return std::find(std::begin(reasons), std::end(reasons), text) != std::end(reasons);
 }
 
+/// What became of a frame that was lost for a reason.
+std::optional<Fate> loss_of(std::string_view reason) {
+    for (const Fate fate : {Fate::off, Fate::garbled, Fate::collided, Fate::busy}) {
+        if (reason == reason_of_loss(fate)) return fate;
+    }
+    return std::nullopt;
+}
+
 /// What the event is, before it is known who the packet came from; nothing if it is not ours.
 std::optional<Event> event_of(char op, std::string_view layer, std::string_view reason) {
     if (layer == "AGT") {
@@ -137,20 +145,23 @@ std::optional<Event> event_of(char op, std::string_view layer, std::string_view 
         if (reason == "TTL") return Event::ended_by_ttl;
         if (reason == "DUP") return Event::suppressed;
         if (reason == "SLP") return Event::off_while_waiting;
-    } else if (layer == "MAC" && op == 'D') {
-        if (reason == "SLP") return Event::off_while_receiving;
-        if (reason == "ERR") return Event::garbled;
+    } else if (layer == "MAC" && op == 'D' && loss_of(reason)) {
+        return Event::lost;
     }
     return std::nullopt;
 }
 
-std::optional<Event> event(const Tokens& tokens, char op, Token layer, Token reason) {
+/// False if the line is not about one of our packets.
+bool read_event(Ns2Packet& p, const Tokens& tokens, char op, Token layer, Token reason) {
     constexpr std::string_view layers[] = {"AGT", "RTR", "MAC", "IFQ", "PHY", "TRP"};
     if (std::find(std::begin(layers), std::end(layers), layer.text) == std::end(layers)) {
         tokens.fail(layer, "a layer (AGT, RTR, MAC, IFQ, PHY or TRP)");
     }
     if (!is_reason(reason.text)) tokens.fail(reason, "a reason of ns-2, or ---");
-    return event_of(op, layer.text, reason.text);
+    const auto event = event_of(op, layer.text, reason.text);
+    p.event = event.value_or(p.event);
+    p.loss = loss_of(reason.text).value_or(p.loss);
+    return event.has_value();
 }
 
 void read_uid(Ns2Packet& p, const Tokens& tokens, Token token) {
@@ -188,7 +199,7 @@ void read_last_hop(Ns2Packet& p, const Tokens& tokens, Token transmitter, Token 
     } else if (p.event == Event::received) {
         p.event = Event::own;
     }
-    if (!p.heard_from && (p.event == Event::off_while_receiving || p.event == Event::garbled)) {
+    if (!p.heard_from && p.event == Event::lost) {
         tokens.fail(ethertype, "an ethertype, as a robot has received the packet");
     }
 }
@@ -212,9 +223,7 @@ Ns2Line parse_old_packet(char op, Token time, Tokens& tokens) {
     }
     p.node = tokens.robot(tokens.within(node, "_", "_", "a robot's number between underscores"));
     const Token layer = tokens.next();
-    const auto what = event(tokens, op, layer, tokens.next());
-    if (!what) return {};
-    p.event = *what;
+    if (!read_event(p, tokens, op, layer, tokens.next())) return {};
     read_uid(p, tokens, tokens.next());
     if (tokens.next().text != "message") return {};
     read_size(p, tokens, tokens.next());
@@ -242,9 +251,8 @@ Ns2Line parse_new_packet(char op, Token time_key, Tokens& tokens) {
     p.node = tokens.robot(tokens.value("-Ni"));
     for (const auto key : {"-Nx"sv, "-Ny"sv, "-Nz"sv, "-Ne"sv}) tokens.value(key);
     const Token layer = tokens.value("-Nl");
-    const auto what = event(tokens, op == 'd' ? 'D' : op, layer, tokens.value("-Nw"));
-    if (!what) return {};
-    p.event = *what;
+    const char event = op == 'd' ? 'D' : op;
+    if (!read_event(p, tokens, event, layer, tokens.value("-Nw"))) return {};
     tokens.value("-Ma");
     tokens.value("-Md");
     const Token transmitter = tokens.value("-Ms");

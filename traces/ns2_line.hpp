@@ -4,6 +4,7 @@
 #include "sim/error.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
+#include "sim/record.hpp"
 #include "sim/time.hpp"
 
 #include <cstdint>
@@ -16,18 +17,18 @@ namespace rovernet {
 /// What a packet line of an ns-2 trace tells of a robot's message, in either format.
 struct Ns2Packet {
     enum class Event : std::uint8_t {
-        sent,                 ///< `s AGT`
-        own,                  ///< `r RTR` of the own packet on its way down
-        transmitted,          ///< `s RTR`, `f RTR`
-        received,             ///< `r RTR`
-        delivered,            ///< `r AGT`
-        ended_by_ttl,         ///< `D RTR TTL`
-        suppressed,           ///< `D RTR DUP`
-        off_while_waiting,    ///< `D RTR SLP`
-        off_while_receiving,  ///< `D MAC SLP`
-        garbled               ///< `D MAC ERR`
+        sent,               ///< `s AGT`
+        own,                ///< `r RTR` of the own packet on its way down
+        transmitted,        ///< `s RTR`, `f RTR`
+        received,           ///< `r RTR`
+        delivered,          ///< `r AGT`
+        ended_by_ttl,       ///< `D RTR TTL`
+        suppressed,         ///< `D RTR DUP`
+        off_while_waiting,  ///< `D RTR SLP`
+        lost                ///< `D MAC` with the reason: SLP, ERR, COL or BSY
     };
     Event event{};
+    Fate loss = Fate::off;  ///< of a lost one
     Time time;
     NodeId node;
     std::optional<NodeId> heard_from;  ///< the last hop, once a MAC has seen the packet

@@ -136,7 +136,7 @@ class Replay {
     MessageTable messages_;
     RecordContext context_;
     std::unordered_map<std::uint64_t, MessageId> by_uid_;
-    std::vector<Hops> initial_ttl_;  ///< by MessageId
+    std::vector<Hops> initial_ttl_;          ///< by MessageId
     std::vector<std::uint32_t> numbers_;     ///< by robot: its messages so far
     std::vector<bool> placed_;               ///< by robot: it has had an M line
     std::uint32_t robots_ = 0;               ///< robots that have
@@ -244,9 +244,7 @@ void Replay::on(const Ns2Packet& p) {
     } else if (p.event == Event::off_while_waiting) {
         emit(Dropped{p.time, p.node, frame, DropReason::off});
     } else {
-        const auto fate = p.event == Event::received  ? Fate::waiting
-                          : p.event == Event::garbled ? Fate::garbled
-                                                      : Fate::off;
+        const Fate fate = p.event == Event::lost ? p.loss : Fate::waiting;
         open_ = Copy{frame, {p.node, p.time, fate, false}, p.uid};
     }
 }

@@ -170,9 +170,9 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     for (const Reception& rx : r.receptions) {
         PacketLine line{'r',   rx.time,      rx.node,       "RTR",
                         "---", frame.sender, frame.message, frame.ttl};
-        if (rx.fate == Fate::off || rx.fate == Fate::garbled) {
+        if (!is_decoded(rx.fate)) {
             line.op = 'D', line.layer = "MAC";
-            line.reason = rx.fate == Fate::off ? "SLP" : "ERR";
+            line.reason = reason_of_loss(rx.fate);
             packet(line, context);
             continue;
         }
@@ -181,7 +181,7 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
             line.layer = "AGT";
             packet(line, context);
         }
-        if (rx.fate == Fate::waiting) continue;
+        if (rx.fate == Fate::waiting || rx.fate == Fate::arrived) continue;
         line.op = 'D', line.layer = "RTR";
         line.reason = rx.fate == Fate::ttl ? "TTL" : "DUP";
         packet(line, context);

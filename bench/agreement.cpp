@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Saturated cells against theory and against what ns-2 and ns-3 delivered. Prints one line a case;
+// exit 1 if one is outside of its band.
+
+#include "bench/bianchi.hpp"
+#include "experiment/network.hpp"
+#include "models/disc.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr Duration warm_up = 1s;
+int failures = 0;
+
+/// Counts the bits of payload that get through, and the frames.
+struct Count {
+    std::uint64_t bits = 0, frames = 0, attempts = 0, lost = 0;
+
+    KindMask kinds() const { return kind_of<Transmitted>() | kind_of<Received>(); }
+    void on(const Record& record, const RecordContext& context) {
+        if (std::holds_alternative<Transmitted>(record)) {
+            ++attempts;
+            return;
+        }
+        const auto& r = std::get<Received>(record);
+        for (const Reception& each : r.receptions) {
+            lost += !is_decoded(each.fate);
+            if (!each.delivered) continue;
+            ++frames;
+            bits += 8 * context.messages[r.frame.message].size;
+        }
+    }
+};
+
+/// Keeps a message at its receivers: nobody forwards anything.
+struct Cell {
+    int n;
+    Csma csma;
+    std::uint32_t payload;  ///< [bytes]
+    Radio radio;
+    bool broadcast = false;
+    std::uint64_t seed = 1;
+
+    Count run(Duration length) const {
+        Network net({.seed = seed,
+                     .propagation = Disc{.range = {1}},
+                     .reception = Collision{},
+                     .access = csma,
+                     .event_limit = ~std::uint64_t{0},
+                     .metrics = false});
+        std::vector<NodeId> nodes;
+        for (int i = 0; i < n + (n == 1); ++i) nodes.push_back(net.add({.name = "", .at = {}, .radio = radio}));
+        for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+            const NodeId to = broadcast ? everyone : nodes[(i + 1) % nodes.size()];
+            net.at(start_of_run,
+                   [&net, from = nodes[i], to, size = payload] { net.saturate(from, to, size); });
+        }
+        net.run_for(warm_up);
+        const auto count = std::make_shared<Count>();
+        net.add_sink(Sink{count});
+        net.run_for(length);
+        return *count;
+    }
+};
+
+void report(const std::string& what, double ours, double theirs, double band) {
+    const double off = ours / theirs - 1;
+    const bool good = std::abs(off) <= band;
+    failures += !good;
+    fmt::print("{:<44} {:>10.5f} {:>10.5f} {:>+8.2f} % of {:.1f} %{}\n", what, ours, theirs,
+               100 * off, 100 * band, good ? "" : "  OUTSIDE");
+    std::fflush(stdout);
+}
+
+/// G. Bianchi, 2000, table II: slot 50, SIFS 28, DIFS 128 us; 1 Mb/s; 8184 bits of payload.
+void bianchi(Duration length) {
+    constexpr double header = 272 + 128, ack = 112 + 128, rts = 160 + 128, cts = ack;
+    constexpr double sifs = 28, difs = 128, payload = 8184;
+    for (const auto& [window, stages] : {std::pair{32, 3}, std::pair{32, 5}, std::pair{128, 3}}) {
+        for (const bool asks : {false, true}) {
+            const double data = header + payload;
+            bench::Bianchi theory{.window = window,
+                                  .stages = stages,
+                                  .slot = 50,
+                                  .payload = payload,
+                                  .success = data + sifs + ack + difs,
+                                  .collision = data + difs};
+            if (asks) {
+                theory.success += rts + sifs + cts + sifs;
+                theory.collision = rts + difs;
+            }
+            Csma csma{.timing = {.slot = 50us,
+                                 .sifs = 28us,
+                                 .difs = 128us,
+                                 .cca_time = 0us,
+                                 .turnaround = 0us,
+                                 .rx_start_delay = 0us,
+                                 .cw_min = window - 1,
+                                 .cw_max = (window << stages) - 1,
+                                 .basic_rate = {1e6}},
+                      .eifs = false,
+                      .short_retries = 0,
+                      .long_retries = 0,
+                      .rts_threshold = asks ? 0U : 100'000U,
+                      .header = 34};
+            for (const int n : {1, 2, 5, 10, 20, 50}) {
+                const Count got = Cell{.n = n,
+                                       .csma = csma,
+                                       .payload = 1023,
+                                       .radio = {.rate = {1e6}, .preamble = 128us}}
+                                      .run(length);
+                report(fmt::format("Bianchi W={} m={} n={} {}", window, stages, n,
+                                   asks ? "RTS" : "basic"),
+                       static_cast<double>(got.bits) / 1e6 / seconds(length), theory.throughput(n),
+                       0.01);
+            }
+        }
+    }
+}
+
+/// Delivered packets in 20 s of ns-2.35: 1 Mb/s, 1003 bytes of payload, 1037 at the MAC.
+void ns2_unicast(Duration length) {
+    struct Row {
+        int n;
+        double basic, rts;
+    };
+    for (const Row& row : {Row{1, 2186, 2034}, Row{5, 2006, 2058}, Row{10, 1899, 2053},
+                           Row{20, 1725, 2040}, Row{50, 1490, 2008}}) {
+        for (const bool asks : {false, true}) {
+            const Csma csma{.rts_threshold = asks ? 0U : 100'000U, .header = 34};
+            const Count got =
+                Cell{.n = row.n, .csma = csma, .payload = 1003, .radio = {.rate = {1e6}}}.run(
+                    length);
+            report(fmt::format("ns-2 delivered in 20 s, n={} {}", row.n, asks ? "RTS" : "basic"),
+                   static_cast<double>(got.frames) * 20 / seconds(length),
+                   asks ? row.rts : row.basic, 0.02);
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const auto length = std::chrono::seconds{argc > 1 ? std::atoi(argv[1]) : 60};
+    fmt::print("{:<44} {:>10} {:>10} {:>10}\n", "", "rovernet", "expected", "off");
+    bianchi(length);
+    ns2_unicast(length);
+    return failures > 0;
+}

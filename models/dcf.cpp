@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "models/dcf.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rovernet {
+
+void Dcf::add() {
+    stations_.emplace_back(settings_.timing);
+    stations_.back().window = settings_.timing.cw_min;
+}
+
+void Dcf::send(Air& air, const QueuedFrame& frame) {
+    const NodeId node = frame.frame.sender;
+    if (at(node).queue.size() >= settings_.queue) return air.lost(frame, DropReason::queue_full);
+    at(node).queue.push_back(frame);
+    if (at(node).state == State::idle) contend(air, node);
+}
+
+/// Asks for the medium, for the first frame of the queue.
+void Dcf::contend(Air& air, NodeId node) {
+    Station& s = at(node);
+    const Time now = air.now();
+    s.state = State::contending;
+    s.fresh = false;
+    // The backoff after its last frame may still be under way.
+    if (!(s.backing_off && s.backoff.grant() > now)) {
+        if (s.backoff.is_busy(now)) {
+            draw_backoff(air, node, now);
+        } else {
+            s.backoff.begin(0, now + settings_.timing.difs);
+            s.fresh = true;
+        }
+    }
+    set_timer(air, node, s.backoff.grant(), access);
+}
+
+void Dcf::set_timer(Air& air, NodeId node, Time t, Tag tag) {
+    at(node).timer = t;
+    air.access_timer(node, t, tag);
+}
+
+void Dcf::draw_backoff(Air& air, NodeId node, Time from) {
+    Station& s = at(node);
+    const double slots = air.access_draw(node, s.draws++) * (s.window + 1);
+    s.backoff.begin(static_cast<int>(slots), from);
+    s.backing_off = true;
+}
+
+void Dcf::on_timer(Air& air, NodeId node, std::uint32_t tag) {
+    Station& s = at(node);
+    if (tag == response) return send_response(air, node);
+    if (s.timer != air.now()) return;  // another one took its place
+    if (tag == answer) {
+        // What is arriving may be the answer.
+        if (s.on_air_until > air.now()) return set_timer(air, node, s.on_air_until, answer);
+        return answer_missing(air, node);
+    }
+    if (s.fresh && s.backoff.was_disturbed()) {
+        s.fresh = false;
+        draw_backoff(air, node, air.now());
+    }
+    if (s.backoff.grant() > air.now()) return set_timer(air, node, s.backoff.grant(), access);
+    transmit_head(air, node);
+}
+
+AirFrame Dcf::data_frame(NodeId node) const {
+    const Station& s = stations_[node.index()];
+    return {.frame = s.queue.front().frame,
+            .heard_from = s.queue.front().heard_from,
+            .attempt = static_cast<std::uint8_t>(s.short_count + s.long_count),
+            .number = s.number};
+}
+
+AirFrame Dcf::control_frame(NodeId from, NodeId to, AirFrame::Kind kind) {
+    AirFrame control{.kind = kind};
+    control.frame.sender = from;
+    control.frame.next_hop = to;
+    return control;
+}
+
+/// Sends the first frame of the queue, or asks its receiver first.
+void Dcf::transmit_head(Air& air, NodeId node) {
+    const AirFrame data = data_frame(node);
+    const NodeId to = data.frame.next_hop;
+    const bool asks = to != everyone && air.bytes(data) > settings_.rts_threshold;
+    if (!asks) return transmit_data(air, node);
+    AirFrame rts = control_frame(node, to, AirFrame::rts);
+    const Duration sifs = settings_.timing.sifs;
+    rts.reserved = 3 * sifs + air.airtime(control_frame(to, node, AirFrame::cts)) +
+                   air.airtime(data) + air.airtime(control_frame(to, node, AirFrame::ack));
+    await(air, node, transmit(air, rts), State::awaiting_cts);
+}
+
+void Dcf::transmit_data(Air& air, NodeId node) {
+    AirFrame data = data_frame(node);
+    const NodeId to = data.frame.next_hop;
+    if (to == everyone) return finish(air, node, transmit(air, data), std::nullopt);
+    data.reserved = settings_.timing.sifs + air.airtime(control_frame(to, node, AirFrame::ack));
+    await(air, node, transmit(air, data), State::awaiting_ack);
+}
+
+/// Puts a frame on air; returns when it ends.
+Time Dcf::transmit(Air& air, const AirFrame& frame) {
+    const Time end = air.transmit(frame);
+    at(frame.frame.sender).backoff.energy(air.now(), end);
+    return end;
+}
+
+/// Waits for the answer to what ends at `end`.
+void Dcf::await(Air& air, NodeId node, Time end, State state) {
+    const WifiTiming& t = settings_.timing;
+    at(node).state = state;
+    set_timer(air, node, end + t.sifs + t.slot + t.rx_start_delay, answer);
+}
+
+void Dcf::answer_missing(Air& air, NodeId node) {
+    Station& s = at(node);
+    const bool behind_rts = s.state == State::awaiting_ack && s.asked;
+    int& count = behind_rts ? s.long_count : s.short_count;
+    const int limit = behind_rts ? settings_.long_retries : settings_.short_retries;
+    s.asked = false;
+    if (++count == limit) return finish(air, node, air.now(), DropReason::retries);
+    s.window = std::min(2 * s.window + 1, settings_.timing.cw_max);
+    s.state = State::contending;
+    draw_backoff(air, node, air.now());
+    set_timer(air, node, s.backoff.grant(), access);
+}
+
+/// The first frame of the queue is done with: sent, or lost for a reason. Behind it a backoff
+/// begins, whether or not there is another.
+void Dcf::finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason) {
+    Station& s = at(node);
+    const QueuedFrame done = s.queue.front();
+    s.queue.erase(s.queue.begin());
+    ++s.number;
+    s.short_count = s.long_count = 0;
+    s.asked = false;
+    s.window = settings_.timing.cw_min;
+    s.state = State::idle;
+    s.timer = never;
+    draw_backoff(air, node, end);
+    if (!s.queue.empty()) {
+        s.state = State::contending;
+        set_timer(air, node, s.backoff.grant(), access);
+    }
+    if (reason) {
+        air.lost(done, *reason);
+    } else {
+        air.sent(done);
+    }
+}
+
+void Dcf::received(Air& air, NodeId node, const AirFrame& frame) {
+    Station& s = at(node);
+    s.backoff.frame_decoded();
+    if (frame.frame.next_hop == node) return answer_to(air, node, frame);
+    if (frame.reserved == Duration{0}) return;
+    s.reserved_until = std::max(s.reserved_until, air.now() + frame.reserved);
+    s.backoff.energy(air.now(), air.now() + frame.reserved);
+}
+
+/// A frame for this node has ended.
+void Dcf::answer_to(Air& air, NodeId node, const AirFrame& frame) {
+    Station& s = at(node);
+    const NodeId from = frame.frame.sender;
+    switch (frame.kind) {
+        case AirFrame::rts: {
+            if (s.reserved_until > air.now()) return;
+            AirFrame cts = control_frame(node, from, AirFrame::cts);
+            cts.reserved = frame.reserved - settings_.timing.sifs - air.airtime(cts);
+            return respond(air, node, cts);
+        }
+        case AirFrame::cts:
+            if (s.state != State::awaiting_cts) return;
+            s.timer = never;
+            s.short_count = 0;
+            s.asked = true;
+            return respond(air, node, data_frame(node));
+        case AirFrame::data: return respond(air, node, control_frame(node, from, AirFrame::ack));
+        case AirFrame::ack:
+            if (s.state != State::awaiting_ack) return;
+            return finish(air, node, air.now(), std::nullopt);
+    }
+}
+
+/// Sends `frame` after a SIFS, whatever the medium is like.
+void Dcf::respond(Air& air, NodeId node, const AirFrame& frame) {
+    const Time begin = air.now() + settings_.timing.sifs;
+    at(node).response = frame;
+    at(node).backoff.energy(air.now(), begin + air.airtime(frame));
+    air.access_timer(node, begin, response);
+}
+
+void Dcf::send_response(Air& air, NodeId node) {
+    Station& s = at(node);
+    if (!s.response) return;
+    const AirFrame frame = *std::exchange(s.response, std::nullopt);
+    if (frame.kind == AirFrame::data) return transmit_data(air, node);
+    transmit(air, frame);
+}
+
+void Dcf::missed(Air& air, NodeId node) {
+    if (!settings_.eifs) return;
+    const Duration ack = air.airtime(control_frame(node, node, AirFrame::ack));
+    const WifiTiming& t = settings_.timing;
+    at(node).backoff.frame_lost(air.now(), t.sifs + ack + t.difs);
+}
+
+bool Dcf::is_repeated(NodeId node, const AirFrame& frame) {
+    auto& heard = at(node).heard;
+    const auto found = std::find_if(heard.begin(), heard.end(),
+                                    [&](const Heard& h) { return h.from == frame.frame.sender; });
+    if (found == heard.end()) {
+        heard.push_back({frame.frame.sender, frame.number});
+        return false;
+    }
+    return std::exchange(found->number, frame.number) == frame.number;
+}
+
+void Dcf::switch_off(Air& air, NodeId node) {
+    Station& s = at(node);
+    s.state = State::idle;
+    s.timer = never;
+    s.response.reset();
+    for (const QueuedFrame& frame : std::exchange(s.queue, {})) air.lost(frame, DropReason::end);
+}
+
+}  // namespace rovernet

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/access.hpp"
+#include "models/backoff.hpp"
+#include "models/wifi.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace rovernet {
+
+/// How stations of the 802.11 DCF behave.
+struct Csma {
+    WifiStandard standard = WifiStandard::b;
+    WifiTiming timing = timing_of(WifiStandard::b);
+    bool eifs = true;                    ///< wait longer after a frame with errors
+    int short_retries = 7;               ///< attempts of an RTS, or of data without; 0: no end
+    int long_retries = 4;                ///< attempts of data behind an RTS; 0: no end
+    std::uint32_t rts_threshold = 2347;  ///< [bytes] unicasts of more, header included, ask first
+    std::uint32_t header = data_header_bytes;  ///< [bytes] that access adds to a message
+    std::uint32_t queue = 50;                  ///< frames that wait at most; more are dropped
+};
+
+/// The access rung "csma": the distributed coordination function of IEEE 802.11, for broadcasts and
+/// unicasts, for all stations.
+///
+/// A station has one timer at most, and only while it has a frame: for its access, or for the
+/// answer that it waits for. What it senses is written into its Backoff as it is sent; a timer that
+/// finds that the medium was busy in the meantime is set again. Source: IEEE 802.11-2020, 10.3.
+class Dcf {
+  public:
+    explicit Dcf(const Csma& settings) : settings_(settings) {}
+
+    Dcf(const Dcf&) = delete;  // backoffs refer to the timing
+    Dcf& operator=(const Dcf&) = delete;
+
+    /// Adds the next node.
+    void add();
+
+    /// The router hands over a frame.
+    void send(Air& air, const QueuedFrame& frame);
+    void on_timer(Air& air, NodeId node, std::uint32_t tag);
+
+    /// `node` will sense a frame on air from `begin` to `end`.
+    void energy(NodeId node, Time begin, Time end) {
+        Station& s = at(node);
+        s.backoff.energy(begin, end);
+        s.on_air_until = std::max(s.on_air_until, end);
+    }
+    /// A frame ended at `node` and was received.
+    void received(Air& air, NodeId node, const AirFrame& frame);
+    /// A frame ended at `node` with errors.
+    void missed(Air& air, NodeId node);
+    /// True if `frame` is a repetition of one that `node` has already.
+    bool is_repeated(NodeId node, const AirFrame& frame);
+    /// The node was switched off: what it had to send is lost.
+    void switch_off(Air& air, NodeId node);
+
+    const Csma& settings() const { return settings_; }
+
+  private:
+    enum class State : std::uint8_t { idle, contending, awaiting_cts, awaiting_ack };
+    enum Tag : std::uint32_t { access, answer, response };
+
+    struct Heard {
+        NodeId from;
+        std::uint32_t number;
+    };
+    struct Station {
+        explicit Station(const WifiTiming& timing) : backoff(timing) {}
+        Backoff backoff;
+        State state = State::idle;
+        bool backing_off = false;             // a backoff was drawn since its last frame
+        bool fresh = false;                   // contends without having drawn one
+        bool asked = false;                   // its RTS was answered
+        int window = 0;                       // contention window [slots]
+        int short_count = 0, long_count = 0;  // failed attempts
+        std::uint32_t number = 0;             // of its data frame
+        std::uint64_t draws = 0;
+        Time timer = never;                  // the one that counts
+        Time on_air_until = start_of_run;    // what it senses
+        Time reserved_until = start_of_run;  // by others: its NAV
+        std::vector<QueuedFrame> queue = {};
+        std::vector<Heard> heard = {};          // the last number of each sender of unicasts
+        std::optional<AirFrame> response = {};  // due after a SIFS
+    };
+
+    Station& at(NodeId node) { return stations_[node.index()]; }
+    AirFrame data_frame(NodeId node) const;
+    static AirFrame control_frame(NodeId from, NodeId to, AirFrame::Kind kind);
+    void contend(Air& air, NodeId node);
+    void set_timer(Air& air, NodeId node, Time t, Tag tag);
+    void draw_backoff(Air& air, NodeId node, Time from);
+    void transmit_head(Air& air, NodeId node);
+    void transmit_data(Air& air, NodeId node);
+    Time transmit(Air& air, const AirFrame& frame);
+    void await(Air& air, NodeId node, Time end, State state);
+    void answer_missing(Air& air, NodeId node);
+    void answer_to(Air& air, NodeId node, const AirFrame& frame);
+    void finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason);
+    void respond(Air& air, NodeId node, const AirFrame& frame);
+    void send_response(Air& air, NodeId node);
+
+    Csma settings_;
+    std::deque<Station> stations_;
+};
+
+}  // namespace rovernet

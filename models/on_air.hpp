@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ids.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rovernet {
+
+/// A frame as it arrives at one node.
+struct Arrival {
+    static constexpr std::uint32_t no_reception = 0xffffffff;  ///< it is sensed, not decoded
+
+    Time begin;
+    Time end;
+    double level_dbm;          ///< [dBm] received power; NaN until somebody asked for it
+    double squared_distance;   ///< [m^2] from the sender
+    NodeId from;               ///< its sender
+    std::uint32_t flight = 0;  ///< known to the caller
+    std::uint32_t reception = no_reception;  ///< its place among the flight's
+    bool collided = false;                   ///< lost to another frame
+
+    bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
+};
+
+/// The frames that are on air at each node, its own included.
+class OnAir {
+  public:
+    void add(NodeId node, const Arrival& arrival);
+
+    /// Calls use(arrival) for each at `node` that ends after `since`, the latest added first; if it
+    /// returns false that one is forgotten. Those that ended before are forgotten, too.
+    template <class Use>
+    void each(NodeId node, Time since, Use use) {
+        if (node.index() >= first_.size()) return;
+        for (std::uint32_t* link = &first_[node.index()]; *link != none;) {
+            Entry& entry = entries_[*link];
+            if (entry.arrival.end > since && use(entry.arrival)) {
+                link = &entry.next;
+            } else {
+                forget(*link);
+            }
+        }
+    }
+
+  private:
+    static constexpr std::uint32_t none = 0xffffffff;
+    struct Entry {
+        Arrival arrival;
+        std::uint32_t next;
+    };
+    /// Takes the entry that `link` leads to out of its list.
+    void forget(std::uint32_t& link);
+
+    std::vector<std::uint32_t> first_;  // by node
+    std::vector<Entry> entries_;
+    std::uint32_t free_ = none;  // list of entries that are not in use
+};
+
+}  // namespace rovernet

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/collision.hpp"
+
+#include <variant>
+
+namespace rovernet {
+
+/// Reception rung "threshold": a frame is received wherever the link budget allows it.
+struct Threshold {};
+
+/// What becomes of frames at a receiver: the rungs, cheapest first.
+using ReceptionRung = std::variant<Threshold, Collision>;
+
+}  // namespace rovernet

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "models/wifi.hpp"
+
+#include <cmath>
+
+namespace rovernet {
+
+Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, std::uint32_t bytes) {
+    using namespace std::chrono_literals;
+    const double bits = 8.0 * bytes;
+    if (standard == WifiStandard::b) {
+        const auto us = static_cast<std::int64_t>(std::ceil(1e6 * bits / rate.value - 1e-9));
+        return preamble + std::chrono::microseconds{us};
+    }
+    constexpr double service_and_tail = 16 + 6;  // [bits]
+    const double bits_per_symbol = rate.value * 4e-6;
+    const auto symbols =
+        static_cast<std::int64_t>(std::ceil((service_and_tail + bits) / bits_per_symbol - 1e-9));
+    const Duration extension = standard == WifiStandard::g ? Duration{6us} : Duration{0};
+    return preamble + symbols * 4us + extension;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/fields.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <string_view>
+
+namespace rovernet {
+
+/// A physical layer of IEEE 802.11 whose timing the channel access follows.
+enum class WifiStandard {
+    b,  ///< 802.11b: DSSS and HR/DSSS, 1-11 Mb/s
+    a,  ///< 802.11a: OFDM, 6-54 Mb/s
+    g,  ///< 802.11g among its own: ERP-OFDM with the short slot
+};
+template <>
+struct EnumNames<WifiStandard> {
+    static constexpr std::array<std::string_view, 3> values = {"802.11b", "802.11a", "802.11g"};
+};
+
+/// The times of an 802.11 channel access; all of them [ns].
+struct WifiTiming {
+    Duration slot;            ///< aSlotTime
+    Duration sifs;            ///< aSIFSTime
+    Duration difs;            ///< aSIFSTime + 2 aSlotTime; 802.11-2020, 10.3.7
+    Duration cca_time;        ///< energy is sensed this long after it arrived
+    Duration turnaround;      ///< aRxTxTurnaroundTime: from deciding to send to sending
+    Duration rx_start_delay;  ///< aRxPHYStartDelay: how long it takes to notice that a frame begins
+    int cw_min;               ///< aCWmin [slots]
+    int cw_max;               ///< aCWmax [slots]
+    BitRate basic_rate;       ///< of broadcasts and of RTS, CTS and ACK
+};
+
+/// The constants of a standard. Clauses of IEEE 802.11-2020; the CCA times are what a slot leaves
+/// beside the turnaround and 2 us for the air (the standard gives an upper bound only).
+constexpr WifiTiming timing_of(WifiStandard standard) {
+    using namespace std::chrono_literals;
+    switch (standard) {
+        case WifiStandard::b:  // 15.3.3 and 16.3.3: DSSS PHY characteristics
+            return {20us, 10us, 50us, 13us, 5us, 192us, 31, 1023, {1e6}};
+        case WifiStandard::a:  // 17.4.4: OFDM PHY characteristics, 20 MHz
+            return {9us, 16us, 34us, 5us, 2us, 20us, 15, 1023, {6e6}};
+        case WifiStandard::g:  // 18.4.4: ERP characteristics, short slot
+            return {9us, 10us, 28us, 5us, 2us, 20us, 15, 1023, {6e6}};
+    }
+    return {};
+}
+
+/// Time on air [ns] of `bytes` [bytes] behind a preamble: for 802.11b in whole microseconds, as its
+/// length field counts (802.11-2020, 15.2.3.5, 16.2.3.5); for OFDM in whole symbols of 4 us behind
+/// the service and before the tail bits (17.4.3), with 6 us of signal extension for 802.11g
+/// (18.5.3).
+Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, std::uint32_t bytes);
+
+/// Sizes of frames [bytes]; 802.11-2020, 9.3.1 and 9.3.2, check sequence included.
+inline constexpr std::uint32_t rts_bytes = 20;
+inline constexpr std::uint32_t cts_bytes = 14;
+inline constexpr std::uint32_t ack_bytes = 14;
+inline constexpr std::uint32_t data_header_bytes = 28;
+
+}  // namespace rovernet

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "models/backoff.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+
+using namespace rovernet;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Time at(std::int64_t us) { return start_of_run + std::chrono::microseconds{us}; }
+
+/// Slot 4, SIFS 6, DIFS one slot longer, EIFS 10 + SIFS longer than DIFS, all in microseconds, and
+/// energy that is sensed at once: the setting of ns-3.37's tests of its channel access, whose
+/// expected times are facts of IEEE 802.11.
+constexpr WifiTiming instant{.slot = 4us,
+                             .sifs = 6us,
+                             .difs = 10us,
+                             .cca_time = 0us,
+                             .turnaround = 0us,
+                             .rx_start_delay = 0us,
+                             .cw_min = 31,
+                             .cw_max = 1023,
+                             .basic_rate = {1e6}};
+constexpr Duration eifs = 26us;
+
+/// A station that listens.
+struct Station {
+    WifiTiming timing = instant;
+    Backoff backoff{timing};
+
+    void good_frame(std::int64_t begin, std::int64_t end) {
+        backoff.energy(at(begin), at(end));
+        backoff.frame_decoded();
+    }
+    void bad_frame(std::int64_t begin, std::int64_t end) {
+        backoff.energy(at(begin), at(end));
+        backoff.frame_lost(at(end), eifs);
+    }
+    /// A frame to send comes at `t` and finds the medium busy.
+    void ask_while_busy(std::int64_t t, int slots) { backoff.begin(slots, at(t)); }
+    /// ... or idle: it may go out once the medium was idle for a DIFS.
+    void ask_while_idle(std::int64_t t) { backoff.begin(0, at(t) + timing.difs); }
+};
+
+}  // namespace
+
+TEST_CASE("backoff: a slot that the medium becomes busy in does not count") {
+    Station s;
+    s.backoff.energy(at(20), at(60));
+    s.ask_while_busy(30, 4);
+    s.backoff.frame_decoded();
+    s.good_frame(80, 100);
+    CHECK(s.backoff.grant() == at(118));
+}
+
+TEST_CASE("backoff: no slots, after one frame and after two that follow at once") {
+    Station s;
+    s.good_frame(20, 60);
+    s.ask_while_busy(30, 0);
+    CHECK(s.backoff.grant() == at(70));
+    s.good_frame(60, 100);
+    CHECK(s.backoff.grant() == at(110));
+}
+
+TEST_CASE("backoff: an idle medium costs a DIFS from the asking on") {
+    Station s;
+    s.good_frame(20, 60);
+    s.ask_while_idle(62);
+    CHECK(s.backoff.grant() == at(72));
+    Station later;
+    later.good_frame(20, 60);
+    later.ask_while_idle(70);
+    CHECK(later.backoff.grant() == at(80));
+}
+
+TEST_CASE("backoff: a frame with errors costs an EIFS, unless a good one follows") {
+    Station s;
+    s.backoff.energy(at(20), at(60));
+    s.ask_while_busy(30, 4);
+    s.backoff.frame_lost(at(60), eifs);
+    CHECK(s.backoff.grant() == at(102));
+    s.backoff.energy(at(69), at(75));
+    s.backoff.frame_decoded();
+    CHECK(s.backoff.grant() == at(101));
+
+    Station idle;
+    idle.bad_frame(20, 60);
+    idle.ask_while_idle(70);
+    CHECK(idle.backoff.grant() == at(86));
+}
+
+TEST_CASE("backoff: the medium stays busy to the end of a frame that failed within") {
+    Station s;
+    s.backoff.energy(at(20), at(60));
+    s.backoff.frame_lost(at(40), eifs);
+    CHECK(s.backoff.is_busy(at(41)));
+    CHECK(s.backoff.is_busy(at(59)));
+    CHECK(!s.backoff.is_busy(at(61)));
+}
+
+TEST_CASE("backoff: a reservation counts as busy, and a shorter one does not end it") {
+    Station s;
+    s.backoff.energy(at(20), at(60));
+    s.ask_while_busy(30, 2);
+    s.backoff.energy(at(60), at(75));  // the reservation
+    s.good_frame(66, 71);
+    s.backoff.energy(at(71), at(71));
+    CHECK(s.backoff.grant() == at(93));
+}
+
+TEST_CASE("backoff: longer interframe spaces") {
+    Station s;
+    s.timing.difs = 14us;
+    s.good_frame(20, 60);
+    s.ask_while_idle(80);
+    CHECK(s.backoff.grant() == at(94));
+
+    Station busy;
+    busy.timing.difs = 14us;
+    busy.backoff.energy(at(20), at(60));
+    busy.ask_while_busy(30, 3);
+    busy.good_frame(78, 86);
+    CHECK(busy.backoff.grant() == at(108));
+}
+
+TEST_CASE("backoff: short slots") {
+    Station s;
+    s.timing.slot = 1us, s.timing.sifs = 3us, s.timing.difs = 4us;
+    s.ask_while_idle(1);
+    CHECK(s.backoff.grant() == at(5));
+    s.backoff.energy(at(5), at(6));
+    s.ask_while_idle(8);
+    CHECK(s.backoff.grant() == at(12));
+}
+
+TEST_CASE("backoff: the own frame, its answer, and waiting for one count as busy") {
+    Station answered;
+    answered.timing.difs = 14us;
+    answered.ask_while_idle(20);
+    CHECK(answered.backoff.grant() == at(34));
+    answered.backoff.energy(at(34), at(54));
+    answered.good_frame(60, 62);
+    answered.ask_while_busy(61, 1);
+    CHECK(answered.backoff.grant() == at(80));
+
+    Station ignored;
+    ignored.timing.difs = 6us;
+    ignored.backoff.energy(at(34), at(54));
+    ignored.backoff.energy(at(54), at(74));  // it waits
+    ignored.ask_while_busy(64, 0);
+    CHECK(ignored.backoff.grant() == at(80));
+}
+
+TEST_CASE("backoff: two stations whose slots run out together both send, whatever the delay") {
+    WifiTiming timing = timing_of(WifiStandard::b);
+    for (const Duration delay : {0us, 1us, 2us}) {
+        Backoff first(timing), second(timing);
+        for (Backoff* each : {&first, &second}) {
+            each->energy(at(0), at(100));
+            each->begin(3, at(50));
+        }
+        const Time sends = first.grant();
+        second.energy(sends + delay, sends + 300us);
+        CHECK(!second.was_disturbed());
+        CHECK(second.grant() == sends);
+
+        Backoff third(timing);
+        third.energy(at(0), at(100));
+        third.begin(4, at(50));
+        third.energy(sends + delay, sends + 300us);
+        CHECK(third.was_disturbed());
+        CHECK(third.grant() == sends + 300us + timing.difs + timing.slot);
+    }
+}
