@@ -197,7 +197,8 @@ void add_bench(CLI::App& app, int& exit) {
         ->delimiter(',')
         ->check(CLI::Range(2, 10'000'000))
         ->capture_default_str();
-    flood->add_option("--reception", a.reception, "threshold or collision")->capture_default_str();
+    flood->add_option("--reception", a.reception, "threshold, collision or sinr")
+        ->capture_default_str();
     flood->add_option("--access", a.access, "none, aloha or csma")->capture_default_str();
     flood->add_option("--mobility", a.mobility, "static or random_waypoint")->capture_default_str();
     flood->add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")

@@ -17,6 +17,11 @@ const Scene& open_field() {
     return scene;
 }
 
+std::optional<Db> interference_cut(const ReceptionRung& rung) {
+    const auto* sinr = std::get_if<Sinr>(&rung);
+    return sinr ? std::optional(sinr->interference_cut) : std::nullopt;
+}
+
 }  // namespace
 
 Engine::Engine(NetworkSettings settings)
@@ -26,6 +31,7 @@ Engine::Engine(NetworkSettings settings)
       medium_({.scene = scene_,
                .floor_height = settings_.floor_height,
                .propagation_delay = settings_.propagation_delay,
+               .interference_cut = interference_cut(settings_.reception),
                .seed = settings_.seed,
                .replication = settings_.replication}) {
     if (!positive.contains(settings_.floor_height.value)) {

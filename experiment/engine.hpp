@@ -37,6 +37,7 @@ struct Occurrence {
 /// A frame on its way to its receivers, some of which it may have reached already.
 struct Flight {
     AirFrame air;
+    std::uint32_t number = 0;  // among those of its sender, at rungs above threshold
     std::vector<Reception> receptions;
     std::size_t arrived = 0;
 };
@@ -60,6 +61,7 @@ struct Node {
     std::optional<RadiansPerSecond> turn_rate;
     std::uint32_t movements = 0;  // begun so far
     std::uint32_t messages_sent = 0;
+    std::uint32_t transmissions = 0;      // at rungs above threshold
     bool moving = false;                  // its movement has begun
     std::optional<Leg> interrupted = {};  // by switching off
     std::optional<Leg> after_turn = {};   // begins when the turn on the current leg is over
@@ -158,7 +160,10 @@ class Engine final : public LinkLayer, public Air {
         return key.time() <= end_of_run_ && queue_.runs_before_next(key);
     }
     void fly(std::size_t slot, Time end);
+    void meet(NodeId node, const Arrival& arrival);
+    BitRate rate_of(const AirFrame& frame) const;
     void disturb(const Collision& rung, NodeId node, const Arrival& arrival);
+    void judge(std::size_t slot, std::span<Reception> receptions);
     void garble(Flight& flight);
     void arrive(const Scheduler<Occurrence>::Event& event);
     void receive(Flight& flight, std::span<Reception> receptions);
@@ -192,6 +197,7 @@ class Engine final : public LinkLayer, public Air {
     KindMask wanted_ = 0;
     Slots<Flight> flights_;
     OnAir on_air_;  // at rungs above threshold
+    SinrReceivers sinr_receivers_;
     std::optional<AlohaAccess> aloha_;
     std::optional<Dcf> dcf_;
     /// A node that always has something to send.

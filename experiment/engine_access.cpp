@@ -15,13 +15,16 @@ std::uint32_t Engine::bytes(const AirFrame& frame) const {
     return messages_[frame.frame.message].size + (dcf_ ? dcf_->settings().header : 0);
 }
 
+BitRate Engine::rate_of(const AirFrame& frame) const {
+    const bool is_unicast = frame.kind == AirFrame::data && frame.frame.next_hop != everyone;
+    if (dcf_ && !is_unicast) return dcf_->settings().timing.basic_rate;
+    return medium_.radio(frame.frame.sender).rate;
+}
+
 Duration Engine::airtime(const AirFrame& frame) const {
     const Radio& radio = medium_.radio(frame.frame.sender);
     if (!dcf_) return rovernet::airtime(radio, bytes(frame));
-    const Csma& csma = dcf_->settings();
-    const bool is_unicast = frame.kind == AirFrame::data && frame.frame.next_hop != everyone;
-    return wifi_airtime(csma.standard, radio.preamble,
-                        is_unicast ? radio.rate : csma.timing.basic_rate, bytes(frame));
+    return wifi_airtime(dcf_->settings().standard, radio.preamble, rate_of(frame), bytes(frame));
 }
 
 void Engine::on_access_timer(NodeId node, std::uint32_t tag) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/engine.hpp"
+#include "sim/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,8 @@ Time Engine::transmit(const AirFrame& air) {
     flight.receptions.clear();
     flight.arrived = 0;
     const Time end = now_ + airtime(air);
-    if (dcf_ || std::holds_alternative<Collision>(settings_.reception)) {
+    if (dcf_ || !std::holds_alternative<Threshold>(settings_.reception)) {
+        flight.number = node(frame.sender).transmissions++;
         fly(slot, end);
     } else {
         medium_.receivers(frame.sender, now_, end, legs_, flight.receptions);
@@ -82,30 +84,66 @@ Time Engine::transmit(const AirFrame& air) {
 void Engine::fly(std::size_t slot, Time end) {
     Flight& flight = flights_[slot];
     const NodeId sender = flight.air.frame.sender;
-    const auto* rung = std::get_if<Collision>(&settings_.reception);
     const auto tell = [&](const Medium::Hearer& h, std::uint32_t reception) {
         const Time begin = now_ + h.delay, over = end + h.delay;
-        if (dcf_) dcf_->energy(h.node, begin, over);
-        if (!rung) return;
+        if (dcf_ && h.senses) dcf_->energy(h.node, begin, over);
         const double level = std::isnan(h.loss_db)
                                  ? h.loss_db
                                  : medium_.level_after(sender, h.node, h.loss_db).value;
-        disturb(*rung, h.node,
-                {.begin = begin,
-                 .end = over,
-                 .level_dbm = level,
-                 .squared_distance = h.squared_distance,
-                 .from = sender,
-                 .flight = static_cast<std::uint32_t>(slot),
-                 .reception = reception});
+        meet(h.node, {.begin = begin,
+                      .end = over,
+                      .level_dbm = level,
+                      .squared_distance = h.squared_distance,
+                      .from = sender,
+                      .flight = static_cast<std::uint32_t>(slot),
+                      .reception = reception});
     };
-    if (rung) disturb(*rung, sender, Collision::own_frame(sender, now_, end));
+    meet(sender, own_frame(sender, now_, end));
     const Medium::Hearers hearers = medium_.sensed(sender, now_, legs_);
     for (const Medium::Hearer& h : hearers.receivers) {
         flight.receptions.push_back({.node = h.node, .time = end + h.delay});
         tell(h, static_cast<std::uint32_t>(flight.receptions.size() - 1));
     }
     for (const Medium::Hearer& h : hearers.others) tell(h, Arrival::no_reception);
+}
+
+/// A frame will be on air at `node`, perhaps together with others.
+void Engine::meet(NodeId node, const Arrival& arrival) {
+    if (const auto* collision = std::get_if<Collision>(&settings_.reception)) {
+        disturb(*collision, node, arrival);
+    } else if (std::holds_alternative<Sinr>(settings_.reception)) {
+        sinr_receivers_.add(on_air_, node, arrival);
+    }
+}
+
+/// Decides at the rung "sinr" what becomes of receptions that end now.
+void Engine::judge(std::size_t slot, std::span<Reception> receptions) {
+    Flight& flight = flights_[slot];
+    const AirFrame& air = flight.air;
+    const NodeId sender = air.frame.sender;
+    const Radio& radio = medium_.radio(sender);
+    const BitRate rate = rate_of(air);
+    const std::uint64_t attempt = flight.number;
+    for (Reception& r : receptions) {
+        const auto place = static_cast<std::uint32_t>(&r - flight.receptions.data());
+        const Key draw{settings_.seed,
+                       settings_.replication,
+                       Purpose::bit_errors,
+                       combine(key(sender), key(r.node)),
+                       attempt,
+                       0};
+        const SinrFrame frame{
+            .modulation = modulation_of(rate).value_or(Modulation::dsss_1),
+            .rate = rate.value,
+            .payload = airtime(air) - radio.preamble,
+            .noise_mw = math::exp10(noise_floor(medium_.radio(r.node)).value / 10),
+            .draw = uniform(draw)};
+        r.fate = sinr_receivers_.judge(
+            on_air_, r.node, static_cast<std::uint32_t>(slot), place, r.time, frame,
+            [&](const Arrival& a) {
+                return medium_.level(a.from, r.node, a.squared_distance).value;
+            });
+    }
 }
 
 /// What an arrival does to the others at `node`, and they to it.
@@ -151,7 +189,9 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
         }
         flight.arrived = last;
         now_ = all[last - 1].time;
-        receive(flight, std::span{all}.subspan(first, last - first));
+        const auto ended = std::span{all}.subspan(first, last - first);
+        if (std::holds_alternative<Sinr>(settings_.reception)) judge(event.payload.data, ended);
+        receive(flight, ended);
         if (last == all.size()) break;
         key = event.key.at(all[last].time);
         if (!comes_next(key)) {

@@ -73,10 +73,10 @@ struct LinksTable {
 };
 
 /// How a frame is received.
-enum class ReceptionModel { threshold, collision };
+enum class ReceptionModel { threshold, collision, sinr };
 template <>
 struct EnumNames<ReceptionModel> {
-    static constexpr std::array<std::string_view, 2> values = {"threshold", "collision"};
+    static constexpr std::array<std::string_view, 3> values = {"threshold", "collision", "sinr"};
 };
 
 /// [reception]
@@ -84,15 +84,19 @@ struct ReceptionTable {
     ReceptionModel model = ReceptionModel::threshold;
     Db capture_ratio = Collision{}.capture_ratio;
     CaptureOrder capture = Collision{}.capture;
+    Db interference_cut = Sinr{}.interference_cut;
 
     static constexpr auto fields() {
         return describe(
             field("model", &ReceptionTable::model,
-                  "threshold: by the link budget alone; collision: frames that overlap are lost"),
+                  "threshold: by the link budget alone; collision: frames that overlap are lost; "
+                  "sinr: by errors in the bits"),
             field("capture_ratio", &ReceptionTable::capture_ratio, positive,
                   "how much stronger a frame is that survives another"),
             field("capture", &ReceptionTable::capture,
-                  "which of two frames may survive: the first, or also the later one"));
+                  "which of two frames may survive: the first, or also the later one"),
+            field("interference_cut", &ReceptionTable::interference_cut, non_negative,
+                  "of sinr: weaker frames, below the noise floor by this, are left out"));
     }
     ReceptionRung make() const;
 };

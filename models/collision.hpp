@@ -64,16 +64,6 @@ struct Collision {
         on_air.add(node, arrival);
     }
 
-    /// `node` sends from `begin` to `end`.
-    static Arrival own_frame(NodeId node, Time begin, Time end) {
-        constexpr double deafening = std::numeric_limits<double>::infinity();
-        return {.begin = begin,
-                .end = end,
-                .level_dbm = deafening,
-                .squared_distance = 0,
-                .from = node};
-    }
-
   private:
     /// In a crowd, the strongest of the frames on air that nobody receives any more. Whatever a
     /// weaker one that ends earlier can still do to others, it does as well, so that lists stay

@@ -3,40 +3,28 @@
 
 #include "models/friis.hpp"
 #include "sim/math.hpp"
-#include "sim/random.hpp"
-
-#include <algorithm>
 
 namespace rovernet {
-namespace {
 
-/// The link's shadowing in units of sigma, in [-cut, cut].
-double shadow(const LinkBatch& links, std::size_t i) {
-    const auto [low, high] = std::minmax(links.from_key, links.to_keys[i]);
-    const double x = normal({.seed = links.seed,
-                             .replication = links.replication,
-                             .purpose = Purpose::link_shadowing,
-                             .a = low,
-                             .b = high});
-    return std::clamp(x, -LogDistance::cut_sigmas, LogDistance::cut_sigmas);
+ShadowedLoss LogDistance::shadowed_loss(Hertz f) const {
+    return {.at_reference = free_space_db(reference_distance.value, f),
+            .per_decade = 10 * exponent,
+            .reference_distance = reference_distance.value,
+            .sigma = sigma.value};
 }
-
-}  // namespace
 
 Meters LogDistance::reach(Db loss, Hertz f) const {
     const double d0 = reference_distance.value;
-    const double more = loss.value + cut_sigmas * sigma.value - free_space_db(d0, f);
+    const double more = loss.value + ShadowedLoss::cut_sigmas * sigma.value - free_space_db(d0, f);
     return {more < 0 ? 0 : d0 * math::exp10(more / (10 * exponent))};
 }
 
 void LogDistance::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
-    const double d0 = reference_distance.value;
-    const double L0 = free_space_db(d0, links.frequency);
+    const ShadowedLoss at = shadowed_loss(links.frequency);
+    const PairDraws draws = shadowing_draws(links.seed, links.replication);
     for (std::size_t i = 0; i < out_db.size(); ++i) {
-        const double median =
-            L0 + 10 * exponent * math::log10(std::max(links.distance(i) / d0, 1.0));
-        const double X = sigma.value > 0 ? sigma.value * shadow(links, i) : 0;
-        out_db[i] = std::max(0.0, median + X);
+        const double x = sigma.value > 0 ? draws.normal(links.from_key, links.to_keys[i]) : 0;
+        out_db[i] = at(links.distance(i), x);
     }
 }
 

@@ -11,12 +11,12 @@ namespace rovernet {
 ///
 /// X is a function of seed, replication and the unordered pair of robots: the same in both
 /// directions, at every time and for every number of looks. The cut (5.7e-7 of draws) bounds the
-/// range. Valid in the far field of the transmitter; walls are in n and sigma, not seen one by one.
-/// Source: T. S. Rappaport, Wireless Communications, 2nd ed., section 4.9.
+/// range; ShadowedRange decides links by it fast. Valid in the far field of the transmitter; walls
+/// are in n and sigma, not seen one by one. Source: T. S. Rappaport, Wireless Communications, 2nd
+/// ed., section 4.9.
 struct LogDistance {
     static constexpr std::string_view name = "log_distance";
     static constexpr LossShape shape = LossShape::by_distance;
-    static constexpr double cut_sigmas = 5;
 
     double exponent = 2.5;           ///< n [-], > 0; 2 free space, about 4 an obstructed office
     Db sigma{5};                     ///< standard deviation [dB], >= 0
@@ -34,6 +34,7 @@ struct LogDistance {
     bool monotone() const { return sigma.value == 0; }
     bool by_distance_alone() const { return sigma.value == 0; }
 
+    ShadowedLoss shadowed_loss(Hertz f) const;
     Meters reach(Db loss, Hertz f) const;
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
 };

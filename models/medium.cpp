@@ -20,13 +20,6 @@ Db receiver_share(const Radio& radio) {
     return Db{-radio.sensitivity.value} + radio.antenna_gain - radio.cable_loss;
 }
 
-/// The same for sensing instead of receiving.
-Db sensor_share(const Radio& radio) {
-    Radio silent;
-    silent.power = Dbm{0};
-    return sensing_budget(silent, radio);
-}
-
 /// Rounded to the nearest nanosecond; `d` [m] >= 0.
 Duration flight_time(double d) {
     return Duration{static_cast<std::int64_t>(d * (1e9 / speed_of_light) + 0.5)};
@@ -86,8 +79,11 @@ void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propa
         best_receiver_ = receiver_share(radio);
         for (auto& other : kinds_) other.reach2 = -1;
     }
-    if (sensor_share(radio) > best_sensor_) {
-        best_sensor_ = sensor_share(radio);
+    Radio silent;  // what a receiver adds is the budget of one that sends 0 dBm
+    silent.power = Dbm{0};
+    const Db sensor_share = audible_budget(silent, radio);
+    if (sensor_share > best_sensor_) {
+        best_sensor_ = sensor_share;
         for (auto& other : kinds_) other.sensed_reach2 = -1;
     }
 }
@@ -126,6 +122,7 @@ void Medium::compute_ranges(Kind& from, std::uint32_t to) {
     };
     from.range2[to] = range(link_budget(from.radio, receiver));
     from.sensed_range2[to] = range(sensing_budget(from.radio, receiver));
+    from.audible_range2[to] = range(audible_budget(from.radio, receiver));
 }
 
 /// Makes room for the ranges to kinds that came since.
@@ -133,6 +130,7 @@ void Medium::expect_all_kinds(Kind& from) {
     if (from.range2.size() == kinds_.size()) return;
     from.range2.resize(kinds_.size(), std::nan(""));
     from.sensed_range2.resize(kinds_.size(), std::nan(""));
+    from.audible_range2.resize(kinds_.size(), std::nan(""));
 }
 
 /// Cells as wide as the reach of the median station: most queries then look at nine of them.
@@ -188,6 +186,25 @@ void Medium::find_in_range(NodeId from, Time t, const Legs& legs) {
     });
 }
 
+/// Those whose link goes by distance and a draw of the pair, and is up.
+void Medium::find_in_shadowed_range(NodeId from, const ShadowedLoss& loss, Time t,
+                                    const Legs& legs) {
+    Kind& mine = kinds_[stations_[from.index()].kind];
+    mine.shadowed.resize(kinds_.size());
+    const std::uint64_t key = stations_[from.index()].key;
+    visit(from, squared_reach(mine), t, legs,
+          [&](const NeighbourIndex::Entry& e, Vec3 p, double d2) {
+              auto& range = mine.shadowed[e.label];
+              if (!range) {
+                  range.emplace(loss, link_budget(mine.radio, kinds_[e.label].radio),
+                                shadowing_draws(settings_.seed, settings_.replication));
+              }
+              if (!range->in_range(d2, key, stations_[e.node.index()].key)) return;
+              nodes_.push_back(e.node);
+              positions_.push_back(p);
+          });
+}
+
 void Medium::find_in_reach(NodeId from, Time t, const Legs& legs) {
     const double reach2 = squared_reach(kinds_[stations_[from.index()].kind]);
     visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p, double) {
@@ -222,6 +239,13 @@ void Medium::find_hearers(NodeId from, Time t, const Legs& legs) {
     positions_.clear();
     keys_.clear();
     if (model(from).by_distance_alone()) return find_in_range(from, t, legs);
+    // A table costs time and memory: it pays where many radios are alike.
+    constexpr std::size_t most_tables = 16;
+    if (kinds_.size() <= most_tables) {
+        if (const auto loss = model(from).shadowed_loss(radio(from).frequency)) {
+            return find_in_shadowed_range(from, *loss, t, legs);
+        }
+    }
     find_in_reach(from, t, legs);
     keep_those_in_budget(from);
 }
@@ -233,9 +257,10 @@ void Medium::find_sensed_in_range(NodeId from, Time t, const Legs& legs) {
     expect_all_kinds(mine);
     visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3, double d2) {
         if (std::isnan(mine.range2[e.label])) compute_ranges(mine, e.label);
-        if (d2 > mine.sensed_range2[e.label]) return;
+        if (d2 > mine.audible_range2[e.label]) return;
         auto& hearers = d2 <= mine.range2[e.label] ? receivers_ : sensors_;
-        hearers.push_back({e.node, delay(std::sqrt(d2)), d2, std::nan("")});
+        const bool senses = d2 <= mine.sensed_range2[e.label];
+        hearers.push_back({e.node, delay(std::sqrt(d2)), d2, std::nan(""), senses});
     });
 }
 
@@ -250,16 +275,17 @@ void Medium::find_sensed_in_reach(NodeId from, Time t, const Legs& legs) {
         nodes_.push_back(e.node);
         positions_.push_back(p);
         keys_.push_back(stations_[e.node.index()].key);
-        give_up = std::max(give_up, sensing_budget(mine, kinds_[e.label].radio));
+        give_up = std::max(give_up, audible_budget(mine, kinds_[e.label].radio));
     });
     loss_db_.resize(nodes_.size());
     if (!nodes_.empty()) model(from).loss(batch(from, origin_), give_up, loss_db_);
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Radio& theirs = kind(nodes_[i]).radio;
-        if (loss_db_[i] > sensing_budget(mine, theirs).value) continue;
+        if (loss_db_[i] > audible_budget(mine, theirs).value) continue;
         const double d2 = squared_distance(origin_, positions_[i]);
         auto& hearers = loss_db_[i] <= link_budget(mine, theirs).value ? receivers_ : sensors_;
-        hearers.push_back({nodes_[i], delay(std::sqrt(d2)), d2, loss_db_[i]});
+        const bool senses = loss_db_[i] <= sensing_budget(mine, theirs).value;
+        hearers.push_back({nodes_[i], delay(std::sqrt(d2)), d2, loss_db_[i], senses});
     }
 }
 
@@ -285,6 +311,14 @@ Dbm Medium::level(NodeId from, NodeId to, double squared_distance) const {
     double loss = 0;
     model(from).loss(link, Db{infinity}, {&loss, 1});
     return level_after(from, to, loss);
+}
+
+/// The largest path loss [dB] at which `to` is disturbed by `from`.
+Db Medium::audible_budget(const Radio& from, const Radio& to) const {
+    const Db sensed = sensing_budget(from, to);
+    if (!settings_.interference_cut) return sensed;
+    const Dbm weakest = noise_floor(to) - *settings_.interference_cut;
+    return std::max(sensed, link_budget(from, to) + (to.sensitivity - weakest));
 }
 
 Duration Medium::delay(double distance) const {

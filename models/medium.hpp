@@ -4,11 +4,13 @@
 #include "models/neighbour_index.hpp"
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
+#include "models/shadowed_range.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/record.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -26,6 +28,9 @@ class Medium {
         const Scene* scene = nullptr;   ///< not null; outlives the medium
         Meters floor_height{3};         ///< [m] of one storey
         bool propagation_delay = true;  ///< a frame arrives distance / c after it is sent
+        /// [dB] frames disturb others down to so much below the noise floor; none: only those that
+        /// are sensed do.
+        std::optional<Db> interference_cut = std::nullopt;
         std::uint64_t seed = 0;
         std::uint32_t replication = 0;
     };
@@ -60,6 +65,7 @@ class Medium {
         Duration delay;           ///< [ns] that the frame is under way
         double squared_distance;  ///< [m^2] between the antennas
         double loss_db;           ///< [dB]; NaN if the link goes by distance: see level()
+        bool senses;              ///< else it is disturbed at most
     };
     struct Hearers {
         /// Those whose link is up, in the order in which the frame ends at them, then of NodeId.
@@ -125,7 +131,8 @@ class Medium {
         // [m^2] nobody farther hears it, or senses it; < 0: to be computed
         double reach2 = -1, sensed_reach2 = -1;
         // [m^2] nobody of a kind farther hears it, or senses it, by distance; NaN: to be computed
-        std::vector<double> range2 = {}, sensed_range2 = {};
+        std::vector<double> range2 = {}, sensed_range2 = {}, audible_range2 = {};
+        std::vector<std::optional<ShadowedRange>> shadowed = {};  // the same with shadowing
     };
 
     const Kind& kind(NodeId node) const { return kinds_[stations_[node.index()].kind]; }
@@ -134,11 +141,13 @@ class Medium {
     void choose_cells();
 
     void find_in_reach(NodeId from, Time t, const Legs& legs);
+    void find_in_shadowed_range(NodeId from, const ShadowedLoss& loss, Time t, const Legs& legs);
     void find_in_range(NodeId from, Time t, const Legs& legs);
     void find_sensed_in_range(NodeId from, Time t, const Legs& legs);
     void find_sensed_in_reach(NodeId from, Time t, const Legs& legs);
     double squared_reach(const Kind& from, Db best_receiver) const;
     Duration delay(double distance) const;
+    Db audible_budget(const Radio& from, const Radio& to) const;
     void find_hearers(NodeId from, Time t, const Legs& legs);
     void keep_those_in_budget(NodeId from);
     template <class Use>

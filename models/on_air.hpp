@@ -6,6 +6,7 @@
 #include "sim/units.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace rovernet {
@@ -13,6 +14,11 @@ namespace rovernet {
 /// A frame as it arrives at one node.
 struct Arrival {
     static constexpr std::uint32_t no_reception = 0xffffffff;  ///< it is sensed, not decoded
+    enum class Lock : std::uint8_t {
+        open,    ///< not decided yet
+        held,    ///< the receiver locked on to it
+        missed,  ///< it did not
+    };
 
     Time begin;
     Time end;
@@ -22,9 +28,19 @@ struct Arrival {
     std::uint32_t flight = 0;  ///< known to the caller
     std::uint32_t reception = no_reception;  ///< its place among the flight's
     bool collided = false;                   ///< lost to another frame
+    Lock lock = Lock::open;                  ///< of a receiver at the rung "sinr"
 
     bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
 };
+
+/// What a node sends, as it drowns everything there.
+constexpr Arrival own_frame(NodeId node, Time begin, Time end) {
+    return {.begin = begin,
+            .end = end,
+            .level_dbm = std::numeric_limits<double>::infinity(),
+            .squared_distance = 0,
+            .from = node};
+}
 
 /// The frames that are on air at each node, its own included.
 class OnAir {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/shadowed_range.hpp"
 #include "scene/scene.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -72,6 +74,13 @@ concept DistanceModel = requires(const T& model) {
     { model.by_distance_alone() } -> std::same_as<bool>;
 };
 
+/// A model whose loss, at each frequency, is a ShadowedLoss of the antennas' distance and the
+/// pair's own one of the shadowing_draws(): then a ShadowedRange decides links as `loss` does.
+template <class T>
+concept ShadowedModel = requires(const T& model, Hertz frequency) {
+    { model.shadowed_loss(frequency) } -> std::same_as<ShadowedLoss>;
+};
+
 /// A model that cannot work with every frequency says so by std::invalid_argument.
 template <class T>
 concept FrequencyCheckedModel = requires(const T& model, Hertz frequency) {
@@ -94,6 +103,10 @@ class Propagation {
     void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
     LossShape shape() const { return self_->shape(); }
     bool by_distance_alone() const { return self_->by_distance_alone(); }
+    /// What to build a ShadowedRange of; nothing if the model is not a ShadowedModel.
+    std::optional<ShadowedLoss> shadowed_loss(Hertz frequency) const {
+        return self_->shadowed_loss(frequency);
+    }
     /// Whether both are copies of one handle; the Network keeps one table entry for them.
     friend bool operator==(const Propagation&, const Propagation&) = default;
 
@@ -106,6 +119,7 @@ class Propagation {
         virtual void check_frequency(Hertz) const = 0;
         virtual LossShape shape() const = 0;
         virtual bool by_distance_alone() const = 0;
+        virtual std::optional<ShadowedLoss> shadowed_loss(Hertz) const = 0;
     };
     template <class T>
     struct Holder final : Concept {
@@ -130,6 +144,10 @@ class Propagation {
         bool by_distance_alone() const override {
             if constexpr (DistanceModel<T>) return model.by_distance_alone();
             return false;
+        }
+        std::optional<ShadowedLoss> shadowed_loss(Hertz frequency) const override {
+            if constexpr (ShadowedModel<T>) return model.shadowed_loss(frequency);
+            return std::nullopt;
         }
         T model;
     };

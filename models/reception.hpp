@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/collision.hpp"
+#include "models/sinr.hpp"
 
 #include <variant>
 
@@ -11,6 +12,6 @@ namespace rovernet {
 struct Threshold {};
 
 /// What becomes of frames at a receiver: the rungs, cheapest first.
-using ReceptionRung = std::variant<Threshold, Collision>;
+using ReceptionRung = std::variant<Threshold, Collision, Sinr>;
 
 }  // namespace rovernet

@@ -13,11 +13,13 @@ namespace {
 
 __extension__ using Uint128 = unsigned __int128;
 
-std::uint64_t mix(std::uint64_t x) {
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-    return x ^ (x >> 31);
+// Of a seed, a replication and a purpose.
+std::uint64_t stream(std::uint64_t seed, std::uint32_t replication, Purpose purpose) {
+    return combine(seed, std::uint64_t{replication} << 16 | static_cast<std::uint16_t>(purpose));
 }
+
+// The midpoint of the cell of 2^-52 that the upper bits number.
+double midpoint(std::uint64_t bits) { return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52; }
 
 constexpr std::uint32_t low(std::uint64_t x) { return static_cast<std::uint32_t>(x); }
 constexpr std::uint32_t high(std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); }
@@ -95,15 +97,13 @@ std::uint64_t combine(std::uint64_t first, std::uint64_t second) {
 }
 
 std::uint64_t bits(const Key& key) {
-    const std::uint64_t kind =
-        std::uint64_t{key.replication} << 16 | static_cast<std::uint16_t>(key.purpose);
-    const std::uint64_t stream = mix(combine(key.seed, kind) + key.index);
+    const std::uint64_t cipher = mix(stream(key.seed, key.replication, key.purpose) + key.index);
     const auto words = philox4x32_10({low(key.a), high(key.a), low(key.b), high(key.b)},
-                                     {low(stream), high(stream)});
+                                     {low(cipher), high(cipher)});
     return std::uint64_t{words[1]} << 32 | words[0];
 }
 
-double uniform(const Key& key) { return (static_cast<double>(bits(key) >> 12) + 0.5) * 0x1p-52; }
+double uniform(const Key& key) { return midpoint(bits(key)); }
 
 double normal(const Key& key) { return normal_quantile(uniform(key)); }
 
@@ -112,6 +112,15 @@ double exponential(const Key& key) { return -math::log(uniform(key)); }
 std::uint64_t below(const Key& key, std::uint64_t n) {
     assert(n > 0);
     return static_cast<std::uint64_t>(Uint128{bits(key)} * n >> 64);
+}
+
+PairDraws::PairDraws(std::uint64_t seed, std::uint32_t replication, Purpose purpose)
+    : stream_(stream(seed, replication, purpose)) {}
+
+double PairDraws::uniform(std::uint64_t a, std::uint64_t b) const { return midpoint(bits(a, b)); }
+
+double PairDraws::normal(std::uint64_t a, std::uint64_t b) const {
+    return normal_quantile(uniform(a, b));
 }
 
 double normal_quantile(double p) {

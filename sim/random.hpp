@@ -17,6 +17,7 @@ enum class Purpose : std::uint16_t {
     movement = 6,
     link_success = 7,
     backoff = 8,
+    bit_errors = 9,
 };
 
 /// The meaning of one draw, and all that decides it: the same key gives the same number, in any
@@ -66,6 +67,34 @@ std::uint64_t name_key(std::string_view name);
 /// Source: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, OOPSLA
 /// 2014; constants of D. Stafford's variant 13.
 std::uint64_t combine(std::uint64_t first, std::uint64_t second);
+
+/// The finaliser of splitmix64: one-to-one, and each bit of x moves half of the result's.
+///
+/// Source: as combine().
+constexpr std::uint64_t mix(std::uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+    return x ^ (x >> 31);
+}
+
+/// One draw for each unordered pair of keys, for when a run asks for more of them than Philox can
+/// give: mix(mix(s + a) + mix(s + b)), with s made of seed, replication and purpose.
+///
+/// The same from a to b as from b to a. Pairs that share a key draw independently, and so do all
+/// the pairs of three or four keys together. Two pairs share a draw with probability 2^-64.
+class PairDraws {
+  public:
+    PairDraws(std::uint64_t seed, std::uint32_t replication, Purpose purpose);
+
+    std::uint64_t bits(std::uint64_t a, std::uint64_t b) const {
+        return mix(mix(stream_ + a) + mix(stream_ + b));
+    }
+    double uniform(std::uint64_t a, std::uint64_t b) const;  ///< as uniform() of these bits
+    double normal(std::uint64_t a, std::uint64_t b) const;   ///< as normal() of these bits
+
+  private:
+    std::uint64_t stream_;
+};
 
 /// The Philox4x32 bijection of ten rounds: `counter` enciphered under `key`.
 ///

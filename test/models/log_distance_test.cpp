@@ -77,6 +77,14 @@ TEST_CASE("log_distance: shadowing belongs to the link, wherever and how often o
     CHECK(near_by.loss(model) == first);
 }
 
+TEST_CASE("log_distance: shadowing is sigma times the pair's draw") {
+    for (std::uint64_t key = 0; key < 100; ++key) {
+        const OneLink link{.from_key = key, .to_key = 50, .seed = 7, .replication = 3};
+        const PairDraws draws(7, 3, Purpose::link_shadowing);
+        CHECK(near(shadowing(link, 8_dB), 8 * draws.normal(50, key), 10 * tolerance));
+    }
+}
+
 TEST_CASE("log_distance: another replication, seed or pair has another shadowing") {
     const double here = shadowing({});
     CHECK(shadowing({.replication = 1}) != here);

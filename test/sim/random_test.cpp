@@ -86,6 +86,43 @@ Key small_key(std::size_t i) {
             .index = i};
 }
 
+// Keys of robots as a test numbers them, or made of their names.
+std::vector<std::uint64_t> robot_keys(bool named, std::size_t count) {
+    std::vector<std::uint64_t> keys;
+    for (std::size_t i = 0; i < count; ++i) {
+        keys.push_back(named ? name_key("r" + std::to_string(i)) : i);
+    }
+    return keys;
+}
+
+// A draw for each pair of `count` robots.
+template <class Draw>
+auto draws_of_pairs(bool named, std::size_t count, Draw draw) {
+    const auto keys = robot_keys(named, count);
+    std::vector<decltype(draw(0, 0))> all;
+    for (std::size_t b = 0; b < count; ++b) {
+        for (std::size_t a = 0; a < b; ++a) all.push_back(draw(keys[a], keys[b]));
+    }
+    return all;
+}
+
+// A pair's bits, then those of its neighbours: either key or the stream changed by one, and one bit
+// moved from the one key to the other.
+std::array<std::uint64_t, 7> near_pairs(std::size_t i) {
+    const std::uint64_t a = 2 * (i % 1000), b = 2 * (i / 1000) + 5000;
+    const auto draws = [&](std::uint64_t seed, std::uint32_t replication, Purpose purpose) {
+        return PairDraws(seed, replication, purpose);
+    };
+    const auto usual = draws(i % 7, 2, Purpose::order);
+    return {usual.bits(a, b),
+            usual.bits(a + 1, b),
+            usual.bits(a, b + 1),
+            usual.bits(a + 1, b + 1),
+            draws(i % 7 + 1, 2, Purpose::order).bits(a, b),
+            draws(i % 7, 3, Purpose::order).bits(a, b),
+            draws(i % 7, 2, Purpose::placement).bits(a, b)};
+}
+
 double exact_quantile(double p) {
     const boost::math::normal_distribution<long double> standard;
     return static_cast<double>(quantile(standard, static_cast<long double>(p)));
@@ -250,6 +287,91 @@ TEST_CASE("random: small keys never meet") {
         all.push_back(bits({.seed = i + 1}));
         all.push_back(combine(i, 0));
         all.push_back(combine(0, i + 1));
+    }
+    std::sort(all.begin(), all.end());
+    CHECK(std::adjacent_find(all.begin(), all.end()) == all.end());
+}
+
+TEST_CASE("pair draws: the same bits in both directions, whatever the compiler") {
+    const PairDraws draws(7, 3, Purpose::link_shadowing);
+    const std::uint64_t a = name_key("r0"), b = name_key("base");
+    const std::uint64_t stream = combine(7, 3 << 16 | 2);
+    CHECK(draws.bits(a, b) == mix(mix(stream + a) + mix(stream + b)));
+    CHECK(draws.bits(a, b) == draws.bits(b, a));
+    CHECK(draws.bits(a, b) == 0x93feb66b29b1f615);
+    CHECK(draws.uniform(a, b) == (static_cast<double>(draws.bits(a, b) >> 12) + 0.5) * 0x1p-52);
+    CHECK(draws.normal(a, b) == normal_quantile(draws.uniform(a, b)));
+}
+
+TEST_CASE("pair draws: moments and distribution over all pairs of some robots") {
+    constexpr std::size_t robots = 633;  // 200,028 pairs
+    const PairDraws draws(1, 0, Purpose::link_shadowing);
+    for (const bool named : {false, true}) {
+        CAPTURE(named);
+        const auto u = draws_of_pairs(
+            named, robots, [&](std::uint64_t a, std::uint64_t b) { return draws.uniform(a, b); });
+        REQUIRE(u.size() > samples);
+        CHECK(mean_is(moment(u, 0, 1), 0.5, std::sqrt(1 / 12.0)));
+        CHECK(mean_is(moment(u, 0.5, 2), 1 / 12.0, std::sqrt(1 / 180.0)));
+        CHECK(mean_is(moment(u, 0.5, 3), 0, std::sqrt(1 / 448.0)));
+        CHECK(mean_is(moment(u, 0.5, 4), 1 / 80.0, std::sqrt(1 / 3600.0)));
+        CHECK(kolmogorov_smirnov(u, [](double x) { return x; }) < ks_bound);
+    }
+}
+
+TEST_CASE("pair draws: pairs that share robots are independent, also around a ring of them") {
+    const PairDraws draws(1, 0, Purpose::link_shadowing);
+    const auto x = [&](std::uint64_t a, std::uint64_t b) {
+        return std::sqrt(12.0) * (draws.uniform(a, b) - 0.5);  // mean 0, standard deviation 1
+    };
+    for (const bool named : {false, true}) {
+        CAPTURE(named);
+        const auto key = robot_keys(named, samples + 3);
+        double two = 0, three = 0, four = 0, hub = 0, squares = 0;
+        for (std::size_t i = 0; i < samples; ++i) {
+            const std::uint64_t a = key[i], b = key[i + 1], c = key[i + 2], d = key[i + 3];
+            two += x(a, b) * x(b, c);
+            three += x(a, b) * x(b, c) * x(c, a);
+            four += x(a, b) * x(b, c) * x(c, d) * x(d, a);
+            hub += x(key[0], b) * x(key[0], c);
+            squares += (x(a, b) * x(a, b) - 1) * (x(b, c) * x(b, c) - 1);
+        }
+        const double n = static_cast<double>(samples);
+        for (const double sum : {two, three, four, hub}) CHECK(mean_is(sum / n, 0, 1));
+        CHECK(mean_is(squares / n, 0, 0.8));  // the square's variance is 12^2 / 80 - 1
+    }
+}
+
+TEST_CASE("pair draws: a neighbour in key, seed, replication or purpose flips half of the bits") {
+    std::array<std::array<int, 64>, 8> flips{};
+    for (std::size_t i = 0; i < samples / 4; ++i) {
+        const auto near = near_pairs(i);
+        for (std::size_t other = 1; other < near.size() + 1; ++other) {
+            // The last: a bit moved from the one key to the other.
+            const std::uint64_t changed =
+                other < near.size() ? near[0] ^ near[other] : near[1] ^ near[2];
+            for (std::size_t bit = 0; bit < 64; ++bit) {
+                flips[other][bit] += (changed >> bit & 1) != 0 ? 1 : 0;
+            }
+        }
+    }
+    const double n = static_cast<double>(samples) / 4;
+    for (std::size_t other = 1; other < flips.size(); ++other) {
+        for (const int count : flips[other]) {
+            CHECK(std::abs(count - n / 2) < sigmas * std::sqrt(n) / 2);
+        }
+    }
+}
+
+TEST_CASE("pair draws: no two pairs share a draw, of any replication") {
+    std::vector<std::uint64_t> all;
+    for (std::uint32_t replication = 0; replication < 5; ++replication) {
+        const PairDraws draws(1, replication, Purpose::link_shadowing);
+        for (const bool named : {false, true}) {
+            const auto some = draws_of_pairs(
+                named, 400, [&](std::uint64_t a, std::uint64_t b) { return draws.bits(a, b); });
+            all.insert(all.end(), some.begin(), some.end());
+        }
     }
     std::sort(all.begin(), all.end());
     CHECK(std::adjacent_find(all.begin(), all.end()) == all.end());

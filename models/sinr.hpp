@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/error_rate.hpp"
+#include "models/on_air.hpp"
+#include "sim/record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace rovernet {
+
+/// Reception rung "sinr": a receiver locks on to the first frame that reaches it while it is free,
+/// and gets it with the probability that all bits are right, chunk by chunk between the changes of
+/// the interference, which is the sum of all other frames on air there.
+///
+/// A frame that begins while the receiver is locked on another, or sends, is lost; so is the one
+/// that it is locked on when it begins to send. Errors are those of the payload: a preamble is
+/// taken to be detected. Frames weaker than the noise floor by `interference_cut` are left out.
+/// Sources: models/error_rate.hpp; IEEE 802.11-2020, clause 15-18, for what a receiver does.
+struct Sinr {
+    Db interference_cut{10};  ///< [dB] >= 0
+};
+
+/// What judging a frame takes beside what is on air.
+struct SinrFrame {
+    Modulation modulation;
+    double rate;       ///< [bit/s]
+    Duration payload;  ///< [ns] how much of its end is payload
+    double noise_mw;   ///< [mW] of the receiver
+    double draw;       ///< uniform in (0, 1)
+};
+
+/// The receivers of all nodes.
+class SinrReceivers {
+  public:
+    void add(OnAir& on_air, NodeId node, const Arrival& arrival) {
+        longest_ = std::max(longest_, arrival.end - arrival.begin);
+        on_air.add(node, arrival);
+    }
+
+    /// What becomes of the flight's reception at `node`, which ends at `now`: waiting if the frame
+    /// is decoded. level_of(arrival) [dBm] is asked once for each arrival that matters.
+    template <class LevelOf>
+    Fate judge(OnAir& on_air, NodeId node, std::uint32_t flight, std::uint32_t reception, Time now,
+               const SinrFrame& frame, LevelOf level_of) {
+        here_.clear();
+        on_air.each(node, now - 2 * longest_, [&](Arrival& a) {
+            if (std::isnan(a.level_dbm)) a.level_dbm = level_of(a);
+            here_.push_back(&a);
+            return true;
+        });
+        return judge_here(node, flight, reception, now, frame);
+    }
+
+  private:
+    Fate judge_here(NodeId node, std::uint32_t flight, std::uint32_t reception, Time now,
+                    const SinrFrame& frame);
+    void settle_locks(NodeId node, Time until);
+    bool sends_within(NodeId node, Time after, Time until) const;
+    double log_success_of(const Arrival& judged, const SinrFrame& frame);
+
+    Duration longest_{0};
+    std::vector<Arrival*> here_;  // what is or was on air at the node, in order of its beginning
+    std::vector<Time> changes_;
+    std::vector<double> power_mw_;
+};
+
+}  // namespace rovernet
