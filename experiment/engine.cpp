@@ -31,6 +31,7 @@ Engine::Engine(NetworkSettings settings)
       medium_({.scene = scene_,
                .floor_height = settings_.floor_height,
                .propagation_delay = settings_.propagation_delay,
+               .all_pairs = settings_.reference,
                .interference_cut = interference_cut(settings_.reception),
                .seed = settings_.seed,
                .replication = settings_.replication}) {

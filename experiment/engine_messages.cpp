@@ -183,7 +183,7 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
         // Nothing that a reception sets off happens sooner than least_reaction after it.
         const Time horizon = all[first].time + least_reaction;
         std::size_t last = first + 1;
-        while (last < all.size() && all[last].time <= horizon &&
+        while (!settings_.reference && last < all.size() && all[last].time <= horizon &&
                comes_next(event.key.at(all[last].time))) {
             ++last;
         }
@@ -194,7 +194,7 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
         receive(flight, ended);
         if (last == all.size()) break;
         key = event.key.at(all[last].time);
-        if (!comes_next(key)) {
+        if (settings_.reference || !comes_next(key)) {
             queue_.requeue(key, event.payload);
             return;
         }

@@ -73,6 +73,12 @@ Propagation model(const FloodBench& bench) {
 /// A radio that reaches as far as the bench wants, at the median.
 Radio radio(const FloodBench& bench) {
     Radio radio{.rate = {11e6}, .preamble = std::chrono::microseconds{96}};
+    // Well above the noise at the decode range, as the rung "sinr" needs it.
+    constexpr Dbm level_at_decode_range{-80};
+    if (has_levels(bench)) {
+        radio.power = level_at_decode_range + Db{free_space_db(1, radio.frequency)} +
+                      Db{40 * math::log10(decode_range)};
+    }
     const auto level_at = [&](double d) {
         return radio.power - Db{free_space_db(1, radio.frequency) + 40 * math::log10(d)};
     };

@@ -88,6 +88,31 @@ void check_traffic(const Scenario& scenario) {
     }
 }
 
+/// The rung "sinr" needs levels, and a rate whose errors it knows.
+void check_sinr(const Scenario& scenario) {
+    if (scenario.reception.model != ReceptionModel::sinr) return;
+    const auto check = [](const PropagationTable& propagation, Location propagation_where,
+                          const Radio& radio, Location radio_where) {
+        if (std::holds_alternative<Disc>(propagation.parameters)) {
+            throw InputError(propagation_where,
+                             "model: \"disc\" has no levels for [reception] model = \"sinr\"; "
+                             "expected another, such as \"friis\"");
+        }
+        if (!modulation_of(radio.rate)) {
+            throw InputError(radio_where,
+                             fmt::format("rate: found {} Mbit/s; [reception] model = \"sinr\" knows "
+                                         "1, 2, 5.5, 11 and 6, 9, 12, 18, 24, 36, 48, 54 Mbit/s",
+                                         radio.rate.value / 1e6));
+        }
+    };
+    for (const RobotTable& robot : scenario.robots) {
+        const bool own = robot.propagation.has_value();
+        check(own ? *robot.propagation : scenario.propagation,
+              own ? robot.propagation_where : scenario.propagation_where, robot.radio,
+              robot.radio_where);
+    }
+}
+
 void read_study(const Value& value, StudyTable& study) {
     TableReader table(value, "[study]");
     table.read_fields(study);
@@ -286,6 +311,7 @@ Scenario read_scenario(const Value& value, const std::string& file) {
         document.missing("robot", "[[robot]] with a name and a place");
     check_names(out);
     check_traffic(out);
+    check_sinr(out);
     note_decay(out);
     check_addresses(out);
     return out;

@@ -141,7 +141,8 @@ void Medium::choose_cells() {
     std::size_t seen = 0, median = 0;
     while (2 * (seen += reaches[median].second) < stations_.size()) ++median;
     constexpr double widest = 1e9;  // [m] of models without a bound
-    index_.set_cell_size(std::min(1.1 * reaches[median].first, widest));
+    const double size = settings_.all_pairs ? widest : 1.1 * reaches[median].first;
+    index_.set_cell_size(std::min(size, widest));
     cells_chosen_ = true;
 }
 

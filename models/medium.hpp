@@ -28,6 +28,7 @@ class Medium {
         const Scene* scene = nullptr;   ///< not null; outlives the medium
         Meters floor_height{3};         ///< [m] of one storey
         bool propagation_delay = true;  ///< a frame arrives distance / c after it is sent
+        bool all_pairs = false;         ///< for tests: without the grid
         /// [dB] frames disturb others down to so much below the noise floor; none: only those that
         /// are sensed do.
         std::optional<Db> interference_cut = std::nullopt;

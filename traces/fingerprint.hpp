@@ -17,13 +17,13 @@ namespace rovernet {
 ///
 /// | record      | bytes                                                                      |
 /// |-------------|----------------------------------------------------------------------------|
-/// | Sent        | time 8, node 4, uid 8, origin 4, size 4, ttl 1, robots 4                   |
+/// | Sent        | time 8, node 4, uid 8, origin 4, size 4, ttl 2, robots 4                   |
 /// | Transmitted | time 8, frame, heard from 4 (all ones: from nobody)                        |
 /// | Received    | per reception, each with the kind: frame, node 4, time 8, fate 1, delivered 1 |
 /// | Dropped     | time 8, node 4, frame, reason 1                                            |
 /// | Moved       | time 8, node 4, start 8, end 8, from 3 x 8, to 3 x 8                       |
 ///
-/// where a frame is: uid 8, sender 4, ttl 1, hops 1. Times in [ns], positions in micrometres [um]
+/// where a frame is: uid 8, sender 4, ttl 2, hops 2. Times in [ns], positions in micrometres [um]
 /// rounded to nearest. What depends on who listens (`reachable`) or on how the receptions of a
 /// transmission are cut into records does not enter.
 class Fingerprint {

@@ -157,7 +157,7 @@ TEST_CASE("backoff: the own frame, its answer, and waiting for one count as busy
 
 TEST_CASE("backoff: two stations whose slots run out together both send, whatever the delay") {
     WifiTiming timing = timing_of(WifiStandard::b);
-    for (const Duration delay : {0us, 1us, 2us}) {
+    for (const Duration delay : {Duration{0}, Duration{1000}, Duration{1999}}) {
         Backoff first(timing), second(timing);
         for (Backoff* each : {&first, &second}) {
             each->energy(at(0), at(100));

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "bench/bianchi.hpp"
+#include "experiment/network.hpp"
+#include "models/disc.hpp"
+#include "models/log_distance.hpp"
+#include "routing/flood.hpp"
+#include "sim/random.hpp"
+#include "traces/fingerprint.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What became of frames.
+struct Ledger {
+    std::uint64_t transmitted = 0, delivered = 0, delivered_bits = 0, heard = 0;
+    std::map<Fate, std::uint64_t> fates{};
+    std::map<DropReason, std::uint64_t> drops{};
+    std::vector<Time> deliveries{};
+
+    KindMask kinds() const { return kind_all; }
+    void on(const Record& record, const RecordContext& context) {
+        if (std::holds_alternative<Transmitted>(record)) ++transmitted;
+        if (const auto* drop = std::get_if<Dropped>(&record)) ++drops[drop->reason];
+        const auto* received = std::get_if<Received>(&record);
+        if (!received) return;
+        for (const Reception& r : received->receptions) {
+            ++heard;
+            ++fates[r.fate];
+            if (!r.delivered) continue;
+            ++delivered;
+            deliveries.push_back(r.time);
+            delivered_bits += 8 * context.messages[received->frame.message].size;
+        }
+    }
+};
+
+/// Robots in one place or on a line that hear each other up to `range`.
+struct Cell {
+    Network net;
+    std::vector<NodeId> nodes{};
+    std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
+
+    Cell(int robots, AccessRung access, Radio radio = {.rate = {1e6}}, double spacing = 0,
+         double range = 100)
+        : net({.propagation = Disc{.range = {range}},
+               .reception = Collision{},
+               .access = access,
+               .propagation_delay = spacing > 0,
+               .metrics = false}) {
+        for (int i = 0; i < robots; ++i) {
+            nodes.push_back(net.add({.name = "", .at = {i * spacing, 0}, .radio = radio}));
+        }
+        net.add_sink(Sink{ledger});
+    }
+};
+
+/// Poisson traffic of n robots to one place: the share of the time in which a frame gets through.
+double aloha_throughput(double load, Duration slot) {
+    constexpr int robots = 200;
+    constexpr Duration frame = 1ms;  // 125 bytes at 1 Mb/s
+    constexpr int frames = 60000;
+    Cell cell(robots + 1, Aloha{.slot = slot}, {.rate = {1e6}, .preamble = 0us});
+    Time t = start_of_run;
+    for (std::uint64_t i = 0; i < frames; ++i) {
+        const Key key{.seed = 5, .purpose = Purpose::order, .index = i};
+        Key pick = key;
+        pick.a = 1;
+        t += from_seconds(exponential(key) * seconds(frame) / load);
+        const NodeId from = cell.nodes[1 + below(pick, robots)];
+        cell.net.at(
+            t, [&net = cell.net, from, to = cell.nodes[0]] { net.unicast(from, to, "", 125); });
+    }
+    cell.net.run_until(t + 1s);
+    return static_cast<double>(cell.ledger->delivered) * seconds(frame) / seconds(t);
+}
+
+}  // namespace
+
+// 60,000 frames, of which a share p gets through: sigma of the share is sqrt(p (1 - p) / n), at
+// most 0.9 % of it here; a longer run is held to 1 % by bench/agreement.
+constexpr double three_sigma = 0.025;
+
+TEST_CASE("aloha: pure, S = G exp(-2 G)") {
+    for (const double load : {0.1, 0.5, 1.0}) {
+        const double expected = load * std::exp(-2 * load);
+        CHECK(std::abs(aloha_throughput(load, 0us) / expected - 1) < three_sigma);
+    }
+}
+
+TEST_CASE("aloha: slotted, S = G exp(-G)") {
+    for (const double load : {0.1, 1.0, 2.0}) {
+        const double expected = load * std::exp(-load);
+        CHECK(std::abs(aloha_throughput(load, 1ms) / expected - 1) < three_sigma);
+    }
+}
+
+TEST_CASE("csma: saturated stations get what Bianchi's model says") {
+    const bench::Bianchi theory{.window = 32,
+                                .stages = 3,
+                                .slot = 50,
+                                .payload = 8184,
+                                .success = 8584 + 28 + 240 + 128,
+                                .collision = 8584 + 128};
+    const Csma csma{.timing = {.slot = 50us,
+                               .sifs = 28us,
+                               .difs = 128us,
+                               .cca_time = 0us,
+                               .turnaround = 0us,
+                               .rx_start_delay = 0us,
+                               .cw_min = 31,
+                               .cw_max = 255,
+                               .basic_rate = {1e6}},
+                    .eifs = false,
+                    .short_retries = 0,
+                    .long_retries = 0,
+                    .header = 34};
+    for (const int n : {1, 5, 20}) {
+        Cell cell(std::max(n, 2), csma, {.rate = {1e6}, .preamble = 128us});
+        for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+            const NodeId to = cell.nodes[(i + 1) % cell.nodes.size()];
+            cell.net.at(start_of_run, [&net = cell.net, from = cell.nodes[i], to] {
+                net.saturate(from, to, 1023);
+            });
+        }
+        cell.net.run_for(200s);
+        const double share = static_cast<double>(cell.ledger->delivered_bits) / 200e6;
+        // 200 s hold 20,000 frames: a noise of 0.4 %; the model itself is off by up to 0.5 %.
+        CHECK(std::abs(share / theory.throughput(n) - 1) < 0.012);
+    }
+}
+
+TEST_CASE("csma: an idle medium costs a DIFS, and the airtimes are those of the standard") {
+    Cell cell(2, Csma{}, {.rate = {11e6}});
+    cell.net.at(start_of_run + 1ms,
+                [&] { cell.net.unicast(cell.nodes[0], cell.nodes[1], "", 995); });
+    cell.net.run_for(1s);
+    // 995 + 28 bytes at 11 Mb/s: 744 us behind the long preamble.
+    REQUIRE(cell.ledger->deliveries.size() == 1);
+    CHECK(cell.ledger->deliveries[0] == start_of_run + 1ms + 50us + 192us + 744us);
+    CHECK(cell.ledger->transmitted == 1);
+}
+
+TEST_CASE("csma: a unicast that nobody answers is sent seven times and given up") {
+    Cell cell(2, Csma{}, {}, 1000);
+    cell.net.at(start_of_run, [&] { cell.net.unicast(cell.nodes[0], cell.nodes[1], "x", {}); });
+    cell.net.run_for(1s);
+    CHECK(cell.ledger->transmitted == 7);
+    CHECK(cell.ledger->drops[DropReason::retries] == 1);
+}
+
+TEST_CASE("csma: behind an RTS that nobody answers no data goes out") {
+    Cell cell(2, Csma{.rts_threshold = 0}, {}, 1000);
+    cell.net.at(start_of_run, [&] { cell.net.unicast(cell.nodes[0], cell.nodes[1], "x", {}); });
+    cell.net.run_for(1s);
+    CHECK(cell.ledger->transmitted == 0);
+    CHECK(cell.ledger->drops[DropReason::retries] == 1);
+}
+
+TEST_CASE("csma: hidden senders ruin each other, and an RTS keeps them apart") {
+    std::map<bool, std::uint64_t> delivered;
+    for (const bool asks : {false, true}) {
+        // A and C hear B, not each other.
+        Cell cell(3, Csma{.rts_threshold = asks ? 0U : 3000U}, {.rate = {1e6}}, 80);
+        for (const std::size_t from : {0, 2}) {
+            cell.net.at(start_of_run, [&cell, from] {
+                cell.net.saturate(cell.nodes[from], cell.nodes[1], 1500);
+            });
+        }
+        cell.net.run_for(20s);
+        delivered[asks] = cell.ledger->delivered;
+    }
+    CHECK(delivered[true] > 2 * delivered[false]);
+}
+
+TEST_CASE("csma: a full queue drops, and switching off drops what waits") {
+    Cell cell(2, Csma{.queue = 5});
+    cell.net.at(start_of_run, [&] {
+        for (int i = 0; i < 8; ++i) cell.net.unicast(cell.nodes[0], cell.nodes[1], "x", 1000);
+    });
+    cell.net.at(start_of_run + 1ms, [&] { cell.net.switch_off(cell.nodes[0]); });
+    cell.net.run_for(1s);
+    CHECK(cell.ledger->drops[DropReason::queue_full] == 3);
+    CHECK(cell.ledger->drops[DropReason::end] == 5);
+}
+
+TEST_CASE("csma: a broadcast flood reaches everybody where frames at once would collide") {
+    std::map<bool, std::uint64_t> delivered;
+    for (const bool listens : {false, true}) {
+        Cell cell(6, listens ? AccessRung{Csma{}} : AccessRung{NoAccess{}}, {}, 10, 45);
+        cell.net.route(Flood{.ttl = 3, .jitter = Duration{0}});
+        cell.net.at(start_of_run, [&] { cell.net.broadcast(cell.nodes[0], "x", 100); });
+        cell.net.run_for(1s);
+        delivered[listens] = cell.ledger->delivered;
+    }
+    CHECK(delivered[true] == 5);
+    CHECK(delivered[false] < 5);
+}
+
+TEST_CASE("saturated traffic without an access rung is refused") {
+    Cell cell(2, NoAccess{});
+    CHECK_THROWS_AS(cell.net.saturate(cell.nodes[0], cell.nodes[1], 10), std::invalid_argument);
+    CHECK_THROWS_AS(cell.net.unicast(cell.nodes[0], cell.nodes[0], "x"), std::invalid_argument);
+}
+
+TEST_CASE("grid and one event per transmission give the records of all pairs and an event each") {
+    const LogDistance model{.exponent = 3.5, .sigma = Db{0}};
+    for (const bool shadowed : {false, true}) {
+        for (const int rung : {0, 1, 2}) {
+            for (const bool listens : {false, true}) {
+                std::string fingerprints[2];
+                for (const bool reference : {false, true}) {
+                    const ReceptionRung rungs[] = {Threshold{}, Collision{}, Sinr{}};
+                    LogDistance loss = model;
+                    if (shadowed) loss.sigma = Db{4};
+                    Network net({.seed = 9,
+                                 .propagation = loss,
+                                 .reception = rungs[rung],
+                                 .access = listens ? AccessRung{Csma{}} : AccessRung{NoAccess{}},
+                                 .reference = reference,
+                                 .metrics = false});
+                    const auto fingerprint = std::make_shared<Fingerprint>();
+                    net.add_sink(Sink{fingerprint});
+                    net.route(Flood{.ttl = 6, .jitter = 2ms});
+                    for (std::uint64_t i = 0; i < 120; ++i) {
+                        const auto draw = [&](std::uint64_t k) {
+                            return uniform(
+                                {.seed = 3, .purpose = Purpose::placement, .a = i, .index = k});
+                        };
+                        const Vec3 at{400 * draw(0), 400 * draw(1), 0};
+                        const Vec3 to{400 * draw(2), 400 * draw(3), 0};
+                        net.add(
+                            {.name = "",
+                             .at = at,
+                             .radio = {.rate = {11e6}},
+                             .move = Waypoints{{{start_of_run, at}, {start_of_run + 20s, to}}}});
+                    }
+                    for (std::uint32_t k = 0; k < 10; ++k) {
+                        net.at(start_of_run + k * 1s,
+                               [&net, k] { net.broadcast(NodeId{k}, "hello"); });
+                    }
+                    net.run_for(20s);
+                    fingerprints[reference] = fingerprint->text();
+                }
+                CAPTURE(rung);
+                CHECK(fingerprints[0] == fingerprints[1]);
+            }
+        }
+    }
+}
