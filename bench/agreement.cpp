@@ -58,7 +58,8 @@ struct Cell {
                      .event_limit = ~std::uint64_t{0},
                      .metrics = false});
         std::vector<NodeId> nodes;
-        for (int i = 0; i < n + (n == 1); ++i) nodes.push_back(net.add({.name = "", .at = {}, .radio = radio}));
+        for (int i = 0; i < n + (n == 1); ++i)
+            nodes.push_back(net.add({.name = "", .at = {}, .radio = radio}));
         for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
             const NodeId to = broadcast ? everyone : nodes[(i + 1) % nodes.size()];
             net.at(start_of_run,

@@ -49,6 +49,11 @@ class Builder {
 };
 
 void Builder::add_robots() {
+    std::size_t robots = scenario_.movement.robots.size();
+    for (const RobotTable& table : scenario_.robots) {
+        robots += static_cast<std::size_t>(table.count.value_or(1));
+    }
+    network_.reserve(robots);
     for (const RobotTable& table : scenario_.robots) {
         const auto own = own_propagation(table);
         for (int i = 0; i < table.count.value_or(1); ++i) add_robot(table, table.name_of(i), own);

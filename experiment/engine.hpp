@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/chunks.hpp"
+#include "experiment/few.hpp"
 #include "experiment/link_watch.hpp"
+#include "experiment/name_table.hpp"
 #include "experiment/network.hpp"
 #include "mobility/planners.hpp"
 #include "sim/scheduler.hpp"
 #include "sim/slots.hpp"
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -51,23 +53,25 @@ struct Action {
     Duration period{0};
 };
 
-/// What the network keeps of a robot beyond its leg and its radio.
-struct Node {
-    std::string name;
-    std::uint64_t key;
+/// A robot's body and how it can move; those alike that were added in a row share one.
+struct Body {
     Meters radius;
-    Movement movement;
     MetersPerSecond top_speed;
     std::optional<RadiansPerSecond> turn_rate;
+    friend bool operator==(const Body&, const Body&) = default;
+};
+
+/// What the network keeps of every robot beyond its name, its leg and its radio. There may be
+/// millions: what only few robots have lies in tables of the engine.
+struct Node {
+    std::uint64_t key = 0;
+    std::uint32_t body = 0;       // index into bodies_
     std::uint32_t movements = 0;  // begun so far
+    Movement movement = {};
+    Few<Callback<const Message&, const Heard&>> on_receive = {};
     std::uint32_t messages_sent = 0;
-    std::uint32_t transmissions = 0;      // at rungs above threshold
-    bool moving = false;                  // its movement has begun
-    std::optional<Leg> interrupted = {};  // by switching off
-    std::optional<Leg> after_turn = {};   // begins when the turn on the current leg is over
-    std::vector<Callback<const Message&, const Heard&>> on_receive = {};
-    std::vector<Callback<>> on_arrival = {};
-    std::vector<Callback<NodeId>> on_link_lost = {};
+    std::uint32_t transmissions = 0;  // at rungs above threshold
+    bool moving = false;              // its movement has begun
 };
 
 /// What stands behind a Network: serves the events, and is the link layer to the router.
@@ -113,6 +117,7 @@ class Engine final : public LinkLayer, public Air {
     void lost(const QueuedFrame& frame, DropReason reason) override;
 
     // Network.
+    void reserve(std::size_t robots);
     NodeId add(Robot robot);
     void route(Router router);
     void add_sink(Sink sink) {
@@ -131,6 +136,8 @@ class Engine final : public LinkLayer, public Air {
     /// Link changes are wanted from now on.
     void watch_links() { links_wanted_ = true; }
     Node& node(NodeId id) { return nodes_.at(id.index()); }
+    /// The same id. @throws std::out_of_range if there is no such node
+    NodeId known(NodeId id) { return nodes_.at(id.index()), id; }
 
     // What the public class shows.
     NetworkSettings settings_;
@@ -138,8 +145,10 @@ class Engine final : public LinkLayer, public Air {
     Planners planners_;
     Medium medium_;
     Legs legs_;
-    std::deque<Node> nodes_;  // stable: a reaction may add robots
-    std::map<std::string, NodeId, std::less<>> by_name_;
+    Chunks<Node> nodes_;  // stable: a reaction may add robots
+    NameTable names_;
+    std::map<NodeId, std::vector<Callback<>>> on_arrival_;
+    std::map<NodeId, std::vector<Callback<NodeId>>> on_link_lost_;
     std::shared_ptr<Metrics> metrics_;
     std::uint64_t served_ = 0;
     bool has_reactions_ = false;  // some node has an on_receive
@@ -185,6 +194,7 @@ class Engine final : public LinkLayer, public Air {
     void expect_link_change();
     void take(NodeId id, const Leg& leg);
     void put(NodeId id, const Leg& leg);
+    const Body& body(NodeId id) const { return bodies_[nodes_[id.index()].body]; }
     Mover mover(NodeId id);
 
     Time now_ = start_of_run;
@@ -207,7 +217,10 @@ class Engine final : public LinkLayer, public Air {
     };
     std::map<NodeId, Saturated> saturated_;
     Slots<Action> actions_;
-    std::size_t begun_ = 0;  // nodes whose movement has begun
+    std::vector<Body> bodies_;
+    std::map<NodeId, Leg> interrupted_;  // by switching off
+    std::map<NodeId, Leg> after_turn_;   // begins when the turn on the current leg is over
+    std::size_t begun_ = 0;              // nodes whose movement has begun
     bool links_wanted_ = false;
     std::optional<LinkWatch> watch_;  // once links are wanted and the run has begun
     Time link_event_ = never;         // the next one queued

@@ -25,7 +25,9 @@ void Engine::change_links() {
     watch_->advance(now_, [this](const LinkChange& change) {
         if (change.up) return emit(LinkUp{change.time, change.from, change.to});
         emit(LinkDown{change.time, change.from, change.to});
-        for (const auto& react : node(change.to).on_link_lost) {
+        const auto reactions = on_link_lost_.find(change.to);
+        if (reactions == on_link_lost_.end()) return;
+        for (const auto& react : reactions->second) {
             auto call = std::make_shared<std::function<void()>>(
                 [react, from = change.from] { (*react)(from); });
             schedule(now_ + least_reaction, {std::move(call)});

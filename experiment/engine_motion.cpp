@@ -18,11 +18,22 @@ void check_place(Vec3 at) {
     }
 }
 
+/// The leg that waits for the node, if one does; it waits no more.
+std::optional<Leg> taken(std::map<NodeId, Leg>& waiting, NodeId id) {
+    const auto found = waiting.extract(id);
+    return found ? std::optional(found.mapped()) : std::nullopt;
+}
+
 }  // namespace
+
+void Engine::reserve(std::size_t robots) {
+    legs_.reserve(robots);
+    names_.reserve(robots);
+}
 
 NodeId Engine::add(Robot robot) {
     if (robot.name.empty()) robot.name = fmt::format("r{}", nodes_.size());
-    if (by_name_.contains(robot.name)) {
+    if (names_.find(robot.name)) {
         throw std::invalid_argument(fmt::format("two robots are named \"{}\"", robot.name));
     }
     if (!non_negative.contains(robot.radius.value)) {
@@ -44,13 +55,12 @@ NodeId Engine::add(Robot robot) {
     if (dcf_) dcf_->add();
     const NodeId id = legs_.add(
         {.start = now_, .from = robot.at, .to = robot.at, .heading = robot.heading.value});
-    by_name_[robot.name] = id;
-    nodes_.push_back({.name = std::move(robot.name),
-                      .key = key,
-                      .radius = robot.radius,
-                      .movement = std::move(robot.move),
-                      .top_speed = robot.top_speed,
-                      .turn_rate = robot.turn_rate});
+    names_.add(robot.name);
+    const Body body{robot.radius, robot.top_speed, robot.turn_rate};
+    if (bodies_.empty() || bodies_.back() != body) bodies_.push_back(body);
+    nodes_.push_back({.key = key,
+                      .body = static_cast<std::uint32_t>(bodies_.size() - 1),
+                      .movement = std::move(robot.move)});
     if (watch_) watch_->added(id, now_);
     if (running_) begin_movements();
     return id;
@@ -60,11 +70,11 @@ Mover Engine::mover(NodeId id) {
     const Node& robot = node(id);
     return {.now = now_,
             .position = legs_.position(id, now_),
-            .radius = robot.radius,
+            .radius = body(id).radius,
             .planners = planners_,
             .legs = legs_,
             .heading = wrapped(legs_.leg(id).heading_at(now_)),
-            .top_speed = robot.top_speed,
+            .top_speed = body(id).top_speed,
             .draws = {.seed = settings_.seed,
                       .replication = settings_.replication,
                       .a = robot.key,
@@ -83,7 +93,7 @@ void Engine::begin_movements() {
 }
 
 void Engine::next_leg(NodeId id) {
-    if (const auto leg = std::exchange(node(id).after_turn, std::nullopt)) return take(id, *leg);
+    if (const auto leg = taken(after_turn_, id)) return take(id, *leg);
     Mover asking = mover(id);
     const Step step = node(id).movement.next_leg(asking);
     const bool begins = !std::exchange(node(id).moving, true);
@@ -99,14 +109,14 @@ void Engine::next_leg(NodeId id) {
         return;
     }
     emit(Arrived{now_, id});
-    for (std::size_t i = 0; i < node(id).on_arrival.size(); ++i) {
-        schedule(now_ + least_reaction, {node(id).on_arrival[i]});
-    }
+    const auto reactions = on_arrival_.find(id);
+    if (reactions == on_arrival_.end()) return;
+    for (const auto& react : reactions->second) schedule(now_ + least_reaction, {react});
 }
 
 /// Takes a leg of the movement model, after turning towards it if the robot turns in place.
 void Engine::begin_leg(NodeId id, const Leg& leg) {
-    const auto& rate = node(id).turn_rate;
+    const auto& rate = body(id).turn_rate;
     const double facing = wrapped(legs_.leg(id).heading_at(now_));
     const double turn = wrapped(leg.heading - facing);
     if (!rate || leg.velocity == Vec3{} || turn == 0) return take(id, leg);
@@ -114,7 +124,7 @@ void Engine::begin_leg(NodeId id, const Leg& leg) {
     Leg later = leg;
     later.start += turning;
     if (later.end != never) later.end += turning;
-    node(id).after_turn = later;
+    after_turn_[id] = later;
     take(id, {.start = now_,
               .end = now_ + turning,
               .from = leg.from,
@@ -144,8 +154,8 @@ void Engine::end_movement(NodeId id) {
     Node& robot = node(id);
     ++robot.movements;
     robot.moving = false;
-    robot.interrupted.reset();
-    robot.after_turn.reset();
+    interrupted_.erase(id);
+    after_turn_.erase(id);
 }
 
 void Engine::move(NodeId id, Movement movement) {
@@ -177,13 +187,12 @@ void Engine::switch_robot(NodeId id, bool on) {
         expect_link_change();
     }
     if (!running_) return;
-    Node& robot = node(id);
     if (!on) {
-        robot.interrupted = legs_.leg(id);
+        interrupted_[id] = legs_.leg(id);
         take(id, standing_leg(mover(id)));
-    } else if (!robot.moving) {
+    } else if (!node(id).moving) {
         next_leg(id);
-    } else if (const auto leg = std::exchange(robot.interrupted, std::nullopt)) {
+    } else if (const auto leg = taken(interrupted_, id)) {
         const Duration off = now_ - legs_.leg(id).start;
         const bool unending = leg->end == never;
         take(id, {.start = now_,
@@ -193,9 +202,9 @@ void Engine::switch_robot(NodeId id, bool on) {
                   .to = unending ? legs_.position(id, now_) : leg->to,
                   .heading = wrapped(legs_.leg(id).heading_at(now_)),
                   .turning = leg->turning});
-        if (robot.after_turn) {
-            robot.after_turn->start += off;
-            if (robot.after_turn->end != never) robot.after_turn->end += off;
+        if (const auto later = after_turn_.find(id); later != after_turn_.end()) {
+            later->second.start += off;
+            if (later->second.end != never) later->second.end += off;
         }
     }
 }

@@ -101,6 +101,7 @@ void add_robots(Network& network, const FloodBench& bench, std::uint32_t nodes) 
                uniform(
                    {.seed = bench.seed, .purpose = Purpose::placement, .a = node, .index = axis});
     };
+    network.reserve(nodes);
     for (std::uint32_t i = 0; i < nodes; ++i) {
         network.add({.name = fmt::format("r{}", i),
                      .at = {coordinate(i, 0), coordinate(i, 1)},

@@ -19,6 +19,7 @@ Network::Network(NetworkSettings settings)
     : engine_(std::make_unique<Engine>(std::move(settings))) {}
 Network::~Network() = default;
 
+void Network::reserve(std::size_t robots) { engine_->reserve(robots); }
 NodeId Network::add(Robot robot) { return engine_->add(std::move(robot)); }
 void Network::route(Router router) { engine_->route(std::move(router)); }
 void Network::add_sink(Sink sink) { engine_->add_sink(std::move(sink)); }
@@ -48,12 +49,12 @@ void Network::on_receive(NodeId node, std::function<void(const Message&, const H
 }
 
 void Network::on_arrival(NodeId node, std::function<void()> react) {
-    engine_->node(node).on_arrival.push_back(callback(std::move(react)));
+    engine_->on_arrival_[engine_->known(node)].push_back(callback(std::move(react)));
 }
 
 void Network::on_link_lost(NodeId node, std::function<void(NodeId)> react) {
     engine_->watch_links();
-    engine_->node(node).on_link_lost.push_back(
+    engine_->on_link_lost_[engine_->known(node)].push_back(
         std::make_shared<std::function<void(NodeId)>>(std::move(react)));
 }
 
@@ -81,12 +82,14 @@ bool Network::advance(Time end, std::uint64_t most_events) {
 Time Network::now() const { return engine_->now(); }
 std::size_t Network::size() const { return engine_->size(); }
 std::uint64_t Network::events() const { return engine_->served_; }
-const std::string& Network::name(NodeId node) const { return engine_->node(node).name; }
+std::string Network::name(NodeId node) const {
+    return std::string(engine_->names_[engine_->known(node).value]);
+}
 
 std::optional<NodeId> Network::find(std::string_view name) const {
-    const auto found = engine_->by_name_.find(name);
-    if (found == engine_->by_name_.end()) return std::nullopt;
-    return found->second;
+    const auto found = engine_->names_.find(name);
+    if (!found) return std::nullopt;
+    return NodeId{*found};
 }
 
 Vec3 Network::position(NodeId node) const { return engine_->legs_.position(node, now()); }

@@ -3,6 +3,8 @@
 
 #include "experiment/located.hpp"
 #include "experiment/names.hpp"
+#include "models/disc.hpp"
+#include "models/error_rate.hpp"
 #include "sim/math.hpp"
 
 #include <fmt/format.h>
@@ -93,16 +95,17 @@ void check_sinr(const Scenario& scenario) {
     if (scenario.reception.model != ReceptionModel::sinr) return;
     const auto check = [](const PropagationTable& propagation, Location propagation_where,
                           const Radio& radio, Location radio_where) {
-        if (std::holds_alternative<Disc>(propagation.parameters)) {
+        if (propagation.make().name() == Disc::name) {
             throw InputError(propagation_where,
                              "model: \"disc\" has no levels for [reception] model = \"sinr\"; "
                              "expected another, such as \"friis\"");
         }
         if (!modulation_of(radio.rate)) {
-            throw InputError(radio_where,
-                             fmt::format("rate: found {} Mbit/s; [reception] model = \"sinr\" knows "
-                                         "1, 2, 5.5, 11 and 6, 9, 12, 18, 24, 36, 48, 54 Mbit/s",
-                                         radio.rate.value / 1e6));
+            throw InputError(
+                radio_where,
+                fmt::format("rate: found {} Mbit/s; [reception] model = \"sinr\" knows "
+                            "1, 2, 5.5, 11 and 6, 9, 12, 18, 24, 36, 48, 54 Mbit/s",
+                            radio.rate.value / 1e6));
         }
     };
     for (const RobotTable& robot : scenario.robots) {

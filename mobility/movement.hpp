@@ -66,20 +66,34 @@ Leg straight_leg(const Mover& mover, Vec3 to, MetersPerSecond speed);
 /// later if its top speed is too low for that.
 Leg straight_leg(const Mover& mover, Vec3 to, Time arrival);
 
-/// Any movement model, held by value.
+/// A leg without end where the mover is.
+inline Leg standing_leg(const Mover& mover) {
+    return {
+        .start = mover.now, .from = mover.position, .to = mover.position, .heading = mover.heading};
+}
+
+/// Stays where it is, for ever: it never comes to rest from a movement.
+struct Fixed {
+    Step next_leg(Mover& mover) { return standing_leg(mover); }
+};
+
+/// Any movement model, held by value. By default, and moved from, it is Fixed, which takes no
+/// memory of its own.
 class Movement {
   public:
+    Movement() = default;
+    Movement(Fixed) {}
     template <class T>
     requires(!std::same_as<T, Movement> && MovementModel<T>) Movement(T model)
         : self_(std::make_unique<Holder<T>>(std::move(model))) {}
-    Movement(const Movement& other) : self_(other.self_->clone()) {}
+    Movement(const Movement& other) : self_(other.self_ ? other.self_->clone() : nullptr) {}
     Movement(Movement&&) = default;
     Movement& operator=(Movement other) {
         self_ = std::move(other.self_);
         return *this;
     }
 
-    Step next_leg(Mover& mover) { return self_->next_leg(mover); }
+    Step next_leg(Mover& mover) { return self_ ? self_->next_leg(mover) : Fixed{}.next_leg(mover); }
 
   private:
     struct Concept {
@@ -94,18 +108,7 @@ class Movement {
         std::unique_ptr<Concept> clone() const override { return std::make_unique<Holder>(model); }
         T model;
     };
-    std::unique_ptr<Concept> self_;
-};
-
-/// A leg without end where the mover is.
-inline Leg standing_leg(const Mover& mover) {
-    return {
-        .start = mover.now, .from = mover.position, .to = mover.position, .heading = mover.heading};
-}
-
-/// Stays where it is, for ever: it never comes to rest from a movement.
-struct Fixed {
-    Step next_leg(Mover& mover) { return standing_leg(mover); }
+    std::unique_ptr<Concept> self_;  // null: Fixed
 };
 
 }  // namespace rovernet

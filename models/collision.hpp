@@ -59,7 +59,7 @@ struct Collision {
                 meet(arrival, other);
                 meet(other, arrival);
             }
-            return !cover.covers(other, now, level);
+            return other.from == node || !cover.covers(other, now, level);
         });
         on_air.add(node, arrival);
     }

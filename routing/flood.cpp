@@ -17,7 +17,7 @@ std::vector<FloodRouter::Knowledge>& FloodRouter::knowledge(const LinkLayer& lin
 }
 
 void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
-    knowledge(link, message)[node.index()].state = Knowledge::sent;
+    knowledge(link, message)[node.index()] = Knowledge::sent;
     link.broadcast({.message = message,
                     .sender = node,
                     .path = link.key(node),
@@ -30,7 +30,7 @@ void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Rece
     auto& by_node = knowledge(link, frame.message);
     for (auto& reception : receptions) {
         Knowledge& mine = by_node[reception.node.index()];
-        reception.delivered = mine.state == Knowledge::unheard;
+        reception.delivered = mine.is(Knowledge::unheard);
         reception.fate = fate_of(link, frame, reception, mine);
     }
 }
@@ -39,19 +39,19 @@ Fate FloodRouter::fate_of(LinkLayer& link, const Frame& frame, const Reception& 
                           Knowledge& mine) {
     const bool last_hop = frame.ttl <= 1;
     if (flood_.duplicates == Duplicates::forward) {
-        if (mine.state == Knowledge::unheard) mine.state = Knowledge::ended;
+        if (mine.is(Knowledge::unheard)) mine = Knowledge::ended;
         if (last_hop) return Fate::ttl;
         wait(link, frame, reception);
         return Fate::waiting;
     }
-    if (mine.state == Knowledge::waiting && lifts(frame, mine)) {
-        copies_[mine.copy] = frame;
+    if (mine.is(Knowledge::waiting) && lifts(frame, mine)) {
+        copies_[mine.copy()] = frame;
         return Fate::duplicate;
     }
-    const bool revives = mine.state == Knowledge::ended && lifts(frame, mine);
-    if (mine.state != Knowledge::unheard && !revives) return Fate::duplicate;
+    const bool revives = mine.is(Knowledge::ended) && lifts(frame, mine);
+    if (!mine.is(Knowledge::unheard) && !revives) return Fate::duplicate;
     if (last_hop) {
-        mine.state = Knowledge::ended;
+        mine = Knowledge::ended;
         return Fate::ttl;
     }
     mine = {Knowledge::waiting, wait(link, frame, reception)};
@@ -61,7 +61,7 @@ Fate FloodRouter::fate_of(LinkLayer& link, const Frame& frame, const Reception& 
 /// Whether a late copy has a higher TTL than the one that the node has not sent.
 bool FloodRouter::lifts(const Frame& frame, const Knowledge& known) const {
     if (!flood_.upgrade) return false;
-    const int ttl = known.state == Knowledge::waiting ? copies_[known.copy].ttl : 1;
+    const int ttl = known.is(Knowledge::waiting) ? copies_[known.copy()].ttl : 1;
     return frame.ttl > ttl;
 }
 
@@ -81,7 +81,7 @@ std::uint32_t FloodRouter::wait(LinkLayer& link, const Frame& frame, const Recep
 void FloodRouter::on_timer(LinkLayer& link, NodeId node, std::uint64_t copy) {
     const Frame heard = copies_[copy];
     copies_.release(copy);
-    knowledge(link, heard.message)[node.index()].state = Knowledge::sent;
+    knowledge(link, heard.message)[node.index()] = Knowledge::sent;
     if (link.is_on(node)) {
         link.broadcast({.message = heard.message,
                         .sender = node,
@@ -96,7 +96,7 @@ void FloodRouter::on_timer(LinkLayer& link, NodeId node, std::uint64_t copy) {
 }
 
 void FloodRouter::forget(MessageId message) {
-    if (message.index() < known_.size()) known_[message.index()].clear();
+    if (message.index() < known_.size()) known_[message.index()] = {};  // and its memory
 }
 
 }  // namespace rovernet

@@ -46,7 +46,7 @@ struct Flood {
     operator Router() const;
 };
 
-/// The protocol that runs a Flood. Keeps eight bytes per message and node while a copy of the
+/// The protocol that runs a Flood. Keeps four bytes per message and node while a copy of the
 /// message is left.
 class FloodRouter {
   public:
@@ -61,10 +61,19 @@ class FloodRouter {
 
   private:
     /// What a node knows of a message.
-    struct Knowledge {
-        enum State : std::uint8_t { unheard, ended, waiting, sent };
-        State state = unheard;
-        std::uint32_t copy = 0;  // the one that waits
+    class Knowledge {
+      public:
+        enum State : std::uint32_t { unheard, ended, sent, waiting };
+        Knowledge(State state = unheard, std::uint32_t copy = 0) : value_(state + copy) {}
+
+        bool is(State state) const {
+            return state == waiting ? value_ >= waiting : value_ == state;
+        }
+        /// The one that waits, in the state `waiting`.
+        std::uint32_t copy() const { return value_ - waiting; }
+
+      private:
+        std::uint32_t value_;  // from `waiting` on: and the copy's number
     };
 
     std::vector<Knowledge>& knowledge(const LinkLayer& link, MessageId message);

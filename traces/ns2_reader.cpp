@@ -237,6 +237,8 @@ void Replay::on(const Ns2Packet& p) {
     }
     flush();
     if (p.event == Event::own) return;
+    // MACs of others lose packets that we know nothing of.
+    if (p.event == Event::lost && !by_uid_.contains(p.uid)) return;
     if (p.event == Event::sent) return sent(p);
     const Frame frame = frame_of(p);
     if (p.event == Event::transmitted) {

@@ -72,7 +72,29 @@ reference_distance = "2 m"
 wall_factor = 10.0
 
 [reception]
-model = "threshold"
+model = "collision"
+capture_ratio = "6 dB"
+capture = "later"
+interference_cut = "3 dB"
+
+[access]
+model = "csma"
+slot = "20 us"
+queue = 10
+standard = "802.11a"
+sifs = "10 us"
+difs = "50 us"
+cca_time = "4 us"
+turnaround = "5 us"
+rx_start_delay = "20 us"
+cw_min = 15
+cw_max = 63
+basic_rate = "6 Mbit/s"
+eifs = false
+short_retries = 3
+long_retries = 2
+rts_threshold = "100 B"
+header = "30 B"
 
 [links]
 tolerance = "1 us"

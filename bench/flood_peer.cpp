@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// The flood of bench/peers in rovernet, for bench/peers/run: prints one line of JSON.
+//   --movement=FILE --rung=threshold|csma --messages=20 --interval=3 --ttl=100 --jitter=0.05
+//   --payload=64 --seed=1
+// threshold: a disc of 250 m. csma: 802.11b at 1 Mb/s over flat ground as ns-2 has it by default
+// (250 m decoded, 550 m sensed), with noise, interference and bit errors.
+
+#include "experiment/movement_play.hpp"
+#include "experiment/network.hpp"
+#include "mobility/movement_file.hpp"
+#include "models/disc.hpp"
+#include "models/log_distance.hpp"
+#include "routing/flood.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <string>
+#include <sys/resource.h>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+double cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds_of = [](timeval t) {
+        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6;
+    };
+    return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+}
+
+double resident_mb() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+struct Count {
+    std::uint64_t transmissions = 0, receptions = 0;
+    std::map<std::uint64_t, std::uint64_t> delivered = {};  // by message
+
+    KindMask kinds() const {
+        return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>();
+    }
+    void on(const Record& record, const RecordContext& context) {
+        if (const auto* sent = std::get_if<Sent>(&record)) {
+            delivered[context.messages[sent->message].uid] = 0;
+        } else if (std::holds_alternative<Transmitted>(record)) {
+            ++transmissions;
+        } else {
+            const auto& r = std::get<Received>(record);
+            const std::uint64_t uid = context.messages[r.frame.message].uid;
+            for (const Reception& each : r.receptions) {
+                receptions += is_decoded(each.fate);
+                if (each.delivered) ++delivered[uid];
+            }
+        }
+    }
+};
+
+class Options {
+  public:
+    Options(int argc, char** argv) {
+        for (int i = 1; i < argc; ++i) {
+            const std::string text = argv[i];
+            const std::size_t equals = text.find('=');
+            if (!text.starts_with("--") || equals == text.npos) {
+                fmt::print(stderr, "flood_peer: expected --name=value, got {}\n", text);
+                std::exit(2);
+            }
+            values_[text.substr(2, equals - 2)] = text.substr(equals + 1);
+        }
+    }
+    std::string text(const std::string& name, const std::string& otherwise) const {
+        const auto found = values_.find(name);
+        return found == values_.end() ? otherwise : found->second;
+    }
+    double number(const std::string& name, double otherwise) const {
+        const auto found = values_.find(name);
+        return found == values_.end() ? otherwise : std::atof(found->second.c_str());
+    }
+
+  private:
+    std::map<std::string, std::string> values_;
+};
+
+/// ns-2.35's default radio: 914 MHz, 0.28183815 W, antennas 1.5 m over flat ground.
+Radio ns2_radio() {
+    Radio radio{.power = Dbm{24.49999779}, .sensitivity = Dbm{-64.37439}, .frequency = {914e6}};
+    radio.carrier_sense_threshold = Dbm{-78.07078};
+    radio.rate = {1e6};
+    return radio;
+}
+/// The two-ray model beyond its crossover at 4 pi h^2 / wavelength; nobody cares below.
+constexpr Meters crossover{86.20219};
+
+NetworkSettings settings(const Options& options, bool listens) {
+    NetworkSettings out{.seed = static_cast<std::uint64_t>(options.number("seed", 1)),
+                        .metrics = false};
+    if (listens) {
+        out.propagation =
+            LogDistance{.exponent = 4, .sigma = Db{0}, .reference_distance = crossover};
+        out.reception = Sinr{};
+        out.access = Csma{};
+    } else {
+        out.propagation = Disc{.range = {250}};
+    }
+    return out;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const Options options(argc, argv);
+    const bool listens = options.text("rung", "threshold") == "csma";
+    const double begin = cpu_seconds();
+    Network net(settings(options, listens));
+    MovementFile file(options.text("movement", ""), MovementSyntax::tolerant);
+    std::vector<NodeId> nodes;
+    net.reserve(file.robots().size());
+    for (const FileRobot& robot : file.robots()) {
+        const Radio radio = listens ? ns2_radio() : Radio{.rate = {1e6}};
+        nodes.push_back(net.add({.name = robot.name, .at = robot.start, .radio = radio}));
+    }
+    const auto count = nodes.size();
+    play(net, std::move(file), nodes);
+    net.route(Flood{.ttl = static_cast<int>(options.number("ttl", 100)),
+                    .upgrade = false,
+                    .jitter = from_seconds(options.number("jitter", 0.05))});
+    const auto tally = std::make_shared<Count>();
+    net.add_sink(Sink{tally});
+    const int messages = static_cast<int>(options.number("messages", 20));
+    const double interval = options.number("interval", 3);
+    const auto payload = static_cast<std::uint32_t>(options.number("payload", 64));
+    for (int k = 0; k < messages; ++k) {
+        const NodeId from = nodes[static_cast<std::size_t>(37 * k) % count];
+        net.at(start_of_run + from_seconds(1 + k * interval),
+               [&net, from, payload] { net.broadcast(from, "", payload); });
+    }
+    const double ready = cpu_seconds();
+    net.run_until(start_of_run + from_seconds(1 + messages * interval + 5));
+    const double done = cpu_seconds();
+
+    std::vector<double> shares;
+    double sum = 0;
+    for (const auto& [uid, got] : tally->delivered) {
+        shares.push_back(static_cast<double>(got) / static_cast<double>(count - 1));
+        sum += shares.back();
+    }
+    fmt::print(
+        "{{\"peer\":\"rovernet{}\",\"nodes\":{},\"messages\":{},\"delivery_ratio\":{:.6f},"
+        "\"transmissions\":{},\"receptions\":{},\"setup_cpu_s\":{:.6f},\"run_cpu_s\":{:.6f},"
+        "\"rss_mb\":{:.1f},\"delivery_by_message\":[{:.6f}]}}\n",
+        listens ? "_csma" : "", count, messages, sum / static_cast<double>(shares.size()),
+        tally->transmissions, tally->receptions, ready - begin, done - ready, resident_mb(),
+        fmt::join(shares, ","));
+}

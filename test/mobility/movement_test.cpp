@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "mobility/movement.hpp"
+
+#include "mobility/planners.hpp"
+#include "mobility/waypoints.hpp"
+#include "scene/scene.hpp"
+
+#include <doctest/doctest.h>
+
+#include <utility>
+
+using namespace rovernet;
+
+namespace {
+
+/// Asks a movement of a robot at (1, 2) m for its next leg, and expects one.
+Leg leg_of(Movement& movement) {
+    const Scene scene;
+    Planners planners(scene);
+    const Legs legs;
+    Mover mover{.now = start_of_run,
+                .position = {1, 2, 0},
+                .radius = {0.2},
+                .planners = planners,
+                .legs = legs,
+                .heading = 3};
+    return std::get<Leg>(movement.next_leg(mover));
+}
+
+bool stands(const Leg& leg) {
+    return leg.end == never && leg.from == Vec3{1, 2, 0} && leg.to == leg.from &&
+           leg.velocity == Vec3{} && leg.heading == 3;
+}
+
+}  // namespace
+
+TEST_CASE("movement: by default it is Fixed, and so are its copies") {
+    Movement none;
+    Movement copy = none;
+    Movement fixed = Fixed{};
+    CHECK(stands(leg_of(none)));
+    CHECK(stands(leg_of(copy)));
+    CHECK(stands(leg_of(fixed)));
+    CHECK(sizeof(Movement) == sizeof(void*));
+}
+
+TEST_CASE("movement: moved from, it is Fixed") {
+    Movement goal = ToGoal{.to = {9, 2, 0}};
+    Movement taken = std::move(goal);
+    CHECK(leg_of(taken).to == Vec3{9, 2, 0});
+    CHECK(stands(leg_of(goal)));
+    taken = Fixed{};
+    CHECK(stands(leg_of(taken)));
+    taken = Movement(ToGoal{.to = {5, 2, 0}});
+    CHECK(leg_of(taken).to == Vec3{5, 2, 0});
+}
+
+TEST_CASE("movement: a copy goes on by itself") {
+    Movement goal = Waypoints{.path = {{9, 2, 0}, {9, 9, 0}}};
+    Movement copy = goal;
+    CHECK(leg_of(goal).to == Vec3{9, 2, 0});
+    CHECK(leg_of(copy).to == Vec3{9, 2, 0});
+}
