@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The flood of bench/peers in rovernet, for bench/peers/run: prints one line of JSON.
-//   --movement=FILE --rung=threshold|csma --messages=20 --interval=3 --ttl=100 --jitter=0.05
+//   --movement=FILE --rung=threshold|csma|csma_collision --header=36 --messages=20 --interval=3 --ttl=100 --jitter=0.05
 //   --payload=64 --seed=1
 // threshold: a disc of 250 m. csma: 802.11b at 1 Mb/s over flat ground as ns-2 has it by default
-// (250 m decoded, 550 m sensed), with noise, interference and bit errors.
+// (250 m decoded, 550 m sensed), with noise, interference and bit errors; csma_collision: with
+// ns-2's rule of reception instead. The header is that of 802.11 and LLC (ns-2: 58).
 
 #include "experiment/movement_play.hpp"
 #include "experiment/network.hpp"
@@ -105,8 +106,12 @@ NetworkSettings settings(const Options& options, bool listens) {
     if (listens) {
         out.propagation =
             LogDistance{.exponent = 4, .sigma = Db{0}, .reference_distance = crossover};
-        out.reception = Sinr{};
-        out.access = Csma{};
+        if (options.text("rung", "") == "csma") {
+            out.reception = Sinr{};
+        } else {
+            out.reception = Collision{};
+        }
+        out.access = Csma{.header = static_cast<std::uint32_t>(options.number("header", 36))};
     } else {
         out.propagation = Disc{.range = {250}};
     }
@@ -117,7 +122,7 @@ NetworkSettings settings(const Options& options, bool listens) {
 
 int main(int argc, char** argv) {
     const Options options(argc, argv);
-    const bool listens = options.text("rung", "threshold") == "csma";
+    const bool listens = options.text("rung", "threshold").starts_with("csma");
     const double begin = cpu_seconds();
     Network net(settings(options, listens));
     MovementFile file(options.text("movement", ""), MovementSyntax::tolerant);
@@ -156,7 +161,7 @@ int main(int argc, char** argv) {
         "{{\"peer\":\"rovernet{}\",\"nodes\":{},\"messages\":{},\"delivery_ratio\":{:.6f},"
         "\"transmissions\":{},\"receptions\":{},\"setup_cpu_s\":{:.6f},\"run_cpu_s\":{:.6f},"
         "\"rss_mb\":{:.1f},\"delivery_by_message\":[{:.6f}]}}\n",
-        listens ? "_csma" : "", count, messages, sum / static_cast<double>(shares.size()),
+        listens ? "_" + options.text("rung", "") : "", count, messages, sum / static_cast<double>(shares.size()),
         tally->transmissions, tally->receptions, ready - begin, done - ready, resident_mb(),
         fmt::join(shares, ","));
 }

@@ -182,7 +182,11 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
         const std::size_t first = flight.arrived;
         // Nothing that a reception sets off happens sooner than least_reaction after it.
         const Time horizon = all[first].time + least_reaction;
-        std::size_t last = first + 1;
+        std::size_t last = all.size();
+        if (settings_.reference || all.back().time > horizon ||
+            !comes_next(event.key.at(all.back().time))) {
+            last = first + 1;
+        }
         while (!settings_.reference && last < all.size() && all[last].time <= horizon &&
                comes_next(event.key.at(all[last].time))) {
             ++last;

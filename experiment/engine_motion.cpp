@@ -28,6 +28,7 @@ std::optional<Leg> taken(std::map<NodeId, Leg>& waiting, NodeId id) {
 
 void Engine::reserve(std::size_t robots) {
     legs_.reserve(robots);
+    medium_.reserve(robots);
     names_.reserve(robots);
 }
 

@@ -103,7 +103,7 @@ std::vector<Neighbour> Network::links(NodeId node, Time t) const {
 
 void Network::find_hearers(NodeId node, std::vector<NodeId>& out) {
     const auto hearers = engine_->medium_.hearers(node, now(), engine_->legs_);
-    out.insert(out.end(), hearers.begin(), hearers.end());
+    for (const Medium::Found& found : hearers) out.push_back(found.node);
 }
 
 const Legs& Network::legs() const { return engine_->legs_; }

@@ -179,11 +179,10 @@ void Medium::find_in_range(NodeId from, Time t, const Legs& legs) {
     Kind& mine = kinds_[stations_[from.index()].kind];
     const double reach2 = squared_reach(mine);
     expect_all_kinds(mine);
-    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p, double d2) {
+    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3, double d2) {
         if (std::isnan(mine.range2[e.label])) compute_ranges(mine, e.label);
         if (d2 > mine.range2[e.label]) return;
-        nodes_.push_back(e.node);
-        positions_.push_back(p);
+        found_.push_back({e.node, d2});
     });
 }
 
@@ -193,20 +192,21 @@ void Medium::find_in_shadowed_range(NodeId from, const ShadowedLoss& loss, Time 
     Kind& mine = kinds_[stations_[from.index()].kind];
     mine.shadowed.resize(kinds_.size());
     const std::uint64_t key = stations_[from.index()].key;
-    visit(from, squared_reach(mine), t, legs,
-          [&](const NeighbourIndex::Entry& e, Vec3 p, double d2) {
-              auto& range = mine.shadowed[e.label];
-              if (!range) {
-                  range.emplace(loss, link_budget(mine.radio, kinds_[e.label].radio),
-                                shadowing_draws(settings_.seed, settings_.replication));
-              }
-              if (!range->in_range(d2, key, stations_[e.node.index()].key)) return;
-              nodes_.push_back(e.node);
-              positions_.push_back(p);
-          });
+    visit(from, squared_reach(mine), t, legs, [&](const NeighbourIndex::Entry& e, Vec3, double d2) {
+        auto& range = mine.shadowed[e.label];
+        if (!range) {
+            range.emplace(loss, link_budget(mine.radio, kinds_[e.label].radio),
+                          shadowing_draws(settings_.seed, settings_.replication));
+        }
+        if (!range->in_range(d2, key, stations_[e.node.index()].key)) return;
+        found_.push_back({e.node, d2});
+    });
 }
 
 void Medium::find_in_reach(NodeId from, Time t, const Legs& legs) {
+    nodes_.clear();
+    positions_.clear();
+    keys_.clear();
     const double reach2 = squared_reach(kinds_[stations_[from.index()].kind]);
     visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p, double) {
         nodes_.push_back(e.node);
@@ -224,21 +224,14 @@ void Medium::keep_those_in_budget(NodeId from) {
     loss_db_.resize(nodes_.size());
     model(from).loss(batch(from, origin_), give_up, loss_db_);
 
-    std::size_t kept = 0;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         if (loss_db_[i] > link_budget(radio(from), radio(nodes_[i])).value) continue;
-        nodes_[kept] = nodes_[i];
-        positions_[kept] = positions_[i];
-        ++kept;
+        found_.push_back({nodes_[i], squared_distance(origin_, positions_[i])});
     }
-    nodes_.resize(kept);
-    positions_.resize(kept);
 }
 
 void Medium::find_hearers(NodeId from, Time t, const Legs& legs) {
-    nodes_.clear();
-    positions_.clear();
-    keys_.clear();
+    found_.clear();
     if (model(from).by_distance_alone()) return find_in_range(from, t, legs);
     // A table costs time and memory: it pays where many radios are alike.
     constexpr std::size_t most_tables = 16;
@@ -318,7 +311,9 @@ Dbm Medium::level(NodeId from, NodeId to, double squared_distance) const {
 Db Medium::audible_budget(const Radio& from, const Radio& to) const {
     const Db sensed = sensing_budget(from, to);
     if (!settings_.interference_cut) return sensed;
-    const Dbm weakest = noise_floor(to) - *settings_.interference_cut;
+    constexpr Db below_noise{10};
+    const Dbm weakest =
+        std::max(to.sensitivity - *settings_.interference_cut, noise_floor(to) - below_noise);
     return std::max(sensed, link_budget(from, to) + (to.sensitivity - weakest));
 }
 
@@ -329,13 +324,17 @@ Duration Medium::delay(double distance) const {
 void Medium::receivers(NodeId from, Time start, Time end, const Legs& legs,
                        std::vector<Reception>& out) {
     find_hearers(from, start, legs);
-    const auto first = static_cast<std::ptrdiff_t>(out.size());
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        out.push_back({.node = nodes_[i], .time = end + delay(distance(origin_, positions_[i]))});
+    // One number to sort by: the delay, then the node.
+    order_.clear();
+    for (const Found& f : found_) {
+        const Duration under_way = delay(std::sqrt(f.squared_distance));
+        order_.push_back(static_cast<Order>(under_way.count()) << 32 | f.node.value);
     }
-    std::sort(out.begin() + first, out.end(), [](const Reception& a, const Reception& b) {
-        return a.time != b.time ? a.time < b.time : a.node < b.node;
-    });
+    std::sort(order_.begin(), order_.end());
+    for (const Order each : order_) {
+        const Duration under_way{static_cast<std::int64_t>(each >> 32)};
+        out.push_back({.node = NodeId{static_cast<std::uint32_t>(each)}, .time = end + under_way});
+    }
 }
 
 std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
@@ -343,7 +342,8 @@ std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
     std::vector<NodeId> frontier{from};
     seen[from.index()] = true;
     for (std::size_t next = 0; next < frontier.size(); ++next) {
-        for (const NodeId node : hearers(frontier[next], t, legs)) {
+        find_hearers(frontier[next], t, legs);
+        for (const auto [node, squared_distance] : found_) {
             if (seen[node.index()]) continue;
             seen[node.index()] = true;
             frontier.push_back(node);

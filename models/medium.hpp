@@ -29,8 +29,8 @@ class Medium {
         Meters floor_height{3};         ///< [m] of one storey
         bool propagation_delay = true;  ///< a frame arrives distance / c after it is sent
         bool all_pairs = false;         ///< for tests: without the grid
-        /// [dB] frames disturb others down to so much below the noise floor; none: only those that
-        /// are sensed do.
+        /// [dB] frames disturb others down to so much below the sensitivity (but not to more than
+        /// 10 dB below the noise floor); none: only those that are sensed do.
         std::optional<Db> interference_cut = std::nullopt;
         std::uint64_t seed = 0;
         std::uint32_t replication = 0;
@@ -42,6 +42,11 @@ class Medium {
     /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot
     ///         work at the radio's frequency
     void add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
+    /// Room for `nodes` nodes.
+    void reserve(std::size_t nodes) {
+        stations_.reserve(nodes);
+        index_.reserve(nodes);
+    }
     /// The node's leg has been replaced.
     void moved(NodeId node, const Legs& legs) { index_.moved(node, legs); }
 
@@ -83,11 +88,16 @@ class Medium {
         return received_power(kind(from).radio, kind(to).radio, Db{loss_db});
     }
 
+    /// One that hears a transmission.
+    struct Found {
+        NodeId node;
+        double squared_distance;  ///< [m^2] between the antennas
+    };
     /// Those that hear `from` when it sends at `t`, which must not decrease; in no order. The span
     /// is good until the next call.
-    std::span<const NodeId> hearers(NodeId from, Time t, const Legs& legs) {
+    std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
         find_hearers(from, t, legs);
-        return nodes_;
+        return found_;
     }
 
     /// Nodes other than `from` that a chain of links joins to it at `t`, which must not decrease.
@@ -172,8 +182,11 @@ class Medium {
     NeighbourIndex index_;
     bool cells_chosen_ = false;
 
-    // The batch under work: candidates in reach, then those in budget; kept for their memory.
+    // What is under work, kept for its memory.
     Vec3 origin_;
+    std::vector<Found> found_;
+    __extension__ using Order = unsigned __int128;
+    std::vector<Order> order_;
     std::vector<NodeId> nodes_;
     std::vector<Vec3> positions_;
     std::vector<std::uint64_t> keys_;

@@ -39,6 +39,8 @@ class NeighbourIndex {
         labels_.push_back(label);
         stale_ = true;
     }
+    /// Room for `nodes` nodes.
+    void reserve(std::size_t nodes) { labels_.reserve(nodes); }
     /// The node's leg has been replaced.
     void moved(NodeId node, const Legs& legs);
     /// Side of the cells [m] from now on; best about the radius of most queries.

@@ -27,54 +27,45 @@ void SinrReceivers::settle_locks(NodeId node, Time until) {
     }
 }
 
-Fate SinrReceivers::judge_here(NodeId node, std::uint32_t flight, std::uint32_t reception, Time now,
-                               const SinrFrame& frame) {
-    // Canonical: sums of interference do not depend on the order in which frames were made known.
+/// Waiting if the receiver was on the judged frame from its beginning to its end.
+Fate SinrReceivers::decide_lock(NodeId node, Arrival& judged) {
+    // Canonical: what is decided and summed does not depend on the order of becoming known.
     std::sort(here_.begin(), here_.end(), [](const Arrival* a, const Arrival* b) {
         return a->begin != b->begin ? a->begin < b->begin : a->from < b->from;
     });
-    const auto found = std::find_if(here_.begin(), here_.end(), [&](const Arrival* a) {
-        return a->reception == reception && a->flight == flight && a->end == now;
-    });
-    Arrival& judged = **found;
     settle_locks(node, judged.begin);
-    const bool locked = judged.lock == Arrival::Lock::held;
-    const bool sends = std::any_of(here_.begin(), here_.end(), [&](const Arrival* a) {
-        return a->from == node && a->overlaps(judged);
-    });
-    if (sends) return Fate::busy;
-    if (!locked) return Fate::collided;
-    const bool alone = std::none_of(here_.begin(), here_.end(), [&](const Arrival* a) {
-        return a != &judged && a->overlaps(judged);
-    });
-    if (frame.draw < success(log_success_of(judged, frame))) return Fate::waiting;
-    return alone ? Fate::garbled : Fate::collided;
+    for (const Arrival* a : here_) {
+        if (a->from == node && a->overlaps(judged)) return Fate::busy;
+    }
+    return judged.lock == Arrival::Lock::held ? Fate::waiting : Fate::collided;
 }
 
-/// The sum of log_success over the bits of the payload.
+/// The sum of log_success over the bits of the payload, with the others that are here.
 double SinrReceivers::log_success_of(const Arrival& judged, const SinrFrame& frame) {
+    const double signal = math::exp10(judged.level_dbm / 10);
+    if (here_.empty()) {
+        const double bits = seconds(frame.payload) * frame.rate;
+        return bits * log_success(frame.modulation, signal / frame.noise_mw);
+    }
     const Time begin = judged.end - frame.payload;
     changes_.assign({begin, judged.end});
     power_mw_.clear();
     for (const Arrival* a : here_) {
         power_mw_.push_back(math::exp10(a->level_dbm / 10));
         for (const Time t : {a->begin, a->end}) {
-            if (a != &judged && t > begin && t < judged.end) changes_.push_back(t);
+            if (t > begin && t < judged.end) changes_.push_back(t);
         }
     }
     std::sort(changes_.begin(), changes_.end());
-    const double signal = math::exp10(judged.level_dbm / 10);
     double sum = 0;
     for (std::size_t i = 0; i + 1 < changes_.size(); ++i) {
         const Time from = changes_[i], to = changes_[i + 1];
         if (from == to) continue;
         double disturbing = frame.noise_mw;
         for (std::size_t k = 0; k < here_.size(); ++k) {
-            const Arrival& a = *here_[k];
-            if (&a != &judged && a.begin <= from && a.end >= to) disturbing += power_mw_[k];
+            if (here_[k]->begin <= from && here_[k]->end >= to) disturbing += power_mw_[k];
         }
-        const double bits = seconds(to - from) * frame.rate;
-        sum += bits * log_success(frame.modulation, signal / disturbing);
+        sum += seconds(to - from) * frame.rate * log_success(frame.modulation, signal / disturbing);
     }
     return sum;
 }

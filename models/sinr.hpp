@@ -17,10 +17,11 @@ namespace rovernet {
 ///
 /// A frame that begins while the receiver is locked on another, or sends, is lost; so is the one
 /// that it is locked on when it begins to send. Errors are those of the payload: a preamble is
-/// taken to be detected. Frames weaker than the noise floor by `interference_cut` are left out.
-/// Sources: models/error_rate.hpp; IEEE 802.11-2020, clause 15-18, for what a receiver does.
+/// taken to be detected. Frames weaker than the sensitivity by `interference_cut`, or than the
+/// noise floor by 10 dB, are left out: each of them would change the interference by less than
+/// that. Sources: models/error_rate.hpp; IEEE 802.11-2020, clause 15-18, for what a receiver does.
 struct Sinr {
-    Db interference_cut{10};  ///< [dB] >= 0
+    Db interference_cut{20};  ///< [dB] >= 0
 };
 
 /// What judging a frame takes beside what is on air.
@@ -41,22 +42,34 @@ class SinrReceivers {
     }
 
     /// What becomes of the flight's reception at `node`, which ends at `now`: waiting if the frame
-    /// is decoded. level_of(arrival) [dBm] is asked once for each arrival that matters.
+    /// is decoded. level_of(arrival) [dBm] is asked once for each arrival that overlaps.
     template <class LevelOf>
     Fate judge(OnAir& on_air, NodeId node, std::uint32_t flight, std::uint32_t reception, Time now,
                const SinrFrame& frame, LevelOf level_of) {
         here_.clear();
         on_air.each(node, now - 2 * longest_, [&](Arrival& a) {
-            if (std::isnan(a.level_dbm)) a.level_dbm = level_of(a);
             here_.push_back(&a);
             return true;
         });
-        return judge_here(node, flight, reception, now, frame);
+        const auto judged = std::find_if(here_.begin(), here_.end(), [&](const Arrival* a) {
+            return a->reception == reception && a->flight == flight && a->end == now;
+        });
+        Arrival& signal = **judged;
+        const Fate fate = decide_lock(node, signal);
+        if (fate != Fate::waiting) return fate;
+        std::erase_if(here_,
+                      [&](const Arrival* a) { return !a->overlaps(signal) || a == &signal; });
+        const auto compute_level = [&](Arrival& a) {
+            if (std::isnan(a.level_dbm)) a.level_dbm = level_of(a);
+        };
+        compute_level(signal);
+        for (Arrival* a : here_) compute_level(*a);
+        if (frame.draw < success(log_success_of(signal, frame))) return Fate::waiting;
+        return here_.empty() ? Fate::garbled : Fate::collided;
     }
 
   private:
-    Fate judge_here(NodeId node, std::uint32_t flight, std::uint32_t reception, Time now,
-                    const SinrFrame& frame);
+    Fate decide_lock(NodeId node, Arrival& judged);
     void settle_locks(NodeId node, Time until);
     bool sends_within(NodeId node, Time after, Time until) const;
     double log_success_of(const Arrival& judged, const SinrFrame& frame);
