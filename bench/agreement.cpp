@@ -11,6 +11,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <set>
+#include <utility>
 #include <vector>
 
 using namespace rovernet;
@@ -23,18 +25,24 @@ int failures = 0;
 
 /// Counts the bits of payload that get through, and the frames.
 struct Count {
-    std::uint64_t bits = 0, frames = 0, attempts = 0, lost = 0;
+    std::uint64_t bits = 0, frames = 0, attempts = 0;
+    std::uint64_t again = 0;  // frames that get through of those who sent just before, too
+    Time round = start_of_run;
+    std::set<NodeId> senders = {}, senders_before = {};  // of this round and of the last
 
     KindMask kinds() const { return kind_of<Transmitted>() | kind_of<Received>(); }
     void on(const Record& record, const RecordContext& context) {
-        if (std::holds_alternative<Transmitted>(record)) {
+        if (const auto* sent = std::get_if<Transmitted>(&record)) {
             ++attempts;
+            if (sent->time > round) senders_before = std::exchange(senders, {});
+            round = sent->time;
+            senders.insert(sent->frame.sender);
             return;
         }
         const auto& r = std::get<Received>(record);
         for (const Reception& each : r.receptions) {
-            lost += !is_decoded(each.fate);
             if (!each.delivered) continue;
+            again += senders_before.contains(r.frame.sender);
             ++frames;
             bits += 8 * context.messages[r.frame.message].size;
         }
@@ -148,6 +156,45 @@ void ns2_unicast(Duration length) {
     }
 }
 
+/// Saturated broadcasts of 1000 bytes at 1 Mb/s in a window of 32 slots that never grows: the share
+/// of the time in which payload reaches a station. Peers: bench/peers/measured/cells.csv.
+void broadcast(Duration length) {
+    struct Row {
+        int n;
+        double ns2, ns3;
+    };
+    constexpr double frame = 192 + 8 * 1036, difs = 50;
+    const bench::Bianchi theory{.window = 32,
+                                .stages = 0,
+                                .slot = 20,
+                                .payload = 8000,
+                                .success = frame + difs,
+                                .collision = frame + difs};
+    for (const Row& row : {Row{2, 0.895, 0.890}, Row{5, 0.812, 0.822}, Row{10, 0.691, 0.699},
+                           Row{20, 0.490, 0.498}, Row{50, 0.216, 0.200}}) {
+        const Count got = Cell{.n = row.n,
+                               .csma = {.eifs = false, .header = 36},
+                               .payload = 1000,
+                               .radio = {.rate = {1e6}},
+                               .broadcast = true}
+                              .run(length);
+        const double share = static_cast<double>(got.bits) / (row.n - 1) / 1e6 / seconds(length);
+        const double tau = 2.0 / (theory.window + 1);
+        if (row.n <= 10) {
+            report(fmt::format("broadcast n={}, formula", row.n), share,
+                   theory.throughput(row.n, tau), 0.02);
+        } else {
+            fmt::print("{:<44} {:>10.5f} {:>10.5f}\n",
+                       fmt::format("broadcast n={}, formula", row.n), share,
+                       theory.throughput(row.n, tau));
+            report(fmt::format("broadcast n={}, ns-2", row.n), share, row.ns2, 0.10);
+            report(fmt::format("broadcast n={}, ns-3", row.n), share, row.ns3, 0.10);
+            fmt::print("  of them sent by one that sent just before    {:>9.5f}\n",
+                       static_cast<double>(got.again) / static_cast<double>(got.frames) * share);
+        }
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -155,5 +202,6 @@ int main(int argc, char** argv) {
     fmt::print("{:<44} {:>10} {:>10} {:>10}\n", "", "rovernet", "expected", "off");
     bianchi(length);
     ns2_unicast(length);
+    broadcast(length);
     return failures > 0;
 }

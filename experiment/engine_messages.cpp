@@ -219,6 +219,15 @@ void Engine::receive(Flight& flight, std::span<Reception> receptions) {
     if (dcf_) tell_stations(flight, receptions);
 }
 
+/// Hands a broadcast to the router; without one it is for everybody, and goes no further.
+void Engine::hand_up(const Flight& flight, std::span<Reception> receptions) {
+    if (router_) return router_->on_receive(*this, flight.air.frame, receptions);
+    for (Reception& r : receptions) {
+        r.fate = Fate::arrived;
+        r.delivered = true;
+    }
+}
+
 void Engine::receive_broadcast(Flight& flight, std::span<Reception> receptions) {
     receiving_ = true;
     auto next = receptions.begin();
@@ -227,7 +236,7 @@ void Engine::receive_broadcast(Flight& flight, std::span<Reception> receptions) 
             return is_decoded(r.fate) && medium_.is_on(r.node);
         };
         const auto deaf = std::find_if_not(next, receptions.end(), heard);
-        if (next != deaf) router_->on_receive(*this, flight.air.frame, {next, deaf});
+        if (next != deaf) hand_up(flight, {next, deaf});
         next = std::find_if(deaf, receptions.end(), heard);
         for (auto r = deaf; r != next; ++r) {
             if (!medium_.is_on(r->node)) r->fate = Fate::off;

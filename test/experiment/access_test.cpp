@@ -208,6 +208,26 @@ TEST_CASE("csma: receivers that forward at once collide, as they ask at once; ji
     CHECK(delivered[true] == 5);
 }
 
+TEST_CASE("csma: saturated broadcasts go one hop, without a router, at the formula's rate") {
+    constexpr double frame = 192 + 8 * 1028, difs = 50, tau = 2.0 / 33;
+    for (const int n : {2, 10}) {
+        const bench::Bianchi theory{.window = 32,
+                                    .stages = 0,
+                                    .slot = 20,
+                                    .payload = 8000,
+                                    .success = frame + difs,
+                                    .collision = frame + difs};
+        Room room(n, Csma{.eifs = false}, {.rate = {1e6}});
+        for (const NodeId from : room.nodes) {
+            room.net.at(start_of_run,
+                        [&net = room.net, from] { net.saturate(from, everyone, 1000); });
+        }
+        room.net.run_for(200s);
+        const double share = static_cast<double>(room.ledger->delivered_bits) / (n - 1) / 200e6;
+        CHECK(std::abs(share / theory.throughput(n, tau) - 1) < 0.02);
+    }
+}
+
 TEST_CASE("saturated traffic without an access rung is refused") {
     Room cell(2, NoAccess{});
     CHECK_THROWS_AS(cell.net.saturate(cell.nodes[0], cell.nodes[1], 10), std::invalid_argument);
