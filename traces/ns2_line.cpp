@@ -134,6 +134,15 @@ std::optional<Fate> loss_of(std::string_view reason) {
     return std::nullopt;
 }
 
+/// Why a copy was dropped before it got through.
+std::optional<DropReason> drop_of(std::string_view reason) {
+    for (const auto drop :
+         {DropReason::off, DropReason::queue_full, DropReason::retries, DropReason::end}) {
+        if (reason == reason_of(drop)) return drop;
+    }
+    return std::nullopt;
+}
+
 /// What the event is, before it is known who the packet came from; nothing if it is not ours.
 std::optional<Event> event_of(char op, std::string_view layer, std::string_view reason) {
     if (layer == "AGT") {
@@ -144,7 +153,9 @@ std::optional<Event> event_of(char op, std::string_view layer, std::string_view 
         if (op == 'r') return Event::received;
         if (reason == "TTL") return Event::ended_by_ttl;
         if (reason == "DUP") return Event::suppressed;
-        if (reason == "SLP") return Event::off_while_waiting;
+        if (reason == "SLP") return Event::dropped;
+    } else if (op == 'D' && drop_of(reason) && (layer == "IFQ" || reason == "RET")) {
+        return Event::dropped;
     } else if (layer == "MAC" && op == 'D' && loss_of(reason)) {
         return Event::lost;
     }
@@ -161,6 +172,7 @@ bool read_event(Ns2Packet& p, const Tokens& tokens, char op, Token layer, Token 
     const auto event = event_of(op, layer.text, reason.text);
     p.event = event.value_or(p.event);
     p.loss = loss_of(reason.text).value_or(p.loss);
+    p.drop = drop_of(reason.text).value_or(p.drop);
     return event.has_value();
 }
 

@@ -17,18 +17,19 @@ namespace rovernet {
 /// What a packet line of an ns-2 trace tells of a robot's message, in either format.
 struct Ns2Packet {
     enum class Event : std::uint8_t {
-        sent,               ///< `s AGT`
-        own,                ///< `r RTR` of the own packet on its way down
-        transmitted,        ///< `s RTR`, `f RTR`
-        received,           ///< `r RTR`
-        delivered,          ///< `r AGT`
-        ended_by_ttl,       ///< `D RTR TTL`
-        suppressed,         ///< `D RTR DUP`
-        off_while_waiting,  ///< `D RTR SLP`
-        lost                ///< `D MAC` with the reason: SLP, ERR, COL or BSY
+        sent,          ///< `s AGT`
+        own,           ///< `r RTR` of the own packet on its way down
+        transmitted,   ///< `s RTR`, `f RTR`
+        received,      ///< `r RTR`
+        delivered,     ///< `r AGT`
+        ended_by_ttl,  ///< `D RTR TTL`
+        suppressed,    ///< `D RTR DUP`
+        dropped,       ///< `D RTR SLP`, `D IFQ IFQ`, `D IFQ END`, `D MAC RET`
+        lost           ///< `D MAC` with the reason: SLP, ERR, COL or BSY
     };
     Event event{};
-    Fate loss = Fate::off;  ///< of a lost one
+    Fate loss = Fate::off;              ///< of a lost one
+    DropReason drop = DropReason::off;  ///< of a dropped one
     Time time;
     NodeId node;
     std::optional<NodeId> heard_from;  ///< the last hop, once a MAC has seen the packet

@@ -238,13 +238,14 @@ void Replay::on(const Ns2Packet& p) {
     flush();
     if (p.event == Event::own) return;
     // MACs of others lose packets that we know nothing of.
-    if (p.event == Event::lost && !by_uid_.contains(p.uid)) return;
+    const bool of_a_mac = p.event == Event::lost || p.event == Event::dropped;
+    if (of_a_mac && !by_uid_.contains(p.uid)) return;
     if (p.event == Event::sent) return sent(p);
     const Frame frame = frame_of(p);
     if (p.event == Event::transmitted) {
         emit(Transmitted{p.time, frame, p.heard_from});
-    } else if (p.event == Event::off_while_waiting) {
-        emit(Dropped{p.time, p.node, frame, DropReason::off});
+    } else if (p.event == Event::dropped) {
+        emit(Dropped{p.time, p.node, frame, p.drop});
     } else {
         const Fate fate = p.event == Event::lost ? p.loss : Fate::waiting;
         open_ = Copy{frame, {p.node, p.time, fate, false}, p.uid};

@@ -72,6 +72,17 @@ class PartFile {
     std::FILE* file_ = nullptr;
 };
 
+/// Where a copy that waits is lost: at the router, in the queue of its interface, or by its MAC.
+std::string_view layer_of(DropReason reason) {
+    switch (reason) {
+        case DropReason::off: return "RTR";
+        case DropReason::queue_full:
+        case DropReason::end: return "IFQ";
+        case DropReason::retries: return "MAC";
+    }
+    return {};
+}
+
 /// What the lines of packets have in common.
 struct PacketLine {
     char op;
@@ -191,7 +202,9 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
 void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
     std::optional<NodeId> heard_from;
     if (r.frame.sender != r.node) heard_from = r.frame.sender;
-    packet({'D', r.time, r.node, "RTR", "SLP", heard_from, r.frame.message, r.frame.ttl}, context);
+    packet({'D', r.time, r.node, layer_of(r.reason), reason_of(r.reason), heard_from,
+            r.frame.message, r.frame.ttl},
+           context);
 }
 
 void Ns2Trace::Writer::lines(const Moved& r, const RecordContext&) {

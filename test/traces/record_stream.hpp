@@ -136,8 +136,9 @@ class RandomRecords {
         return frame(sent_[i], robot(), ttls_[i] + 1U - hops, hops);
     }
     Reception reception() {
-        const Fate fates[] = {Fate::waiting, Fate::ttl, Fate::duplicate, Fate::off};
-        Reception rx{robot(), now_ + Duration{below(1000)}, fates[below(4)], false};
+        const Fate fates[] = {Fate::waiting, Fate::ttl,      Fate::duplicate, Fate::off,
+                              Fate::garbled, Fate::collided, Fate::busy};
+        Reception rx{robot(), now_ + Duration{below(1000)}, fates[below(7)], false};
         rx.delivered = (rx.fate == Fate::waiting || rx.fate == Fate::ttl) && below(2) == 0;
         return rx;
     }
@@ -151,7 +152,9 @@ class RandomRecords {
             stream_.legs.replace(node, leg());
             return stream_.emit(Moved{now_, node, stream_.legs.leg(node)});
         }
-        if (kind == 2) return stream_.emit(Dropped{now_, robot(), f, DropReason::off});
+        if (kind == 2) {
+            return stream_.emit(Dropped{now_, robot(), f, static_cast<DropReason>(below(4))});
+        }
         if (kind == 3) return (void)stream_.place(leg());
         if (kind < 9) {
             return stream_.transmit(now_, f, f.hops > 1 ? std::optional(robot()) : std::nullopt);
