@@ -2,6 +2,7 @@
 // Saturated cells against theory and against what ns-2 and ns-3 delivered. Prints one line a case;
 // exit 1 if one is outside of its band.
 
+#include "bench/aloha.hpp"
 #include "bench/bianchi.hpp"
 #include "experiment/network.hpp"
 #include "models/disc.hpp"
@@ -195,6 +196,17 @@ void broadcast(Duration length) {
     }
 }
 
+/// S = G exp(-2 G), and G exp(-G) with slots.
+void aloha(Duration length) {
+    const int frames = static_cast<int>(seconds(length) * 1000);
+    for (const double load : {0.1, 0.5, 1.0}) {
+        report(fmt::format("pure ALOHA, G={}", load), bench::aloha_throughput(load, 0ms, frames),
+               load * std::exp(-2 * load), 0.01);
+        report(fmt::format("slotted ALOHA, G={}", load), bench::aloha_throughput(load, 1ms, frames),
+               load * std::exp(-load), 0.01);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -203,5 +215,6 @@ int main(int argc, char** argv) {
     bianchi(length);
     ns2_unicast(length);
     broadcast(length);
+    aloha(length);
     return failures > 0;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The flood of bench/peers in rovernet, for bench/peers/run: prints one line of JSON.
-//   --movement=FILE --rung=threshold|csma|csma_collision --header=36 --messages=20 --interval=3 --ttl=100 --jitter=0.05
+//   --movement=FILE --rung=threshold|csma|csma_collision --header=36 --messages=20 --interval=3
+//   --ttl=100 --jitter=0.05
 //   --payload=64 --seed=1
 // threshold: a disc of 250 m. csma: 802.11b at 1 Mb/s over flat ground as ns-2 has it by default
 // (250 m decoded, 550 m sensed), with noise, interference and bit errors; csma_collision: with
@@ -161,7 +162,7 @@ int main(int argc, char** argv) {
         "{{\"peer\":\"rovernet{}\",\"nodes\":{},\"messages\":{},\"delivery_ratio\":{:.6f},"
         "\"transmissions\":{},\"receptions\":{},\"setup_cpu_s\":{:.6f},\"run_cpu_s\":{:.6f},"
         "\"rss_mb\":{:.1f},\"delivery_by_message\":[{:.6f}]}}\n",
-        listens ? "_" + options.text("rung", "") : "", count, messages, sum / static_cast<double>(shares.size()),
-        tally->transmissions, tally->receptions, ready - begin, done - ready, resident_mb(),
-        fmt::join(shares, ","));
+        listens ? "_" + options.text("rung", "") : "", count, messages,
+        sum / static_cast<double>(shares.size()), tally->transmissions, tally->receptions,
+        ready - begin, done - ready, resident_mb(), fmt::join(shares, ","));
 }

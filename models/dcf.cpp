@@ -51,7 +51,9 @@ void Dcf::draw_backoff(Air& air, NodeId node, Time from) {
 void Dcf::on_timer(Air& air, NodeId node, std::uint32_t tag) {
     Station& s = at(node);
     if (tag == response) return send_response(air, node);
-    if (s.timer != air.now()) return;  // another one took its place
+    const bool contends = s.state == State::contending;
+    if (s.timer != air.now() || contends != (tag == access)) return;  // another took its place
+    s.timer = never;
     if (tag == answer) {
         // What is arriving may be the answer.
         if (s.on_air_until > air.now()) return set_timer(air, node, s.on_air_until, answer);

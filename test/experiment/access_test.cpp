@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "bench/aloha.hpp"
 #include "bench/bianchi.hpp"
 #include "experiment/network.hpp"
 #include "mobility/waypoints.hpp"
@@ -66,26 +67,6 @@ struct Room {
     }
 };
 
-/// Poisson traffic of n robots to one place: the share of the time in which a frame gets through.
-double aloha_throughput(double load, Duration slot) {
-    constexpr int robots = 200;
-    constexpr Duration frame = 1ms;  // 125 bytes at 1 Mb/s
-    constexpr int frames = 60000;
-    Room cell(robots + 1, Aloha{.slot = slot}, {.rate = {1e6}, .preamble = 0us});
-    Time t = start_of_run;
-    for (std::uint64_t i = 0; i < frames; ++i) {
-        const Key key{.seed = 5, .purpose = Purpose::order, .index = i};
-        Key pick = key;
-        pick.a = 1;
-        t += from_seconds(exponential(key) * seconds(frame) / load);
-        const NodeId from = cell.nodes[1 + below(pick, robots)];
-        cell.net.at(
-            t, [&net = cell.net, from, to = cell.nodes[0]] { net.unicast(from, to, "", 125); });
-    }
-    cell.net.run_until(t + 1s);
-    return static_cast<double>(cell.ledger->delivered) * seconds(frame) / seconds(t);
-}
-
 }  // namespace
 
 // 60,000 frames, of which a share p gets through: sigma of the share is sqrt(p (1 - p) / n), at
@@ -95,14 +76,14 @@ constexpr double three_sigma = 0.025;
 TEST_CASE("aloha: pure, S = G exp(-2 G)") {
     for (const double load : {0.1, 0.5, 1.0}) {
         const double expected = load * std::exp(-2 * load);
-        CHECK(std::abs(aloha_throughput(load, 0us) / expected - 1) < three_sigma);
+        CHECK(std::abs(bench::aloha_throughput(load, 0us, 60000) / expected - 1) < three_sigma);
     }
 }
 
 TEST_CASE("aloha: slotted, S = G exp(-G)") {
     for (const double load : {0.1, 1.0, 2.0}) {
         const double expected = load * std::exp(-load);
-        CHECK(std::abs(aloha_throughput(load, 1ms) / expected - 1) < three_sigma);
+        CHECK(std::abs(bench::aloha_throughput(load, 1ms, 60000) / expected - 1) < three_sigma);
     }
 }
 
