@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <cstdint>
+#include <utility>
 
 using namespace rovernet;
 
@@ -125,6 +127,41 @@ TEST_CASE("backoff: longer interframe spaces") {
     busy.ask_while_busy(30, 3);
     busy.good_frame(78, 86);
     CHECK(busy.backoff.grant() == at(108));
+}
+
+TEST_CASE("backoff: slots that counted before each of several frames add up") {
+    Station s;
+    s.good_frame(20, 60);
+    s.ask_while_busy(60, 6);
+    s.good_frame(75, 100);   // one slot from 70 on
+    s.good_frame(119, 140);  // two from 110 on
+    CHECK(s.backoff.grant() == at(150 + 3 * 4));
+}
+
+TEST_CASE("backoff: of frames on air together the first ends the counting, in any order") {
+    for (const bool swapped : {false, true}) {
+        Station s;
+        s.good_frame(20, 60);
+        s.ask_while_busy(60, 6);
+        const std::int64_t begins[] = {79, 77};
+        for (const std::int64_t begin : {begins[swapped], begins[!swapped]}) {
+            s.good_frame(begin, begin + 20);
+        }
+        CHECK(s.backoff.grant() == at(109 + 5 * 4));
+    }
+}
+
+TEST_CASE("backoff: what arrives late in a slot is sensed in the next one") {
+    const WifiTiming timing = timing_of(WifiStandard::b);
+    for (const auto& [into, counted] : {std::pair{1, 2}, std::pair{3, 3}}) {
+        Backoff backoff(timing);
+        backoff.energy(at(0), at(100));
+        backoff.begin(5, at(50));
+        // Two slots have passed; this is in the third, 2 us of which are before the last sensing.
+        const Time begin = at(150 + 2 * 20 + into);
+        backoff.energy(begin, begin + 300us);
+        CHECK(backoff.grant() == begin + 300us + 50us + (5 - counted) * 20us);
+    }
 }
 
 TEST_CASE("backoff: short slots") {
