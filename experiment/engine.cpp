@@ -42,7 +42,10 @@ Engine::Engine(NetworkSettings settings)
         if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
     }
     if (const auto* aloha = std::get_if<Aloha>(&settings_.access)) aloha_.emplace(*aloha);
-    if (const auto* csma = std::get_if<Csma>(&settings_.access)) dcf_.emplace(*csma);
+    if (const auto* csma = std::get_if<Csma>(&settings_.access)) {
+        dcf_.emplace(*csma);
+        if (std::holds_alternative<Sinr>(settings_.reception)) check_rate(csma->timing.basic_rate);
+    }
     if (settings_.metrics) {
         metrics_ = std::make_shared<Metrics>();
         add_sink(Sink{metrics_});
@@ -85,6 +88,13 @@ void Engine::serve(const Scheduler<Occurrence>::Event& event) {
         case Occurrence::Kind::access_timer:
             return on_access_timer(node_id, static_cast<std::uint32_t>(data));
     }
+}
+
+/// The errors in its bits can be computed.
+void Engine::check_rate(BitRate rate) const {
+    if (modulation_of(rate)) return;
+    throw std::invalid_argument(
+        fmt::format("sinr knows the rates of 802.11b, a and g, not {} bit/s", rate.value));
 }
 
 void Engine::check_event_limit() const {

@@ -111,6 +111,7 @@ class Engine final : public LinkLayer, public Air {
 
     void serve(const Scheduler<Occurrence>::Event& event);
     void check_event_limit() const;
+    void check_rate(BitRate rate) const;
     template <class Key>
     bool comes_next(Key key) {
         return key.time() <= end_of_run_ && queue_.runs_before_next(key);

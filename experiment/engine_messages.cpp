@@ -121,9 +121,10 @@ void Engine::judge(std::size_t slot, std::span<Reception> receptions) {
     Flight& flight = flights_[slot];
     const AirFrame& air = flight.air;
     const NodeId sender = air.frame.sender;
-    const Radio& radio = medium_.radio(sender);
     const BitRate rate = rate_of(air);
     const std::uint64_t attempt = flight.number;
+    const Modulation modulation = *modulation_of(rate);
+    const Duration payload = airtime(air) - medium_.radio(sender).preamble;
     for (Reception& r : receptions) {
         const auto place = static_cast<std::uint32_t>(&r - flight.receptions.data());
         const Key draw{settings_.seed,
@@ -133,16 +134,18 @@ void Engine::judge(std::size_t slot, std::span<Reception> receptions) {
                        attempt,
                        0};
         const SinrFrame frame{
-            .modulation = modulation_of(rate).value_or(Modulation::dsss_1),
+            .modulation = modulation,
             .rate = rate.value,
-            .payload = airtime(air) - radio.preamble,
+            .payload = payload,
             .noise_mw = math::exp10(noise_floor(medium_.radio(r.node)).value / 10),
             .draw = uniform(draw)};
-        r.fate = sinr_receivers_.judge(
+        const Fate fate = sinr_receivers_.judge(
             on_air_, r.node, static_cast<std::uint32_t>(slot), place, r.time, frame,
             [&](const Arrival& a) {
                 return medium_.level(a.from, r.node, a.squared_distance).value;
             });
+        const bool decoded_but_garbled = is_decoded(fate) && r.fate == Fate::garbled;
+        if (!decoded_but_garbled) r.fate = fate;
     }
 }
 

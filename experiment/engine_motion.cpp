@@ -50,6 +50,7 @@ NodeId Engine::add(Robot robot) {
         throw_out_of_range("robot", "heading", any.text, robot.heading.value);
     }
     check_place(robot.at);
+    if (std::holds_alternative<Sinr>(settings_.reception)) check_rate(robot.radio.rate);
     const auto key = name_key(robot.name);
     medium_.add(robot.radio, key, robot.propagation.value_or(settings_.propagation));
     if (aloha_) aloha_->add();

@@ -60,7 +60,9 @@ void LinkWatch::search(NodeId from, NodeId to, Time after) {
     const Legs& legs = *settings_.legs;
     const Time ends = std::min(legs.leg(from).end, legs.leg(to).end);
     Time until = ends;
-    if (settings_.medium->model(from).shape() == LossShape::unknown) {
+    const LossShape shape = shape_in_motion(settings_.medium->model(from).shape(),
+                                            legs.leg(from).velocity, legs.leg(to).velocity);
+    if (shape == LossShape::unknown) {
         const Duration most = never - after;
         const Duration dwell = settings_.search.min_dwell;
         if (dwell < most / most_looks) until = std::min(until, after + dwell * most_looks);

@@ -93,9 +93,10 @@ std::vector<LossRow> loss_table(const std::string& model,
             throw InputError(option, fmt::format("{} m of wall do not fit into a way of {} m",
                                                  wall.value, d.value));
         }
-        const Vec3 to{d.value, 0, 0};
+        const double height = Radio{}.antenna_height.value;
+        const Vec3 to{d.value, 0, height};
         const LinkBatch link{.frequency = frequency,
-                             .from = {},
+                             .from = {0, 0, height},
                              .to = {&to, 1},
                              .from_key = 0,
                              .to_keys = {&key, 1},

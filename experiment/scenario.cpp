@@ -91,8 +91,19 @@ void check_traffic(const Scenario& scenario) {
 }
 
 /// The rung "sinr" needs levels, and a rate whose errors it knows.
+/// A bit rate whose errors sinr can compute.
+void check_modulation(std::string_view key, BitRate rate, Location where) {
+    if (modulation_of(rate)) return;
+    throw InputError(where, fmt::format("{}: found {} Mbit/s; [reception] model = \"sinr\" knows "
+                                        "1, 2, 5.5, 11 and 6, 9, 12, 18, 24, 36, 48, 54 Mbit/s",
+                                        key, rate.value / 1e6));
+}
+
 void check_sinr(const Scenario& scenario) {
     if (scenario.reception.model != ReceptionModel::sinr) return;
+    if (const auto rate = scenario.access.basic_rate) {
+        check_modulation("basic_rate", *rate, scenario.access_where);
+    }
     const auto check = [](const PropagationTable& propagation, Location propagation_where,
                           const Radio& radio, Location radio_where) {
         if (propagation.make().name() == Disc::name) {
@@ -100,13 +111,7 @@ void check_sinr(const Scenario& scenario) {
                              "model: \"disc\" has no levels for [reception] model = \"sinr\"; "
                              "expected another, such as \"friis\"");
         }
-        if (!modulation_of(radio.rate)) {
-            throw InputError(
-                radio_where,
-                fmt::format("rate: found {} Mbit/s; [reception] model = \"sinr\" knows "
-                            "1, 2, 5.5, 11 and 6, 9, 12, 18, 24, 36, 48, 54 Mbit/s",
-                            radio.rate.value / 1e6));
-        }
+        check_modulation("rate", radio.rate, radio_where);
     };
     for (const RobotTable& robot : scenario.robots) {
         const bool own = robot.propagation.has_value();
@@ -154,6 +159,16 @@ void read_section(TableReader& document, std::string_view key, T& out) {
     TableReader table(*value, fmt::format("[{}]", key));
     table.read_fields(out);
     table.reject_unknown();
+}
+
+/// Radios of OFDM have its preamble and its highest rate, unless [radio] says otherwise.
+void read_access(TableReader& document, Scenario& out) {
+    if (const Value* access = document.take("access")) out.access_where = access->where;
+    read_section(document, "access", out.access);
+    if (out.access.model == AccessModel::csma && out.access.standard != WifiStandard::b) {
+        out.radio.rate = BitRate{54e6};
+        out.radio.preamble = std::chrono::microseconds{20};
+    }
 }
 
 void read_routing(TableReader& document, RoutingTable& out) {
@@ -289,6 +304,7 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     read_section(document, "scenario", out.scenario);
     check_run_name(document, out.scenario.name);
     if (const Value* scene = document.take("scene")) out.scene = read_scene(*scene);
+    read_access(document, out);
     read_section(document, "radio", out.radio);
     read_section(document, "medium", out.medium);
     out.propagation_where = value.where;
@@ -297,7 +313,6 @@ Scenario read_scenario(const Value& value, const std::string& file) {
         read_propagation(*propagation, out.propagation);
     }
     read_section(document, "reception", out.reception);
-    read_section(document, "access", out.access);
     read_section(document, "links", out.links);
     read_movement(document, out);
     std::set<std::string_view> in_file;

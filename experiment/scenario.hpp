@@ -143,6 +143,7 @@ struct Scenario {
     Location propagation_where;
     ReceptionTable reception;
     AccessTable access;
+    Location access_where;
     LinksTable links;
     MovementTable movement;
     std::vector<RobotTable> robots;

@@ -11,7 +11,6 @@ namespace rovernet {
 /// Source: the 2007 thesis's "simple" model; link iff d <= range.
 struct Disc {
     static constexpr std::string_view name = "disc";
-    static constexpr LossShape shape = LossShape::by_distance;
     static constexpr double outside_db = 1000;
 
     Meters range{unset};  ///< [m], >= 0; there is no default
@@ -20,8 +19,7 @@ struct Disc {
         return describe(field("range", &Disc::range, non_negative, "radius of the disc"));
     }
 
-    bool monotone() const { return true; }
-    bool by_distance_alone() const { return true; }
+    LossShape shape() const { return LossShape::by_distance; }
 
     Meters reach(Db loss, Hertz /*frequency*/) const {
         return loss.value < outside_db ? range : Meters{std::numeric_limits<double>::infinity()};

@@ -25,12 +25,10 @@ inline double free_space_db(double d, Hertz f) {
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 struct Friis {
     static constexpr std::string_view name = "friis";
-    static constexpr LossShape shape = LossShape::by_distance;
 
     static constexpr auto fields() { return describe(); }
 
-    bool monotone() const { return true; }
-    bool by_distance_alone() const { return true; }
+    LossShape shape() const { return LossShape::by_distance; }
 
     Meters reach(Db loss, Hertz f) const {
         return {speed_of_light / (4 * pi * f.value) * math::exp10(loss.value / 20)};

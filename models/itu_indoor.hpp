@@ -28,7 +28,6 @@ struct EnumNames<Environment> {
 /// editions.
 struct ItuIndoor {
     static constexpr std::string_view name = "itu_indoor";
-    static constexpr LossShape shape = LossShape::by_distance;
 
     std::optional<double> coefficient = std::nullopt;  ///< N [-], > 0; 30 if neither is given
     std::optional<Environment> environment =
@@ -45,8 +44,9 @@ struct ItuIndoor {
                   "floors between the antennas; counted from their heights if not given"));
     }
 
-    bool monotone() const { return true; }  ///< between antennas of equal height
-    bool by_distance_alone() const { return floors || !environment; }
+    LossShape shape() const {
+        return floors || !environment ? LossShape::by_distance : LossShape::by_heights;
+    }
 
     /// @throws std::invalid_argument if no row of the table is near enough, or has so many floors
     void check_frequency(Hertz f) const;

@@ -74,7 +74,7 @@ class Search {
     bool out_of_reach(Time t) const;
     StraightMotion motion(NodeId node, Time t) const;
     Piece piece(Time begin, Time end) const;
-    LossShape shape() const;
+    LossShape shape(const Piece& piece) const;
 
     std::optional<Time> change_in(const Piece& all);
     std::optional<Piece> in_reach(const Piece& all) const;
@@ -99,6 +99,7 @@ class Search {
     const Db budget_;
     const double reach_;  // [m] beyond it the link is down
     bool up_ = false;     // at the begin of the search
+    bool exact_ = false;  // a change can be found to the nanosecond
 };
 
 /// A hair more than the model's reach, for rounding.
@@ -124,9 +125,12 @@ Piece Search::piece(Time begin, Time end) const {
     return piece;
 }
 
-LossShape Search::shape() const {
-    const LossShape shape = medium_.model(from_).shape();
-    return shape == LossShape::by_walls && walls_.empty() ? LossShape::by_distance : shape;
+/// by_distance, by_walls or unknown: the pair is one and the same.
+LossShape Search::shape(const Piece& piece) const {
+    const LossShape shape =
+        shape_in_motion(medium_.model(from_).shape(), piece.a.velocity, piece.b.velocity);
+    const bool clear = shape == LossShape::by_walls && walls_.empty();
+    return clear || shape == LossShape::by_pair ? LossShape::by_distance : shape;
 }
 
 std::optional<Time> Search::next_change(Time after, Time until) {
@@ -148,10 +152,12 @@ std::optional<Time> Search::change_in(const Piece& all) {
     Time looked = all.begin;
     if (const auto piece = in_reach(all)) {
         looked = piece->end;
-        switch (shape()) {
-            case LossShape::by_distance: found = by_distance(*piece); break;
-            case LossShape::by_walls: found = by_walls(*piece); break;
-            case LossShape::unknown: found = by_samples(*piece); break;
+        const LossShape here = shape(*piece);
+        exact_ = here == LossShape::by_distance;
+        if (exact_) {
+            found = by_distance(*piece);
+        } else {
+            found = here == LossShape::by_walls ? by_walls(*piece) : by_samples(*piece);
         }
     }
     if (!found && looked < all.end && (up_ || !out_of_reach(all.end)) && is_up(all.end) != up_)
@@ -263,8 +269,7 @@ std::optional<Bracket> Search::smooth_change(Look p, Look q, Duration least) con
 
 /// The first time of the new state, for one change in the bracket.
 Time Search::bisect(Bracket bracket) const {
-    const bool exact = shape() == LossShape::by_distance;
-    const Duration tolerance = exact ? instant : settings_.tolerance;
+    const Duration tolerance = exact_ ? instant : settings_.tolerance;
     while (bracket.after - bracket.before > tolerance) {
         const Time middle = bracket.before + (bracket.after - bracket.before) / 2;
         (is_up(middle) == up_ ? bracket.before : bracket.after) = middle;

@@ -27,7 +27,7 @@ double last_that(Predicate holds) {
 }  // namespace
 
 double largest_squared_distance(const Propagation& model, Hertz frequency, Db budget) {
-    assert(model.by_distance_alone());
+    assert(model.shape() == LossShape::by_distance);
     const auto within = [&](double d) {
         const Vec3 to{d, 0, 0};
         const std::uint64_t key = 0;

@@ -10,7 +10,7 @@ namespace rovernet {
 /// at 0 m; infinite if it never does.
 ///
 /// Found by bisection over the numbers that a distance can have, so that no rounding separates it
-/// from the model. @param model  by_distance_alone()
+/// from the model. @param model  of shape by_distance
 double largest_squared_distance(const Propagation& model, Hertz frequency, Db budget);
 
 }  // namespace rovernet

@@ -16,7 +16,6 @@ namespace rovernet {
 /// ed., section 4.9.
 struct LogDistance {
     static constexpr std::string_view name = "log_distance";
-    static constexpr LossShape shape = LossShape::by_distance;
 
     double exponent = 2.5;           ///< n [-], > 0; 2 free space, about 4 an obstructed office
     Db sigma{5};                     ///< standard deviation [dB], >= 0
@@ -31,8 +30,9 @@ struct LogDistance {
                               "d0, below which the loss is held"));
     }
 
-    bool monotone() const { return sigma.value == 0; }
-    bool by_distance_alone() const { return sigma.value == 0; }
+    LossShape shape() const {
+        return sigma.value == 0 ? LossShape::by_distance : LossShape::by_pair;
+    }
 
     ShadowedLoss shadowed_loss(Hertz f) const;
     Meters reach(Db loss, Hertz f) const;

@@ -232,7 +232,7 @@ void Medium::keep_those_in_budget(NodeId from) {
 
 void Medium::find_hearers(NodeId from, Time t, const Legs& legs) {
     found_.clear();
-    if (model(from).by_distance_alone()) return find_in_range(from, t, legs);
+    if (model(from).shape() == LossShape::by_distance) return find_in_range(from, t, legs);
     // A table costs time and memory: it pays where many radios are alike.
     constexpr std::size_t most_tables = 16;
     if (kinds_.size() <= most_tables) {
@@ -286,7 +286,7 @@ void Medium::find_sensed_in_reach(NodeId from, Time t, const Legs& legs) {
 Medium::Hearers Medium::sensed(NodeId from, Time t, const Legs& legs) {
     receivers_.clear();
     sensors_.clear();
-    if (model(from).by_distance_alone()) {
+    if (model(from).shape() == LossShape::by_distance) {
         find_sensed_in_range(from, t, legs);
     } else {
         find_sensed_in_reach(from, t, legs);

@@ -54,24 +54,25 @@ concept BoundedModel = requires(const T& model, Db loss, Hertz frequency) {
     { model.reach(loss, frequency) } -> std::same_as<Meters>;
 };
 
-/// How a link's loss may change while its ends move; tells where to look for link changes.
+/// What a link's loss may do while its ends move; tells how links are decided, and where to look
+/// for their changes.
 enum class LossShape {
-    by_distance,  ///< never falls while the antennas draw apart
+    by_distance,  ///< a function of the distance between the antennas alone, which never falls
+    by_pair,      ///< such a function for each pair of nodes
+    by_heights,   ///< such a function as long as both antennas keep their heights
     by_walls,  ///< so apart from walls: smooth but where the line of sight passes a wall's corner
-    unknown,   ///< anyhow
+    unknown,   ///< anything
 };
+/// The shape between antennas that move at these velocities [m/s]: not by_heights.
+constexpr LossShape shape_in_motion(LossShape shape, Vec3 a, Vec3 b) {
+    if (shape != LossShape::by_heights) return shape;
+    return a.z == 0 && b.z == 0 ? LossShape::by_distance : LossShape::unknown;
+}
 
 /// A model that knows its shape; others are `unknown`.
 template <class T>
-concept ShapedModel = requires {
-    { T::shape } -> std::convertible_to<LossShape>;
-};
-
-/// A model that can tell whether its loss is a function of the distance between the antennas alone
-/// which never falls: then links are decided by distance, and levels computed when somebody looks.
-template <class T>
-concept DistanceModel = requires(const T& model) {
-    { model.by_distance_alone() } -> std::same_as<bool>;
+concept ShapedModel = requires(const T& model) {
+    { model.shape() } -> std::same_as<LossShape>;
 };
 
 /// A model whose loss, at each frequency, is a ShadowedLoss of the antennas' distance and the
@@ -102,7 +103,6 @@ class Propagation {
     Meters reach(Db loss, Hertz frequency) const { return self_->reach(loss, frequency); }
     void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
     LossShape shape() const { return self_->shape(); }
-    bool by_distance_alone() const { return self_->by_distance_alone(); }
     /// What to build a ShadowedRange of; nothing if the model is not a ShadowedModel.
     std::optional<ShadowedLoss> shadowed_loss(Hertz frequency) const {
         return self_->shadowed_loss(frequency);
@@ -118,7 +118,6 @@ class Propagation {
         virtual Meters reach(Db, Hertz) const = 0;
         virtual void check_frequency(Hertz) const = 0;
         virtual LossShape shape() const = 0;
-        virtual bool by_distance_alone() const = 0;
         virtual std::optional<ShadowedLoss> shadowed_loss(Hertz) const = 0;
     };
     template <class T>
@@ -138,12 +137,8 @@ class Propagation {
             if constexpr (FrequencyCheckedModel<T>) model.check_frequency(frequency);
         }
         LossShape shape() const override {
-            if constexpr (ShapedModel<T>) return T::shape;
+            if constexpr (ShapedModel<T>) return model.shape();
             return LossShape::unknown;
-        }
-        bool by_distance_alone() const override {
-            if constexpr (DistanceModel<T>) return model.by_distance_alone();
-            return false;
         }
         std::optional<ShadowedLoss> shadowed_loss(Hertz frequency) const override {
             if constexpr (ShadowedModel<T>) return model.shadowed_loss(frequency);

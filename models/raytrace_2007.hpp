@@ -17,7 +17,6 @@ namespace rovernet {
 /// Source: the 2007 thesis, algorithm 1; formula of ITU-R P.1238-2.
 struct Raytrace2007 {
     static constexpr std::string_view name = "raytrace_2007";
-    static constexpr LossShape shape = LossShape::by_walls;
 
     double coefficient = 30;  ///< N [-], > 0
     double wall_factor = 1;   ///< w [dB/cm], >= 0
@@ -29,7 +28,7 @@ struct Raytrace2007 {
                               "loss in decibels per centimetre of wall"));
     }
 
-    bool monotone() const { return false; }
+    LossShape shape() const { return LossShape::by_walls; }
 
     Meters reach(Db loss, Hertz f) const;
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;

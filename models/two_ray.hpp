@@ -19,8 +19,6 @@ namespace rovernet {
 /// the ns-2 manual, section 18.2.
 struct TwoRay {
     static constexpr std::string_view name = "two_ray";
-    // An antenna that rises moves away and is heard better.
-    static constexpr LossShape shape = LossShape::unknown;
 
     Meters lowest_antenna{0.1};  ///< [m] above the ground, > 0
 
@@ -29,7 +27,7 @@ struct TwoRay {
                               "height above z = 0 that a lower antenna counts as having"));
     }
 
-    bool monotone() const { return true; }  ///< between antennas that keep their heights
+    LossShape shape() const { return LossShape::by_heights; }
 
     /// That of free space, since heights are not known here and the loss is never less.
     Meters reach(Db loss, Hertz f) const;

@@ -2,7 +2,6 @@
 // Who may link with whom, and frames that do not get through.
 #include "experiment/link_table.hpp"
 #include "experiment/network.hpp"
-#include "models/disc.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>
@@ -30,8 +29,9 @@ int links_between(const Radio& a, const Radio& b) {
 }
 
 /// Frames that got through of 2000, and those that did not.
-std::pair<std::uint64_t, std::uint64_t> through(double success_rate, bool crowd) {
-    Network net({.seed = 5, .propagation = Disc{.range = Meters{10}}});
+std::pair<std::uint64_t, std::uint64_t> through(double success_rate, bool crowd,
+                                                const ReceptionRung& reception = Threshold{}) {
+    Network net({.seed = 5, .propagation = Friis{}, .reception = reception});
     net.route(Flood{.ttl = 1});
     if (crowd) net.add({.name = "far", .at = {500, 0, 0}});
     const NodeId a = net.add({.name = "a", .at = {}, .radio = {.success_rate = success_rate}});
@@ -66,6 +66,13 @@ TEST_CASE("gate: links need the same channel and frequency") {
 TEST_CASE("gate: none on either side lets every radio in") {
     CHECK(links_between({.essid = "x", .gate = Gate::none}, {.essid = "y"}) == 2);
     CHECK(links_between({.essid = "x"}, {.essid = "y", .channel = 3, .gate = Gate::none}) == 2);
+}
+
+TEST_CASE("success rate: the same frames get through at every reception rung") {
+    const auto expected = through(0.5, true);
+    CHECK(expected.second > 900);
+    CHECK(through(0.5, true, Collision{}) == expected);
+    CHECK(through(0.5, true, Sinr{}) == expected);
 }
 
 TEST_CASE(

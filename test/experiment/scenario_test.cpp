@@ -329,6 +329,16 @@ TEST_CASE("scenario: a robot's own keys lie over those of [radio] and [propagati
     CHECK(std::get<LogDistance>(s.propagation.parameters).sigma == Db{5});
 }
 
+TEST_CASE("scenario: radios of an OFDM standard have its preamble and rate unless they say so") {
+    const std::string ofdm = robot_a + "[access]\nmodel = \"csma\"\nstandard = \"802.11a\"\n";
+    CHECK(read(ofdm).robots[0].radio.preamble == 20us);
+    CHECK(read(ofdm).robots[0].radio.rate == BitRate{54e6});
+    const Scenario own = read(ofdm + "[radio]\nrate = \"6 Mbit/s\"");
+    CHECK(own.robots[0].radio.preamble == 20us);
+    CHECK(own.robots[0].radio.rate == BitRate{6e6});
+    CHECK(read(robot_a + "[access]\nmodel = \"csma\"").robots[0].radio.preamble == 192us);
+}
+
 TEST_CASE("scenario: robots of a count can be named by traffic") {
     const std::string robots = "[[robot]]\nname = \"r\"\ncount = 3\nat = [\"0 m\", \"0 m\"]\n";
     CHECK_NOTHROW(read(robots + "[[traffic]]\nfrom = \"r2\"\npayload = \"x\"\n"));

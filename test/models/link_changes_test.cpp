@@ -30,8 +30,8 @@ constexpr NodeId a{0}, b{1};
 /// Free space; counts how often it is asked.
 struct Counted {
     static constexpr std::string_view name = "counted";
-    static constexpr LossShape shape = LossShape::by_distance;
     int* looks;
+    LossShape shape() const { return LossShape::by_distance; }
     Meters reach(Db loss, Hertz f) const { return Friis{}.reach(loss, f); }
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
         ++*looks;
@@ -179,6 +179,33 @@ TEST_CASE("link changes: steps below a nanosecond are refused") {
     for (int i = 0; i < 2; ++i) pair.add(Friis{}, resting({}));
     for (const LinkSearch& search : {LinkSearch{.tolerance = 0ns}, LinkSearch{.min_dwell = -1ns}})
         CHECK_THROWS_AS(pair.changes(a, b, start_of_run, never, search), std::invalid_argument);
+}
+
+TEST_CASE("link changes: of a model that goes by heights they are exact between level robots") {
+    const Scene field;
+    MovingPair pair{&field};
+    const Leg away = moving({10, 0, 0}, {20, 0, 0}, 100s);
+    pair.add(TwoRay{}, resting({}));
+    pair.add(TwoRay{}, away);
+    const auto found = pair.changes(a, b, start_of_run, away.end);
+    REQUIRE(found.size() == 1);
+    CHECK(pair.up(a, b, found[0] - 1ns));
+    CHECK_FALSE(pair.up(a, b, found[0]));
+}
+
+TEST_CASE("link changes: a robot that climbs to another storey loses the link there") {
+    const Scene field;
+    MovingPair pair{&field};
+    const ItuIndoor office{.environment = Environment::office};
+    // In reach by distance all the time; the budget leaves no room for the 15 dB of a floor.
+    const Radio radio{.sensitivity = -55_dBm};
+    pair.add(office, resting({}), radio);
+    pair.add(office, moving({5, 0, 0}, {0, 0, 0.5}, 10s), radio);
+    const auto found = pair.changes(a, b, start_of_run, start_of_run + 10s);
+    REQUIRE(found.size() == 1);
+    const Duration late = found[0] - (start_of_run + 4s);  // the antenna is 1 m above the robot
+    CHECK(late >= 0s);
+    CHECK(late <= LinkSearch{}.tolerance);
 }
 
 TEST_CASE("link changes: of a model of unknown shape those of the dwell time are found") {

@@ -134,9 +134,9 @@ TEST_CASE("two-ray: the same in both directions to the last bit, beyond the cros
     }
 }
 
-TEST_CASE("two-ray: a climbing antenna draws away and hears better, so that the shape is unknown") {
+TEST_CASE("two-ray: a climbing antenna draws away and hears better, so that heights matter") {
     CHECK(loss_over_ground(1.5, 3, 500, 914_MHz) < loss_over_ground(1.5, 1.5, 500, 914_MHz));
-    CHECK(Propagation(TwoRay{}).shape() == LossShape::unknown);
+    CHECK(Propagation(TwoRay{}).shape() == LossShape::by_heights);
 }
 
 TEST_CASE("two-ray: the reach is that of free space") {
