@@ -35,6 +35,12 @@ void Engine::on_access_timer(NodeId node, std::uint32_t tag) {
 /// What the stations hear of a frame beside its message: its end, and what it reserves.
 void Engine::tell_stations(const Flight& flight, std::span<const Reception> receptions) {
     const AirFrame air = flight.air;
+    if ((wanted_ & kind_of<ControlReceived>()) && air.kind != AirFrame::data) {
+        for (const Reception& r : receptions) {
+            if (r.node != air.frame.next_hop || !medium_.is_on(r.node)) continue;
+            emit(ControlReceived{air, r, bytes(air)});
+        }
+    }
     for (const Reception& r : receptions) {
         now_ = r.time;
         if (!medium_.is_on(r.node)) continue;
@@ -57,7 +63,7 @@ void Engine::receive_unicast(Flight& flight, std::span<Reception> receptions) {
             r.fate = repeated ? Fate::duplicate : Fate::arrived;
             r.delivered = !repeated;
         }
-        emit(Received{flight.air.frame, {&r, 1}});
+        emit(Received{flight.air.frame, {&r, 1}, flight.air.reserved});
         if (has_reactions_) hand_over(flight, {&r, 1});
     }
 }

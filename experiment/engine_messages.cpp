@@ -57,6 +57,7 @@ void Engine::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {
 Time Engine::transmit(const AirFrame& air) {
     const Frame& frame = air.frame;
     if (air.kind == AirFrame::data) emit(Transmitted{now_, frame, air.heard_from});
+    if (wanted_ & kind_of<AirSent>()) emit(AirSent{now_, air, bytes(air)});
     const std::size_t slot = flights_.take();
     Flight& flight = flights_[slot];
     flight.air = air;

@@ -107,9 +107,11 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     const std::string trace_path = result.folder + "/trace.tr";
     if (scenario.trace.ns2 != Ns2Choice::none) {
         result.trace = trace_path;
-        trace = std::make_shared<Ns2Trace>(
-            *result.trace, scenario.trace.ns2 == Ns2Choice::old_format ? Ns2Format::old_format
-                                                                       : Ns2Format::new_format);
+        trace = std::make_shared<Ns2Trace>(*result.trace,
+                                           scenario.trace.ns2 == Ns2Choice::old_format
+                                               ? Ns2Format::old_format
+                                               : Ns2Format::new_format,
+                                           scenario.trace.mac ? MacTrace::on : MacTrace::off);
         network.trace_to(trace);
     }
     run_in_slices(network, scenario, options);

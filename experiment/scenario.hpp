@@ -114,9 +114,11 @@ struct EnumNames<Ns2Choice> {
 };
 struct TraceTable {
     Ns2Choice ns2 = Ns2Choice::none;
+    bool mac = false;  ///< lines of the MAC layer, too
 
     static constexpr auto fields() {
-        return describe(field("ns2", &TraceTable::ns2, "wireless trace format of ns-2.35"));
+        return describe(field("ns2", &TraceTable::ns2, "wireless trace format of ns-2.35"),
+                        field("mac", &TraceTable::mac, "lines of the MAC layer in it, too"));
     }
 };
 

@@ -46,6 +46,7 @@ struct Transmitted {
 struct Received {
     Frame frame;
     std::span<const Reception> receptions;
+    Duration reserved{0};  ///< [ns] after its end, by a unicast at csma for its acknowledgement
 };
 
 /// A copy is lost while it waits.
@@ -97,9 +98,24 @@ struct Switched {
     bool on;
 };
 
+/// The MAC puts a frame on air: that of a message, told of by Transmitted too, or one that only
+/// controls access.
+struct AirSent {
+    Time time;
+    AirFrame air;
+    std::uint32_t bytes;  ///< what access adds included
+};
+
+/// A frame that only controls access ends at the station that it is for.
+struct ControlReceived {
+    AirFrame air;
+    Reception reception;  ///< fate: waiting, or why it was lost
+    std::uint32_t bytes;
+};
+
 /// Everything observable. A lost packet is a record: never an exception, never a log line.
 using Record = std::variant<Sent, Transmitted, Received, Dropped, Moved, Arrived, NoWay, Switched,
-                            LinkUp, LinkDown>;
+                            LinkUp, LinkDown, AirSent, ControlReceived>;
 
 /// A set of record kinds, for sinks to say what they want.
 using KindMask = std::uint32_t;
@@ -146,6 +162,14 @@ constexpr KindMask kind_of<LinkUp>() {
 template <>
 constexpr KindMask kind_of<LinkDown>() {
     return 1U << 9;
+}
+template <>
+constexpr KindMask kind_of<AirSent>() {
+    return 1U << 10;
+}
+template <>
+constexpr KindMask kind_of<ControlReceived>() {
+    return 1U << 11;
 }
 /// Both link records. They cost a search for link changes, which runs only if a sink asks.
 inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();

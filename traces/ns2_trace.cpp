@@ -12,7 +12,6 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -83,24 +82,67 @@ std::string_view layer_of(DropReason reason) {
     return {};
 }
 
-/// What the lines of packets have in common.
-struct PacketLine {
+/// The PLCP preamble and header at 1 Mb/s, which ns-2 counts among a frame's bytes.
+constexpr std::uint32_t plcp_bytes = 24;
+
+/// What a MAC wrote into a packet; nothing: it has not seen it.
+struct MacHeader {
+    std::uint32_t reserved_us = 0;
+    NodeId to{0}, from{0};
+    std::string_view ethertype = "0";
+};
+
+MacHeader ip_header(NodeId from, NodeId to = everyone, Duration reserved = {}) {
+    constexpr std::int64_t ns_per_us = 1000;
+    const auto us = (reserved.count() + ns_per_us / 2) / ns_per_us;
+    return {static_cast<std::uint32_t>(us), to, from, "800"};
+}
+
+/// CTS and ACK do not say who sent them; 802.11-2020, 9.3.1.3 and 9.3.1.4.
+MacHeader mac_header(const AirFrame& air) {
+    MacHeader header = ip_header(air.frame.sender, air.frame.next_hop, air.reserved);
+    if (air.kind == AirFrame::data) return header;
+    header.ethertype = "0";
+    if (air.kind != AirFrame::rts) header.from = NodeId{0};
+    return header;
+}
+
+std::string_view type_of(AirFrame::Kind kind) {
+    switch (kind) {
+        case AirFrame::data: return "message";
+        case AirFrame::rts: return "RTS";
+        case AirFrame::cts: return "CTS";
+        case AirFrame::ack: return "ACK";
+    }
+    return {};
+}
+
+/// What all lines of packets have in common.
+struct Line {
     char op;
     Time time;
     NodeId node;
     std::string_view layer;
     std::string_view reason = "---";
-    std::optional<NodeId> heard_from;  ///< the last hop; nothing: the MAC has not seen the packet
+    MacHeader mac = {};
+};
+
+/// Those of a message's packets.
+struct PacketLine : Line {
     MessageId message;
     unsigned ttl;
+    std::uint32_t added = 0;  ///< [bytes] by what is below the router
 };
 
 }  // namespace
 
 class Ns2Trace::Writer {
   public:
-    Writer(const std::string& path, Ns2Format format)
-        : file_(path), format_(format), buffer_(std::make_unique<char[]>(size + longest_line)) {}
+    Writer(const std::string& path, Ns2Format format, MacTrace mac)
+        : file_(path),
+          format_(format),
+          mac_(mac),
+          buffer_(std::make_unique<char[]>(size + longest_line)) {}
 
     void write(const Record& record, const RecordContext& context) {
         std::visit([&](const auto& r) { lines(r, context); }, record);
@@ -126,13 +168,19 @@ class Ns2Trace::Writer {
     void lines(const Switched&, const RecordContext&) {}
     void lines(const LinkUp&, const RecordContext&) {}
     void lines(const LinkDown&, const RecordContext&) {}
+    void lines(const AirSent&, const RecordContext&);
+    void lines(const ControlReceived&, const RecordContext&);
 
     void packet(const PacketLine&, const RecordContext&);
     void old_packet(const PacketLine&, const Message&);
     void new_packet(const PacketLine&, const Message&, Vec3 position);
+    void control(const Line&, const AirFrame&, std::uint32_t bytes, const RecordContext&);
+    void old_start(const Line&, std::uint64_t uid, std::string_view type, std::uint32_t bytes);
+    void new_start(const Line&, Vec3 position);
 
     void text(std::string_view s) { at_ = write_text(at_, s); }
     void integer(std::uint64_t value) { at_ = write_integer(at_, value); }
+    void hex(std::uint32_t value) { at_ = write_hex(at_, value); }
     void fixed2(double value) { at_ = write_fixed2(at_, value); }
     void begin_line() { at_ = buffer_.get() + used_; }
     void end_line() {
@@ -147,6 +195,7 @@ class Ns2Trace::Writer {
 
     PartFile file_;
     Ns2Format format_;
+    MacTrace mac_;
     std::unique_ptr<char[]> buffer_;
     std::size_t used_ = 0;
     char* at_ = nullptr;  ///< where the current line goes on
@@ -162,7 +211,7 @@ void Ns2Trace::Writer::lines(const Sent& r, const RecordContext& context) {
         text("}}");
         end_line();
     }
-    PacketLine line{'s', r.time, r.node, "AGT", "---", {}, r.message, r.ttl};
+    PacketLine line{{'s', r.time, r.node, "AGT"}, r.message, r.ttl};
     packet(line, context);
     line.op = 'r';
     line.layer = "RTR";
@@ -172,21 +221,24 @@ void Ns2Trace::Writer::lines(const Sent& r, const RecordContext& context) {
 void Ns2Trace::Writer::lines(const Transmitted& r, const RecordContext& context) {
     const NodeId origin = context.messages[r.frame.message].origin;
     const char op = r.frame.sender == origin ? 's' : 'f';
-    packet({op, r.time, r.frame.sender, "RTR", "---", r.heard_from, r.frame.message, r.frame.ttl},
+    const MacHeader mac = r.heard_from ? ip_header(*r.heard_from) : MacHeader{};
+    packet({{op, r.time, r.frame.sender, "RTR", "---", mac}, r.frame.message, r.frame.ttl},
            context);
 }
 
 void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     const Frame& frame = r.frame;
+    const MacHeader mac = ip_header(frame.sender, frame.next_hop, r.reserved);
     for (const Reception& rx : r.receptions) {
-        PacketLine line{'r',   rx.time,      rx.node,       "RTR",
-                        "---", frame.sender, frame.message, frame.ttl};
+        PacketLine line{{'r', rx.time, rx.node, "MAC", "---", mac}, frame.message, frame.ttl};
         if (!is_decoded(rx.fate)) {
-            line.op = 'D', line.layer = "MAC";
+            line.op = 'D';
             line.reason = reason_of_loss(rx.fate);
             packet(line, context);
             continue;
         }
+        if (mac_ == MacTrace::on) packet(line, context);
+        line.layer = "RTR";
         packet(line, context);
         if (rx.delivered) {
             line.layer = "AGT";
@@ -200,11 +252,30 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
 }
 
 void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
-    std::optional<NodeId> heard_from;
-    if (r.frame.sender != r.node) heard_from = r.frame.sender;
-    packet({'D', r.time, r.node, layer_of(r.reason), reason_of(r.reason), heard_from,
-            r.frame.message, r.frame.ttl},
+    MacHeader mac;
+    if (r.frame.sender != r.node) mac = ip_header(r.frame.sender, r.frame.next_hop);
+    packet({{'D', r.time, r.node, layer_of(r.reason), reason_of(r.reason), mac},
+            r.frame.message,
+            r.frame.ttl},
            context);
+}
+
+void Ns2Trace::Writer::lines(const AirSent& r, const RecordContext& context) {
+    const AirFrame& air = r.air;
+    const Line line{'s', r.time, air.frame.sender, "MAC", "---", mac_header(air)};
+    if (air.kind != AirFrame::data) return control(line, air, r.bytes, context);
+    const std::uint32_t header = r.bytes - context.messages[air.frame.message].size;
+    packet({line, air.frame.message, air.frame.ttl, header + (header > 0 ? plcp_bytes : 0)},
+           context);
+}
+
+void Ns2Trace::Writer::lines(const ControlReceived& r, const RecordContext& context) {
+    Line line{'r', r.reception.time, r.reception.node, "MAC", "---", mac_header(r.air)};
+    if (!is_decoded(r.reception.fate)) {
+        line.op = 'D';
+        line.reason = reason_of_loss(r.reception.fate);
+    }
+    control(line, r.air, r.bytes, context);
 }
 
 void Ns2Trace::Writer::lines(const Moved& r, const RecordContext&) {
@@ -232,28 +303,45 @@ void Ns2Trace::Writer::packet(const PacketLine& line, const RecordContext& conte
     end_line();
 }
 
-// A packet of type `message` shows no payload: the line ends with the blank before it.
-void Ns2Trace::Writer::old_packet(const PacketLine& line, const Message& message) {
+/// A frame that has no network part.
+void Ns2Trace::Writer::control(const Line& line, const AirFrame& air, std::uint32_t bytes,
+                               const RecordContext& context) {
+    begin_line();
+    if (format_ == Ns2Format::old_format) {
+        old_start(line, 0, type_of(air.kind), bytes + plcp_bytes);
+    } else {
+        new_start(line, context.legs.position(line.node, line.time));
+    }
+    end_line();
+}
+
+void Ns2Trace::Writer::old_start(const Line& line, std::uint64_t uid, std::string_view type,
+                                 std::uint32_t bytes) {
     *at_++ = line.op;
     *at_++ = ' ', at_ = write_seconds(at_, line.time);
     text(" _"), integer(line.node.value);
     text("_ "), text(line.layer);
     text("  "), text(line.reason);  // printed as %4s
-    *at_++ = ' ', integer(message.uid);
-    text(" message "), integer(message.size);
-    if (line.heard_from) {
-        text(" [0 ffffffff "), at_ = write_hex(at_, line.heard_from->value);
-        text(" 800] ------- [");
-    } else {
-        text(" [0 0 0 0] ------- [");
-    }
-    integer(message.origin.value);
+    *at_++ = ' ', integer(uid);
+    *at_++ = ' ', text(type);
+    *at_++ = ' ', integer(bytes);
+    text(" ["), hex(line.mac.reserved_us);
+    *at_++ = ' ', hex(line.mac.to.value);
+    *at_++ = ' ', hex(line.mac.from.value);
+    *at_++ = ' ', text(line.mac.ethertype);
+    text("] ");
+}
+
+// A packet of type `message` shows no payload: the line ends with the blank before it.
+void Ns2Trace::Writer::old_packet(const PacketLine& line, const Message& message) {
+    old_start(line, message.uid, type_of(AirFrame::data), message.size + line.added);
+    text("------- ["), integer(message.origin.value);
     text(":0 -1:0 "), integer(line.ttl);
     text(" 0] ");
 }
 
 // -Hd, the next hop, is -2 (not set) for broadcasts of DumbAgent and of AODV alike.
-void Ns2Trace::Writer::new_packet(const PacketLine& line, const Message& message, Vec3 position) {
+void Ns2Trace::Writer::new_start(const Line& line, Vec3 position) {
     *at_++ = line.op == 'D' ? 'd' : line.op;
     text(" -t "), at_ = write_seconds(at_, line.time);
     text(" -Hs "), integer(line.node.value);
@@ -263,21 +351,27 @@ void Ns2Trace::Writer::new_packet(const PacketLine& line, const Message& message
     text(" -Nz "), fixed2(position.z);
     text(" -Ne -1.000000 -Nl "), text(line.layer);
     text(" -Nw "), text(line.reason);
-    if (line.heard_from) {
-        text(" -Ma 0 -Md ffffffff -Ms "), at_ = write_hex(at_, line.heard_from->value);
-        text(" -Mt 800 -Is ");
-    } else {
-        text(" -Ma 0 -Md 0 -Ms 0 -Mt 0 -Is ");
-    }
-    integer(message.origin.value);
-    text(".0 -Id -1.0 -It message -Il "), integer(message.size);
+    text(" -Ma "), hex(line.mac.reserved_us);
+    text(" -Md "), hex(line.mac.to.value);
+    text(" -Ms "), hex(line.mac.from.value);
+    text(" -Mt "), text(line.mac.ethertype);
+    *at_++ = ' ';
+}
+
+void Ns2Trace::Writer::new_packet(const PacketLine& line, const Message& message, Vec3 position) {
+    new_start(line, position);
+    text("-Is "), integer(message.origin.value);
+    text(".0 -Id -1.0 -It "), text(type_of(AirFrame::data));
+    text(" -Il "), integer(message.size + line.added);
     text(" -If 0 -Ii "), integer(message.uid);
     text(" -Iv "), integer(line.ttl);
     *at_++ = ' ';
 }
 
-Ns2Trace::Ns2Trace(const std::string& path, Ns2Format format)
-    : writer_(std::make_unique<Writer>(path, format)), exceptions_(std::uncaught_exceptions()) {}
+Ns2Trace::Ns2Trace(const std::string& path, Ns2Format format, MacTrace mac)
+    : writer_(std::make_unique<Writer>(path, format, mac)),
+      mac_(mac),
+      exceptions_(std::uncaught_exceptions()) {}
 Ns2Trace::Ns2Trace(Ns2Trace&&) noexcept = default;
 Ns2Trace& Ns2Trace::operator=(Ns2Trace&&) noexcept = default;
 

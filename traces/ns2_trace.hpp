@@ -12,6 +12,9 @@ namespace rovernet {
 /// The two wireless trace formats of ns-2.35: the CMU extension's, and that of `use-newtrace`.
 enum class Ns2Format { old_format, new_format };
 
+/// Whether the lines of the MAC layer are written: `-macTrace` of ns-2, which has it OFF, too.
+enum class MacTrace { off, on };
+
 /// Writes the run as a wireless trace of ns-2.35, for the tools that read such traces.
 ///
 /// | record             | lines                                                               |
@@ -24,24 +27,40 @@ enum class Ns2Format { old_format, new_format };
 /// | Dropped            | `D RTR SLP`                                                         |
 /// | Moved              | `M`                                                                 |
 ///
+/// With MacTrace::on also, and else the same lines:
+///
+/// | record             | lines                                                               |
+/// |--------------------|---------------------------------------------------------------------|
+/// | AirSent            | `s MAC`, that of a message behind its `s RTR` or `f RTR`            |
+/// | Received           | per decoded reception `r MAC` before the `r RTR`                    |
+/// | ControlReceived    | `r MAC`, or `D MAC` with the reason                                 |
+///
 /// Times are exact [ns], 9 decimals; 5 in an `M` line. The id of a packet is the message's uid, its
-/// type `message`, its size [bytes] the same at every layer; ports are 0. The ttl is that carried
-/// on air, in a `D RTR TTL` line too (ns-2 shows 0 there).
+/// type `message`, its size [bytes] the message's at every layer but in `s MAC`; ports are 0. The
+/// ttl is that carried on air, in a `D RTR TTL` line too (ns-2 shows 0 there).
+///
+/// The size in an `s MAC` line is that on air. A frame with a header of the access rung counts 24
+/// bytes more, the PLCP's (802.11-2020, 15.2.2: 144 + 48 bits), as ns-2 counts them at any rate and
+/// standard; those that control access do so when they are received, too: RTS 44, CTS and ACK 38,
+/// id 0. Their lines have no network part; they show no transmitter of a CTS or an ACK, which do
+/// not carry it, and in the new format no type and size.
 ///
 /// Source: the output of ns-2.35, and its cmu-trace.cc.
 class Ns2Trace {
   public:
     /// Opens `path` + ".part"; `path` itself appears at the end, whole or not at all.
     /// @throws RunError if it cannot be written
-    explicit Ns2Trace(const std::string& path, Ns2Format format = Ns2Format::new_format);
+    explicit Ns2Trace(const std::string& path, Ns2Format format = Ns2Format::new_format,
+                      MacTrace mac = MacTrace::off);
     Ns2Trace(Ns2Trace&&) noexcept;
     Ns2Trace& operator=(Ns2Trace&&) noexcept;
     /// As close(), but silent; if an exception is on its way, removes what has been written.
     ~Ns2Trace();
 
     KindMask kinds() const {
+        const KindMask of_mac = kind_of<AirSent>() | kind_of<ControlReceived>();
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
-               kind_of<Moved>();
+               kind_of<Moved>() | (mac_ == MacTrace::on ? of_mac : 0);
     }
     /// @throws RunError if the file cannot be written (disk full, say); it is removed then
     void on(const Record& record, const RecordContext& context);
@@ -53,6 +72,7 @@ class Ns2Trace {
   private:
     class Writer;
     std::unique_ptr<Writer> writer_;
+    MacTrace mac_;
     int exceptions_ = 0;  // on their way when this was made
 };
 

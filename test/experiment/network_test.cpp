@@ -85,6 +85,8 @@ struct Text {
     void tell(const Arrived& r) { add(r.time, r.node, "arrives"); }
     void tell(const NoWay& r) { add(r.time, r.node, "finds no way to " + text(r.goal)); }
     void tell(const Switched& r) { add(r.time, r.node, r.on ? "on" : "off"); }
+    void tell(const AirSent&) {}
+    void tell(const ControlReceived&) {}
 
     const RecordContext* context_ = nullptr;
 };

@@ -92,10 +92,11 @@ struct Recorded {
     std::string text;
     MetricValues values;
 
-    Recorded(Ns2Format format, unsigned seed, int robots, int records) {
+    Recorded(Ns2Format format, unsigned seed, int robots, int records,
+             MacTrace mac = MacTrace::off) {
         const TempFolder folder;
         Stream stream;
-        const auto trace = std::make_shared<Ns2Trace>(folder / "run.tr", format);
+        const auto trace = std::make_shared<Ns2Trace>(folder / "run.tr", format, mac);
         const auto metrics = std::make_shared<Metrics>();
         stream.sinks = {trace, metrics};
         RandomRecords(stream, seed).run(robots, records);
@@ -125,6 +126,21 @@ TEST_CASE("reader: the metrics of a trace are those of its run, to the last digi
             CHECK(read.latency == run.values.latency);
             CHECK(read.hops == run.values.hops);
             CHECK(read == run.values);
+        }
+    }
+}
+
+TEST_CASE("reader: lines of the MAC layer change nothing of what is read") {
+    for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
+        for (unsigned seed = 0; seed < 5; ++seed) {
+            const Recorded plain(format, seed, 20, 1'000);
+            const Recorded with(format, seed, 20, 1'000, MacTrace::on);
+            REQUIRE(with.text.size() > plain.text.size());
+            CHECK(metrics_of(with.text) == plain.values);
+            const auto a = records_of(with.text), b = records_of(plain.text);
+            CHECK(a.transmitted.size() == b.transmitted.size());
+            CHECK(a.received.size() == b.received.size());
+            CHECK(a.dropped.size() == b.dropped.size());
         }
     }
 }

@@ -37,10 +37,10 @@ void play(Stream& s) {
     s.emit(Dropped{at(10'004'000'000), c, frame(m, b, 2, 2), DropReason::off});
 }
 
-std::string trace_of(Ns2Format format, void (*records)(Stream&)) {
+std::string trace_of(Ns2Format format, void (*records)(Stream&), MacTrace mac = MacTrace::off) {
     const TempFolder folder;
     Stream stream;
-    const auto trace = std::make_shared<Ns2Trace>(folder / "run.tr", format);
+    const auto trace = std::make_shared<Ns2Trace>(folder / "run.tr", format, mac);
     stream.sinks = {trace};
     records(stream);
     trace->close();
@@ -143,6 +143,69 @@ TEST_CASE("ns-2 trace: a message lost at its own sender has not been heard from 
     });
     CHECK(text.ends_with(
         "D 0.000000000 _0_ RTR  SLP 0 message 64 [0 0 0 0] ------- [0:0 -1:0 1 0] \n"));
+}
+
+namespace {
+
+AirFrame control(AirFrame::Kind kind, NodeId from, NodeId to, Duration reserved) {
+    AirFrame air{.kind = kind, .reserved = reserved};
+    air.frame.sender = from;
+    air.frame.next_hop = to;
+    return air;
+}
+
+/// A message of 64 bytes from `a` to `c`, which asks first; headers take 28 bytes.
+void play_exchange(Stream& s) {
+    for (int i = 0; i < 12; ++i) s.place(Vec3{});
+    const auto m = s.send(at(0), a, 1);
+    const auto rts = control(AirFrame::rts, a, c, Duration{4'000'499});
+    const auto cts = control(AirFrame::cts, c, a, Duration{3'000'500});
+    AirFrame data{.frame = frame(m, a, 1, 1), .reserved = 314us};
+    data.frame.next_hop = c;
+    s.emit(AirSent{at(1), rts, 20});
+    s.emit(ControlReceived{rts, {c, at(2)}, 20});
+    s.emit(AirSent{at(3), cts, 14});
+    s.emit(ControlReceived{cts, {a, at(4), Fate::garbled}, 14});
+    s.emit(AirSent{at(5), data, 92});
+    s.emit(Received{data.frame, std::vector{Reception{c, at(6), Fate::arrived, true}}, 314us});
+}
+
+}  // namespace
+
+TEST_CASE("ns-2 trace: the MAC's lines in the old format; durations to the nearest microsecond") {
+    const auto text = trace_of(Ns2Format::old_format, play_exchange, MacTrace::on);
+    CHECK(without_first_lines(text, 14) ==
+          "s 0.000000001 _0_ MAC  --- 0 RTS 44 [fa0 b 0 0] \n"
+          "r 0.000000002 _11_ MAC  --- 0 RTS 44 [fa0 b 0 0] \n"
+          "s 0.000000003 _11_ MAC  --- 0 CTS 38 [bb9 0 0 0] \n"
+          "D 0.000000004 _0_ MAC  ERR 0 CTS 38 [bb9 0 0 0] \n"
+          "s 0.000000005 _0_ MAC  --- 0 message 116 [13a b 0 800] ------- [0:0 -1:0 1 0] \n"
+          "r 0.000000006 _11_ MAC  --- 0 message 64 [13a b 0 800] ------- [0:0 -1:0 1 0] \n"
+          "r 0.000000006 _11_ RTR  --- 0 message 64 [13a b 0 800] ------- [0:0 -1:0 1 0] \n"
+          "r 0.000000006 _11_ AGT  --- 0 message 64 [13a b 0 800] ------- [0:0 -1:0 1 0] \n");
+}
+
+TEST_CASE("ns-2 trace: the MAC's lines in the new format, which does not name control frames") {
+    const auto text = trace_of(Ns2Format::new_format, play_exchange, MacTrace::on);
+    const std::string place = " -Nx 0.00 -Ny 0.00 -Nz 0.00 -Ne -1.000000 -Nl MAC -Nw ";
+    CHECK(without_first_lines(text, 14).starts_with(
+        "s -t 0.000000001 -Hs 0 -Hd -2 -Ni 0" + place + "--- -Ma fa0 -Md b -Ms 0 -Mt 0 \n" +
+        "r -t 0.000000002 -Hs 11 -Hd -2 -Ni 11" + place + "--- -Ma fa0 -Md b -Ms 0 -Mt 0 \n" +
+        "s -t 0.000000003 -Hs 11 -Hd -2 -Ni 11" + place + "--- -Ma bb9 -Md 0 -Ms 0 -Mt 0 \n" +
+        "d -t 0.000000004 -Hs 0 -Hd -2 -Ni 0" + place + "ERR -Ma bb9 -Md 0 -Ms 0 -Mt 0 \n" +
+        "s -t 0.000000005 -Hs 0 -Hd -2 -Ni 0" + place +
+        "--- -Ma 13a -Md b -Ms 0 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 116 -If 0 -Ii 0 -Iv 1 "
+        "\n"));
+}
+
+TEST_CASE("ns-2 trace: who does not ask for the MAC's lines does not hear of its frames") {
+    const TempFolder folder;
+    const KindMask of_mac = kind_of<AirSent>() | kind_of<ControlReceived>();
+    CHECK((Ns2Trace(folder / "a.tr").kinds() & of_mac) == 0);
+    CHECK((Ns2Trace(folder / "b.tr", Ns2Format::old_format, MacTrace::on).kinds() & of_mac) ==
+          of_mac);
+    const auto text = trace_of(Ns2Format::old_format, play_exchange);
+    CHECK(text.find("MAC") == text.npos);
 }
 
 TEST_CASE("ns-2 trace: a trace of more than the buffer is whole") {

@@ -82,6 +82,14 @@ class Stream {
     }
     void transmit(Time t, const Frame& frame, std::optional<NodeId> heard_from = {}) {
         emit(Transmitted{t, frame, heard_from});
+        emit(AirSent{t, {.frame = frame, .heard_from = heard_from}, messages[frame.message].size});
+    }
+    void control(Time t, NodeId from, NodeId to, AirFrame::Kind kind, Fate fate) {
+        AirFrame air{.kind = kind};
+        air.frame.sender = from;
+        air.frame.next_hop = to;
+        emit(AirSent{t, air, 20});
+        emit(ControlReceived{air, {to, t, fate}, 20});
     }
     void receive(const Frame& frame, const std::vector<Reception>& receptions) {
         emit(Received{frame, receptions});
@@ -157,6 +165,9 @@ class RandomRecords {
         }
         if (kind == 3) return (void)stream_.place(leg());
         if (kind < 9) {
+            const Fate fates[] = {Fate::waiting, Fate::collided, Fate::busy};
+            const auto type = static_cast<AirFrame::Kind>(AirFrame::rts + f.hops % 3);
+            stream_.control(now_, f.sender, NodeId{0}, type, fates[kind % 3]);
             return stream_.transmit(now_, f, f.hops > 1 ? std::optional(robot()) : std::nullopt);
         }
         std::vector<Reception> receptions(below(5));
