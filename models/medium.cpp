@@ -61,6 +61,7 @@ std::uint32_t Medium::kind_of(const Radio& radio, std::uint32_t model) {
         return static_cast<std::uint32_t>(i);
     }
     kinds_.push_back({.radio = plain, .membership = membership(radio), .model = model});
+    heights_.push_back(plain.antenna_height.value);
     const Membership& mine = kinds_.back().membership;
     // All match as long as all have the same network, or none is gated.
     gated_ = gated_ || (mine.gated && (essids_.size() > 2 || channels_.size() > 1));
@@ -86,6 +87,12 @@ void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propa
         best_sensor_ = sensor_share;
         for (auto& other : kinds_) other.sensed_reach2 = -1;
     }
+}
+
+void Medium::switch_radio(NodeId node, bool on) {
+    bool& was_on = stations_[node.index()].on;
+    off_ += static_cast<std::size_t>(was_on) - static_cast<std::size_t>(on);
+    was_on = on;
 }
 
 std::string_view Medium::propagation(NodeId node) const { return model(node).name(); }
@@ -114,23 +121,14 @@ double Medium::squared_sensed_reach(Kind& from) {
     return from.sensed_reach2;
 }
 
-/// The largest squared distances over which `to` hears and senses `from`, whose model goes by it.
-void Medium::compute_ranges(Kind& from, std::uint32_t to) {
-    const Radio& receiver = kinds_[to].radio;
-    const auto range = [&](Db budget) {
+/// For a model that goes by distance.
+Medium::Ranges Medium::compute_ranges(const Kind& from, const Radio& to) const {
+    const auto range2 = [&](Db budget) {
         return largest_squared_distance(models_[from.model], from.radio.frequency, budget);
     };
-    from.range2[to] = range(link_budget(from.radio, receiver));
-    from.sensed_range2[to] = range(sensing_budget(from.radio, receiver));
-    from.audible_range2[to] = range(audible_budget(from.radio, receiver));
-}
-
-/// Makes room for the ranges to kinds that came since.
-void Medium::expect_all_kinds(Kind& from) {
-    if (from.range2.size() == kinds_.size()) return;
-    from.range2.resize(kinds_.size(), std::nan(""));
-    from.sensed_range2.resize(kinds_.size(), std::nan(""));
-    from.audible_range2.resize(kinds_.size(), std::nan(""));
+    return {.heard2 = range2(link_budget(from.radio, to)),
+            .sensed2 = range2(sensing_budget(from.radio, to)),
+            .audible2 = range2(audible_budget(from.radio, to))};
 }
 
 /// Cells as wide as the reach of the median station: most queries then look at nine of them.
@@ -163,10 +161,8 @@ template <class Use>
 void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use) {
     if (!cells_chosen_) choose_cells();
     origin_ = antenna(from, t, legs);
-    index_.visit(origin_, std::sqrt(reach2), t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p) {
-        const double dx = p.x - origin_.x, dy = p.y - origin_.y;
-        if (dx * dx + dy * dy > reach2) return;
-        p.z += kinds_[e.label].radio.antenna_height.value;
+    index_.visit(origin_, std::sqrt(reach2), t, legs, [&](const Entry& e, Vec3 p) {
+        p.z += heights_[e.label];
         const double d2 = squared_distance(origin_, p);
         if (d2 > reach2 || e.node == from || !is_on(e.node)) return;
         if (gated_ && !may_link(from, e.node)) return;
@@ -177,11 +173,14 @@ void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use
 /// Those whose link goes by distance alone and is up.
 void Medium::find_in_range(NodeId from, Time t, const Legs& legs) {
     Kind& mine = kinds_[stations_[from.index()].kind];
-    const double reach2 = squared_reach(mine);
-    expect_all_kinds(mine);
-    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3, double d2) {
-        if (std::isnan(mine.range2[e.label])) compute_ranges(mine, e.label);
-        if (d2 > mine.range2[e.label]) return;
+    mine.ranges.resize(kinds_.size());
+    visit(from, squared_reach(mine), t, legs, [&](const Entry& e, Vec3, double d2) {
+        Ranges& ranges = mine.ranges[e.label];
+        if (d2 > ranges.heard2) return;
+        if (std::isnan(ranges.heard2)) {
+            ranges = compute_ranges(mine, kinds_[e.label].radio);
+            if (d2 > ranges.heard2) return;
+        }
         found_.push_back({e.node, d2});
     });
 }
@@ -192,7 +191,7 @@ void Medium::find_in_shadowed_range(NodeId from, const ShadowedLoss& loss, Time 
     Kind& mine = kinds_[stations_[from.index()].kind];
     mine.shadowed.resize(kinds_.size());
     const std::uint64_t key = stations_[from.index()].key;
-    visit(from, squared_reach(mine), t, legs, [&](const NeighbourIndex::Entry& e, Vec3, double d2) {
+    visit(from, squared_reach(mine), t, legs, [&](const Entry& e, Vec3, double d2) {
         auto& range = mine.shadowed[e.label];
         if (!range) {
             range.emplace(loss, link_budget(mine.radio, kinds_[e.label].radio),
@@ -208,7 +207,7 @@ void Medium::find_in_reach(NodeId from, Time t, const Legs& legs) {
     positions_.clear();
     keys_.clear();
     const double reach2 = squared_reach(kinds_[stations_[from.index()].kind]);
-    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p, double) {
+    visit(from, reach2, t, legs, [&](const Entry& e, Vec3 p, double) {
         nodes_.push_back(e.node);
         positions_.push_back(p);
         keys_.push_back(stations_[e.node.index()].key);
@@ -247,14 +246,16 @@ void Medium::find_hearers(NodeId from, Time t, const Legs& legs) {
 /// Those that sense `from` over a link that goes by distance alone.
 void Medium::find_sensed_in_range(NodeId from, Time t, const Legs& legs) {
     Kind& mine = kinds_[stations_[from.index()].kind];
-    const double reach2 = squared_sensed_reach(mine);
-    expect_all_kinds(mine);
-    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3, double d2) {
-        if (std::isnan(mine.range2[e.label])) compute_ranges(mine, e.label);
-        if (d2 > mine.audible_range2[e.label]) return;
-        auto& hearers = d2 <= mine.range2[e.label] ? receivers_ : sensors_;
-        const bool senses = d2 <= mine.sensed_range2[e.label];
-        hearers.push_back({e.node, delay(std::sqrt(d2)), d2, std::nan(""), senses});
+    mine.ranges.resize(kinds_.size());
+    visit(from, squared_sensed_reach(mine), t, legs, [&](const Entry& e, Vec3, double d2) {
+        Ranges& ranges = mine.ranges[e.label];
+        if (d2 > ranges.audible2) return;
+        if (std::isnan(ranges.audible2)) {
+            ranges = compute_ranges(mine, kinds_[e.label].radio);
+            if (d2 > ranges.audible2) return;
+        }
+        auto& hearers = d2 <= ranges.heard2 ? receivers_ : sensors_;
+        hearers.push_back({e.node, delay(std::sqrt(d2)), d2, Ranges::nan, d2 <= ranges.sensed2});
     });
 }
 
@@ -265,7 +266,7 @@ void Medium::find_sensed_in_reach(NodeId from, Time t, const Legs& legs) {
     positions_.clear();
     keys_.clear();
     const double reach2 = squared_sensed_reach(kinds_[stations_[from.index()].kind]);
-    visit(from, reach2, t, legs, [&](const NeighbourIndex::Entry& e, Vec3 p, double) {
+    visit(from, reach2, t, legs, [&](const Entry& e, Vec3 p, double) {
         nodes_.push_back(e.node);
         positions_.push_back(p);
         keys_.push_back(stations_[e.node.index()].key);
@@ -325,16 +326,34 @@ void Medium::receivers(NodeId from, Time start, Time end, const Legs& legs,
                        std::vector<Reception>& out) {
     find_hearers(from, start, legs);
     // One number to sort by: the delay, then the node.
-    order_.clear();
-    for (const Found& f : found_) {
-        const Duration under_way = delay(std::sqrt(f.squared_distance));
-        order_.push_back(static_cast<Order>(under_way.count()) << 32 | f.node.value);
+    order_.resize(found_.size());
+    std::uint64_t longest = 0;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        const Duration under_way = delay(std::sqrt(found_[i].squared_distance));
+        const auto count = static_cast<std::uint64_t>(under_way.count());
+        longest = std::max(longest, count);
+        order_[i] = count << 32 | found_[i].node.value;
     }
+    if (longest >> 32 != 0) return late_receivers(end, out);
     std::sort(order_.begin(), order_.end());
-    for (const Order each : order_) {
-        const Duration under_way{static_cast<std::int64_t>(each >> 32)};
-        out.push_back({.node = NodeId{static_cast<std::uint32_t>(each)}, .time = end + under_way});
+    const std::size_t first = out.size();
+    out.resize(first + order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        const Duration under_way{static_cast<std::int64_t>(order_[i] >> 32)};
+        out[first + i].node = NodeId{static_cast<std::uint32_t>(order_[i])};
+        out[first + i].time = end + under_way;
     }
+}
+
+/// As receivers(), of those found, some of which are more than four light seconds away.
+void Medium::late_receivers(Time end, std::vector<Reception>& out) const {
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    for (const Found& f : found_) {
+        out.push_back({.node = f.node, .time = end + delay(std::sqrt(f.squared_distance))});
+    }
+    std::sort(out.begin() + first, out.end(), [](const Reception& a, const Reception& b) {
+        return a.time != b.time ? a.time < b.time : a.node < b.node;
+    });
 }
 
 std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {

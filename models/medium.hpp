@@ -10,6 +10,7 @@
 #include "sim/record.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -50,8 +51,8 @@ class Medium {
     /// The node's leg has been replaced.
     void moved(NodeId node, const Legs& legs) { index_.moved(node, legs); }
 
-    void switch_radio(NodeId node, bool on) { stations_[node.index()].on = on; }
-    bool is_on(NodeId node) const { return stations_[node.index()].on; }
+    void switch_radio(NodeId node, bool on);
+    bool is_on(NodeId node) const { return off_ == 0 || stations_[node.index()].on; }
     const Radio& radio(NodeId node) const { return radios_[stations_[node.index()].radio]; }
     /// The gates of both let them have a link: one of them is open, or they share a network.
     bool may_link(NodeId a, NodeId b) const {
@@ -88,13 +89,12 @@ class Medium {
         return received_power(kind(from).radio, kind(to).radio, Db{loss_db});
     }
 
-    /// One that hears a transmission.
     struct Found {
         NodeId node;
         double squared_distance;  ///< [m^2] between the antennas
     };
-    /// Those that hear `from` when it sends at `t`, which must not decrease; in no order. The span
-    /// is good until the next call.
+    /// Those that hear `from` at `t`, which must not decrease; in no order; good until the next
+    /// call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
         find_hearers(from, t, legs);
         return found_;
@@ -116,6 +116,7 @@ class Medium {
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
 
   private:
+    using Entry = NeighbourIndex::Entry;
     struct Station {
         std::uint64_t key;
         std::uint32_t radio;  // index into radios_
@@ -133,6 +134,11 @@ class Medium {
         }
         friend bool operator==(const Membership&, const Membership&) = default;
     };
+    /// Nobody of a kind that is farther hears, senses or is disturbed. NaN: to be computed.
+    struct Ranges {
+        double heard2 = nan, sensed2 = nan, audible2 = nan;  // [m^2]
+        static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    };
     /// Stations that are alike in all that decides a link.
     struct Kind {
         Radio radio;  // without labels and addresses
@@ -141,8 +147,7 @@ class Medium {
         std::uint32_t stations = 1;  // of this kind
         // [m^2] nobody farther hears it, or senses it; < 0: to be computed
         double reach2 = -1, sensed_reach2 = -1;
-        // [m^2] nobody of a kind farther hears it, or senses it, by distance; NaN: to be computed
-        std::vector<double> range2 = {}, sensed_range2 = {}, audible_range2 = {};
+        std::vector<Ranges> ranges = {};                          // to each kind, by distance
         std::vector<std::optional<ShadowedRange>> shadowed = {};  // the same with shadowing
     };
 
@@ -160,19 +165,21 @@ class Medium {
     Duration delay(double distance) const;
     Db audible_budget(const Radio& from, const Radio& to) const;
     void find_hearers(NodeId from, Time t, const Legs& legs);
+    void late_receivers(Time end, std::vector<Reception>& out) const;
     void keep_those_in_budget(NodeId from);
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
     double squared_reach(Kind& from);
     double squared_sensed_reach(Kind& from);
-    void compute_ranges(Kind& from, std::uint32_t to);
-    void expect_all_kinds(Kind& from);
+    Ranges compute_ranges(const Kind& from, const Radio& to) const;
     LinkBatch batch(NodeId from, Vec3 origin) const;
 
     Settings settings_;
     std::vector<Station> stations_;
     std::vector<Radio> radios_;  // those that differ
     std::vector<Kind> kinds_;
+    std::vector<double> heights_;  // [m] antennas' of the kinds
+    std::size_t off_ = 0;          // stations that are switched off
     std::vector<std::string> essids_ = {"any"};
     std::vector<std::pair<int, Hertz>> channels_;
     bool gated_ = false;  // some two radios do not match
@@ -185,8 +192,7 @@ class Medium {
     // What is under work, kept for its memory.
     Vec3 origin_;
     std::vector<Found> found_;
-    __extension__ using Order = unsigned __int128;
-    std::vector<Order> order_;
+    std::vector<std::uint64_t> order_;
     std::vector<NodeId> nodes_;
     std::vector<Vec3> positions_;
     std::vector<std::uint64_t> keys_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/neighbour_index.hpp"
 
+#include <array>
 #include <limits>
 
 namespace rovernet {
@@ -16,6 +17,9 @@ struct Extent {
         high = std::max(high, x);
     }
 };
+
+/// Entries that are looked at together; so many more places have to be there to be read.
+constexpr std::uint32_t at_once = 4;
 
 /// Share of the nodes that may be kept apart, and a few always.
 std::size_t few(std::size_t nodes) { return nodes / 64 + 16; }
@@ -36,15 +40,15 @@ void NeighbourIndex::moved(NodeId node, const Legs& legs) {
                          ? before.from + seconds(before.end - before.start) * before.velocity
                          : before.from + seconds(leg.start - before.start) * before.velocity;
     const double jump = distance(was, leg.from);
-    if (speed(leg) > top_speed_ || jump > 1e-3 * cell_) return keep_apart(now);
+    if (speed(leg) > top_speed_ || jump > 1e-3 * height_) return keep_apart(now);
     jumped_ += jump;
     entries_[place] = now;
 }
 
 std::span<const std::uint32_t> NeighbourIndex::near(Vec3 centre, double reach) {
-    near_.clear();
-    const auto cells_x = cells(centre.x, reach, columns_);
-    const auto cells_y = cells(centre.y, reach, rows_);
+    found_ = 0;
+    const auto cells_x = cells(centre.x, reach, width_, columns_);
+    const auto cells_y = cells(centre.y, reach, height_, rows_);
     // Wide enough for what single precision leaves of coordinates.
     const double wide = reach + 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
     const auto reach2 = static_cast<float>(wide * wide);
@@ -57,21 +61,35 @@ std::span<const std::uint32_t> NeighbourIndex::near(Vec3 centre, double reach) {
             });
         }
     });
-    return near_;
+    return {near_.data(), found_};
 }
 
-/// Appends those near to near_, without a branch that would be mispredicted.
+/// Adds those near to near_: first the distances of several at once, then without a branch that
+/// would be mispredicted.
 void NeighbourIndex::look_through(std::uint32_t begin, std::uint32_t end, float x, float y,
                                   float reach2) {
     looked_at_ += end - begin + 1;
-    std::size_t found = near_.size();
-    near_.resize(found + (end - begin));
-    for (std::uint32_t i = begin; i < end; ++i) {
-        const float dx = x_[i] - x, dy = y_[i] - y;
-        near_[found] = i;
-        found += dx * dx + dy * dy <= reach2;
+    if (near_.size() < found_ + (end - begin)) near_.resize(2 * (found_ + (end - begin)));
+    std::array<float, 64> distance2;
+    while (begin < end) {
+        const std::uint32_t count = std::min<std::uint32_t>(end - begin, distance2.size());
+        const float* const xs = x_.data() + begin;
+        const float* const ys = y_.data() + begin;
+        for (std::uint32_t group = 0; group < count; group += at_once) {
+            for (std::uint32_t k = group; k < group + at_once; ++k) {
+                const float dx = xs[k] - x, dy = ys[k] - y;
+                distance2[k] = dx * dx + dy * dy;
+            }
+        }
+        std::uint32_t* const near = near_.data();
+        std::size_t found = found_;
+        for (std::uint32_t k = 0; k < count; ++k) {
+            near[found] = begin + k;
+            found += distance2[k] <= reach2;
+        }
+        found_ = found;
+        begin += count;
     }
-    near_.resize(found);
 }
 
 /// Moves a node out of its cell, where an entry that is nowhere remains.
@@ -107,11 +125,14 @@ void NeighbourIndex::lay_grid(Time t, const Legs& legs) {
         y.take(p.y);
     }
     const double most = 2.0 * static_cast<double>(legs.size()) + 1;
-    cell_ = std::max(wanted_cell_, 1e-3);
-    const auto needed = [&](Extent e) { return std::floor((e.high - e.low) / cell_) + 2; };
-    const double rows = std::min(needed(y), std::floor(std::sqrt(most)) + 1);
-    const double columns = std::min(needed(x), std::floor(most / rows) + 1);
-    rows_ = static_cast<std::size_t>(std::min(needed(y), std::floor(most / columns) + 1));
+    constexpr double cells_per_height = 4;
+    height_ = std::max(wanted_cell_, 1e-3);
+    width_ = height_ / cells_per_height;
+    const double needed_rows = std::floor((y.high - y.low) / height_) + 2;
+    const double needed_columns = std::floor((x.high - x.low) / width_) + 2;
+    const double rows = std::min(needed_rows, std::floor(std::sqrt(most / cells_per_height)) + 1);
+    const double columns = std::min(needed_columns, std::floor(most / rows) + 1);
+    rows_ = static_cast<std::size_t>(std::min(needed_rows, std::floor(most / columns) + 1));
     columns_ = static_cast<std::size_t>(columns);
 }
 
@@ -135,8 +156,8 @@ void NeighbourIndex::bin(Time t, const Legs& legs) {
     std::uint32_t end = 0;
     for (auto& first : first_) first = end += first;
     entries_.resize(end);
-    x_.resize(end);
-    y_.resize(end);
+    x_.resize(end + at_once);
+    y_.resize(end + at_once);
     for (auto i = static_cast<std::uint32_t>(legs.size()); i-- > 0;) {
         const Leg& leg = legs.leg(NodeId{i});
         const Entry e = entry(NodeId{i}, labels_[i], leg);

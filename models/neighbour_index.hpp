@@ -15,9 +15,10 @@
 
 namespace rovernet {
 
-/// Who is near a place: nodes in a grid of square cells, found by their legs.
+/// Who is near a place: nodes in a grid of cells, found by their legs.
 ///
-/// Entries lie in the order of their cells, each with a copy of its node's leg. They stay in the
+/// Entries lie in the order of their cells, row by row, each with a copy of its node's leg. A query
+/// looks at one range of entries in each row, so that cells are narrow. Entries stay in the
 /// cells where they were binned while queries look as much wider as the fastest of them can have
 /// moved since. A query bins anew once that is a tenth of a cell and as many entries have been
 /// looked at as there are. Nodes much faster than the others and those that jump are kept apart and
@@ -43,7 +44,7 @@ class NeighbourIndex {
     void reserve(std::size_t nodes) { labels_.reserve(nodes); }
     /// The node's leg has been replaced.
     void moved(NodeId node, const Legs& legs);
-    /// Side of the cells [m] from now on; best about the radius of most queries.
+    /// Height of the cells [m] from now on; best about the radius of most queries.
     void set_cell_size(double size) {
         stale_ = stale_ || size != wanted_cell_;
         wanted_cell_ = size;
@@ -79,15 +80,15 @@ class NeighbourIndex {
     double slack(Time t) const { return top_speed_ * seconds(t - binned_) + jumped_; }
     bool is_stale(Time t) const {
         return stale_ || apart_.size() > allowed_apart_ ||
-               (slack(t) > 0.1 * cell_ && looked_at_ > labels_.size());
+               (slack(t) > 0.1 * height_ && looked_at_ > labels_.size());
     }
-    std::int64_t cell_of(double x) const {
-        return static_cast<std::int64_t>(std::floor(std::clamp(x / cell_, -far, far)));
+    static std::int64_t cell_of(double x, double size) {
+        return static_cast<std::int64_t>(std::floor(std::clamp(x / size, -far, far)));
     }
-    Cells cells(double centre, double reach, std::size_t wrap) const {
+    static Cells cells(double centre, double reach, double size, std::size_t wrap) {
         const double rounding = 1e-9 * (std::abs(centre) + reach);
-        const std::int64_t first = cell_of(centre - reach - rounding);
-        const std::int64_t last = cell_of(centre + reach + rounding);
+        const std::int64_t first = cell_of(centre - reach - rounding, size);
+        const std::int64_t last = cell_of(centre + reach + rounding, size);
         return {first, std::min(last - first + 1, static_cast<std::int64_t>(wrap))};
     }
     static std::size_t wrapped_cell(std::int64_t cell, std::size_t wrap) {
@@ -111,7 +112,8 @@ class NeighbourIndex {
         return {leg.from, leg.velocity, leg.start, leg.end, node, label};
     }
     std::size_t cell_at(Vec3 p) const {
-        return wrapped_cell(cell_of(p.y), rows_) * columns_ + wrapped_cell(cell_of(p.x), columns_);
+        return wrapped_cell(cell_of(p.y, height_), rows_) * columns_ +
+               wrapped_cell(cell_of(p.x, width_), columns_);
     }
     void keep_apart(const Entry& e);
     void bin(Time t, const Legs& legs);
@@ -121,14 +123,16 @@ class NeighbourIndex {
     std::vector<std::uint32_t> labels_;  // by node
     std::vector<Entry> entries_;         // in the order of their cells
     std::vector<float> x_, y_;           // [m] where they were binned
-    std::vector<std::uint32_t> near_;    // the result of near()
+    std::vector<std::uint32_t> near_;    // begins with the result of near()
+    std::size_t found_ = 0;              // by near() so far
     std::vector<std::uint32_t> first_;   // entry of a cell; one more than there are cells
     std::vector<std::uint32_t> place_;   // of a node in entries_, or in apart_
     std::vector<Entry> apart_;
     std::size_t columns_ = 1, rows_ = 1;
-    double wanted_cell_ = 1, cell_ = 1;  // [m]
-    double top_speed_ = 0;               // [m/s] of the entries
-    double jumped_ = 0;                  // [m] sum of what legs did not continue exactly
+    double wanted_cell_ = 1;         // [m]
+    double width_ = 1, height_ = 1;  // [m] of the cells
+    double top_speed_ = 0;           // [m/s] of the entries
+    double jumped_ = 0;              // [m] sum of what legs did not continue exactly
     Time binned_ = start_of_run;
     std::size_t looked_at_ = 0;  // entries and cells since then
     std::size_t allowed_apart_ = 0;

@@ -255,3 +255,19 @@ TEST_CASE("medium: a radio or a frequency that makes no sense is refused") {
     home.environment = Environment::residential;
     CHECK_THROWS_AS(medium.add({.frequency = 868_MHz}, 1, home), std::invalid_argument);
 }
+
+TEST_CASE("medium: receivers that are light seconds away are in order, too") {
+    const Scene field;
+    Medium medium{{.scene = &field}};
+    Legs legs;
+    for (const double x : {0.0, 3e9, 2e9, 2e9, 10.0}) {
+        legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
+        medium.add({}, legs.size(), Disc{.range = Meters{1e10}});
+    }
+    std::vector<Reception> heard;
+    medium.receivers(NodeId{0}, start_of_run, start_of_run, legs, heard);
+    std::vector<NodeId> order;
+    for (const Reception& r : heard) order.push_back(r.node);
+    CHECK(order == std::vector{NodeId{4}, NodeId{2}, NodeId{3}, NodeId{1}});
+    CHECK(heard.back().time == start_of_run + from_seconds(3e9 / speed_of_light));
+}
