@@ -113,7 +113,7 @@ void Engine::meet(NodeId node, const Arrival& arrival) {
     if (const auto* collision = std::get_if<Collision>(&settings_.reception)) {
         disturb(*collision, node, arrival);
     } else if (std::holds_alternative<Sinr>(settings_.reception)) {
-        sinr_receivers_.add(on_air_, node, arrival);
+        sinr_receivers_.add(on_air_, node, arrival, now_);
     }
 }
 
@@ -128,22 +128,18 @@ void Engine::judge(std::size_t slot, std::span<Reception> receptions) {
     const Duration payload = airtime(air) - medium_.radio(sender).preamble;
     for (Reception& r : receptions) {
         const auto place = static_cast<std::uint32_t>(&r - flight.receptions.data());
-        const Key draw{settings_.seed,
-                       settings_.replication,
-                       Purpose::bit_errors,
-                       combine(key(sender), key(r.node)),
-                       attempt,
-                       0};
-        const SinrFrame frame{
-            .modulation = modulation,
-            .rate = rate.value,
-            .payload = payload,
-            .noise_mw = math::exp10(noise_floor(medium_.radio(r.node)).value / 10),
-            .draw = uniform(draw)};
+        const SinrFrame frame{.modulation = modulation,
+                              .rate = rate.value,
+                              .payload = payload,
+                              .noise = medium_.noise(r.node)};
         const Fate fate = sinr_receivers_.judge(
             on_air_, r.node, static_cast<std::uint32_t>(slot), place, r.time, frame,
             [&](const Arrival& a) {
                 return medium_.level(a.from, r.node, a.squared_distance).value;
+            },
+            [&] {
+                return uniform({settings_.seed, settings_.replication, Purpose::bit_errors,
+                                combine(key(sender), key(r.node)), attempt, 0});
             });
         const bool decoded_but_garbled = is_decoded(fate) && r.fate == Fate::garbled;
         if (!decoded_but_garbled) r.fate = fate;

@@ -61,7 +61,7 @@ struct Collision {
             }
             return other.from == node || !cover.covers(other, now, level);
         });
-        on_air.add(node, arrival);
+        on_air.add(node, arrival, now);
     }
 
   private:

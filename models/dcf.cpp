@@ -7,7 +7,8 @@
 namespace rovernet {
 
 void Dcf::add() {
-    stations_.emplace_back(settings_.timing);
+    stations_.emplace_back();
+    listening_.push_back({Backoff(settings_.timing)});
     stations_.back().window = settings_.timing.cw_min;
 }
 
@@ -25,15 +26,15 @@ void Dcf::contend(Air& air, NodeId node) {
     s.state = State::contending;
     s.fresh = false;
     // The backoff after its last frame may still be under way.
-    if (!(s.backing_off && s.backoff.grant() > now)) {
-        if (s.backoff.is_busy(now)) {
+    if (!(s.backing_off && backoff(node).grant() > now)) {
+        if (backoff(node).is_busy(now)) {
             draw_backoff(air, node, now);
         } else {
-            s.backoff.begin(0, now + settings_.timing.difs);
+            backoff(node).begin(0, now + settings_.timing.difs);
             s.fresh = true;
         }
     }
-    set_timer(air, node, s.backoff.grant(), access);
+    set_timer(air, node, backoff(node).grant(), access);
 }
 
 void Dcf::set_timer(Air& air, NodeId node, Time t, Tag tag) {
@@ -44,7 +45,7 @@ void Dcf::set_timer(Air& air, NodeId node, Time t, Tag tag) {
 void Dcf::draw_backoff(Air& air, NodeId node, Time from) {
     Station& s = at(node);
     const double slots = air.access_draw(node, s.draws++) * (s.window + 1);
-    s.backoff.begin(static_cast<int>(slots), from);
+    backoff(node).begin(static_cast<int>(slots), from);
     s.backing_off = true;
 }
 
@@ -56,14 +57,16 @@ void Dcf::on_timer(Air& air, NodeId node, std::uint32_t tag) {
     s.timer = never;
     if (tag == answer) {
         // What is arriving may be the answer.
-        if (s.on_air_until > air.now()) return set_timer(air, node, s.on_air_until, answer);
+        if (listening_[node.index()].on_air_until > air.now())
+            return set_timer(air, node, listening_[node.index()].on_air_until, answer);
         return answer_missing(air, node);
     }
-    if (s.fresh && s.backoff.was_disturbed()) {
+    if (s.fresh && backoff(node).was_disturbed()) {
         s.fresh = false;
         draw_backoff(air, node, air.now());
     }
-    if (s.backoff.grant() > air.now()) return set_timer(air, node, s.backoff.grant(), access);
+    if (backoff(node).grant() > air.now())
+        return set_timer(air, node, backoff(node).grant(), access);
     transmit_head(air, node);
 }
 
@@ -106,7 +109,7 @@ void Dcf::transmit_data(Air& air, NodeId node) {
 /// Puts a frame on air; returns when it ends.
 Time Dcf::transmit(Air& air, const AirFrame& frame) {
     const Time end = air.transmit(frame);
-    at(frame.frame.sender).backoff.energy(air.now(), end);
+    backoff(frame.frame.sender).energy(air.now(), end);
     return end;
 }
 
@@ -127,7 +130,7 @@ void Dcf::answer_missing(Air& air, NodeId node) {
     s.window = std::min(2 * s.window + 1, settings_.timing.cw_max);
     s.state = State::contending;
     draw_backoff(air, node, air.now());
-    set_timer(air, node, s.backoff.grant(), access);
+    set_timer(air, node, backoff(node).grant(), access);
 }
 
 /// The first frame of the queue is done with: sent, or lost for a reason. Behind it a backoff
@@ -145,7 +148,7 @@ void Dcf::finish(Air& air, NodeId node, Time end, std::optional<DropReason> reas
     draw_backoff(air, node, end);
     if (!s.queue.empty()) {
         s.state = State::contending;
-        set_timer(air, node, s.backoff.grant(), access);
+        set_timer(air, node, backoff(node).grant(), access);
     }
     if (reason) {
         air.lost(done, *reason);
@@ -156,11 +159,11 @@ void Dcf::finish(Air& air, NodeId node, Time end, std::optional<DropReason> reas
 
 void Dcf::received(Air& air, NodeId node, const AirFrame& frame) {
     Station& s = at(node);
-    s.backoff.frame_decoded();
+    backoff(node).frame_decoded();
     if (frame.frame.next_hop == node) return answer_to(air, node, frame);
     if (frame.reserved == Duration{0}) return;
     s.reserved_until = std::max(s.reserved_until, air.now() + frame.reserved);
-    s.backoff.energy(air.now(), air.now() + frame.reserved);
+    backoff(node).energy(air.now(), air.now() + frame.reserved);
 }
 
 /// A frame for this node has ended.
@@ -191,7 +194,7 @@ void Dcf::answer_to(Air& air, NodeId node, const AirFrame& frame) {
 void Dcf::respond(Air& air, NodeId node, const AirFrame& frame) {
     const Time begin = air.now() + settings_.timing.sifs;
     at(node).response = frame;
-    at(node).backoff.energy(air.now(), begin + air.airtime(frame));
+    backoff(node).energy(air.now(), begin + air.airtime(frame));
     air.access_timer(node, begin, response);
 }
 
@@ -207,7 +210,7 @@ void Dcf::missed(Air& air, NodeId node) {
     if (!settings_.eifs) return;
     const Duration ack = air.airtime(control_frame(node, node, AirFrame::ack));
     const WifiTiming& t = settings_.timing;
-    at(node).backoff.frame_lost(air.now(), t.sifs + ack + t.difs);
+    backoff(node).frame_lost(air.now(), t.sifs + ack + t.difs);
 }
 
 bool Dcf::is_repeated(NodeId node, const AirFrame& frame) {

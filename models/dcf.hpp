@@ -48,9 +48,9 @@ class Dcf {
 
     /// `node` will sense a frame on air from `begin` to `end`.
     void energy(NodeId node, Time begin, Time end) {
-        Station& s = at(node);
-        s.backoff.energy(begin, end);
-        s.on_air_until = std::max(s.on_air_until, end);
+        Listening& l = listening_[node.index()];
+        l.backoff.energy(begin, end);
+        l.on_air_until = std::max(l.on_air_until, end);
     }
     /// A frame ended at `node` and was received.
     void received(Air& air, NodeId node, const AirFrame& frame);
@@ -71,9 +71,12 @@ class Dcf {
         NodeId from;
         std::uint32_t number;
     };
-    struct Station {
-        explicit Station(const WifiTiming& timing) : backoff(timing) {}
+    /// What every frame on air changes: as little as possible, for the caches' sake.
+    struct alignas(64) Listening {
         Backoff backoff;
+        Time on_air_until = start_of_run;  // what it senses
+    };
+    struct Station {
         State state = State::idle;
         bool backing_off = false;             // a backoff was drawn since its last frame
         bool fresh = false;                   // contends without having drawn one
@@ -83,7 +86,6 @@ class Dcf {
         std::uint32_t number = 0;             // of its data frame
         std::uint64_t draws = 0;
         Time timer = never;                  // the one that counts
-        Time on_air_until = start_of_run;    // what it senses
         Time reserved_until = start_of_run;  // by others: its NAV
         std::vector<QueuedFrame> queue = {};
         std::vector<Heard> heard = {};          // the last number of each sender of unicasts
@@ -91,6 +93,7 @@ class Dcf {
     };
 
     Station& at(NodeId node) { return stations_[node.index()]; }
+    Backoff& backoff(NodeId node) { return listening_[node.index()].backoff; }
     AirFrame data_frame(NodeId node) const;
     static AirFrame control_frame(NodeId from, NodeId to, AirFrame::Kind kind);
     void contend(Air& air, NodeId node);
@@ -108,6 +111,7 @@ class Dcf {
 
     Csma settings_;
     std::deque<Station> stations_;
+    std::vector<Listening> listening_;  // by node, as stations_
 };
 
 }  // namespace rovernet

@@ -161,6 +161,27 @@ double log_success(Modulation modulation, double sinr) {
     return math::log1p(-bit_error_rate(modulation, sinr));
 }
 
+Db certain_sinr(Modulation modulation) {
+    constexpr double most_bits = 8 * 0x1p32;
+    // So much less than 1 rounds to 1.
+    constexpr double nothing = -0x1p-55;
+    static const auto certain = [] {
+        std::array<Db, rates_mbps.size()> out;
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            double fails = -50, succeeds = 50;  // [dB]
+            while (succeeds - fails > 1e-3) {
+                const double middle = (fails + succeeds) / 2;
+                const double sinr = math::exp10(middle / 10);
+                const double sum = most_bits * log_success(static_cast<Modulation>(i), sinr);
+                (sum >= nothing ? succeeds : fails) = middle;
+            }
+            out[i] = Db{succeeds};
+        }
+        return out;
+    }();
+    return certain[static_cast<std::size_t>(modulation)];
+}
+
 double success(double log_success_sum) { return math::exp(log_success_sum); }
 double frame_error_rate(double log_success_sum) { return -math::expm1(log_success_sum); }
 

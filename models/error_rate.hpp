@@ -61,6 +61,9 @@ double bit_error_rate(Modulation modulation, double sinr);
 /// and over chunks of different sinr, and keeps its digits where the bit error rate is below 1e-16.
 double log_success(Modulation modulation, double sinr);
 
+/// From this signal to noise ratio on the success() of any number of bits up to 2^35 is 1.
+Db certain_sinr(Modulation modulation);
+
 /// Probability that all bits are right, from the sum of their log_success.
 double success(double log_success_sum);
 /// Probability that some bit is wrong: 1 - success, with all its digits.

@@ -21,10 +21,13 @@ Meters LogDistance::reach(Db loss, Hertz f) const {
 
 void LogDistance::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
     const ShadowedLoss at = shadowed_loss(links.frequency);
+    if (sigma.value == 0) {
+        for (std::size_t i = 0; i < out_db.size(); ++i) out_db[i] = at(links.distance(i), 0);
+        return;
+    }
     const PairDraws draws = shadowing_draws(links.seed, links.replication);
     for (std::size_t i = 0; i < out_db.size(); ++i) {
-        const double x = sigma.value > 0 ? draws.normal(links.from_key, links.to_keys[i]) : 0;
-        out_db[i] = at(links.distance(i), x);
+        out_db[i] = at(links.distance(i), draws.normal(links.from_key, links.to_keys[i]));
     }
 }
 

@@ -60,7 +60,10 @@ std::uint32_t Medium::kind_of(const Radio& radio, std::uint32_t model) {
         ++kinds_[i].stations;
         return static_cast<std::uint32_t>(i);
     }
-    kinds_.push_back({.radio = plain, .membership = membership(radio), .model = model});
+    kinds_.push_back({.radio = plain,
+                      .membership = membership(radio),
+                      .model = model,
+                      .noise = noise_floor(plain)});
     heights_.push_back(plain.antenna_height.value);
     const Membership& mine = kinds_.back().membership;
     // All match as long as all have the same network, or none is gated.

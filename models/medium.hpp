@@ -59,6 +59,7 @@ class Medium {
         return !gated_ || Membership::match(kind(a).membership, kind(b).membership);
     }
     std::string_view propagation(NodeId node) const;
+    Dbm noise(NodeId node) const { return kind(node).noise; }
 
     /// Appends to `out` the nodes that hear `from` when it sends at `start`, in the order in which
     /// the frame ends at them, then of NodeId. `start` must not decrease from call to call.
@@ -143,7 +144,8 @@ class Medium {
     struct Kind {
         Radio radio;  // without labels and addresses
         Membership membership;
-        std::uint32_t model;         // index into models_
+        std::uint32_t model;  // index into models_
+        Dbm noise;
         std::uint32_t stations = 1;  // of this kind
         // [m^2] nobody farther hears it, or senses it; < 0: to be computed
         double reach2 = -1, sensed_reach2 = -1;

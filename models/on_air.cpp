@@ -3,8 +3,10 @@
 
 namespace rovernet {
 
-void OnAir::add(NodeId node, const Arrival& arrival) {
+void OnAir::add(NodeId node, const Arrival& arrival, Time since) {
     if (node.index() >= first_.size()) first_.resize(node.index() + 1, none);
+    std::uint32_t& first = first_[node.index()];
+    while (first != none && entries_[first].arrival.end <= since) forget(first);
     std::uint32_t place = free_;
     if (place == none) {
         place = static_cast<std::uint32_t>(entries_.size());
@@ -12,8 +14,8 @@ void OnAir::add(NodeId node, const Arrival& arrival) {
     } else {
         free_ = entries_[place].next;
     }
-    entries_[place] = {arrival, first_[node.index()]};
-    first_[node.index()] = place;
+    entries_[place] = {arrival, first};
+    first = place;
 }
 
 void OnAir::forget(std::uint32_t& link) {

@@ -45,7 +45,9 @@ constexpr Arrival own_frame(NodeId node, Time begin, Time end) {
 /// The frames that are on air at each node, its own included.
 class OnAir {
   public:
-    void add(NodeId node, const Arrival& arrival);
+    /// Forgets the latest at `node` if they ended by `since`, so that lists that nobody looks at
+    /// stay short.
+    void add(NodeId node, const Arrival& arrival, Time since);
 
     /// Calls use(arrival) for each at `node` that ends after `since`, the latest added first; if it
     /// returns false that one is forgotten. Those that ended before are forgotten, too.

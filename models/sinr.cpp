@@ -43,9 +43,10 @@ Fate SinrReceivers::decide_lock(NodeId node, Arrival& judged) {
 /// The sum of log_success over the bits of the payload, with the others that are here.
 double SinrReceivers::log_success_of(const Arrival& judged, const SinrFrame& frame) {
     const double signal = math::exp10(judged.level_dbm / 10);
+    const double noise_mw = math::exp10(frame.noise.value / 10);
     if (here_.empty()) {
         const double bits = seconds(frame.payload) * frame.rate;
-        return bits * log_success(frame.modulation, signal / frame.noise_mw);
+        return bits * log_success(frame.modulation, signal / noise_mw);
     }
     const Time begin = judged.end - frame.payload;
     changes_.assign({begin, judged.end});
@@ -61,7 +62,7 @@ double SinrReceivers::log_success_of(const Arrival& judged, const SinrFrame& fra
     for (std::size_t i = 0; i + 1 < changes_.size(); ++i) {
         const Time from = changes_[i], to = changes_[i + 1];
         if (from == to) continue;
-        double disturbing = frame.noise_mw;
+        double disturbing = noise_mw;
         for (std::size_t k = 0; k < here_.size(); ++k) {
             if (here_[k]->begin <= from && here_[k]->end >= to) disturbing += power_mw_[k];
         }

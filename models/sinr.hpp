@@ -29,23 +29,24 @@ struct SinrFrame {
     Modulation modulation;
     double rate;       ///< [bit/s]
     Duration payload;  ///< [ns] how much of its end is payload
-    double noise_mw;   ///< [mW] of the receiver
-    double draw;       ///< uniform in (0, 1)
+    Dbm noise;         ///< [dBm] of the receiver
 };
 
 /// The receivers of all nodes.
 class SinrReceivers {
   public:
-    void add(OnAir& on_air, NodeId node, const Arrival& arrival) {
+    /// Makes a frame known that will arrive at `node` after `now`.
+    void add(OnAir& on_air, NodeId node, const Arrival& arrival, Time now) {
         longest_ = std::max(longest_, arrival.end - arrival.begin);
-        on_air.add(node, arrival);
+        on_air.add(node, arrival, now - 2 * longest_);
     }
 
     /// What becomes of the flight's reception at `node`, which ends at `now`: waiting if the frame
-    /// is decoded. level_of(arrival) [dBm] is asked once for each arrival that overlaps.
-    template <class LevelOf>
+    /// is decoded. level_of(arrival) [dBm] is asked once for each arrival that overlaps; draw(),
+    /// uniform in (0, 1), if the outcome is not certain.
+    template <class LevelOf, class Draw>
     Fate judge(OnAir& on_air, NodeId node, std::uint32_t flight, std::uint32_t reception, Time now,
-               const SinrFrame& frame, LevelOf level_of) {
+               const SinrFrame& frame, LevelOf level_of, Draw draw) {
         here_.clear();
         on_air.each(node, now - 2 * longest_, [&](Arrival& a) {
             here_.push_back(&a);
@@ -64,7 +65,8 @@ class SinrReceivers {
         };
         compute_level(signal);
         for (Arrival* a : here_) compute_level(*a);
-        if (frame.draw < success(log_success_of(signal, frame))) return Fate::waiting;
+        if (is_certain(signal, frame)) return Fate::waiting;
+        if (draw() < success(log_success_of(signal, frame))) return Fate::waiting;
         return here_.empty() ? Fate::garbled : Fate::collided;
     }
 
@@ -72,6 +74,10 @@ class SinrReceivers {
     Fate decide_lock(NodeId node, Arrival& judged);
     void settle_locks(NodeId node, Time until);
     bool sends_within(NodeId node, Time after, Time until) const;
+    bool is_certain(const Arrival& judged, const SinrFrame& frame) const {
+        return here_.empty() &&
+               Dbm{judged.level_dbm} - frame.noise >= certain_sinr(frame.modulation);
+    }
     double log_success_of(const Arrival& judged, const SinrFrame& frame);
 
     Duration longest_{0};

@@ -394,3 +394,16 @@ TEST_CASE("error rate: the same bits from every compiler") {
     }
     CHECK(sum == 0x478273263e15067e);
 }
+
+TEST_CASE(
+    "error rate: what is certain succeeds whatever the draw, and what is 1 dB weaker may not") {
+    constexpr double bits = 8 * 0x1p32;
+    for (const Modulation modulation : all) {
+        CAPTURE(static_cast<int>(modulation));
+        const double certain = certain_sinr(modulation).value;
+        for (const double more : {0.0, 0.01, 1.0, 10.0, 100.0}) {
+            CHECK(success(bits * log_success(modulation, ratio(certain + more))) == 1);
+        }
+        CHECK(success(bits * log_success(modulation, ratio(certain - 1))) < 1);
+    }
+}
