@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -91,47 +92,20 @@ void report(const std::string& what, double ours, double theirs, double band) {
     std::fflush(stdout);
 }
 
-/// G. Bianchi, 2000, table II: slot 50, SIFS 28, DIFS 128 us; 1 Mb/s; 8184 bits of payload.
 void bianchi(Duration length) {
-    constexpr double header = 272 + 128, ack = 112 + 128, rts = 160 + 128, cts = ack;
-    constexpr double sifs = 28, difs = 128, payload = 8184;
     for (const auto& [window, stages] : {std::pair{32, 3}, std::pair{32, 5}, std::pair{128, 3}}) {
         for (const bool asks : {false, true}) {
-            const double data = header + payload;
-            bench::Bianchi theory{.window = window,
-                                  .stages = stages,
-                                  .slot = 50,
-                                  .payload = payload,
-                                  .success = data + sifs + ack + difs,
-                                  .collision = data + difs};
-            if (asks) {
-                theory.success += rts + sifs + cts + sifs;
-                theory.collision = rts + difs;
-            }
-            Csma csma{.timing = {.slot = 50us,
-                                 .sifs = 28us,
-                                 .difs = 128us,
-                                 .cca_time = 0us,
-                                 .turnaround = 0us,
-                                 .rx_start_delay = 0us,
-                                 .cw_min = window - 1,
-                                 .cw_max = (window << stages) - 1,
-                                 .basic_rate = {1e6}},
-                      .eifs = false,
-                      .short_retries = 0,
-                      .long_retries = 0,
-                      .rts_threshold = asks ? 0U : 100'000U,
-                      .header = 34};
+            const bench::BianchiCell cell{.window = window, .stages = stages, .asks = asks};
             for (const int n : {1, 2, 5, 10, 20, 50}) {
                 const Count got = Cell{.n = n,
-                                       .csma = csma,
-                                       .payload = 1023,
-                                       .radio = {.rate = {1e6}, .preamble = 128us}}
+                                       .csma = cell.csma(),
+                                       .payload = cell.payload,
+                                       .radio = {.rate = cell.rate, .preamble = cell.preamble}}
                                       .run(length);
                 report(fmt::format("Bianchi W={} m={} n={} {}", window, stages, n,
                                    asks ? "RTS" : "basic"),
-                       static_cast<double>(got.bits) / 1e6 / seconds(length), theory.throughput(n),
-                       0.01);
+                       static_cast<double>(got.bits) / 1e6 / seconds(length),
+                       cell.theory().throughput(n), 0.01);
             }
         }
     }
@@ -157,39 +131,31 @@ void ns2_unicast(Duration length) {
     }
 }
 
-/// Saturated broadcasts of 1000 bytes at 1 Mb/s in a window of 32 slots that never grows: the share
-/// of the time in which payload reaches a station. Peers: bench/peers/measured/cells.csv.
+/// The share of the time in which payload reaches a station of a cell that sends broadcasts.
+/// Peers: bench/peers/measured/cells.csv.
 void broadcast(Duration length) {
     struct Row {
         int n;
         double ns2, ns3;
     };
-    constexpr double frame = 192 + 8 * 1036, difs = 50;
-    const bench::Bianchi theory{.window = 32,
-                                .stages = 0,
-                                .slot = 20,
-                                .payload = 8000,
-                                .success = frame + difs,
-                                .collision = frame + difs};
+    const bench::BroadcastCell cell{.header = 36};
     for (const Row& row : {Row{2, 0.895, 0.890}, Row{5, 0.812, 0.822}, Row{10, 0.691, 0.699},
                            Row{20, 0.490, 0.498}, Row{50, 0.216, 0.200}}) {
         const Count got = Cell{.n = row.n,
-                               .csma = {.eifs = false, .header = 36},
-                               .payload = 1000,
-                               .radio = {.rate = {1e6}},
+                               .csma = cell.csma(),
+                               .payload = cell.payload,
+                               .radio = {.rate = cell.rate},
                                .broadcast = true}
                               .run(length);
         const double share = static_cast<double>(got.bits) / (row.n - 1) / 1e6 / seconds(length);
-        const double tau = 2.0 / (theory.window + 1);
+        const double formula = cell.throughput(row.n);
+        const std::string name = fmt::format("broadcast n={}", row.n);
         if (row.n <= 10) {
-            report(fmt::format("broadcast n={}, formula", row.n), share,
-                   theory.throughput(row.n, tau), 0.02);
+            report(name + ", formula", share, formula, 0.02);
         } else {
-            fmt::print("{:<44} {:>10.5f} {:>10.5f}\n",
-                       fmt::format("broadcast n={}, formula", row.n), share,
-                       theory.throughput(row.n, tau));
-            report(fmt::format("broadcast n={}, ns-2", row.n), share, row.ns2, 0.10);
-            report(fmt::format("broadcast n={}, ns-3", row.n), share, row.ns3, 0.10);
+            fmt::print("{:<44} {:>10.5f} {:>10.5f}\n", name + ", formula", share, formula);
+            report(name + ", ns-2", share, row.ns2, 0.10);
+            report(name + ", ns-3", share, row.ns3, 0.10);
             fmt::print("  of them sent by one that sent just before    {:>9.5f}\n",
                        static_cast<double>(got.again) / static_cast<double>(got.frames) * share);
         }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/dcf.hpp"
+
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 
 namespace rovernet::bench {
 
@@ -34,6 +38,72 @@ struct Bianchi {
         const double some = 1 - std::pow(1 - tau, n);
         const double one = n * tau * std::pow(1 - tau, n - 1);
         return one * payload / ((1 - some) * slot + one * success + (some - one) * collision);
+    }
+};
+
+/// A cell of Bianchi's, table II: 1 Mb/s; slot 50, SIFS 28, DIFS 128 us; 8184 bits of payload
+/// behind 272 of the MAC and a preamble of 128 us. No EIFS, no end of retries, no time to notice
+/// energy.
+struct BianchiCell {
+    static constexpr std::uint32_t payload = 1023;  ///< [bytes]
+    static constexpr BitRate rate{1e6};
+    static constexpr Duration preamble = std::chrono::microseconds{128};
+
+    int window = 32;    ///< W [slots]
+    int stages = 3;     ///< m
+    bool asks = false;  ///< RTS and CTS go ahead of the data
+
+    Bianchi theory() const {
+        constexpr double sifs = 28, difs = 128, bits = 8 * payload;
+        constexpr double data = 128 + 272 + bits, ack = 128 + 112, rts = 128 + 160, cts = ack;
+        const double before = asks ? rts + sifs + cts + sifs : 0;
+        return {.window = window,
+                .stages = stages,
+                .slot = 50,
+                .payload = bits,
+                .success = before + data + sifs + ack + difs,
+                .collision = (asks ? rts : data) + difs};
+    }
+    Csma csma() const {
+        using namespace std::chrono_literals;
+        return {.timing = {.slot = 50us,
+                           .sifs = 28us,
+                           .difs = 128us,
+                           .cca_time = 0us,
+                           .turnaround = 0us,
+                           .rx_start_delay = 0us,
+                           .cw_min = window - 1,
+                           .cw_max = (window << stages) - 1,
+                           .basic_rate = rate},
+                .eifs = false,
+                .short_retries = 0,
+                .long_retries = 0,
+                .rts_threshold = asks ? 0U : 100'000U,
+                .header = 34};
+    }
+};
+
+/// A cell of 802.11b at 1 Mb/s in which all send broadcasts of 1000 bytes: nothing is answered or
+/// repeated, the window stays at 32 slots. A station whose draw is 0 sends at once behind its last
+/// frame, which the theory leaves out: it holds up to some 10 stations.
+struct BroadcastCell {
+    static constexpr std::uint32_t payload = 1000;  ///< [bytes]
+    static constexpr BitRate rate{1e6};
+
+    std::uint32_t header = data_header_bytes;  ///< [bytes]
+
+    Csma csma() const { return {.eifs = false, .header = header}; }
+    /// Share of the time in which payload reaches a station, of `n` that send.
+    double throughput(int n) const {
+        constexpr double preamble = 192, difs = 50;
+        const double busy = preamble + 8 * (payload + header) + difs;
+        const Bianchi cell{.window = 32,
+                           .stages = 0,
+                           .slot = 20,
+                           .payload = 8 * payload,
+                           .success = busy,
+                           .collision = busy};
+        return cell.throughput(n, 2.0 / (cell.window + 1));
     }
 };
 

@@ -7,6 +7,7 @@
 // (250 m decoded, 550 m sensed), with noise, interference and bit errors; csma_collision: with
 // ns-2's rule of reception instead. The header is that of 802.11 and LLC (ns-2: 58).
 
+#include "bench/peers/usage.hpp"
 #include "experiment/movement_play.hpp"
 #include "experiment/network.hpp"
 #include "mobility/movement_file.hpp"
@@ -20,27 +21,11 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <sys/resource.h>
 #include <vector>
 
 using namespace rovernet;
 
 namespace {
-
-double cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds_of = [](timeval t) {
-        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6;
-    };
-    return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-}
-
-double resident_mb() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
-}
 
 struct Count {
     std::uint64_t transmissions = 0, receptions = 0;
@@ -124,7 +109,7 @@ NetworkSettings settings(const Options& options, bool listens) {
 int main(int argc, char** argv) {
     const Options options(argc, argv);
     const bool listens = options.text("rung", "threshold").starts_with("csma");
-    const double begin = cpu_seconds();
+    const Usage begin = Usage::now();
     Network net(settings(options, listens));
     MovementFile file(options.text("movement", ""), MovementSyntax::tolerant);
     std::vector<NodeId> nodes;
@@ -148,9 +133,9 @@ int main(int argc, char** argv) {
         net.at(start_of_run + from_seconds(1 + k * interval),
                [&net, from, payload] { net.broadcast(from, "", payload); });
     }
-    const double ready = cpu_seconds();
+    const Usage ready = Usage::now();
     net.run_until(start_of_run + from_seconds(1 + messages * interval + 5));
-    const double done = cpu_seconds();
+    const Usage done = Usage::now();
 
     std::vector<double> shares;
     double sum = 0;
@@ -164,5 +149,5 @@ int main(int argc, char** argv) {
         "\"rss_mb\":{:.1f},\"delivery_by_message\":[{:.6f}]}}\n",
         listens ? "_" + options.text("rung", "") : "", count, messages,
         sum / static_cast<double>(shares.size()), tally->transmissions, tally->receptions,
-        ready - begin, done - ready, resident_mb(), fmt::join(shares, ","));
+        ready.cpu_s - begin.cpu_s, done.cpu_s - ready.cpu_s, done.rss_mb, fmt::join(shares, ","));
 }

@@ -7,6 +7,7 @@
 //   range     ShadowedRange
 //   loss      LogDistance::loss against the budget
 //   philox    the same, with a draw by bits(Key) for each link
+#include "bench/least.hpp"
 #include "models/log_distance.hpp"
 
 #include <benchmark/benchmark.h>
@@ -16,10 +17,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <iterator>
-#include <map>
-#include <string>
-#include <utility>
 #include <vector>
 
 using namespace rovernet;
@@ -28,7 +27,6 @@ namespace {
 
 constexpr std::size_t links = 4096;  // too many to learn which are up
 constexpr int rounds = 500;          // timed, in each repetition
-constexpr int repetitions = 3;
 constexpr Hertz frequency{2450e6};
 constexpr Db budget{80};
 
@@ -145,38 +143,8 @@ void decide(benchmark::State& state) {
     }
 }
 
-constexpr const char* columns[] = {"distance", "range", "loss", "philox"};
-
-template <class Way>
-void add(const char* name, std::size_t network) {
-    benchmark::RegisterBenchmark(name, decide<Way>)
-        ->Arg(static_cast<std::int64_t>(network))
-        ->Iterations(rounds)
-        ->Repetitions(repetitions)
-        ->Unit(benchmark::kNanosecond);
-}
-
-/// Keeps the least CPU time of each way and network.
-class Least : public benchmark::BenchmarkReporter {
-  public:
-    bool ReportContext(const Context&) override { return true; }
-    void ReportRuns(const std::vector<Run>& runs) override {
-        for (const Run& run : runs) {
-            if (run.run_type != Run::RT_Iteration) continue;
-            const auto least =
-                ns_.try_emplace({run.run_name.function_name, run.run_name.args}, 1e300);
-            least.first->second = std::min(least.first->second, run.GetAdjustedCPUTime() / links);
-        }
-    }
-    /// [ns] per link; 0 if it was not run.
-    double ns(const std::string& name, std::size_t network) const {
-        const auto found = ns_.find({name, std::to_string(network)});
-        return found == ns_.end() ? 0 : found->second;
-    }
-
-  private:
-    std::map<std::pair<std::string, std::string>, double> ns_;
-};
+constexpr auto columns = {"distance", "range", "loss", "philox"};
+constexpr auto ratios = {"range", "loss", "philox"};
 
 /// Share of the links that are up.
 double share_up(const Links& of) {
@@ -191,19 +159,19 @@ double computed_share(const Links& of) {
     return sum / links;
 }
 
-void print(const Least& least) {
+void print(const bench::Least& least) {
     fmt::print("CPU ns per link{:46}times a check of the distance\n{:>9}{:>8}{:>8}{:>10}", "",
                "sigma", "radius", "up", "computed");
-    for (const char* name : columns) fmt::print("{:>10}", name);
-    for (const char* name : {"range", "loss", "philox"}) fmt::print("{:>9}", name);
+    bench::print_heads(columns, 10);
+    bench::print_heads(ratios, 9);
     for (std::size_t i = 0; i < std::size(networks); ++i) {
         const Links of(networks[i]);
         const double radius = std::sqrt(*std::max_element(of.squared.begin(), of.squared.end()));
         fmt::print("\n{:>6} dB{:>8.1f}{:>6.0f} %{:>8.2f} %", networks[i].sigma,
                    radius / of.median_range, 100 * share_up(of), 100 * computed_share(of));
         for (const char* name : columns) fmt::print("{:>10.2f}", least.ns(name, i));
-        for (const char* name : {"range", "loss", "philox"}) {
-            fmt::print("{:>9.1f}", least.ns(name, i) / least.ns("distance", i));
+        for (const char* name : ratios) {
+            fmt::print("{:>9.1f}", least.times(name, "distance", i));
         }
     }
     fmt::print("\n");
@@ -212,15 +180,13 @@ void print(const Least& least) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    bench::Least least(links);
     for (std::size_t i = 0; i < std::size(networks); ++i) {  // what is compared runs in a row
-        add<ByDistance>("distance", i);
-        add<ByRange>("range", i);
-        add<ByLoss>("loss", i);
-        add<ByPhilox>("philox", i);
+        least.add("distance", decide<ByDistance>, i, rounds);
+        least.add("range", decide<ByRange>, i, rounds);
+        least.add("loss", decide<ByLoss>, i, rounds);
+        least.add("philox", decide<ByPhilox>, i, rounds);
     }
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    Least least;
-    benchmark::RunSpecifiedBenchmarks(&least);
+    if (!least.run(argc, argv)) return 2;
     print(least);
 }

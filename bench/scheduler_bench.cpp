@@ -6,19 +6,20 @@
 //   keys    EventHeap or EventQueue alone, 16 bytes a key
 //   events  with a payload of 16 bytes, or a std::function that holds as much; not looked at
 //   served  the same, and each event counts one up in the 64 bytes of its node
+#include "bench/least.hpp"
 #include "sim/random.hpp"
 #include "sim/scheduler.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <initializer_list>
 #include <queue>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace rovernet;
@@ -27,7 +28,6 @@ namespace {
 
 constexpr std::size_t sizes[] = {100, 1'000, 10'000, 100'000, 1'000'000};
 constexpr int events = 1'000'000;  // timed, in each repetition
-constexpr int repetitions = 3;
 
 /// One delay after the other, mean 1 ms; from a table, so that drawing them costs next to nothing.
 class Delays {
@@ -140,60 +140,27 @@ void hold(benchmark::State& state) {
 
 constexpr const char* std_events = "std events";
 constexpr const char* std_served = "std served";
-constexpr const char* columns[] = {"heap keys", "queue keys", "events",
-                                   "served",    std_events,   std_served};
+constexpr auto columns = {"heap keys", "queue keys", "events", "served", std_events, std_served};
+constexpr auto ratios = {"heap keys", "queue keys", "events", "served"};
 
-template <class Queue>
-void add(const char* name, std::size_t n) {
-    benchmark::RegisterBenchmark(name, hold<Queue>)
-        ->Arg(static_cast<std::int64_t>(n))
-        ->Iterations(events)
-        ->Repetitions(repetitions)
-        ->Unit(benchmark::kNanosecond);
-}
-
-/// Keeps the least CPU time of each benchmark and size.
-class Least : public benchmark::BenchmarkReporter {
-  public:
-    bool ReportContext(const Context&) override { return true; }
-    void ReportRuns(const std::vector<Run>& runs) override {
-        for (const Run& run : runs) {
-            if (run.run_type != Run::RT_Iteration) continue;
-            const auto least =
-                ns_.try_emplace({run.run_name.function_name, run.run_name.args}, 1e300);
-            least.first->second = std::min(least.first->second, run.GetAdjustedCPUTime());
-        }
-    }
-    /// [ns]; 0 if it was not run.
-    double ns(const std::string& name, std::size_t n) const {
-        const auto found = ns_.find({name, std::to_string(n)});
-        return found == ns_.end() ? 0 : found->second;
-    }
-
-  private:
-    std::map<std::pair<std::string, std::string>, double> ns_;
-};
-
-void print_times(const Least& least) {
+void print_times(const bench::Least& least) {
     fmt::print("CPU ns per event\n{:>9}", "pending");
-    for (const char* name : columns) fmt::print("{:>12}", name);
+    bench::print_heads(columns, 12);
     for (const std::size_t n : sizes) {
         fmt::print("\n{:>9}", n);
         for (const char* name : columns) fmt::print("{:>12.1f}", least.ns(name, n));
     }
 }
 
-void print_ratios(const Least& least) {
+void print_ratios(const bench::Least& least) {
     fmt::print("\n\ntimes faster than std::priority_queue of std::function\n{:>9}", "pending");
-    for (const char* name : {"heap keys", "queue keys", "events", "served"}) {
-        fmt::print("{:>12}", name);
-    }
+    bench::print_heads(ratios, 12);
     for (const std::size_t n : sizes) {
-        const double events_ns = least.ns(std_events, n);
-        fmt::print("\n{:>9}{:>12.2f}{:>12.2f}{:>12.2f}{:>12.2f}", n,
-                   events_ns / least.ns("heap keys", n), events_ns / least.ns("queue keys", n),
-                   events_ns / least.ns("events", n),
-                   least.ns(std_served, n) / least.ns("served", n));
+        fmt::print("\n{:>9}", n);
+        for (const std::string name : ratios) {
+            const char* base = name == "served" ? std_served : std_events;
+            fmt::print("{:>12.2f}", least.times(base, name, n));
+        }
     }
     fmt::print("\n");
 }
@@ -201,18 +168,16 @@ void print_ratios(const Least& least) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    bench::Least least;
     for (const std::size_t n : sizes) {  // what is compared runs one after the other
-        add<Keys<EventHeap>>("heap keys", n);
-        add<Keys<EventQueue>>("queue keys", n);
-        add<Ours<false>>("events", n);
-        add<Ours<true>>("served", n);
-        add<Standard<false>>(std_events, n);
-        add<Standard<true>>(std_served, n);
+        least.add("heap keys", hold<Keys<EventHeap>>, n, events);
+        least.add("queue keys", hold<Keys<EventQueue>>, n, events);
+        least.add("events", hold<Ours<false>>, n, events);
+        least.add("served", hold<Ours<true>>, n, events);
+        least.add(std_events, hold<Standard<false>>, n, events);
+        least.add(std_served, hold<Standard<true>>, n, events);
     }
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    Least least;
-    benchmark::RunSpecifiedBenchmarks(&least);
+    if (!least.run(argc, argv)) return 2;
     print_times(least);
     print_ratios(least);
 }

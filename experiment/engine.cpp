@@ -98,6 +98,14 @@ void Engine::check_rate(BitRate rate) const {
 }
 
 void Engine::check_event_limit() const {
+    // The queue ends there; an event may add more than one.
+    constexpr std::uint64_t most_pending = SchedulerLimits{}.pending / 16 * 15;
+    if (queue_.size() > most_pending) {
+        throw RunError(fmt::format(
+            "{} events wait at {:.9f} s, more than a run can hold; lower the load: under "
+            "duplicates = \"forward\" it grows with every hop of the TTL",
+            queue_.size(), seconds(now_)));
+    }
     if (queue_.scheduled() <= settings_.event_limit) return;
     throw RunError(fmt::format(
         "event limit of {} reached at {:.9f} s; raise [scenario] event_limit, or lower the load: "

@@ -3,7 +3,6 @@
 
 #include "experiment/chunks.hpp"
 #include "experiment/engine_parts.hpp"
-#include "experiment/few.hpp"
 #include "experiment/link_watch.hpp"
 #include "experiment/name_table.hpp"
 #include "experiment/network.hpp"

@@ -13,8 +13,9 @@ namespace rovernet {
 namespace {
 
 void check_place(Vec3 at) {
+    constexpr Range places{.low = -1e15, .high = 1e15, .text = "from -1e15 to 1e15 m"};
     for (const double x : {at.x, at.y, at.z}) {
-        if (!any.contains(x)) throw_out_of_range("robot", "at", "finite", x);
+        if (!places.contains(x)) throw_out_of_range("robot", "at", places.text, x);
     }
 }
 

@@ -54,7 +54,6 @@ class Backoff {
                counted_from_ + slots_ * timing_->slot - timing_->turnaround - timing_->cca_time;
     }
     bool is_busy(Time t) const { return busy_until_ > t; }
-    Time busy_until() const { return busy_until_; }
 
   private:
     static constexpr Time long_ago{Duration{-1'000'000'000'000}};

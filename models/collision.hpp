@@ -4,6 +4,7 @@
 #include "models/on_air.hpp"
 #include "sim/fields.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -66,20 +67,22 @@ struct Collision {
 
   private:
     /// In a crowd, the strongest of the frames on air that nobody receives any more. Whatever a
-    /// weaker one that ends earlier can still do to others, it does as well, so that lists stay
-    /// short.
+    /// weaker one that begins no sooner and ends no later can still do to others, it does as well,
+    /// so that lists stay short.
     struct Cover {
         static constexpr int crowd = 8;  // few are left as they are, and no levels computed
         int seen = 0;
-        Time end = Time::min();
+        Time begin = never, end = Time::min();
         double level_dbm = -std::numeric_limits<double>::infinity();
 
         template <class Level>
         bool covers(Arrival& a, Time now, Level level) {
             const bool spent = a.collided || a.reception == Arrival::no_reception;
-            if (++seen <= crowd || !spent || a.begin >= now) return false;
-            if (a.end <= end && level(a) <= level_dbm) return true;
-            if (level(a) > level_dbm) *this = {seen, a.end, a.level_dbm};
+            if (++seen <= crowd || !spent) return false;
+            // What is to come begins later than all that began before now, whichever did first.
+            const Time since = std::max(a.begin, now - Duration{1});
+            if (since >= begin && a.end <= end && level(a) <= level_dbm) return true;
+            if (level(a) > level_dbm) *this = {seen, since, a.end, a.level_dbm};
             return false;
         }
     };

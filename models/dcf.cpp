@@ -2,7 +2,6 @@
 #include "models/dcf.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace rovernet {
 

@@ -363,7 +363,8 @@ std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
     std::vector<bool> seen(stations_.size());
     std::vector<NodeId> frontier{from};
     seen[from.index()] = true;
-    for (std::size_t next = 0; next < frontier.size(); ++next) {
+    const std::size_t all = stations_.size() - off_ + (is_on(from) ? 0 : 1);
+    for (std::size_t next = 0; next < frontier.size() && frontier.size() < all; ++next) {
         find_hearers(frontier[next], t, legs);
         for (const auto [node, squared_distance] : found_) {
             if (seen[node.index()]) continue;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "models/on_air.hpp"
 
+#include <utility>
+
 namespace rovernet {
 
 void OnAir::add(NodeId node, const Arrival& arrival, Time since) {
-    if (node.index() >= first_.size()) first_.resize(node.index() + 1, none);
-    std::uint32_t& first = first_[node.index()];
-    while (first != none && entries_[first].arrival.end <= since) forget(first);
+    if (node.index() >= last_.size()) last_.resize(node.index() + 1, none);
+    std::uint32_t& last = last_[node.index()];
+    while (last != none && entries_[entries_[last].next].arrival.end <= since) {
+        forget_next(last, last);
+    }
     std::uint32_t place = free_;
     if (place == none) {
         place = static_cast<std::uint32_t>(entries_.size());
@@ -14,15 +18,17 @@ void OnAir::add(NodeId node, const Arrival& arrival, Time since) {
     } else {
         free_ = entries_[place].next;
     }
-    entries_[place] = {arrival, first};
-    first = place;
+    entries_[place] = {arrival, place};
+    if (last != none) std::swap(entries_[place].next, entries_[last].next);
+    last = place;
 }
 
-void OnAir::forget(std::uint32_t& link) {
-    const std::uint32_t place = link;
-    link = entries_[place].next;
+void OnAir::forget_next(std::uint32_t before, std::uint32_t& last) {
+    const std::uint32_t place = entries_[before].next;
+    entries_[before].next = entries_[place].next;
     entries_[place].next = free_;
     free_ = place;
+    if (place == last) last = place == before ? none : before;
 }
 
 }  // namespace rovernet

@@ -45,21 +45,25 @@ constexpr Arrival own_frame(NodeId node, Time begin, Time end) {
 /// The frames that are on air at each node, its own included.
 class OnAir {
   public:
-    /// Forgets the latest at `node` if they ended by `since`, so that lists that nobody looks at
-    /// stay short.
+    /// Forgets those added first at `node` that ended by `since`, so that lists at which nobody
+    /// looks stay short.
     void add(NodeId node, const Arrival& arrival, Time since);
 
-    /// Calls use(arrival) for each at `node` that ends after `since`, the latest added first; if it
+    /// Calls use(arrival) for each at `node` that ends after `since`, in the order of adding; if it
     /// returns false that one is forgotten. Those that ended before are forgotten, too.
     template <class Use>
     void each(NodeId node, Time since, Use use) {
-        if (node.index() >= first_.size()) return;
-        for (std::uint32_t* link = &first_[node.index()]; *link != none;) {
-            Entry& entry = entries_[*link];
-            if (entry.arrival.end > since && use(entry.arrival)) {
-                link = &entry.next;
+        if (node.index() >= last_.size()) return;
+        std::uint32_t& last = last_[node.index()];
+        std::uint32_t before = last;
+        for (bool more = last != none; more;) {
+            const std::uint32_t here = entries_[before].next;
+            more = here != last;
+            Arrival& arrival = entries_[here].arrival;
+            if (arrival.end > since && use(arrival)) {
+                before = here;
             } else {
-                forget(*link);
+                forget_next(before, last);
             }
         }
     }
@@ -70,10 +74,10 @@ class OnAir {
         Arrival arrival;
         std::uint32_t next;
     };
-    /// Takes the entry that `link` leads to out of its list.
-    void forget(std::uint32_t& link);
+    /// Takes the entry that follows `before` out of the list that ends with `last`.
+    void forget_next(std::uint32_t before, std::uint32_t& last);
 
-    std::vector<std::uint32_t> first_;  // by node
+    std::vector<std::uint32_t> last_;  // by node: the entry added last, which the first follows
     std::vector<Entry> entries_;
     std::uint32_t free_ = none;  // list of entries that are not in use
 };

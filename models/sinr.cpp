@@ -12,7 +12,8 @@ bool SinrReceivers::sends_within(NodeId node, Time after, Time until) const {
     });
 }
 
-/// Decides for all frames that began by `until` whether the receiver locked on to them.
+/// Decides for all frames that began by `until`, in their order, whether the receiver locked on to
+/// them.
 void SinrReceivers::settle_locks(NodeId node, Time until) {
     for (Arrival* a : here_) {
         if (a->begin > until) return;
@@ -27,17 +28,10 @@ void SinrReceivers::settle_locks(NodeId node, Time until) {
     }
 }
 
-/// Waiting if the receiver was on the judged frame from its beginning to its end.
-Fate SinrReceivers::decide_lock(NodeId node, Arrival& judged) {
-    // Canonical: what is decided and summed does not depend on the order of becoming known.
-    std::sort(here_.begin(), here_.end(), [](const Arrival* a, const Arrival* b) {
-        return a->begin != b->begin ? a->begin < b->begin : a->from < b->from;
-    });
-    settle_locks(node, judged.begin);
-    for (const Arrival* a : here_) {
-        if (a->from == node && a->overlaps(judged)) return Fate::busy;
-    }
-    return judged.lock == Arrival::Lock::held ? Fate::waiting : Fate::collided;
+/// The node sends while the frame arrives.
+bool SinrReceivers::sends_during(NodeId node, const Arrival& judged) const {
+    return std::any_of(here_.begin(), here_.end(),
+                       [&](const Arrival* a) { return a->from == node && a->overlaps(judged); });
 }
 
 /// The sum of log_success over the bits of the payload, with the others that are here.

@@ -11,9 +11,10 @@
 
 namespace rovernet {
 
-/// Reception rung "sinr": a receiver locks on to the first frame that reaches it while it is free,
-/// and gets it with the probability that all bits are right, chunk by chunk between the changes of
-/// the interference, which is the sum of all other frames on air there.
+/// Reception rung "sinr": a receiver locks on to the first frame that reaches it while it is free
+/// (of several at once to the strongest), and gets it with the probability that all bits are right,
+/// chunk by chunk between the changes of the interference, which is the sum of all other frames on
+/// air there.
 ///
 /// A frame that begins while the receiver is locked on another, or sends, is lost; so is the one
 /// that it is locked on when it begins to send. Errors are those of the payload: a preamble is
@@ -56,22 +57,37 @@ class SinrReceivers {
             return a->reception == reception && a->flight == flight && a->end == now;
         });
         Arrival& signal = **judged;
-        const Fate fate = decide_lock(node, signal);
-        if (fate != Fate::waiting) return fate;
+        const auto level = [&](Arrival& a) {
+            if (std::isnan(a.level_dbm)) a.level_dbm = level_of(a);
+            return a.level_dbm;
+        };
+        if (signal.lock == Arrival::Lock::open) {
+            sort_here(level);
+            settle_locks(node, signal.begin);
+        }
+        if (sends_during(node, signal)) return Fate::busy;
+        if (signal.lock == Arrival::Lock::missed) return Fate::collided;
         std::erase_if(here_,
                       [&](const Arrival* a) { return !a->overlaps(signal) || a == &signal; });
-        const auto compute_level = [&](Arrival& a) {
-            if (std::isnan(a.level_dbm)) a.level_dbm = level_of(a);
-        };
-        compute_level(signal);
-        for (Arrival* a : here_) compute_level(*a);
+        level(signal);
+        for (Arrival* a : here_) level(*a);
+        sort_here(level);
         if (is_certain(signal, frame)) return Fate::waiting;
         if (draw() < success(log_success_of(signal, frame))) return Fate::waiting;
         return here_.empty() ? Fate::garbled : Fate::collided;
     }
 
   private:
-    Fate decide_lock(NodeId node, Arrival& judged);
+    /// Canonical: what is decided and summed does not depend on the order of becoming known. Of
+    /// frames that begin together the strongest is first.
+    template <class Level>
+    void sort_here(Level level) {
+        std::sort(here_.begin(), here_.end(), [&](Arrival* a, Arrival* b) {
+            if (a->begin != b->begin) return a->begin < b->begin;
+            return level(*a) != level(*b) ? level(*a) > level(*b) : a->from < b->from;
+        });
+    }
+    bool sends_during(NodeId node, const Arrival& judged) const;
     void settle_locks(NodeId node, Time until);
     bool sends_within(NodeId node, Time after, Time until) const;
     bool is_certain(const Arrival& judged, const SinrFrame& frame) const {

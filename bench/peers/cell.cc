@@ -4,63 +4,48 @@
 /// n stations and one silent sink share a place, so that no frame captures another. Each station
 /// always has a frame of that payload for the sink, or for all. 802.11b ad hoc, long preamble, no
 /// IP. ns-3 sends broadcasts at the rate of data and, by its timing, acknowledgements too.
-#include "usage.hpp"
+#include "ns3.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <ns3/command-line.h>
 #include <ns3/config.h>
 #include <ns3/double.h>
 #include <ns3/mobility-helper.h>
 #include <ns3/net-device-container.h>
 #include <ns3/node-container.h>
 #include <ns3/packet.h>
-#include <ns3/rng-seed-manager.h>
-#include <ns3/simulator.h>
-#include <ns3/string.h>
 #include <ns3/txop.h>
-#include <ns3/uinteger.h>
-#include <ns3/wifi-helper.h>
 #include <ns3/wifi-mac-header.h>
-#include <ns3/wifi-mac-helper.h>
 #include <ns3/wifi-mac-queue.h>
 #include <ns3/wifi-mac.h>
 #include <ns3/wifi-net-device.h>
 #include <ns3/wifi-phy.h>
 #include <ns3/yans-wifi-helper.h>
-#include <stdexcept>
 #include <string>
-#include <unistd.h>
 
 using namespace ns3;
 
 namespace {
 
-constexpr std::uint16_t protocol = 0x88b5;  // IEEE 802: for local experiments
-constexpr double warm_up = 1;               // [s], not counted
-constexpr std::uint32_t backlog = 20;       // frames; a station sends fewer between two refills
-constexpr double refill = 0.01;             // [s]
+constexpr double warm_up = 1;          // [s], not counted
+constexpr std::uint32_t backlog = 20;  // frames; a station sends fewer between two refills
+constexpr double refill = 0.01;        // [s]
 
-struct Options {
+struct Options : PeerOptions {
     std::uint32_t n = 10;
     std::string mode = "unicast";
-    std::string rate = "1";        // [Mb/s]
-    std::uint32_t payload = 1000;  // [B]
-    double seconds = 20;           // counted
-    std::uint32_t seed = 1;
+    std::string rate = "1";  // [Mb/s]
+    double seconds = 20;     // counted
 
-    Options(int argc, char** argv) {
+    Options(int argc, char** argv) : PeerOptions(1000) {
         CommandLine line;
         line.AddValue("n", "stations besides the sink", n);
         line.AddValue("mode", "unicast, rts or broadcast", mode);
         line.AddValue("rate", "1, 2, 5.5 or 11 Mb/s", rate);
-        line.AddValue("payload", "[B]", payload);
         line.AddValue("seconds", "that are counted", seconds);
-        line.AddValue("seed", "run number of ns-3's streams", seed);
-        line.Parse(argc, argv);
-        if (n == 0 || (mode != "unicast" && mode != "rts" && mode != "broadcast"))
-            throw std::invalid_argument("cell: see --help");
+        read(line, argc, argv);
+        require(n > 0 && (mode == "unicast" || mode == "rts" || mode == "broadcast"));
     }
 };
 
@@ -74,15 +59,7 @@ NetDeviceContainer install(const NodeContainer& nodes, const Options& options) {
 
     std::string name = "DsssRate" + options.rate + "Mbps";
     std::replace(name.begin(), name.end(), '.', '_');
-    const StringValue data(name), control("DsssRate1Mbps");
-    WifiHelper wifi;
-    wifi.SetStandard(WIFI_STANDARD_80211b);
-    wifi.SetRemoteStationManager("ns3::ConstantRateWifiManager", "DataMode", data, "ControlMode",
-                                 control, "NonUnicastMode", data, "RtsCtsThreshold",
-                                 UintegerValue(options.mode == "rts" ? 0 : 65535));
-    WifiMacHelper mac;
-    mac.SetType("ns3::AdhocWifiMac");
-    return wifi.Install(phy, mac, nodes);
+    return install_ad_hoc(phy, nodes, name, options.mode == "rts" ? 0 : 65535);
 }
 
 class Cell {
@@ -149,23 +126,16 @@ class Cell {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-    const Options options(argc, argv);
-    // Half a second by default: at n = 50 frames would grow old, and leave a wide window behind.
-    Config::SetDefault("ns3::WifiMacQueue::MaxDelay", TimeValue(Seconds(1000)));
-    RngSeedManager::SetRun(options.seed);
-    NodeContainer nodes;
-    nodes.Create(options.n + 1);
-    const auto devices = install(nodes, options);
-    Cell cell(options, devices);
-
-    const auto ready = Usage::now();
-    Simulator::Stop(Seconds(warm_up + options.seconds));
-    Simulator::Run();
-    cell.print(ready, Usage::now());
-    std::fflush(stdout);
-    _exit(0);  // ns-3 spends long on taking its objects apart, and not always in peace
-} catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
+int main(int argc, char** argv) {
+    return exit_of([&] {
+        const Options options(argc, argv);
+        // Half a second by default: at n = 50 frames would grow old, and leave a wide window
+        // behind.
+        Config::SetDefault("ns3::WifiMacQueue::MaxDelay", TimeValue(Seconds(1000)));
+        NodeContainer nodes;
+        nodes.Create(options.n + 1);
+        const auto devices = install(nodes, options);
+        Cell cell(options, devices);
+        run_and_print(cell, warm_up + options.seconds);
+    });
 }

@@ -6,14 +6,13 @@
 ///   --channel=lean  SimpleNetDevice; a frame reaches every node within 250 m, nothing collides
 ///   --channel=wifi  802.11b ad hoc at 1 Mb/s, long preamble, no IP. --loss=range: 250 m and no
 ///                   more; --loss=two_ray: decoded to 250 m, sensed and disturbing to 550 m
-#include "usage.hpp"
+#include "ns3.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <ns3/command-line.h>
 #include <ns3/double.h>
 #include <ns3/mobility-model.h>
 #include <ns3/net-device-container.h>
@@ -21,40 +20,31 @@
 #include <ns3/ns2-mobility-helper.h>
 #include <ns3/packet.h>
 #include <ns3/random-variable-stream.h>
-#include <ns3/rng-seed-manager.h>
 #include <ns3/simple-channel.h>
 #include <ns3/simple-net-device.h>
-#include <ns3/simulator.h>
-#include <ns3/string.h>
-#include <ns3/wifi-helper.h>
-#include <ns3/wifi-mac-helper.h>
 #include <ns3/yans-wifi-helper.h>
 #include <stdexcept>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 using namespace ns3;
 
 namespace {
 
-constexpr double decode_range = 250;        // [m]
-constexpr double sense_range = 550;         // [m]
-constexpr double first_message = 1;         // [s]
-constexpr std::uint16_t protocol = 0x88b5;  // IEEE 802: for local experiments
+constexpr double decode_range = 250;  // [m]
+constexpr double sense_range = 550;   // [m]
+constexpr double first_message = 1;   // [s]
 
-struct Options {
+struct Options : PeerOptions {
     std::string movement;
     std::string channel = "wifi";
     std::string loss = "range";
     std::uint32_t messages = 20;
     double interval = 3;  // [s]
     std::uint32_t ttl = 100;
-    double jitter = 0.05;        // [s]
-    std::uint32_t payload = 64;  // [B]
-    std::uint32_t seed = 1;
+    double jitter = 0.05;  // [s]
 
-    Options(int argc, char** argv) {
+    Options(int argc, char** argv) : PeerOptions(64) {
         CommandLine line;
         line.AddValue("movement", "movement file in the syntax of ns-2", movement);
         line.AddValue("channel", "lean or wifi", channel);
@@ -63,12 +53,9 @@ struct Options {
         line.AddValue("interval", "between two messages [s]", interval);
         line.AddValue("ttl", "of a new message", ttl);
         line.AddValue("jitter", "upper end of the delay before re-sending [s]", jitter);
-        line.AddValue("payload", "[B], at least 8", payload);
-        line.AddValue("seed", "run number of ns-3's streams", seed);
-        line.Parse(argc, argv);
-        if (movement.empty() || payload < 8 || (channel != "lean" && channel != "wifi") ||
-            (loss != "range" && loss != "two_ray"))
-            throw std::invalid_argument("flood: see --help");
+        read(line, argc, argv);
+        require(!movement.empty() && payload >= 8);
+        require((channel == "lean" || channel == "wifi") && (loss == "range" || loss == "two_ray"));
     }
 };
 
@@ -154,14 +141,7 @@ NetDeviceContainer install_wifi(const NodeContainer& nodes, const std::string& l
                                    DoubleValue(decode_range));
     phy.SetChannel(channel.Create());
 
-    const StringValue mode("DsssRate1Mbps");
-    WifiHelper wifi;
-    wifi.SetStandard(WIFI_STANDARD_80211b);
-    wifi.SetRemoteStationManager("ns3::ConstantRateWifiManager", "DataMode", mode, "ControlMode",
-                                 mode, "NonUnicastMode", mode);
-    WifiMacHelper mac;
-    mac.SetType("ns3::AdhocWifiMac");
-    return wifi.Install(phy, mac, nodes);
+    return install_ad_hoc(phy, nodes, "DsssRate1Mbps");
 }
 
 class Flood {
@@ -251,23 +231,15 @@ class Flood {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-    const Options options(argc, argv);
-    RngSeedManager::SetRun(options.seed);
-    NodeContainer nodes;
-    nodes.Create(count_nodes(options.movement));
-    Ns2MobilityHelper(options.movement).Install();
-    const auto devices =
-        options.channel == "lean" ? install_lean(nodes) : install_wifi(nodes, options.loss);
-    Flood flood(options, devices);
-
-    const auto ready = Usage::now();
-    Simulator::Stop(Seconds(flood.end()));
-    Simulator::Run();
-    flood.print(ready, Usage::now());
-    std::fflush(stdout);
-    _exit(0);  // ns-3 spends long on taking its objects apart, and not always in peace
-} catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
+int main(int argc, char** argv) {
+    return exit_of([&] {
+        const Options options(argc, argv);
+        NodeContainer nodes;
+        nodes.Create(count_nodes(options.movement));
+        Ns2MobilityHelper(options.movement).Install();
+        const auto devices =
+            options.channel == "lean" ? install_lean(nodes) : install_wifi(nodes, options.loss);
+        Flood flood(options, devices);
+        run_and_print(flood, flood.end());
+    });
 }

@@ -290,6 +290,61 @@ TEST_CASE("a run that needs more events than allowed exits with 1 and leaves no 
     CHECK(names_in(folder.path("out")).empty());
 }
 
+TEST_CASE("a message storm says what it is and what to do, and an earlier run's results stay") {
+    const TemporaryFolder folder;
+    const std::string out = folder.path("out");
+    const std::string calm = folder.write("s.toml", R"([scenario]
+event_limit = 20000
+[propagation]
+model = "disc"
+range = "1 m"
+[[robot]]
+name = "r"
+count = 10
+place = { model = "uniform", area = [["0 m", "0 m"], ["0.1 m", "0.1 m"]] }
+[routing]
+ttl = 1
+[[traffic]]
+from = "r0"
+payload = "F"
+[trace]
+ns2 = "new"
+)");
+    CHECK(json_of(folder, {"run", calm, "--out", out})["deliveries"] == 9);
+    std::vector<std::string> before;
+    for (const auto& file : result_files) before.push_back(content(out + "/" + file));
+
+    const Ended ended = command(folder, {"run", calm, "--out", out, "--set", "routing.ttl=65535",
+                                         "--set", "routing.duplicates=forward"});
+    CHECK(ended.exit == 1);
+    CHECK(ended.out.empty());
+    CAPTURE(ended.err);
+    for (const char* part : {"event limit of 20000 reached at 0.0", "raise [scenario] event_limit",
+                             "lower the load", "duplicates = \"forward\""}) {
+        CHECK(ended.err.find(part) != std::string::npos);
+    }
+    CHECK(names_in(out) == result_files);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        CHECK(content(out + "/" + result_files[i]) == before[i]);
+    }
+}
+
+TEST_CASE("run: a range of zero reaches nobody, and one below it is refused where it stands") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", relay), out = folder.path("out");
+    const Json run = json_of(folder, {"run", file, "--out", out, "--set", "propagation.range=0 m"});
+    CHECK(run["transmissions"] == run["messages"]);
+    CHECK(run["receptions"] == 0);
+    const std::string below =
+        folder.write("below.toml", "[propagation]\nmodel = \"disc\"\nrange = \"-1 m\"\n");
+    const Ended ended = command(folder, {"run", below, "--out", out});
+    CHECK(ended.exit == 3);
+    CAPTURE(ended.err);
+    for (const char* part : {"below.toml:3:", "range", ">= 0", "-1"}) {
+        CHECK(ended.err.find(part) != std::string::npos);
+    }
+}
+
 TEST_CASE("results that cannot be written end a run with 1, and the message names the place") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay);

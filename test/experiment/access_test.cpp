@@ -88,37 +88,20 @@ TEST_CASE("aloha: slotted, S = G exp(-G)") {
 }
 
 TEST_CASE("csma: saturated stations get what Bianchi's model says") {
-    const bench::Bianchi theory{.window = 32,
-                                .stages = 3,
-                                .slot = 50,
-                                .payload = 8184,
-                                .success = 8584 + 28 + 240 + 128,
-                                .collision = 8584 + 128};
-    const Csma csma{.timing = {.slot = 50us,
-                               .sifs = 28us,
-                               .difs = 128us,
-                               .cca_time = 0us,
-                               .turnaround = 0us,
-                               .rx_start_delay = 0us,
-                               .cw_min = 31,
-                               .cw_max = 255,
-                               .basic_rate = {1e6}},
-                    .eifs = false,
-                    .short_retries = 0,
-                    .long_retries = 0,
-                    .header = 34};
+    const bench::BianchiCell bianchi;
     for (const int n : {1, 5, 20}) {
-        Room cell(std::max(n, 2), csma, {.rate = {1e6}, .preamble = 128us});
+        Room cell(std::max(n, 2), bianchi.csma(),
+                  {.rate = bianchi.rate, .preamble = bianchi.preamble});
         for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
             const NodeId to = cell.nodes[(i + 1) % cell.nodes.size()];
             cell.net.at(start_of_run, [&net = cell.net, from = cell.nodes[i], to] {
-                net.saturate(from, to, 1023);
+                net.saturate(from, to, bench::BianchiCell::payload);
             });
         }
         cell.net.run_for(200s);
         const double share = static_cast<double>(cell.ledger->delivered_bits) / 200e6;
         // 200 s hold 20,000 frames: a noise of 0.4 %; the model itself is off by up to 0.5 %.
-        CHECK(std::abs(share / theory.throughput(n) - 1) < 0.012);
+        CHECK(std::abs(share / bianchi.theory().throughput(n) - 1) < 0.012);
     }
 }
 
@@ -190,22 +173,17 @@ TEST_CASE("csma: receivers that forward at once collide, as they ask at once; ji
 }
 
 TEST_CASE("csma: saturated broadcasts go one hop, without a router, at the formula's rate") {
-    constexpr double frame = 192 + 8 * 1028, difs = 50, tau = 2.0 / 33;
+    const bench::BroadcastCell cell;
     for (const int n : {2, 10}) {
-        const bench::Bianchi theory{.window = 32,
-                                    .stages = 0,
-                                    .slot = 20,
-                                    .payload = 8000,
-                                    .success = frame + difs,
-                                    .collision = frame + difs};
-        Room room(n, Csma{.eifs = false}, {.rate = {1e6}});
+        Room room(n, cell.csma(), {.rate = cell.rate});
         for (const NodeId from : room.nodes) {
-            room.net.at(start_of_run,
-                        [&net = room.net, from] { net.saturate(from, everyone, 1000); });
+            room.net.at(start_of_run, [&net = room.net, from] {
+                net.saturate(from, everyone, bench::BroadcastCell::payload);
+            });
         }
         room.net.run_for(200s);
         const double share = static_cast<double>(room.ledger->delivered_bits) / (n - 1) / 200e6;
-        CHECK(std::abs(share / theory.throughput(n, tau) - 1) < 0.02);
+        CHECK(std::abs(share / cell.throughput(n) - 1) < 0.02);
     }
 }
 

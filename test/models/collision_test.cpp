@@ -123,7 +123,9 @@ TEST_CASE("collision: random crowds fare as the rule for every pair says") {
         const double crowd = seed % 3 ? draw.uniform(1, 60) : draw.uniform(0.1, 2);
         Time sent = start_of_run;
         for (int i = 0; i < 150; ++i) {
-            sent += Duration{static_cast<std::int64_t>(draw.uniform(0, 2000 / crowd))};
+            const bool at_once = seed % 5 == 0 && i % 30 > 0;  // thirty of one nanosecond
+            if (!at_once)
+                sent += Duration{static_cast<std::int64_t>(draw.uniform(0, 2000 / crowd))};
             const Time begin = sent + Duration{static_cast<std::int64_t>(draw.uniform(0, 30))};
             const Time end = begin + Duration{static_cast<std::int64_t>(draw.uniform(1, 2000))};
             const double kind = draw.uniform(0, 1);
@@ -146,4 +148,37 @@ TEST_CASE("collision: random crowds fare as the rule for every pair says") {
         }
     }
     CHECK(std::min({received, collided, busy}) > 100);
+}
+
+TEST_CASE("collision: of a crowd that sends at once, a node remembers a few") {
+    constexpr int senders = 1000, few = 16;
+    Receiver r{{}};
+    for (int i = 0; i < senders; ++i) r.hear(at(0), at(0), at(100), -60);
+    int remembered = 0;
+    r.on_air.each(Receiver::here, Time::min(), [&](const Arrival&) { return ++remembered; });
+    CHECK(remembered <= few);
+    for (const auto& [flight, outcome] : r.outcomes) REQUIRE(outcome == Outcome::collided);
+    r.hear(at(99), at(99), at(199), -40);
+    r.hear(at(199), at(199), at(299), -60);
+    CHECK(r.outcomes[senders] == Outcome::collided);
+    CHECK(r.outcomes[senders + 1] == Outcome::received);
+}
+
+TEST_CASE("collision: a crowd outdoes a weaker frame only if it begins as soon and ends as late") {
+    struct Case {
+        int begin, end;    // [ns] of the weak frame, sent at 0
+        int sent, starts;  // of the crowd, which is over at 200
+        int late, over;    // of a strong frame, sent with the crowd
+    };
+    for (const Case& c : {Case{5, 100, 0, 30, 20, 90}, Case{0, 500, 0, 0, 300, 400},
+                          Case{0, 100, 10, 10, 10, 90}}) {
+        CAPTURE(c.late);
+        for (const bool weak : {false, true}) {
+            Receiver r{{}};
+            if (weak) r.hear(at(0), at(c.begin), at(c.end), -80);
+            for (int i = 0; i < 12; ++i) r.hear(at(c.sent), at(c.starts), at(200 - i), -70 - i);
+            r.hear(at(c.sent), at(c.late), at(c.over), -50);
+            CHECK(r.outcomes.rbegin()->second == (weak ? Outcome::collided : Outcome::received));
+        }
+    }
 }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "usage.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <ns3/command-line.h>
+#include <ns3/net-device-container.h>
+#include <ns3/node-container.h>
+#include <ns3/rng-seed-manager.h>
+#include <ns3/simulator.h>
+#include <ns3/string.h>
+#include <ns3/uinteger.h>
+#include <ns3/wifi-helper.h>
+#include <ns3/wifi-mac-helper.h>
+#include <ns3/yans-wifi-helper.h>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+
+/// What the programs of ns-3.37 in bench/peers share: options, radios, and how they run and end.
+
+constexpr std::uint16_t protocol = 0x88b5;  // IEEE 802: for local experiments
+
+/// What the command line of every program has: --payload and --seed.
+struct PeerOptions {
+    std::uint32_t payload;  // [B]
+    std::uint32_t seed = 1;
+
+    explicit PeerOptions(std::uint32_t usual_payload) : payload(usual_payload) {}
+    /// Reads the options that `line` has, and these.
+    void read(ns3::CommandLine& line, int argc, char** argv) {
+        line.AddValue("payload", "[B]", payload);
+        line.AddValue("seed", "run number of ns-3's streams", seed);
+        line.Parse(argc, argv);
+        ns3::RngSeedManager::SetRun(seed);
+    }
+    static void require(bool sense) {
+        if (!sense) throw std::invalid_argument("options that make no sense: see --help");
+    }
+};
+
+/// Stations of 802.11b ad hoc, long preamble, that send all data at `rate`, broadcasts included.
+/// @param rts_threshold  [B] unicasts of more ask first
+inline ns3::NetDeviceContainer install_ad_hoc(const ns3::YansWifiPhyHelper& phy,
+                                              const ns3::NodeContainer& nodes,
+                                              const std::string& rate,
+                                              std::uint32_t rts_threshold = 65535) {
+    const ns3::StringValue data(rate), control("DsssRate1Mbps");
+    ns3::WifiHelper wifi;
+    wifi.SetStandard(ns3::WIFI_STANDARD_80211b);
+    wifi.SetRemoteStationManager("ns3::ConstantRateWifiManager", "DataMode", data, "ControlMode",
+                                 control, "NonUnicastMode", data, "RtsCtsThreshold",
+                                 ns3::UintegerValue(rts_threshold));
+    ns3::WifiMacHelper mac;
+    mac.SetType("ns3::AdhocWifiMac");
+    return wifi.Install(phy, mac, nodes);
+}
+
+/// Runs for `length` [s] and prints what `bench` counted. The program is over then: ns-3 spends
+/// long on taking its objects apart, and not always in peace.
+template <class Bench>
+[[noreturn]] void run_and_print(const Bench& bench, double length) {
+    const Usage ready = Usage::now();
+    ns3::Simulator::Stop(ns3::Seconds(length));
+    ns3::Simulator::Run();
+    bench.print(ready, Usage::now());
+    std::fflush(stdout);
+    _exit(0);
+}
+
+/// Calls `run`; if that throws, says why: the program's exit code.
+template <class Run>
+int exit_of(Run run) {
+    try {
+        run();
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 2;
+    }
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "models/sinr.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+constexpr NodeId here{0};
+constexpr Time at(std::int64_t us) { return start_of_run + Duration{1000 * us}; }
+
+/// One node, and frames of 11 Mb/s whose levels are given.
+struct Receiver {
+    SinrReceivers receivers{};
+    OnAir on_air{};
+    std::uint32_t frames = 0;
+    double draw = 0.5;
+
+    /// Returns the frame's flight.
+    std::uint32_t hear(NodeId from, Time begin, Time end, double level, bool receivable = true) {
+        receivers.add(on_air, here,
+                      {.begin = begin,
+                       .end = end,
+                       .level_dbm = level,
+                       .squared_distance = 1,
+                       .from = from,
+                       .flight = frames,
+                       .reception = receivable ? 0 : Arrival::no_reception},
+                      begin);
+        return frames++;
+    }
+    Fate judge(std::uint32_t flight, Time end) {
+        const SinrFrame frame{.modulation = Modulation::cck_11,
+                              .rate = 11e6,
+                              .payload = Duration{100'000},
+                              .noise = Dbm{-94}};
+        return receivers.judge(
+            on_air, here, flight, 0, end, frame, [](const Arrival& a) { return a.level_dbm; },
+            [&] { return draw; });
+    }
+    std::size_t kept() {
+        std::size_t count = 0;
+        on_air.each(here, Time::min(), [&](Arrival&) { return ++count > 0; });
+        return count;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("sinr: the receiver locks on to the first frame, however strong a later one is") {
+    Receiver r;
+    const auto weak = r.hear(NodeId{1}, at(0), at(100), -80);
+    const auto strong = r.hear(NodeId{2}, at(10), at(110), -40);
+    CHECK(r.judge(weak, at(100)) == Fate::collided);
+    CHECK(r.judge(strong, at(110)) == Fate::collided);
+}
+
+TEST_CASE("sinr: of frames that begin together it locks on to the strongest, whoever sent it") {
+    for (const bool strong_first : {true, false}) {
+        Receiver r;
+        const double first = strong_first ? -40 : -80;
+        const auto a = r.hear(NodeId{1}, at(0), at(100), first);
+        const auto b = r.hear(NodeId{2}, at(0), at(100), -120 - first);
+        CHECK(r.judge(a, at(100)) == (strong_first ? Fate::waiting : Fate::collided));
+        CHECK(r.judge(b, at(100)) == (strong_first ? Fate::collided : Fate::waiting));
+    }
+}
+
+TEST_CASE("sinr: a frame that nobody can decode there is interference, and takes no lock") {
+    Receiver r;
+    r.hear(NodeId{1}, at(0), at(100), -90, false);
+    const auto good = r.hear(NodeId{2}, at(10), at(110), -50);
+    CHECK(r.judge(good, at(110)) == Fate::waiting);
+    const auto drowned = r.hear(NodeId{3}, at(300), at(400), -80);
+    r.hear(NodeId{1}, at(310), at(410), -80, false);
+    CHECK(r.judge(drowned, at(400)) == Fate::collided);
+}
+
+TEST_CASE("sinr: who sends hears nothing, and has let go of what it was locked on") {
+    Receiver r;
+    const auto before = r.hear(NodeId{1}, at(0), at(100), -50);
+    r.hear(here, at(50), at(60), 1e9, false);
+    const auto after = r.hear(NodeId{2}, at(70), at(170), -50);
+    CHECK(r.judge(before, at(100)) == Fate::busy);
+    CHECK(r.judge(after, at(170)) == Fate::collided);  // the rest of the first is interference
+}
+
+TEST_CASE("sinr: a draw decides where bits may fail, and none where they cannot") {
+    Receiver r;
+    const double weak = -94 + certain_sinr(Modulation::cck_11).value - 8;
+    for (const bool lucky : {true, false}) {
+        r.draw = lucky ? 1e-300 : 1 - 1e-16;
+        const Time begin = at(lucky ? 0 : 1000), end = begin + Duration{100'000};
+        CHECK(r.judge(r.hear(NodeId{1}, begin, end, weak), end) ==
+              (lucky ? Fate::waiting : Fate::garbled));
+        const Time later = begin + Duration{500'000}, until = later + Duration{100'000};
+        CHECK(r.judge(r.hear(NodeId{1}, later, until, -40), until) == Fate::waiting);
+    }
+}
+
+TEST_CASE("sinr: a node that receives nothing keeps only what can still matter") {
+    Receiver r;
+    for (int i = 0; i < 1000; ++i) r.hear(NodeId{1}, at(200 * i), at(200 * i + 100), -90, false);
+    CHECK(r.kept() <= 3);
+}
