@@ -80,6 +80,9 @@ void print_result(const Scenario& scenario, const RunResult& result) {
         if (drop.count > 0) fmt::print("dropped {:<10} {}\n", drop.reason, drop.count);
     }
     fmt::print("fingerprint        {}\n", result.fingerprint);
+    if (const auto db = result.interference_left_out) {
+        fmt::print(stderr, "interference left out: at most {:.2f} dB\n", db->value);
+    }
     fmt::print(stderr, "{} events, {:.2f} s; results in {}\n", result.events, result.wall_s,
                result.folder);
 }

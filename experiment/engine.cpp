@@ -41,6 +41,9 @@ Engine::Engine(NetworkSettings settings)
     for (const Duration d : {settings_.links.tolerance, settings_.links.min_dwell}) {
         if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
     }
+    if (const auto* sinr = std::get_if<Sinr>(&settings_.reception)) {
+        sinr_receivers_ = SinrReceivers(*sinr);
+    }
     if (const auto* aloha = std::get_if<Aloha>(&settings_.access)) aloha_.emplace(*aloha);
     if (const auto* csma = std::get_if<Csma>(&settings_.access)) {
         dcf_.emplace(*csma);

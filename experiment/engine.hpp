@@ -81,6 +81,8 @@ class Engine final : public LinkLayer, public Air {
     bool advance(Time end, std::uint64_t most_events);
     /// Link changes are wanted from now on.
     void watch_links() { links_wanted_ = true; }
+    /// See Network.
+    std::optional<Db> interference_left_out() const;
     Node& node(NodeId id) { return nodes_.at(id.index()); }
     /// The same id. @throws std::out_of_range if there is no such node
     NodeId known(NodeId id) { return nodes_.at(id.index()), id; }
@@ -116,6 +118,7 @@ class Engine final : public LinkLayer, public Air {
         return key.time() <= end_of_run_ && queue_.runs_before_next(key);
     }
     void fly(std::size_t slot, Time end);
+    void count_on_air(Time end);
     void meet(NodeId node, const Arrival& arrival);
     BitRate rate_of(const AirFrame& frame) const;
     void disturb(const Collision& rung, NodeId node, const Arrival& arrival);
@@ -156,6 +159,8 @@ class Engine final : public LinkLayer, public Air {
     Slots<Flight> flights_;
     OnAir on_air_;  // at rungs above threshold
     SinrReceivers sinr_receivers_;
+    std::vector<Time> ends_;       // at the rung sinr, of the frames that are on air
+    std::size_t most_on_air_ = 0;  // of them at a time
     std::optional<AlohaAccess> aloha_;
     std::optional<Dcf> dcf_;
     /// A node that always has something to send.

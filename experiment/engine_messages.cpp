@@ -99,6 +99,7 @@ void Engine::fly(std::size_t slot, Time end) {
                       .flight = static_cast<std::uint32_t>(slot),
                       .reception = reception});
     };
+    if (std::holds_alternative<Sinr>(settings_.reception)) count_on_air(end);
     meet(sender, own_frame(sender, now_, end));
     const Medium::Hearers hearers = medium_.sensed(sender, now_, legs_);
     for (const Medium::Hearer& h : hearers.receivers) {
@@ -106,6 +107,18 @@ void Engine::fly(std::size_t slot, Time end) {
         tell(h, static_cast<std::uint32_t>(flight.receptions.size() - 1));
     }
     for (const Medium::Hearer& h : hearers.others) tell(h, Arrival::no_reception);
+}
+
+void Engine::count_on_air(Time end) {
+    std::erase_if(ends_, [&](Time each) { return each <= now_; });
+    ends_.push_back(end);
+    most_on_air_ = std::max(most_on_air_, ends_.size());
+}
+
+std::optional<Db> Engine::interference_left_out() const {
+    if (!std::holds_alternative<Sinr>(settings_.reception)) return std::nullopt;
+    // Beside the frame that is received.
+    return medium_.left_out(std::max<std::size_t>(most_on_air_, 1) - 1);
 }
 
 /// A frame will be on air at `node`, perhaps together with others.

@@ -82,6 +82,9 @@ bool Network::advance(Time end, std::uint64_t most_events) {
 Time Network::now() const { return engine_->now(); }
 std::size_t Network::size() const { return engine_->size(); }
 std::uint64_t Network::events() const { return engine_->served_; }
+std::optional<Db> Network::interference_left_out() const {
+    return engine_->interference_left_out();
+}
 std::string Network::name(NodeId node) const {
     return std::string(engine_->names_[engine_->known(node).value]);
 }

@@ -136,6 +136,9 @@ class Network {
     Time now() const;
     std::size_t size() const;      ///< robots
     std::uint64_t events() const;  ///< served so far
+    /// Bound on what the frames that `sinr` left out (Sinr::interference_cut) would have taken off
+    /// a signal to interference ratio so far, if all on air anywhere came from just beyond the cut.
+    std::optional<Db> interference_left_out() const;
     std::string name(NodeId node) const;
     std::optional<NodeId> find(std::string_view name) const;
     Vec3 position(NodeId node) const;    ///< [m] now

@@ -124,6 +124,7 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     result.metrics = network.metrics();
     result.fingerprint = fingerprint->text();
     result.events = network.events();
+    result.interference_left_out = network.interference_left_out();
     result.timeline = timeline->happenings();
     result.wall_s = std::chrono::duration<double>(WallClock::now() - started).count();
     write_file(result.folder + "/scenario.toml", to_toml(document_in(result.folder, scenario)));
@@ -167,6 +168,9 @@ Table run_summary(const Scenario& scenario, const RunResult& result) {
     table.set("sim_s", seconds(scenario.scenario.duration));
     table.set("wall_s", result.wall_s);
     table.set("events", result.events);
+    if (result.interference_left_out) {
+        table.set("interference_left_out_db", result.interference_left_out->value);
+    }
     append_metrics(table, result.metrics);
     table.set("trace", result.trace ? Value(*result.trace) : Value());
     Array timeline;

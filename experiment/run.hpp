@@ -34,8 +34,9 @@ struct RunResult {
     MetricValues metrics;
     std::string fingerprint;
     std::uint64_t events = 0;
-    double wall_s = 0;    ///< [s] of real time
-    std::string started;  ///< UTC, ISO 8601
+    std::optional<Db> interference_left_out;  ///< see Network
+    double wall_s = 0;                        ///< [s] of real time
+    std::string started;                      ///< UTC, ISO 8601
     std::vector<Timeline::Happening> timeline;
 };
 

@@ -24,6 +24,7 @@ struct ReceptionTable {
     Db capture_ratio = Collision{}.capture_ratio;
     CaptureOrder capture = Collision{}.capture;
     Db interference_cut = Sinr{}.interference_cut;
+    Db preamble_threshold = Sinr{}.preamble_threshold;
 
     static constexpr auto fields() {
         return describe(
@@ -35,7 +36,9 @@ struct ReceptionTable {
             field("capture", &ReceptionTable::capture,
                   "which of two frames may survive: the first, or also the later one"),
             field("interference_cut", &ReceptionTable::interference_cut, non_negative,
-                  "of sinr: frames weaker than the sensitivity by this are left out"));
+                  "of sinr: frames weaker than the sensitivity by this are left out"),
+            field("preamble_threshold", &ReceptionTable::preamble_threshold,
+                  "of sinr: a receiver finds preambles that are so much above the rest"));
     }
     ReceptionRung make() const;
 };

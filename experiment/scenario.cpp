@@ -250,7 +250,9 @@ ReceptionRung ReceptionTable::make() const {
         case ReceptionModel::threshold: return Threshold{};
         case ReceptionModel::collision:
             return Collision{.capture_ratio = capture_ratio, .capture = capture};
-        case ReceptionModel::sinr: return Sinr{.interference_cut = interference_cut};
+        case ReceptionModel::sinr:
+            return Sinr{.interference_cut = interference_cut,
+                        .preamble_threshold = preamble_threshold};
     }
     return Threshold{};
 }

@@ -3,6 +3,7 @@
 
 #include "models/friis.hpp"
 #include "models/link_range.hpp"
+#include "sim/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -311,14 +312,27 @@ Dbm Medium::level(NodeId from, NodeId to, double squared_distance) const {
     return level_after(from, to, loss);
 }
 
+/// The weakest signal [dBm] that disturbs `to`, if there is a cut.
+Dbm Medium::weakest_audible(const Radio& to) const {
+    constexpr Db below_noise{10};
+    return std::max(to.sensitivity - *settings_.interference_cut, noise_floor(to) - below_noise);
+}
+
 /// The largest path loss [dB] at which `to` is disturbed by `from`.
 Db Medium::audible_budget(const Radio& from, const Radio& to) const {
     const Db sensed = sensing_budget(from, to);
     if (!settings_.interference_cut) return sensed;
-    constexpr Db below_noise{10};
-    const Dbm weakest =
-        std::max(to.sensitivity - *settings_.interference_cut, noise_floor(to) - below_noise);
-    return std::max(sensed, link_budget(from, to) + (to.sensitivity - weakest));
+    return std::max(sensed, link_budget(from, to) + (to.sensitivity - weakest_audible(to)));
+}
+
+Db Medium::left_out(std::size_t frames) const {
+    Db most{0};
+    for (const Kind& each : kinds_) {
+        const Db above_noise = weakest_audible(each.radio) - each.noise;
+        const double sum = 1 + static_cast<double>(frames) * math::exp10(above_noise.value / 10);
+        most = std::max(most, Db{10 * math::log10(sum)});
+    }
+    return most;
 }
 
 Duration Medium::delay(double distance) const {

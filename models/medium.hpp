@@ -60,6 +60,8 @@ class Medium {
     }
     std::string_view propagation(NodeId node) const;
     Dbm noise(NodeId node) const { return kind(node).noise; }
+    /// How much `frames` of which nothing is told may disturb a receiver: what they add to noise.
+    Db left_out(std::size_t frames) const;
 
     /// Appends to `out` the nodes that hear `from` when it sends at `start`, in the order in which
     /// the frame ends at them, then of NodeId. `start` must not decrease from call to call.
@@ -165,6 +167,7 @@ class Medium {
     void find_sensed_in_reach(NodeId from, Time t, const Legs& legs);
     double squared_reach(const Kind& from, Db best_receiver) const;
     Duration delay(double distance) const;
+    Dbm weakest_audible(const Radio& to) const;
     Db audible_budget(const Radio& from, const Radio& to) const;
     void find_hearers(NodeId from, Time t, const Legs& legs);
     void late_receivers(Time end, std::vector<Reception>& out) const;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "models/sinr.hpp"
 
-#include "sim/math.hpp"
-
 namespace rovernet {
 
 /// `node` begins to send after `after`, not later than `until`.
@@ -12,20 +10,14 @@ bool SinrReceivers::sends_within(NodeId node, Time after, Time until) const {
     });
 }
 
-/// Decides for all frames that began by `until`, in their order, whether the receiver locked on to
-/// them.
-void SinrReceivers::settle_locks(NodeId node, Time until) {
-    for (Arrival* a : here_) {
-        if (a->begin > until) return;
-        if (a->lock != Arrival::Lock::open) continue;
-        const bool taken = std::any_of(here_.begin(), here_.end(), [&](const Arrival* b) {
-            if (b == a || b->begin > a->begin || b->end <= a->begin) return false;
-            if (b->from == node) return true;
-            return b->lock == Arrival::Lock::held && !sends_within(node, b->begin, a->begin);
-        });
-        const bool receivable = a->from != node && a->reception != Arrival::no_reception;
-        a->lock = receivable && !taken ? Arrival::Lock::held : Arrival::Lock::missed;
-    }
+/// The frame can be decoded there, and the receiver was on no other when it began.
+bool SinrReceivers::is_free_for(NodeId node, const Arrival& arrival) const {
+    if (arrival.from == node || arrival.reception == Arrival::no_reception) return false;
+    return std::none_of(here_.begin(), here_.end(), [&](const Arrival* a) {
+        if (a == &arrival || a->begin > arrival.begin || a->end <= arrival.begin) return false;
+        if (a->from == node) return true;
+        return a->lock == Arrival::Lock::held && !sends_within(node, a->begin, arrival.begin);
+    });
 }
 
 /// The node sends while the frame arrives.

@@ -3,6 +3,7 @@
 
 #include "models/error_rate.hpp"
 #include "models/on_air.hpp"
+#include "sim/math.hpp"
 #include "sim/record.hpp"
 
 #include <algorithm>
@@ -11,18 +12,21 @@
 
 namespace rovernet {
 
-/// Reception rung "sinr": a receiver locks on to the first frame that reaches it while it is free
-/// (of several at once to the strongest), and gets it with the probability that all bits are right,
-/// chunk by chunk between the changes of the interference, which is the sum of all other frames on
-/// air there.
+/// Reception rung "sinr": a receiver that is free locks on to a frame whose preamble it finds, and
+/// gets it with the probability that all bits are right, chunk by chunk between the changes of the
+/// interference, which is the sum of all other frames on air there.
 ///
-/// A frame that begins while the receiver is locked on another, or sends, is lost; so is the one
-/// that it is locked on when it begins to send. Errors are those of the payload: a preamble is
-/// taken to be detected. Frames weaker than the sensitivity by `interference_cut`, or than the
-/// noise floor by 10 dB, are left out: each of them would change the interference by less than
-/// that. Sources: models/error_rate.hpp; IEEE 802.11-2020, clause 15-18, for what a receiver does.
+/// A preamble is found if it is stronger than noise and interference by `preamble_threshold` when
+/// it has been on air for 4 us; of several at once the strongest is looked at first. A frame that
+/// begins while the receiver is locked on another, or sends, is lost; so is the one that it is
+/// locked on when it begins to send. Errors are those of the payload. Frames weaker than the
+/// sensitivity by `interference_cut`, or than the noise floor by 10 dB, are left out: each of them
+/// would change the interference by less than that (see Network::interference_left_out).
+/// Sources: models/error_rate.hpp; IEEE 802.11-2020, clauses 15-18, for what a receiver does; the
+/// threshold and the time of ns-3.37's ThresholdPreambleDetectionModel.
 struct Sinr {
-    Db interference_cut{20};  ///< [dB] >= 0
+    Db interference_cut{20};   ///< [dB] >= 0
+    Db preamble_threshold{4};  ///< [dB] the least SINR at which a preamble is found
 };
 
 /// What judging a frame takes beside what is on air.
@@ -36,6 +40,8 @@ struct SinrFrame {
 /// The receivers of all nodes.
 class SinrReceivers {
   public:
+    explicit SinrReceivers(const Sinr& rung = {}) : rung_(rung) {}
+
     /// Makes a frame known that will arrive at `node` after `now`.
     void add(OnAir& on_air, NodeId node, const Arrival& arrival, Time now) {
         longest_ = std::max(longest_, arrival.end - arrival.begin);
@@ -63,7 +69,7 @@ class SinrReceivers {
         };
         if (signal.lock == Arrival::Lock::open) {
             sort_here(level);
-            settle_locks(node, signal.begin);
+            settle_locks(node, signal.begin, frame.noise, level);
         }
         if (sends_during(node, signal)) return Fate::busy;
         if (signal.lock == Arrival::Lock::missed) return Fate::collided;
@@ -88,7 +94,32 @@ class SinrReceivers {
         });
     }
     bool sends_during(NodeId node, const Arrival& judged) const;
-    void settle_locks(NodeId node, Time until);
+    /// Decides for all frames that began by `until`, in their order, whether the receiver locked on
+    /// to them.
+    template <class Level>
+    void settle_locks(NodeId node, Time until, Dbm noise, Level level) {
+        for (Arrival* a : here_) {
+            if (a->begin > until) return;
+            if (a->lock != Arrival::Lock::open) continue;
+            const bool locks = is_free_for(node, *a) && finds_preamble(*a, noise, level);
+            a->lock = locks ? Arrival::Lock::held : Arrival::Lock::missed;
+        }
+    }
+    /// The preamble is strong enough among what is on air when it has been looked at for so long.
+    template <class Level>
+    bool finds_preamble(Arrival& preamble, Dbm noise, Level level) {
+        constexpr Duration detection{4'000};
+        const Time t = std::min(preamble.begin + detection, preamble.end - Duration{1});
+        double others_mw = 0;
+        for (Arrival* a : here_) {
+            const bool on_air = a->begin <= t && t < a->end && a != &preamble;
+            if (on_air) others_mw += math::exp10(level(*a) / 10);
+        }
+        if (others_mw == 0) return Dbm{level(preamble)} - noise >= rung_.preamble_threshold;
+        const double disturbing_db = 10 * math::log10(others_mw + math::exp10(noise.value / 10));
+        return Dbm{level(preamble)} - Dbm{disturbing_db} >= rung_.preamble_threshold;
+    }
+    bool is_free_for(NodeId node, const Arrival& arrival) const;
     bool sends_within(NodeId node, Time after, Time until) const;
     bool is_certain(const Arrival& judged, const SinrFrame& frame) const {
         return here_.empty() &&
@@ -96,6 +127,7 @@ class SinrReceivers {
     }
     double log_success_of(const Arrival& judged, const SinrFrame& frame);
 
+    Sinr rung_;
     Duration longest_{0};
     std::vector<Arrival*> here_;  // what is or was on air at the node, in order of its beginning
     std::vector<Time> changes_;

@@ -76,6 +76,7 @@ model = "collision"
 capture_ratio = "6 dB"
 capture = "later"
 interference_cut = "3 dB"
+preamble_threshold = "6 dB"
 
 [access]
 model = "csma"

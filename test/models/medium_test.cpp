@@ -271,3 +271,42 @@ TEST_CASE("medium: receivers that are light seconds away are in order, too") {
     CHECK(order == std::vector{NodeId{4}, NodeId{2}, NodeId{3}, NodeId{1}});
     CHECK(heard.back().time == start_of_run + from_seconds(3e9 / speed_of_light));
 }
+
+TEST_CASE("medium: ns-2's default radio decodes to 250 m and senses to 550 m over flat ground") {
+    // W of its manual: Pt_, RXThresh_ and CSThresh_, each to four digits.
+    const auto watts = [](double w) { return Dbm{10 * std::log10(1000 * w)}; };
+    const Radio radio{.power = watts(0.28183815),
+                      .sensitivity = watts(3.652e-10),
+                      .carrier_sense_threshold = watts(1.559e-11),
+                      .frequency = {914e6},
+                      .antenna_height = Meters{1.5}};
+    const Scene field;
+    Medium medium{{.scene = &field}};
+    Legs legs;
+    for (const double x : {0.0, 249.9, 250.1, 549.9, 550.1}) {
+        legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
+        medium.add(radio, legs.size(), TwoRay{});
+    }
+    const auto hearers = medium.sensed(NodeId{0}, start_of_run, legs);
+    REQUIRE(hearers.receivers.size() == 1);
+    CHECK(hearers.receivers[0].node == NodeId{1});
+    std::vector<NodeId> sensors;
+    for (const auto& h : hearers.others) sensors.push_back(h.node);
+    std::sort(sensors.begin(), sensors.end());
+    CHECK(sensors == std::vector{NodeId{2}, NodeId{3}});
+}
+
+TEST_CASE("medium: what is left out adds to the noise what the weakest that is told would add") {
+    const Scene field;
+    // Noise of -93.6 dBm; the cut is at -95 dBm: each adds 0.72 of the noise at most.
+    Medium medium{{.scene = &field, .interference_cut = Db{20}}};
+    medium.add({}, 1, Friis{});
+    const double noise = noise_floor(Radio{}).value;
+    const double each = std::pow(10, (-95 - noise) / 10);
+    CHECK(medium.left_out(0) == Db{0});
+    CHECK(medium.left_out(3).value == doctest::Approx(10 * std::log10(1 + 3 * each)).epsilon(1e-9));
+    // No lower than 10 dB below the noise.
+    Medium wide{{.scene = &field, .interference_cut = Db{60}}};
+    wide.add({}, 1, Friis{});
+    CHECK(wide.left_out(10).value == doctest::Approx(10 * std::log10(2.0)).epsilon(1e-9));
+}

@@ -70,6 +70,31 @@ TEST_CASE("sinr: of frames that begin together it locks on to the strongest, who
     }
 }
 
+TEST_CASE("sinr: a preamble is found if it stands out by the threshold after 4 us") {
+    for (const double above : {3.9, 4.1}) {
+        Receiver r;
+        r.hear(NodeId{1}, at(0), at(20), -60, false);  // is over before the payload begins
+        const auto frame = r.hear(NodeId{2}, at(10), at(210), -60 + above);
+        CHECK(r.judge(frame, at(210)) == (above > 4 ? Fate::waiting : Fate::collided));
+    }
+    // What comes later than that does not count, nor what was over before.
+    for (const bool late : {true, false}) {
+        Receiver r;
+        if (!late) r.hear(NodeId{1}, at(0), at(13), -60, false);
+        const auto frame = r.hear(NodeId{2}, at(10), at(210), -60);
+        if (late) r.hear(NodeId{1}, at(15), at(25), -60, false);
+        CHECK(r.judge(frame, at(210)) == Fate::waiting);
+    }
+}
+
+TEST_CASE("sinr: where a preamble was not found the receiver is free for the next") {
+    Receiver r;
+    const auto first = r.hear(NodeId{1}, at(0), at(100), -80);
+    const auto second = r.hear(NodeId{2}, at(2), at(202), -60);
+    CHECK(r.judge(first, at(100)) == Fate::collided);
+    CHECK(r.judge(second, at(202)) == Fate::waiting);
+}
+
 TEST_CASE("sinr: a frame that nobody can decode there is interference, and takes no lock") {
     Receiver r;
     r.hear(NodeId{1}, at(0), at(100), -90, false);
