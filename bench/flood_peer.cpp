@@ -2,7 +2,7 @@
 // The flood of bench/peers in rovernet, for bench/peers/run: prints one line of JSON.
 //   --movement=FILE --rung=threshold|csma|csma_collision --header=36 --messages=20 --interval=3
 //   --ttl=100 --jitter=0.05
-//   --payload=64 --seed=1
+//   --payload=64 --seed=1 --cca_us=13 --turnaround_us=5
 // threshold: a disc of 250 m. csma: 802.11b at 1 Mb/s over flat ground as ns-2 has it by default
 // (250 m decoded, 550 m sensed), with noise, interference and bit errors; csma_collision: with
 // ns-2's rule of reception instead. The header is that of 802.11 and LLC (ns-2: 58).
@@ -97,7 +97,13 @@ NetworkSettings settings(const Options& options, bool listens) {
         } else {
             out.reception = Collision{};
         }
-        out.access = Csma{.header = static_cast<std::uint32_t>(options.number("header", 36))};
+        Csma csma{.header = static_cast<std::uint32_t>(options.number("header", 36))};
+        const auto us = [&](const char* name, Duration otherwise) {
+            return from_seconds(1e-6 * options.number(name, 1e6 * seconds(otherwise)));
+        };
+        csma.timing.cca_time = us("cca_us", csma.timing.cca_time);
+        csma.timing.turnaround = us("turnaround_us", csma.timing.turnaround);
+        out.access = csma;
     } else {
         out.propagation = Disc{.range = {250}};
     }
