@@ -126,8 +126,9 @@ bool is_reason(std::string_view text) {
     return std::find(std::begin(reasons), std::end(reasons), text) != std::end(reasons);
 }
 
-/// What became of a frame that was lost for a reason.
+/// What became of a frame that the MAC dropped for a reason.
 std::optional<Fate> loss_of(std::string_view reason) {
+    if (reason == "DUP") return Fate::duplicate;
     for (const Fate fate : {Fate::off, Fate::garbled, Fate::collided, Fate::busy}) {
         if (reason == reason_of_loss(fate)) return fate;
     }

@@ -25,7 +25,7 @@ struct Ns2Packet {
         ended_by_ttl,  ///< `D RTR TTL`
         suppressed,    ///< `D RTR DUP`
         dropped,       ///< `D RTR SLP`, `D IFQ IFQ`, `D IFQ END`, `D MAC RET`
-        lost           ///< `D MAC` with the reason: SLP, ERR, COL or BSY
+        lost           ///< `D MAC` with the reason: SLP, ERR, COL, BSY or DUP
     };
     Event event{};
     Fate loss = Fate::off;              ///< of a lost one

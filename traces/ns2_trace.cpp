@@ -231,9 +231,10 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
     const MacHeader mac = ip_header(frame.sender, frame.next_hop, r.reserved);
     for (const Reception& rx : r.receptions) {
         PacketLine line{{'r', rx.time, rx.node, "MAC", "---", mac}, frame.message, frame.ttl};
-        if (!is_decoded(rx.fate)) {
+        const bool repeated = frame.next_hop != everyone && rx.fate == Fate::duplicate;
+        if (repeated || !is_decoded(rx.fate)) {
             line.op = 'D';
-            line.reason = reason_of_loss(rx.fate);
+            line.reason = repeated ? "DUP" : reason_of_loss(rx.fate);
             packet(line, context);
             continue;
         }

@@ -64,6 +64,22 @@ TEST_CASE("ns-2 trace: movements, the same in both formats") {
     CHECK(without_first_lines(trace_of(Ns2Format::new_format, play), 11).starts_with(last));
 }
 
+TEST_CASE("ns-2 trace: a repeated unicast is dropped by the MAC") {
+    const auto repeat = [](Stream& s) {
+        s.place(Vec3{});
+        s.place(Vec3{10, 0, 0});
+        const auto m = s.send(at(1'000'000'000), a, 1, 64, 2);
+        Frame again = frame(m, a, 1, 1);
+        again.next_hop = b;
+        s.receive(again, {{b, at(1'500'000'000), Fate::duplicate, false}});
+    };
+    const std::string last =
+        "D 1.500000000 _1_ MAC  DUP 0 message 64 [0 1 0 800] ------- [0:0 -1:0 1 0] \n";
+    CHECK(trace_of(Ns2Format::old_format, repeat).ends_with(last));
+    CHECK(trace_of(Ns2Format::old_format, repeat, MacTrace::on).ends_with(last));
+    CHECK(trace_of(Ns2Format::old_format, repeat).find("r 1.5") == std::string::npos);
+}
+
 TEST_CASE("ns-2 trace: the old format, line by line") {
     CHECK(without_first_lines(trace_of(Ns2Format::old_format, play), 12) ==
           "v 10 eval {set sim_annotation {reachable 0 2}}\n"
