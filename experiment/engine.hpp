@@ -132,7 +132,7 @@ class Engine final : public LinkLayer, public Air {
     void tell_stations(const Flight& flight, std::span<const Reception> receptions);
     void on_access_timer(NodeId node, std::uint32_t tag);
     void refill(NodeId node);
-    MessageId new_message(NodeId node, std::string payload, std::uint32_t bytes);
+    MessageId new_message(NodeId node, NodeId to, std::string payload, std::uint32_t bytes);
     void hand_over(const Flight& flight, std::span<const Reception> receptions);
     void react(NodeId node, std::uint64_t handed_over);
     void act(std::size_t slot);

@@ -73,7 +73,7 @@ void Engine::send_to(NodeId id, NodeId to, std::string payload, std::uint32_t by
         throw std::invalid_argument("a unicast needs another robot to go to");
     }
     if (!medium_.is_on(id)) return;
-    const MessageId message = new_message(id, std::move(payload), bytes);
+    const MessageId message = new_message(id, to, std::move(payload), bytes);
     const auto robots = static_cast<std::uint32_t>(to == everyone ? size() : 2);
     emit(Sent{now_, id, message, 1, robots, {}});
     broadcast(

@@ -13,12 +13,13 @@ void Engine::route(Router router) {
     router_.emplace(std::move(router));
 }
 
-MessageId Engine::new_message(NodeId id, std::string payload, std::uint32_t bytes) {
+MessageId Engine::new_message(NodeId id, NodeId to, std::string payload, std::uint32_t bytes) {
     Node& origin = node(id);
     const std::uint32_t number = origin.messages_sent++;
     return messages_.add({.origin = id,
                           .uid = next_uid_++,
                           .number = number,
+                          .to = to,
                           .key = combine(origin.key, number),
                           .size = bytes,
                           .created = now_,
@@ -28,7 +29,7 @@ MessageId Engine::new_message(NodeId id, std::string payload, std::uint32_t byte
 void Engine::send(NodeId id, std::string payload, std::uint32_t bytes) {
     if (!router_) throw std::invalid_argument("no routing protocol: call route() before sending");
     if (!medium_.is_on(id)) return;
-    const MessageId message = new_message(id, std::move(payload), bytes);
+    const MessageId message = new_message(id, everyone, std::move(payload), bytes);
     Sent sent{now_, id, message, router_->initial_ttl(), static_cast<std::uint32_t>(size()), {}};
     if (wanted_ & kind_reachable) sent.reachable = medium_.reachable(id, now_, legs_);
     emit(sent);

@@ -16,6 +16,7 @@ struct Message {
     NodeId origin;
     std::uint64_t uid = 0;     ///< unique in the run, from 0 in the order of sending
     std::uint32_t number = 0;  ///< the origin's own count of messages, from 0
+    NodeId to = everyone;      ///< who it is for
     std::uint64_t key = 0;     ///< for random draws: made of the origin's key and `number`
     std::uint32_t size = 0;    ///< [bytes] on air
     Time created;

@@ -248,7 +248,7 @@ Ns2Line parse_old_packet(char op, Token time, Tokens& tokens) {
     expect_ip_mark(tokens);
     const Token source = tokens.within(tokens.next(), "[", "", "\"[\" and a source address");
     const bool application = read_origin(p, tokens, source, ':');
-    tokens.next();  // destination
+    p.for_one = !tokens.next().text.starts_with('-');
     read_ttl(p, tokens, tokens.next());
     tokens.within(tokens.next(), "", "]", "a next hop and \"]\"");
     if (!application) return {};
@@ -274,7 +274,7 @@ Ns2Line parse_new_packet(char op, Token time_key, Tokens& tokens) {
     if (ip.text == "-P" || (ip.text.empty() && layer.text == "MAC")) return {};  // ARP, RTS, ...
     if (ip.text != "-Is") tokens.fail(ip, "\"-Is\"");
     const Token source = tokens.next();
-    tokens.value("-Id");
+    p.for_one = !tokens.value("-Id").text.starts_with('-');
     if (tokens.value("-It").text != "message") return {};
     const bool application = read_origin(p, tokens, source, '.');
     read_last_hop(p, tokens, transmitter, ethertype);

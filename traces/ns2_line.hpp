@@ -37,6 +37,7 @@ struct Ns2Packet {
     std::uint64_t uid = 0;
     std::uint32_t size = 0;  ///< [bytes]
     std::uint16_t ttl = 0;
+    bool for_one = false;  ///< it names its destination
     int uid_column = 0;
     int ttl_column = 0;
 };

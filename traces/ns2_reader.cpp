@@ -186,7 +186,8 @@ void Replay::sent(const Ns2Packet& p) {
                                         .payload = {}});
     entry->second = id;
     initial_ttl_.push_back(p.ttl);
-    Sent record{p.time, p.node, id, p.ttl, std::max(robots_, 1U), std::nullopt};
+    const std::uint32_t robots = p.for_one ? 2 : std::max(robots_, 1U);
+    Sent record{p.time, p.node, id, p.ttl, robots, std::nullopt};
     if (reachable_ && reachable_->uid == p.uid) record.reachable = reachable_->robots;
     reachable_.reset();
     emit(record);

@@ -180,6 +180,10 @@ class Ns2Trace::Writer {
 
     void text(std::string_view s) { at_ = write_text(at_, s); }
     void integer(std::uint64_t value) { at_ = write_integer(at_, value); }
+    void destination(NodeId node) {
+        if (node == everyone) return text("-1");
+        integer(node.value);
+    }
     void hex(std::uint32_t value) { at_ = write_hex(at_, value); }
     void fixed2(double value) { at_ = write_fixed2(at_, value); }
     void begin_line() { at_ = buffer_.get() + used_; }
@@ -337,7 +341,8 @@ void Ns2Trace::Writer::old_start(const Line& line, std::uint64_t uid, std::strin
 void Ns2Trace::Writer::old_packet(const PacketLine& line, const Message& message) {
     old_start(line, message.uid, type_of(AirFrame::data), message.size + line.added);
     text("------- ["), integer(message.origin.value);
-    text(":0 -1:0 "), integer(line.ttl);
+    text(":0 "), destination(message.to);
+    text(":0 "), integer(line.ttl);
     text(" 0] ");
 }
 
@@ -362,7 +367,8 @@ void Ns2Trace::Writer::new_start(const Line& line, Vec3 position) {
 void Ns2Trace::Writer::new_packet(const PacketLine& line, const Message& message, Vec3 position) {
     new_start(line, position);
     text("-Is "), integer(message.origin.value);
-    text(".0 -Id -1.0 -It "), text(type_of(AirFrame::data));
+    text(".0 -Id "), destination(message.to);
+    text(".0 -It "), text(type_of(AirFrame::data));
     text(" -Il "), integer(message.size + line.added);
     text(" -If 0 -Ii "), integer(message.uid);
     text(" -Iv "), integer(line.ttl);
