@@ -46,9 +46,15 @@ Radio without_labels(Radio radio) {
     return radio;
 }
 
+/// Whether a leg, or its copy in the index, stays where it is until it is replaced.
+template <class AnyLeg>
+bool at_rest(const AnyLeg& leg, Time t) {
+    return leg.velocity == Vec3{} && t < leg.end;
+}
+
 }  // namespace
 
-Medium::Membership Medium::membership(const Radio& radio) {
+Membership Medium::membership(const Radio& radio) {
     return {.essid = number_of(essids_, radio.essid),
             .channel = number_of(channels_, {radio.channel, radio.frequency}),
             .gated = radio.gate == Gate::network};
@@ -151,9 +157,9 @@ void Medium::choose_cells() {
 LinkBatch Medium::batch(NodeId from, Vec3 origin) const {
     return {.frequency = radio(from).frequency,
             .from = origin,
-            .to = positions_,
+            .to = {},
             .from_key = stations_[from.index()].key,
-            .to_keys = keys_,
+            .to_keys = {},
             .scene = settings_.scene,
             .floor_height = settings_.floor_height,
             .seed = settings_.seed,
@@ -206,30 +212,30 @@ void Medium::find_in_shadowed_range(NodeId from, const ShadowedLoss& loss, Time 
     });
 }
 
-void Medium::find_in_reach(NodeId from, Time t, const Legs& legs) {
-    nodes_.clear();
-    positions_.clear();
-    keys_.clear();
-    const double reach2 = squared_reach(kinds_[stations_[from.index()].kind]);
-    visit(from, reach2, t, legs, [&](const Entry& e, Vec3 p, double) {
-        nodes_.push_back(e.node);
-        positions_.push_back(p);
-        keys_.push_back(stations_[e.node.index()].key);
+/// Gathers those within reach, with budget(radio) [dB] and the loss of each.
+template <class Budget>
+void Medium::find_losses(NodeId from, double reach2, Time t, const Legs& legs, Budget budget) {
+    candidates_.clear();
+    const bool rests = settings_.keep_losses && !settings_.all_pairs && at_rest(legs.leg(from), t);
+    visit(from, reach2, t, legs, [&](const Entry& e, Vec3 p, double d2) {
+        candidates_.add({.node = e.node,
+                         .rests = rests && at_rest(e, t),
+                         .key = stations_[e.node.index()].key,
+                         .antenna = p,
+                         .squared_distance = d2,
+                         .budget_db = budget(kinds_[e.label].radio).value});
     });
+    candidates_.compute_losses(model(from), batch(from, origin_), from, pairs_);
 }
 
-void Medium::keep_those_in_budget(NodeId from) {
-    if (nodes_.empty()) return;
-    Db give_up{-infinity};
-    for (const NodeId node : nodes_) {
-        give_up = std::max(give_up, link_budget(radio(from), radio(node)));
-    }
-    loss_db_.resize(nodes_.size());
-    model(from).loss(batch(from, origin_), give_up, loss_db_);
-
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        if (loss_db_[i] > link_budget(radio(from), radio(nodes_[i])).value) continue;
-        found_.push_back({nodes_[i], squared_distance(origin_, positions_[i])});
+/// Those whose link is up, whatever decides it.
+void Medium::find_in_reach(NodeId from, Time t, const Legs& legs) {
+    Kind& mine = kinds_[stations_[from.index()].kind];
+    find_losses(from, squared_reach(mine), t, legs,
+                [&](const Radio& to) { return link_budget(mine.radio, to); });
+    for (const Candidate& c : candidates_.all()) {
+        if (c.loss_db > c.budget_db) continue;
+        found_.push_back({c.node, c.squared_distance});
     }
 }
 
@@ -244,7 +250,6 @@ void Medium::find_hearers(NodeId from, Time t, const Legs& legs) {
         }
     }
     find_in_reach(from, t, legs);
-    keep_those_in_budget(from);
 }
 
 /// Those that sense `from` over a link that goes by distance alone.
@@ -263,28 +268,18 @@ void Medium::find_sensed_in_range(NodeId from, Time t, const Legs& legs) {
     });
 }
 
+/// Those that sense `from`, whatever decides it.
 void Medium::find_sensed_in_reach(NodeId from, Time t, const Legs& legs) {
-    const Radio& mine = kind(from).radio;
-    Db give_up{-infinity};
-    nodes_.clear();
-    positions_.clear();
-    keys_.clear();
-    const double reach2 = squared_sensed_reach(kinds_[stations_[from.index()].kind]);
-    visit(from, reach2, t, legs, [&](const Entry& e, Vec3 p, double) {
-        nodes_.push_back(e.node);
-        positions_.push_back(p);
-        keys_.push_back(stations_[e.node.index()].key);
-        give_up = std::max(give_up, audible_budget(mine, kinds_[e.label].radio));
-    });
-    loss_db_.resize(nodes_.size());
-    if (!nodes_.empty()) model(from).loss(batch(from, origin_), give_up, loss_db_);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        const Radio& theirs = kind(nodes_[i]).radio;
-        if (loss_db_[i] > audible_budget(mine, theirs).value) continue;
-        const double d2 = squared_distance(origin_, positions_[i]);
-        auto& hearers = loss_db_[i] <= link_budget(mine, theirs).value ? receivers_ : sensors_;
-        const bool senses = loss_db_[i] <= sensing_budget(mine, theirs).value;
-        hearers.push_back({nodes_[i], delay(std::sqrt(d2)), d2, loss_db_[i], senses});
+    Kind& mine = kinds_[stations_[from.index()].kind];
+    find_losses(from, squared_sensed_reach(mine), t, legs,
+                [&](const Radio& to) { return audible_budget(mine.radio, to); });
+    for (const Candidate& c : candidates_.all()) {
+        if (c.loss_db > c.budget_db) continue;
+        const Radio& theirs = kind(c.node).radio;
+        auto& hearers = c.loss_db <= link_budget(mine.radio, theirs).value ? receivers_ : sensors_;
+        const bool senses = c.loss_db <= sensing_budget(mine.radio, theirs).value;
+        hearers.push_back(
+            {c.node, delay(std::sqrt(c.squared_distance)), c.squared_distance, c.loss_db, senses});
     }
 }
 
@@ -303,13 +298,7 @@ Medium::Hearers Medium::sensed(NodeId from, Time t, const Legs& legs) {
 }
 
 Dbm Medium::level(NodeId from, NodeId to, double squared_distance) const {
-    const Vec3 there{std::sqrt(squared_distance), 0, 0};
-    LinkBatch link = batch(from, {});
-    link.to = {&there, 1};
-    link.to_keys = {&stations_[to.index()].key, 1};
-    double loss = 0;
-    model(from).loss(link, Db{infinity}, {&loss, 1});
-    return level_after(from, to, loss);
+    return level_after(from, to, loss(from, to, {}, {std::sqrt(squared_distance), 0, 0}));
 }
 
 /// The weakest signal [dBm] that disturbs `to`, if there is a cut.
@@ -395,13 +384,17 @@ bool Medium::link_up(NodeId from, NodeId to, Time t, const Legs& legs) const {
 }
 
 Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    const Vec3 position = antenna(to, t, legs);
-    LinkBatch link = batch(from, antenna(from, t, legs));
-    link.to = {&position, 1};
+    return {loss(from, to, antenna(from, t, legs), antenna(to, t, legs))};
+}
+
+/// Path loss [dB] from `from` here to `to` there.
+double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there) const {
+    LinkBatch link = batch(from, here);
+    link.to = {&there, 1};
     link.to_keys = {&stations_[to.index()].key, 1};
-    double loss = 0;
-    model(from).loss(link, Db{infinity}, {&loss, 1});
-    return {loss};
+    double db = 0;
+    model(from).loss(link, Db{infinity}, {&db, 1});
+    return db;
 }
 
 }  // namespace rovernet

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/candidates.hpp"
+#include "models/membership.hpp"
 #include "models/neighbour_index.hpp"
+#include "models/pair_cache.hpp"
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
 #include "models/shadowed_range.hpp"
@@ -19,17 +22,17 @@
 
 namespace rovernet {
 
-/// The air: who hears a transmission.
-///
-/// The transmitter's propagation model rules. Everything about a frame is fixed at its start: who
-/// is on, where everybody is, at what level. A link is up iff its path loss is within link_budget.
+/// The air: who hears a transmission. The transmitter's propagation model rules. Everything about a
+/// frame is fixed at its start: who is on, where everybody is, at what level. A link is up iff its
+/// path loss is within link_budget.
 class Medium {
   public:
     struct Settings {
         const Scene* scene = nullptr;   ///< not null; outlives the medium
         Meters floor_height{3};         ///< [m] of one storey
         bool propagation_delay = true;  ///< a frame arrives distance / c after it is sent
-        bool all_pairs = false;         ///< for tests: without the grid
+        bool keep_losses = true;        ///< of pairs at rest, instead of computing them again
+        bool all_pairs = false;         ///< for tests: without the grid, nor losses kept
         /// [dB] frames disturb others down to so much below the sensitivity (but not to more than
         /// 10 dB below the noise floor); none: only those that are sensed do.
         std::optional<Db> interference_cut = std::nullopt;
@@ -49,7 +52,10 @@ class Medium {
         index_.reserve(nodes);
     }
     /// The node's leg has been replaced.
-    void moved(NodeId node, const Legs& legs) { index_.moved(node, legs); }
+    void moved(NodeId node, const Legs& legs) {
+        index_.moved(node, legs);
+        pairs_.moved(node);
+    }
 
     void switch_radio(NodeId node, bool on);
     bool is_on(NodeId node) const { return off_ == 0 || stations_[node.index()].on; }
@@ -62,7 +68,6 @@ class Medium {
     Dbm noise(NodeId node) const { return kind(node).noise; }
     /// How much `frames` of which nothing is told may disturb a receiver: what they add to noise.
     Db left_out(std::size_t frames) const;
-
     /// Appends to `out` the nodes that hear `from` when it sends at `start`, in the order in which
     /// the frame ends at them, then of NodeId. `start` must not decrease from call to call.
     /// @param end  of the frame at the transmitter
@@ -82,8 +87,7 @@ class Medium {
         std::span<const Hearer> receivers;
         std::span<const Hearer> others;  ///< who only sense it, in no order
     };
-    /// Those that sense `from` when it sends at `t`, which must not decrease. The spans are good
-    /// until the next call.
+    /// Those that sense `from` at `t`, which must not decrease; good until the next call.
     Hearers sensed(NodeId from, Time t, const Legs& legs);
     /// Received power [dBm] at `to` over a link of `from` that goes by distance.
     Dbm level(NodeId from, NodeId to, double squared_distance) const;
@@ -96,8 +100,7 @@ class Medium {
         NodeId node;
         double squared_distance;  ///< [m^2] between the antennas
     };
-    /// Those that hear `from` at `t`, which must not decrease; in no order; good until the next
-    /// call.
+    /// Those that hear `from` at `t`, which must not decrease; good until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
         find_hearers(from, t, legs);
         return found_;
@@ -125,17 +128,6 @@ class Medium {
         std::uint32_t radio;  // index into radios_
         std::uint32_t kind;   // index into kinds_
         bool on = true;
-    };
-    /// A radio's network, as numbers that are equal where the settings are.
-    struct Membership {
-        std::uint32_t essid;    // 0: any
-        std::uint32_t channel;  // number and frequency
-        bool gated;
-        static bool match(const Membership& a, const Membership& b) {
-            return !a.gated || !b.gated ||
-                   (a.channel == b.channel && (a.essid == b.essid || !a.essid || !b.essid));
-        }
-        friend bool operator==(const Membership&, const Membership&) = default;
     };
     /// Nobody of a kind that is farther hears, senses or is disturbed. NaN: to be computed.
     struct Ranges {
@@ -165,19 +157,21 @@ class Medium {
     void find_in_range(NodeId from, Time t, const Legs& legs);
     void find_sensed_in_range(NodeId from, Time t, const Legs& legs);
     void find_sensed_in_reach(NodeId from, Time t, const Legs& legs);
-    double squared_reach(const Kind& from, Db best_receiver) const;
     Duration delay(double distance) const;
     Dbm weakest_audible(const Radio& to) const;
     Db audible_budget(const Radio& from, const Radio& to) const;
     void find_hearers(NodeId from, Time t, const Legs& legs);
     void late_receivers(Time end, std::vector<Reception>& out) const;
-    void keep_those_in_budget(NodeId from);
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
+    template <class Budget>
+    void find_losses(NodeId from, double reach2, Time t, const Legs& legs, Budget budget);
+    double squared_reach(const Kind& from, Db best_receiver) const;
     double squared_reach(Kind& from);
     double squared_sensed_reach(Kind& from);
     Ranges compute_ranges(const Kind& from, const Radio& to) const;
     LinkBatch batch(NodeId from, Vec3 origin) const;
+    double loss(NodeId from, NodeId to, Vec3 here, Vec3 there) const;
 
     Settings settings_;
     std::vector<Station> stations_;
@@ -192,16 +186,14 @@ class Medium {
     Db best_receiver_{-1e300};  // gain - cable loss - sensitivity of the most sensitive station
     Db best_sensor_{-1e300};    // the same for what is sensed
     NeighbourIndex index_;
+    PairCache pairs_;
     bool cells_chosen_ = false;
 
     // What is under work, kept for its memory.
     Vec3 origin_;
     std::vector<Found> found_;
     std::vector<std::uint64_t> order_;
-    std::vector<NodeId> nodes_;
-    std::vector<Vec3> positions_;
-    std::vector<std::uint64_t> keys_;
-    std::vector<double> loss_db_;
+    Candidates candidates_;
     std::vector<Hearer> receivers_, sensors_;
 };
 

@@ -2,11 +2,29 @@
 #include "models/raytrace_2007.hpp"
 
 #include "models/itu_indoor.hpp"
+#include "sim/math.hpp"
 
 #include <algorithm>
 #include <vector>
 
 namespace rovernet {
+namespace {
+
+/// The loss without walls [dB], to the last bit itu_indoor_db, whose part of the frequency is
+/// computed once.
+class FreeLoss {
+  public:
+    FreeLoss(Hertz f, double N) : of_frequency_(20 * math::log10(f.value / 1e6)), N_(N) {}
+    double operator()(double d) const {
+        return std::max(0.0, of_frequency_ + N_ * math::log10(std::max(d, 1.0)) - 28);
+    }
+
+  private:
+    double of_frequency_;
+    double N_;
+};
+
+}  // namespace
 
 Meters Raytrace2007::reach(Db loss, Hertz f) const {
     return itu_indoor_reach(loss, f, coefficient);
@@ -17,9 +35,9 @@ void Raytrace2007::loss(const LinkBatch& links, Db give_up, std::span<double> ou
     const double db_per_metre = 100 * wall_factor;
     // A hair more than the budget buys, so that rounding never cuts a link that is just up.
     constexpr double slack = 1 + 1e-12;
+    const FreeLoss free_loss(links.frequency, coefficient);
     for (std::size_t i = 0; i < out_db.size(); ++i) {
-        const double free =
-            std::max(0.0, itu_indoor_db(links.distance(i), links.frequency, coefficient, 0));
+        const double free = free_loss(links.distance(i));
         out_db[i] = free;
         if (db_per_metre == 0 || free > give_up.value) continue;
         const double enough = (give_up.value - free) / db_per_metre * slack;
@@ -34,9 +52,9 @@ void Raytrace2007::loss_by_materials(const LinkBatch& links, Db give_up,
         rates.push_back(wall_rate(material, links.frequency, 100 * wall_factor));
     }
     std::vector<Crossing> scratch;
+    const FreeLoss free_loss(links.frequency, coefficient);
     for (std::size_t i = 0; i < out_db.size(); ++i) {
-        const double free =
-            std::max(0.0, itu_indoor_db(links.distance(i), links.frequency, coefficient, 0));
+        const double free = free_loss(links.distance(i));
         out_db[i] = free;
         if (free > give_up.value) continue;
         out_db[i] += links.scene->wall_loss(links.from, links.to[i], rates,

@@ -24,9 +24,14 @@ struct Axis {
 
     Axis(double from, double to) : start(from), step(to - from), inverse(1 / step) {}
     /// The fraction at which the segment meets a grid line. Monotone in `line`, rounding included.
-    double at(int line) const { return (line - start) * inverse; }
-    double enter(int low, int high) const { return std::min(at(low), at(high)); }
-    double leave(int low, int high) const { return std::max(at(low), at(high)); }
+    double at(double line) const { return (line - start) * inverse; }
+    /// The same of several at once.
+    template <class Lines>
+    Lines at_all(Lines lines) const {
+        return (lines - start) * inverse;
+    }
+    double enter(double low, double high) const { return std::min(at(low), at(high)); }
+    double leave(double low, double high) const { return std::max(at(low), at(high)); }
     bool rises() const { return step >= 0; }
 };
 
@@ -107,6 +112,23 @@ WallIndex::WallIndex(int columns, int rows, const std::vector<CellRectangle>& re
         for (int row = r.row0; row < r.row1; ++row)
             std::fill_n(solid_.begin() + std::ptrdiff_t{row} * columns_ + r.column0,
                         r.column1 - r.column0, true);
+    group_by_two();
+}
+
+void WallIndex::group_by_two() {
+    for (std::size_t t = 0; t + 1 < first_.size(); ++t) {
+        first_two_.push_back(twos_.size());
+        for (std::size_t i = first_[t]; i < first_[t + 1]; ++i) {
+            const std::size_t k = (i - first_[t]) % 2;
+            if (k == 0) twos_.push_back({});  // two empty rectangles: no segment passes them
+            auto& sides = twos_.back().sides;
+            sides[Two::left][k] = rectangles_[i].column0;
+            sides[Two::right][k] = rectangles_[i].column1;
+            sides[Two::bottom][k] = rectangles_[i].row0;
+            sides[Two::top][k] = rectangles_[i].row1;
+        }
+    }
+    first_two_.push_back(twos_.size());
 }
 
 bool WallIndex::solid(int column, int row) const {
@@ -173,6 +195,55 @@ void WallIndex::walk(CellPoint a, CellPoint b, Visit visit) const {
         walk_tiles(a, b, merge);
 }
 
+/// The pieces of a segment in one tile, in order.
+class WallIndex::TilePieces {
+  public:
+    TilePieces(const Axis& x, const Axis& y)
+        : x_(x),
+          y_(y),
+          enter_x_(x.rises() ? Two::left : Two::right),
+          leave_x_(x.rises() ? Two::right : Two::left),
+          enter_y_(y.rises() ? Two::bottom : Two::top),
+          leave_y_(y.rises() ? Two::top : Two::bottom) {}
+
+    std::span<const Piece> in(std::span<const Two> tile) {
+        std::size_t count = 0;
+        for (const Two& two : tile) {
+            const Pair from = larger(y_.at_all(two.sides[enter_y_]),
+                                     larger(x_.at_all(two.sides[enter_x_]), Pair{0, 0}));
+            const Pair to = smaller(y_.at_all(two.sides[leave_y_]),
+                                    smaller(x_.at_all(two.sides[leave_x_]), Pair{1, 1}));
+            // Without a branch that would be mispredicted.
+            for (std::size_t k = 0; k < 2; ++k) {
+                pieces_[count] = {from[k], to[k]};
+                count += from[k] < to[k];
+            }
+        }
+        if (count > 1) sort(count);
+        return {pieces_.data(), count};
+    }
+
+  private:
+    // The second if they are equal, as the processor has them: so 0 takes the place of -0.
+    static Pair larger(Pair a, Pair b) { return a > b ? a : b; }
+    static Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
+
+    void sort(std::size_t count) {
+        for (std::size_t i = 1; i < count; ++i) {
+            const Piece piece = pieces_[i];
+            std::size_t k = i;
+            for (; k > 0 && piece.from < pieces_[k - 1].from; --k) pieces_[k] = pieces_[k - 1];
+            pieces_[k] = piece;
+        }
+    }
+
+    Axis x_, y_;
+    std::size_t enter_x_, leave_x_, enter_y_, leave_y_;
+    // A segment passes fewer than two cells per row and column of a tile, each in one rectangle;
+    // one more is written, and not counted.
+    std::array<Piece, 2 * tile_size + 1> pieces_;
+};
+
 template <class Merge>
 void WallIndex::walk_tiles(CellPoint a, CellPoint b, Merge& merge) const {
     const Axis x(a.u, b.u);
@@ -180,30 +251,20 @@ void WallIndex::walk_tiles(CellPoint a, CellPoint b, Merge& merge) const {
     const double start = std::max({0.0, x.enter(0, columns_), y.enter(0, rows_)});
     const double end = std::min({1.0, x.leave(0, columns_), y.leave(0, rows_)});
     if (!(start < end)) return;
-    // A segment passes fewer than two cells per row and column of a tile, each in one rectangle.
-    std::array<Piece, 2 * tile_size> pieces;
+    TilePieces pieces(x, y);
+    const int ahead_x = x.rises(), step_x = 2 * ahead_x - 1;
+    const int ahead_y = y.rises(), step_y = 2 * ahead_y - 1;
     int i = tile_at(x, start, tile_columns_);
     int j = tile_at(y, start, tile_rows_);
     for (;;) {
-        std::size_t count = 0;
-        for (const CellRectangle& r : tile(i, j)) {
-            const Piece piece{
-                std::max({0.0, x.enter(r.column0, r.column1), y.enter(r.row0, r.row1)}),
-                std::min({1.0, x.leave(r.column0, r.column1), y.leave(r.row0, r.row1)})};
-            if (!(piece.from < piece.to)) continue;
-            std::size_t k = count++;
-            for (; k > 0 && piece.from < pieces[k - 1].from; --k) pieces[k] = pieces[k - 1];
-            pieces[k] = piece;
-        }
-        for (std::size_t k = 0; k < count; ++k)
-            if (!merge.add(pieces[k])) return;
-        const double next_x = x.at((x.rises() ? i + 1 : i) * tile_size);
-        const double next_y = y.at((y.rises() ? j + 1 : j) * tile_size);
+        for (const Piece& piece : pieces.in(twos(i, j)))
+            if (!merge.add(piece)) return;
+        const double next_x = x.at((i + ahead_x) * tile_size);
+        const double next_y = y.at((j + ahead_y) * tile_size);
         if (std::min(next_x, next_y) >= end) break;
-        if (next_x <= next_y)
-            i += x.rises() ? 1 : -1;
-        else
-            j += y.rises() ? 1 : -1;
+        const bool along_x = next_x <= next_y;
+        i += along_x ? step_x : 0;
+        j += along_x ? 0 : step_y;
     }
     merge.finish();
 }

@@ -4,6 +4,7 @@
 #include "scene/map_frame.hpp"
 #include "scene/rectangles.hpp"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -27,7 +28,7 @@ struct Crossing {
 /// are cut at tile borders: each lies in one tile, and tiles along the segment come in order.
 class WallIndex {
   public:
-    static constexpr int tile_size = 32;  ///< [cells]
+    static constexpr int tile_size = 64;  ///< [cells]
 
     WallIndex() = default;
     /// @param rectangles  disjoint, inside columns x rows; may touch
@@ -38,8 +39,7 @@ class WallIndex {
     int tile_rows() const { return tile_rows_; }
     /// The rectangles inside one tile.
     std::span<const CellRectangle> tile(int column, int row) const {
-        const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(tile_columns_) +
-                       static_cast<std::size_t>(column);
+        const std::size_t i = tile_number(column, row);
         return std::span(rectangles_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
 
@@ -54,6 +54,24 @@ class WallIndex {
     bool surrounds(CellPoint p) const;
 
   private:
+    /// Two numbers on which the processor works at once.
+    using Pair [[gnu::vector_size(16)]] = double;
+    /// Two rectangles of a tile.
+    struct Two {
+        enum Side { left, right, bottom, top };
+        std::array<Pair, 4> sides;  // by side [cells]
+    };
+    class TilePieces;
+
+    void group_by_two();
+    std::span<const Two> twos(int column, int row) const {
+        const std::size_t i = tile_number(column, row);
+        return std::span(twos_).subspan(first_two_[i], first_two_[i + 1] - first_two_[i]);
+    }
+    std::size_t tile_number(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(tile_columns_) +
+               static_cast<std::size_t>(column);
+    }
     template <class Visit>
     void walk(CellPoint a, CellPoint b, Visit visit) const;
     template <class Merge>
@@ -68,7 +86,9 @@ class WallIndex {
     int tile_rows_ = 0;
     std::vector<std::size_t> first_;         ///< of each tile's rectangles; one more than tiles
     std::vector<CellRectangle> rectangles_;  ///< by tile, row by row
-    std::vector<bool> solid_;                ///< columns * rows
+    std::vector<std::size_t> first_two_;     ///< of each tile's twos; one more than tiles
+    std::vector<Two> twos_;    ///< the rectangles again; of an odd number the last is alone
+    std::vector<bool> solid_;  ///< columns * rows
 };
 
 }  // namespace rovernet

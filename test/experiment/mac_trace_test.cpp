@@ -234,7 +234,7 @@ TEST_CASE("MAC trace: sizes and durations of an exchange are those that ns-2.35 
                     "-1.000000 -Nl MAC -Nw --- -Ma 13ee -Md 2 -Ms 1 -Mt 0 \n"
                     "r -t 1.000402000 -Hs 2 -Hd -2 -Ni 2 ") != text.npos);
     CHECK(text.find("-Ma 12b4 -Md 1 -Ms 0 -Mt 0 \n") != text.npos);
-    CHECK(text.find("-Ma 13a -Md 2 -Ms 1 -Mt 800 -Is 1.0 -Id -1.0 -It message -Il 558 ") !=
+    CHECK(text.find("-Ma 13a -Md 2 -Ms 1 -Mt 800 -Is 1.0 -Id 2.0 -It message -Il 558 ") !=
           text.npos);
 }
 

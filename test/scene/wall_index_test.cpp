@@ -145,7 +145,7 @@ template <class Check>
 void for_random_rays(std::uint32_t seed, Check check) {
     test::Draw draw(seed);
     for (int map = 0; map < 40; ++map) {
-        const OccupancyGrid grid = test::random_map(draw, 1 + draw.below(90), 1 + draw.below(90),
+        const OccupancyGrid grid = test::random_map(draw, 1 + draw.below(180), 1 + draw.below(180),
                                                     map % 4 == 0 ? 60 : draw.below(15));
         const World world{grid, index_of(grid), {grid.columns, grid.rows, one_by_one(grid)}};
         for (int i = 0; i < 150; ++i) check(world, random_ray(draw, grid), draw);
@@ -183,13 +183,13 @@ TEST_CASE("wall index: tiles give the same bits as every rectangle tried in turn
 
 TEST_CASE("wall index: from far away, past the corners of tiles, no tile is left out") {
     test::Draw draw(17);
-    const OccupancyGrid grid = test::random_map(draw, 100, 100, 50);
+    const OccupancyGrid grid = test::random_map(draw, 200, 200, 50);
     const WallIndex index = index_of(grid);
     const auto rectangles = solid_rectangles(grid, Solid::walls);
-    for (int i = 0; i < 12000; ++i) {
+    for (int i = 0; i < 6000; ++i) {
         const double far = i % 2 == 0 ? 1e9 : 1e6;
         const double line = WallIndex::tile_size * draw.below(4);
-        const double edge = draw.below(2) * 100.0;
+        const double edge = draw.below(2) * 200.0;
         const CellPoint corner = i % 3 == 0 ? CellPoint{edge, line} : CellPoint{line, edge};
         const double du = draw.uniform(0.1, 1), dv = draw.uniform(-1, 1);
         const CellPoint a{corner.u - far * du, corner.v - far * dv};

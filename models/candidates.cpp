@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "models/candidates.hpp"
+
+namespace rovernet {
+
+void Candidates::compute_losses(const Propagation& model, LinkBatch link, NodeId from,
+                                PairCache& cache) {
+    asked_.clear();
+    const Db give_up = at_rest_ > 0 ? cache.open(from, give_up_) : give_up_;
+    std::size_t known = 0;
+    for (std::uint32_t i = 0; i < all_.size(); ++i) {
+        const double* const kept = all_[i].rests ? cache.find(all_[i].node) : nullptr;
+        if (kept) {
+            all_[i].loss_db = *kept;
+            ++known;
+        } else {
+            asked_.push_back(i);
+        }
+    }
+    if (asked_.empty()) return;
+    ask(model, link, give_up);
+    if (known == at_rest_ || !cache.renew(at_rest_)) return;
+    for (const Candidate& c : all_) {
+        if (c.rests) cache.keep(c.node, c.loss_db);
+    }
+}
+
+void Candidates::ask(const Propagation& model, LinkBatch link, Db give_up) {
+    positions_.clear();
+    keys_.clear();
+    for (const std::uint32_t i : asked_) {
+        positions_.push_back(all_[i].antenna);
+        keys_.push_back(all_[i].key);
+    }
+    loss_db_.resize(asked_.size());
+    link.to = positions_;
+    link.to_keys = keys_;
+    model.loss(link, give_up, loss_db_);
+    for (std::size_t k = 0; k < asked_.size(); ++k) all_[asked_[k]].loss_db = loss_db_[k];
+}
+
+}  // namespace rovernet

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "models/medium.hpp"
+#include "models/raytrace_2007.hpp"
+#include "models/two_ray.hpp"
+#include "test/scene/drawn_map.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Raytrace2007 behind walls that counts what it is asked for.
+struct CountedRays {
+    static constexpr std::string_view name = "counted_rays";
+    Raytrace2007 model = {};
+    std::shared_ptr<std::size_t> rays = std::make_shared<std::size_t>(0);
+
+    Meters reach(Db loss, Hertz f) const { return model.reach(loss, f); }
+    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+        *rays += links.size();
+        model.loss(links, give_up, out_db);
+    }
+};
+
+Radio random_radio(test::Draw& draw) {
+    const Dbm sensitivity{draw.uniform(-85, -45)};
+    return {.power = {draw.uniform(0, 25)},
+            .sensitivity = sensitivity,
+            .carrier_sense_threshold = sensitivity - 6_dB,
+            .frequency = {draw.uniform(1800e6, 2700e6)},
+            .antenna_height = {draw.uniform(0, 2)},
+            .gate = Gate::none};
+}
+
+/// The same robots on two media, one of which keeps the losses of pairs at rest.
+struct Twins {
+    test::Draw draw;
+    Scene scene{test::random_map(draw, 40, 40, 10)};
+    Medium keeping{settings(true)}, plain{settings(false)};
+    Legs legs{};
+    Time now = start_of_run;
+    std::size_t links = 0;  // that were found
+
+    explicit Twins(std::uint32_t seed) : draw(seed) {}
+    Medium::Settings settings(bool keep) const {
+        return {.scene = &scene,
+                .keep_losses = keep,
+                .interference_cut = Db{20},
+                .seed = 11,
+                .replication = 2};
+    }
+
+    Vec3 place() { return {draw.uniform(-5, 45), draw.uniform(-5, 45), draw.uniform(0, 4)}; }
+    NodeId anyone() {
+        return {static_cast<std::uint32_t>(draw.below(static_cast<int>(legs.size())))};
+    }
+    static Leg rest(Vec3 at, Time from) { return {.start = from, .from = at, .to = at}; }
+    void add(const Propagation& propagation, const Radio& radio) {
+        legs.add(rest(place(), now));
+        keeping.add(radio, legs.size(), propagation);
+        plain.add(radio, legs.size(), propagation);
+    }
+    void put(NodeId node, const Leg& leg) {
+        legs.replace(node, leg);
+        keeping.moved(node, legs);
+        plain.moved(node, legs);
+    }
+    Leg trip(NodeId node) {
+        const Vec3 here = legs.position(node, now), there = place();
+        return {.start = now,
+                .end = now + 5s,
+                .from = here,
+                .velocity = 0.2 * (there - here),
+                .to = there};
+    }
+    /// A robot starts, stops, jumps, turns, or is switched; or only time passes.
+    void change() {
+        now += 1ms * draw.below(1000);
+        const NodeId node = anyone();
+        const Vec3 here = legs.position(node, now), there = place();
+        switch (draw.below(8)) {
+            case 0: return put(node, trip(node));
+            case 1: return put(node, rest(here, now));
+            case 2: return put(node, rest(there, now));
+            case 3: return put(node, {.start = now, .end = now + 2s, .from = here, .to = there});
+            case 4: {
+                const bool on = !keeping.is_on(node);
+                keeping.switch_radio(node, on);
+                return plain.switch_radio(node, on);
+            }
+        }
+    }
+    void compare_receivers(NodeId from) {
+        std::vector<Reception> kept, computed;
+        keeping.receivers(from, now, now, legs, kept);
+        plain.receivers(from, now, now, legs, computed);
+        REQUIRE(kept.size() == computed.size());
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+            CHECK(kept[i].node == computed[i].node);
+            CHECK(kept[i].time == computed[i].time);
+        }
+        links += kept.size();
+    }
+    static void compare(std::span<const Medium::Hearer> kept,
+                        std::span<const Medium::Hearer> computed) {
+        REQUIRE(kept.size() == computed.size());
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+            CHECK(kept[i].node == computed[i].node);
+            CHECK(kept[i].loss_db == computed[i].loss_db);  // to the last bit
+            CHECK(kept[i].senses == computed[i].senses);
+        }
+    }
+    void compare_sensed(NodeId from) {
+        const Medium::Hearers kept = keeping.sensed(from, now, legs);
+        const Medium::Hearers computed = plain.sensed(from, now, legs);
+        compare(kept.receivers, computed.receivers);
+        compare(kept.others, computed.others);
+        links += kept.receivers.size();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("medium: kept losses change nothing while robots start, stop, jump and are switched") {
+    const CountedRays counted;
+    const std::vector<Propagation> walls{counted}, mixed{counted, TwoRay{}, Raytrace2007{}};
+    for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+        CAPTURE(seed);
+        Twins twins(seed);
+        const auto& models = seed % 2 ? walls : mixed;
+        for (std::size_t i = 0; i < 30; ++i) {
+            twins.add(models[i % models.size()], random_radio(twins.draw));
+        }
+        for (int step = 0; step < 300; ++step) {
+            twins.change();
+            const NodeId from = twins.anyone();
+            if (seed % 3 != 0) twins.compare_receivers(from);
+            if (seed % 3 != 1) twins.compare_sensed(from);
+        }
+        CHECK(twins.links > 200);
+    }
+}
+
+TEST_CASE("medium: resting robots trace each ray once, moving ones each time") {
+    for (const bool moving : {false, true}) {
+        const CountedRays counted;
+        Twins twins(5);
+        const Propagation propagation = counted;
+        constexpr std::size_t robots = 12, rounds = 5;
+        for (std::size_t i = 0; i < robots; ++i) {
+            twins.add(propagation, Radio{});
+            const NodeId node{static_cast<std::uint32_t>(i)};
+            if (moving) twins.put(node, twins.trip(node));
+        }
+        std::vector<Reception> heard;
+        for (std::size_t round = 0; round < rounds; ++round) {
+            twins.now += 100ms;
+            for (std::uint32_t i = 0; i < robots; ++i) {
+                twins.keeping.receivers(NodeId{i}, twins.now, twins.now, twins.legs, heard);
+            }
+        }
+        CHECK(*counted.rays == robots * (robots - 1) * (moving ? rounds : 1));
+    }
+}
