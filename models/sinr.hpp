@@ -72,15 +72,16 @@ class SinrReceivers {
             settle_locks(node, signal.begin, frame.noise, level);
         }
         if (sends_during(node, signal)) return Fate::busy;
-        if (signal.lock == Arrival::Lock::missed) return Fate::collided;
         std::erase_if(here_,
                       [&](const Arrival* a) { return !a->overlaps(signal) || a == &signal; });
+        const Fate lost = here_.empty() ? Fate::garbled : Fate::collided;
+        if (signal.lock == Arrival::Lock::missed) return lost;
         level(signal);
         for (Arrival* a : here_) level(*a);
         sort_here(level);
         if (is_certain(signal, frame)) return Fate::waiting;
         if (draw() < success(log_success_of(signal, frame))) return Fate::waiting;
-        return here_.empty() ? Fate::garbled : Fate::collided;
+        return lost;
     }
 
   private:

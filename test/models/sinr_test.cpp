@@ -15,7 +15,8 @@ constexpr Time at(std::int64_t us) { return start_of_run + Duration{1000 * us}; 
 
 /// One node, and frames of 11 Mb/s whose levels are given.
 struct Receiver {
-    SinrReceivers receivers{};
+    Sinr rung{};
+    SinrReceivers receivers{rung};
     OnAir on_air{};
     std::uint32_t frames = 0;
     double draw = 0.5;
@@ -70,6 +71,14 @@ TEST_CASE("sinr: of frames that begin together it locks on to the strongest, who
     }
 }
 
+TEST_CASE("sinr: so it does if any preamble is found") {
+    Receiver r{.rung = {.preamble_threshold = Db{-1000}}};
+    const auto weak = r.hear(NodeId{1}, at(0), at(100), -80);
+    const auto strong = r.hear(NodeId{2}, at(0), at(100), -40);
+    CHECK(r.judge(weak, at(100)) == Fate::collided);
+    CHECK(r.judge(strong, at(100)) == Fate::waiting);
+}
+
 TEST_CASE("sinr: a preamble is found if it stands out by the threshold after 4 us") {
     for (const double above : {3.9, 4.1}) {
         Receiver r;
@@ -77,7 +86,22 @@ TEST_CASE("sinr: a preamble is found if it stands out by the threshold after 4 u
         const auto frame = r.hear(NodeId{2}, at(10), at(210), -60 + above);
         CHECK(r.judge(frame, at(210)) == (above > 4 ? Fate::waiting : Fate::collided));
     }
-    // What comes later than that does not count, nor what was over before.
+    // Noise counts: 5.5 dB above the other, 3.6 dB above both.
+    Receiver noisy;
+    noisy.hear(NodeId{1}, at(0), at(20), -91.5, false);
+    const auto faint = noisy.hear(NodeId{2}, at(10), at(210), -86);
+    CHECK(noisy.judge(faint, at(210)) == Fate::collided);
+    noisy.draw = 1e-300;  // its bits would be right
+    const auto alone = noisy.hear(NodeId{2}, at(500), at(700), -90.1);
+    CHECK(noisy.judge(alone, at(700)) == Fate::garbled);
+    // What comes just then counts; what comes later does not, nor what was over before.
+    Receiver just;
+    const auto hit = just.hear(NodeId{2}, at(10), at(210), -60);
+    just.hear(NodeId{1}, at(14), at(24), -60, false);
+    CHECK(just.judge(hit, at(210)) == Fate::collided);
+    const auto brief = just.hear(NodeId{2}, at(500), at(502), -60);
+    just.hear(NodeId{1}, at(503), at(523), -60, false);
+    CHECK(just.judge(brief, at(502)) == Fate::waiting);
     for (const bool late : {true, false}) {
         Receiver r;
         if (!late) r.hear(NodeId{1}, at(0), at(13), -60, false);
@@ -100,8 +124,8 @@ TEST_CASE("sinr: a frame that nobody can decode there is interference, and takes
     r.hear(NodeId{1}, at(0), at(100), -90, false);
     const auto good = r.hear(NodeId{2}, at(10), at(110), -50);
     CHECK(r.judge(good, at(110)) == Fate::waiting);
-    const auto drowned = r.hear(NodeId{3}, at(300), at(400), -80);
-    r.hear(NodeId{1}, at(310), at(410), -80, false);
+    const auto drowned = r.hear(NodeId{3}, at(300), at(400), -50);
+    r.hear(NodeId{1}, at(310), at(410), -50, false);
     CHECK(r.judge(drowned, at(400)) == Fate::collided);
 }
 
