@@ -41,7 +41,7 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
     const Vec3 pb = medium.antenna(b, at, network.legs());
     LinkReport report{.from = from,
                       .to = to,
-                      .model = std::string(medium.propagation(a)),
+                      .model = std::string(medium.model(a).name()),
                       .at = at,
                       .distance_m = distance(pa, pb),
                       .walls = network.scene().crossings(pa, pb),

@@ -90,7 +90,6 @@ void check_traffic(const Scenario& scenario) {
     }
 }
 
-/// The rung "sinr" needs levels, and a rate whose errors it knows.
 /// A bit rate whose errors sinr can compute.
 void check_modulation(std::string_view key, BitRate rate, Location where) {
     if (modulation_of(rate)) return;
@@ -99,10 +98,12 @@ void check_modulation(std::string_view key, BitRate rate, Location where) {
                                         key, rate.value / 1e6));
 }
 
+/// The rung "sinr" needs levels, and rates whose errors it knows.
 void check_sinr(const Scenario& scenario) {
     if (scenario.reception.model != ReceptionModel::sinr) return;
-    if (const auto rate = scenario.access.basic_rate) {
-        check_modulation("basic_rate", *rate, scenario.access_where);
+    const AccessTable& access = scenario.access;
+    if (access.model == AccessModel::csma && access.basic_rate) {
+        check_modulation("basic_rate", *access.basic_rate, scenario.access_where);
     }
     const auto check = [](const PropagationTable& propagation, Location propagation_where,
                           const Radio& radio, Location radio_where) {

@@ -28,13 +28,6 @@ Table section(const TrafficTable& traffic) {
     return table;
 }
 
-Table section(const TraceTable& trace) {
-    Table table;
-    table.set("ns2", to_value(trace.ns2));
-    if (trace.mac) table.set("mac", true);
-    return table;
-}
-
 }  // namespace
 
 Table propagation_document(const PropagationTable& propagation) {

@@ -120,7 +120,7 @@ Table robot_document(const Network& network, const Device& device, NodeId node) 
     table.set("z_m", p.z);
     table.set("heading_rad", network.heading(node).value);
     table.set("on", network.medium().is_on(node));
-    table.set("model", network.medium().propagation(node));
+    table.set("model", network.medium().model(node).name());
     table.set("power_dbm", radio.power.value);
     table.set("sensitivity_dbm", radio.sensitivity.value);
     table.set("frequency_hz", radio.frequency.value);

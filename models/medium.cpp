@@ -6,6 +6,7 @@
 #include "sim/math.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -104,8 +105,6 @@ void Medium::switch_radio(NodeId node, bool on) {
     off_ += static_cast<std::size_t>(was_on) - static_cast<std::size_t>(on);
     was_on = on;
 }
-
-std::string_view Medium::propagation(NodeId node) const { return model(node).name(); }
 
 Vec3 Medium::antenna(NodeId node, Time t, const Legs& legs) const {
     Vec3 p = legs.position(node, t);
@@ -315,6 +314,7 @@ Db Medium::audible_budget(const Radio& from, const Radio& to) const {
 }
 
 Db Medium::left_out(std::size_t frames) const {
+    assert(settings_.interference_cut);
     Db most{0};
     for (const Kind& each : kinds_) {
         const Db above_noise = weakest_audible(each.radio) - each.noise;

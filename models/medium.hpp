@@ -64,10 +64,10 @@ class Medium {
     bool may_link(NodeId a, NodeId b) const {
         return !gated_ || Membership::match(kind(a).membership, kind(b).membership);
     }
-    std::string_view propagation(NodeId node) const;
     Dbm noise(NodeId node) const { return kind(node).noise; }
-    /// How much `frames` of which nothing is told may disturb a receiver: what they add to noise.
+    /// What `frames` that the cut left out may add to a receiver's noise; there is a cut.
     Db left_out(std::size_t frames) const;
+
     /// Appends to `out` the nodes that hear `from` when it sends at `start`, in the order in which
     /// the frame ends at them, then of NodeId. `start` must not decrease from call to call.
     /// @param end  of the frame at the transmitter

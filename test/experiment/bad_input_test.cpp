@@ -192,7 +192,8 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "radio = { rate = \"3 Mbit/s\" }\n[reception]\nmodel = \"sinr\"",
      "4:9",
      {"3 Mbit/s", "5.5"}},
-    {robot_a + "[reception]\nmodel = \"sinr\"\n[access]\nbasic_rate = \"7 Mbit/s\"",
+    {robot_a +
+         "[reception]\nmodel = \"sinr\"\n[access]\nmodel = \"csma\"\nbasic_rate = \"7 Mbit/s\"",
      "6:1",
      {"basic_rate", "7 Mbit/s", "5.5"}},
     {robot_a + "[access]\nmodel = \"cmsa\"", "5:9", {"did you mean \"csma\"?"}},

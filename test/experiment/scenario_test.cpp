@@ -156,6 +156,7 @@ start = "arrival"
 
 [trace]
 ns2 = "old"
+mac = true
 
 [study]
 replications = 30

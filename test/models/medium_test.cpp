@@ -122,7 +122,7 @@ TEST_CASE("medium: the transmitter's model rules where models are mixed") {
     for (std::size_t i = 0; i < robots; ++i) crowd.add(models[i % models.size()]);
     crowd.check(start_of_run + 1s);
     for (std::size_t i = 0; i < robots; ++i) {
-        CHECK(crowd.medium.propagation(crowd.node(i)) == models[i % models.size()].name());
+        CHECK(crowd.medium.model(crowd.node(i)).name() == models[i % models.size()].name());
     }
 }
 

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 using namespace rovernet;
@@ -132,10 +133,16 @@ TEST_CASE("sinr: a frame that nobody can decode there is interference, and takes
 TEST_CASE("sinr: who sends hears nothing, and has let go of what it was locked on") {
     Receiver r;
     const auto before = r.hear(NodeId{1}, at(0), at(100), -50);
-    r.hear(here, at(50), at(60), 1e9, false);
+    constexpr double own = std::numeric_limits<double>::infinity();  // as own_frame() has it
+    r.hear(here, at(50), at(60), own, false);
     const auto after = r.hear(NodeId{2}, at(70), at(170), -50);
     CHECK(r.judge(before, at(100)) == Fate::busy);
     CHECK(r.judge(after, at(170)) == Fate::collided);  // the rest of the first is interference
+    const auto cut_off = r.hear(NodeId{2}, at(300), at(400), -50);
+    r.hear(here, at(302), at(303), own, false);  // while its preamble is looked for
+    const auto next = r.hear(NodeId{1}, at(304), at(404), -30);
+    CHECK(r.judge(cut_off, at(400)) == Fate::busy);
+    CHECK(r.judge(next, at(404)) == Fate::waiting);
 }
 
 TEST_CASE("sinr: a draw decides where bits may fail, and none where they cannot") {
