@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,28 @@
 /// goes wrong.
 namespace rovernet::cli {
 
-/// Set by Ctrl-C.
+/// What a command may end with.
+enum ExitCode {
+    ok = 0,
+    failed = 1,
+    usage = 2,
+    bad_input = 3,
+    partly_failed = 4,
+    interrupted = 130
+};
+
+/// Ends a command that has done a part of its work, with its code and what to say of it.
+class CommandEnd : public std::runtime_error {
+  public:
+    CommandEnd(ExitCode code, const std::string& message)
+        : std::runtime_error(message), code_(code) {}
+    ExitCode code() const { return code_; }
+
+  private:
+    ExitCode code_;
+};
+
+/// How often Ctrl-C was pressed.
 extern volatile std::sig_atomic_t stop_requested;
 
 /// FILE and what may be said over it: a scenario, a Stage world or a movement file.
@@ -23,6 +45,8 @@ struct FileArguments {
     std::optional<std::uint64_t> seed, replication;
     ScenarioOptions options;
 };
+/// The options over the file, those for the seed and the replication among them.
+ScenarioOptions options_of(const FileArguments& arguments);
 /// Reads FILE, and says its notices.
 Scenario scenario_of(const FileArguments& arguments);
 
@@ -93,6 +117,46 @@ struct ConvertArguments : FileArguments {
     std::string out;
 };
 void convert_movements(const ConvertArguments& arguments);
+
+/// A study, and how it is run.
+struct StudyArguments : FileArguments {
+    std::optional<std::string> store;
+    std::optional<std::uint64_t> replications, max_replications;
+    std::optional<double> precision;
+    std::uint64_t workers = 0;  ///< 0: as many as processors
+    std::optional<std::string> timeout, memory;
+    bool fail_fast = false, json = false;
+    std::string command;  ///< as typed
+};
+
+struct SweepArguments : StudyArguments {
+    std::optional<std::uint64_t> shard;
+    std::uint64_t chunk = 50;
+    bool dry_run = false, resume = false, fresh = false, yes = false;
+};
+void sweep(const SweepArguments& arguments);
+
+struct CompareArguments : StudyArguments {
+    std::vector<std::string> models;
+    std::string metric, baseline;
+    std::optional<std::string> picture;
+};
+void compare(const CompareArguments& arguments);
+
+struct ResultsArguments {
+    std::string store;
+    std::vector<std::string> metrics, group_by;
+    std::optional<double> confidence, quantile;
+    std::optional<std::string> sql;
+    bool csv = false, json = false, provenance = false, failures = false;
+};
+void results(const ResultsArguments& arguments);
+
+struct ExplainArguments {
+    std::string store, run;
+    bool json = false;
+};
+void explain(const ExplainArguments& arguments);
 
 void models(bool json);
 void trace_stats(const std::string& file, bool json);

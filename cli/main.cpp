@@ -17,11 +17,10 @@ namespace {
 
 using namespace rovernet;
 
-/// What a command may end with.
-enum Exit { ok = 0, failed = 1, usage = 2, bad_input = 3, interrupted = 130 };
+using cli::bad_input, cli::failed, cli::interrupted, cli::ok, cli::usage;
 
 /// Says what went wrong; a mistake in an input begins with its place, anything else with our name.
-int fail(Exit code, const std::string& message) {
+int fail(cli::ExitCode code, const std::string& message) {
     cli::error(code == bad_input ? message : "rovernet: " + message);
     return code;
 }
@@ -33,6 +32,9 @@ int guarded(const std::function<void()>& command) {
         return std::fflush(stdout) == 0 ? ok : failed;
     } catch (const InputError& error) {
         return fail(error.where().is_option ? usage : bad_input, error.what());
+    } catch (const cli::CommandEnd& end) {
+        std::fflush(stdout);
+        return fail(end.code(), end.what());
     } catch (const Interrupted&) {
         return fail(interrupted, "interrupted; no results were written");
     } catch (const std::invalid_argument& error) {
@@ -65,11 +67,10 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* what, int& ex
     return sub;
 }
 
-/// FILE and the options that go over it.
-void add_file(CLI::App& command, cli::FileArguments& a, const char* what) {
+/// FILE and the options that go over it, but for those of one run.
+void add_study_file(CLI::App& command, cli::FileArguments& a, const char* what) {
     command.add_option("FILE", a.file, what)->required();
     command.add_option("--seed", a.seed, "seed of every random draw");
-    command.add_option("--replication", a.replication, "which independent repetition");
     command
         .add_option("--set", a.options.set,
                     "key=value over the file's, such as radio.power=\"15 dBm\"")
@@ -84,6 +85,12 @@ void add_file(CLI::App& command, cli::FileArguments& a, const char* what) {
         ->allow_extra_args(false);
     command.add_flag("--lenient", a.options.lenient,
                      "go on without an include or bitmap that is missing");
+}
+
+/// FILE and the options that go over it.
+void add_file(CLI::App& command, cli::FileArguments& a, const char* what) {
+    add_study_file(command, a, what);
+    command.add_option("--replication", a.replication, "which independent repetition");
 }
 
 constexpr const char* any_file = "scenario (.toml), Stage world (.world) or movement file";
@@ -211,6 +218,103 @@ void add_bench(CLI::App& app, int& exit) {
     flood->add_flag("--json", a.json, "print one JSON document");
 }
 
+/// The command as it was typed, for a person to repeat.
+std::string command_line(int argc, char** argv) {
+    std::string line = "rovernet";
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool plain = word.find_first_of(" \"'$&|;<>()*?[]#~`\\") == std::string::npos;
+        line += plain ? " " + word : fmt::format(" '{}'", word);
+    }
+    return line;
+}
+
+/// How a study is run.
+void add_study_run(CLI::App& command, cli::StudyArguments& a) {
+    command
+        .add_option("--workers", a.workers, "processes at once (default: as many as processors)")
+        ->check(CLI::Range(1, 1024));
+    command.add_option("--replications", a.replications, "of each point; or [study] replications")
+        ->check(CLI::Range(1, 1'000'000));
+    command
+        .add_option("--precision", a.precision,
+                    "repeat until the interval of the first metric has this half-width")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--max-replications", a.max_replications, "for --precision, at most")
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_option("--timeout", a.timeout, "of one run, in real time, such as 60s");
+    command.add_option("--memory", a.memory, "of one run, such as 2GB");
+    command.add_flag("--fail-fast", a.fail_fast, "begin nothing new once a run has failed");
+    command.add_flag("--json", a.json, "print one JSON document");
+}
+
+void add_sweep(CLI::App& app, int& exit, const std::string& command) {
+    static cli::SweepArguments a;
+    a.command = command;
+    CLI::App* sweep = add_command(app, "sweep", "Run a study: every point, every replication", exit,
+                                  [] { cli::sweep(a); });
+    add_study_file(*sweep, a, any_file);
+    sweep->add_flag("--dry-run", a.dry_run, "list the points and runs, and run nothing");
+    sweep->add_option("--store", a.store, "file for the results (default: FILE with .db)");
+    add_study_run(*sweep, a);
+    CLI::Option* resume =
+        sweep->add_flag("--resume", a.resume, "go on where the store ends: usual");
+    sweep->add_flag("--fresh", a.fresh, "throw away the runs that the store has; asks")
+        ->excludes(resume);
+    sweep->add_flag("--yes", a.yes, "do not ask");
+    sweep->add_option("--shard", a.shard, "make only the runs of this chunk, from 0");
+    sweep->add_option("--chunk", a.chunk, "runs of a chunk")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+}
+
+void add_compare(CLI::App& app, int& exit, const std::string& command) {
+    static cli::CompareArguments a;
+    a.command = command;
+    CLI::App* compare =
+        add_command(app, "compare", "Propagation models beside each other on one scenario", exit,
+                    [] { cli::compare(a); });
+    add_study_file(*compare, a, any_file);
+    compare
+        ->add_option("--models", a.models,
+                     "which (default: those that [study] varies), such as disc,friis")
+        ->delimiter(',');
+    compare->add_option("--metric", a.metric, "compared (default: the study's first)");
+    compare->add_option("--baseline", a.baseline,
+                        "whose difference is shown (default: the dearest model)");
+    compare->add_option("--store", a.store, "keep the runs in this file, and go on from there");
+    compare->add_option("-o,--output", a.picture, "picture to write: NAME.svg");
+    add_study_run(*compare, a);
+}
+
+void add_results(CLI::App& app, int& exit) {
+    static cli::ResultsArguments a;
+    CLI::App* results =
+        add_command(app, "results", "What a study came to", exit, [] { cli::results(a); });
+    results->add_option("STUDY", a.store, "store of a study, as sweep makes it")->required();
+    results->add_option("--metric", a.metrics, "which, such as delivery_ratio,latency_mean_s")
+        ->delimiter(',');
+    results->add_option("--group-by", a.group_by, "keys that vary; the others are averaged over")
+        ->delimiter(',');
+    results->add_option("--confidence", a.confidence, "of the intervals, such as 0.95")
+        ->check(CLI::Range(0.5, 0.9999));
+    results->add_option("--quantile", a.quantile, "this quantile in place of the mean, such as 0.9")
+        ->check(CLI::Range(0.0001, 0.9999));
+    results->add_flag("--csv", a.csv, "a row per run and metric, for pandas and R");
+    results->add_flag("--provenance", a.provenance,
+                      "with --csv: a row per run, its times and host");
+    results->add_flag("--failures", a.failures, "the runs that failed, and why");
+    results->add_option("--sql", a.sql, "answer this question, such as 'SELECT * FROM result'");
+    results->add_flag("--json", a.json, "print one JSON document");
+
+    static cli::ExplainArguments e;
+    CLI::App* explain = add_command(app, "explain", "How one run of a study came about", exit,
+                                    [] { cli::explain(e); });
+    explain->add_option("STUDY", e.store, "store of a study, as sweep makes it")->required();
+    explain->add_option("RUN", e.run, "POINT/REPLICATION, or the beginning of its id")->required();
+    explain->add_flag("--json", e.json, "print one JSON document");
+}
+
 void add_others(CLI::App& app, int& exit) {
     static bool json = false;
     static std::string file;
@@ -232,8 +336,9 @@ void add_others(CLI::App& app, int& exit) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGINT, [](int) { cli::stop_requested = 1; });
-    std::signal(SIGTERM, [](int) { cli::stop_requested = 1; });
+    const auto stop = [](int) { cli::stop_requested = cli::stop_requested + 1; };
+    std::signal(SIGINT, stop);
+    std::signal(SIGTERM, stop);
     std::signal(SIGPIPE, SIG_IGN);
 
     CLI::App app{"rovernet: wireless networks of moving robots, event by event", "rovernet"};
@@ -252,6 +357,9 @@ int main(int argc, char** argv) {
     add_draw(app, exit);
     add_move(app, exit);
     add_bench(app, exit);
+    add_sweep(app, exit, command_line(argc, argv));
+    add_compare(app, exit, command_line(argc, argv));
+    add_results(app, exit);
     add_others(app, exit);
     if (argc > 1 && is_unknown_command(app, argv[1])) return usage;
     try {

@@ -89,13 +89,17 @@ void print_result(const Scenario& scenario, const RunResult& result) {
 
 }  // namespace
 
-Scenario scenario_of(const FileArguments& a) {
+ScenarioOptions options_of(const FileArguments& a) {
     ScenarioOptions options = a.options;
     if (a.seed) options.set.push_back(fmt::format("scenario.seed={}", *a.seed));
     if (a.replication) {
         options.set.push_back(fmt::format("scenario.replication={}", *a.replication));
     }
-    Scenario scenario = load_scenario(a.file, options);
+    return options;
+}
+
+Scenario scenario_of(const FileArguments& a) {
+    Scenario scenario = load_scenario(a.file, options_of(a));
     for (const std::string& text : scenario.notices) notice(text);
     return scenario;
 }

@@ -212,8 +212,7 @@ NetworkSettings network_settings(const Scenario& scenario) {
         .propagation_delay = scenario.medium.propagation_delay,
         .event_limit = scenario.scenario.event_limit,
     };
-    settings.scene =
-        scenario.world_walls ? scenario.world_walls : load_map(scenario.scene, scenario.file);
+    settings.scene = scenario.walls ? scenario.walls : load_map(scenario.scene, scenario.file);
     return settings;
 }
 

@@ -50,7 +50,7 @@ Engine::Engine(NetworkSettings settings)
         if (std::holds_alternative<Sinr>(settings_.reception)) check_rate(csma->timing.basic_rate);
     }
     if (settings_.metrics) {
-        metrics_ = std::make_shared<Metrics>();
+        metrics_ = std::make_shared<Metrics>(start_of_run + settings_.warmup);
         add_sink(Sink{metrics_});
     }
 }

@@ -32,10 +32,38 @@ struct Convert {
 
 Json convert(const Value& value) { return std::visit(Convert{}, value.data); }
 
+Value value_of(const Json& json) {
+    if (json.is_boolean()) return json.get<bool>();
+    if (json.is_number_integer()) return json.get<std::int64_t>();
+    if (json.is_number()) return json.get<double>();
+    if (json.is_string()) return json.get<std::string>();
+    if (json.is_array()) {
+        Array list;
+        for (const auto& item : json) list.push_back(value_of(item));
+        return list;
+    }
+    if (!json.is_object()) return {};
+    Table table;
+    for (const auto& [key, item] : json.items()) table.entries.push_back({key, value_of(item), {}});
+    return table;
+}
+
+std::string dump(const Value& value, int indent) {
+    return convert(value).dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
-std::string to_json(const Value& value) {
-    return convert(value).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string to_json(const Value& value) { return dump(value, 2) + "\n"; }
+
+std::string to_json_line(const Value& value) { return dump(value, -1); }
+
+Value parse_json(std::string_view text) {
+    try {
+        return value_of(Json::parse(text));
+    } catch (const Json::exception& error) {
+        throw InputError({}, std::string("not JSON: ") + error.what());
+    }
 }
 
 }  // namespace rovernet

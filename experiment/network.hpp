@@ -65,6 +65,7 @@ struct NetworkSettings {
     /// Slow, and the same to the last record.
     bool reference = false;
     bool metrics = true;  ///< keep Metrics; off saves a search per message
+    Duration warmup{0};   ///< Metrics leave out the messages that are sent before it is over
 };
 
 class Engine;

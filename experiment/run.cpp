@@ -6,6 +6,7 @@
 #include "experiment/output.hpp"
 #include "experiment/toml.hpp"
 #include "experiment/version.hpp"
+#include "experiment/warmup.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/ns2_trace.hpp"
 
@@ -24,6 +25,8 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
+}  // namespace
+
 std::string utc_now() {
     const std::time_t now = std::time(nullptr);
     std::tm utc{};
@@ -36,6 +39,8 @@ std::string host_name() {
     char name[256] = {};
     return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
 }
+
+namespace {
 
 std::string usual_folder(const Scenario& scenario) {
     const auto& s = scenario.scenario;
@@ -94,7 +99,9 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     RunResult result;
     result.started = utc_now();
     const auto started = WallClock::now();
-    Network network(network_settings(scenario));
+    NetworkSettings settings = network_settings(scenario);
+    settings.warmup = warmup_of(scenario);
+    Network network(settings);
     populate(network, scenario);
 
     result.folder = options.folder.value_or(usual_folder(scenario));

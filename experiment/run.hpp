@@ -51,6 +51,11 @@ void append_metrics(Table& table, const MetricValues& metrics);
 /// What `run --json` prints: the results; times and the machine's part are in summary.json only.
 Table run_summary(const Scenario& scenario, const RunResult& result);
 
+/// Now, as "2025-06-30T23:59:59Z".
+std::string utc_now();
+/// This machine's name.
+std::string host_name();
+
 /// The robot of that name. @throws std::invalid_argument, naming some that there are
 NodeId robot_named(const Network& network, const std::string& name);
 

@@ -122,24 +122,6 @@ void check_sinr(const Scenario& scenario) {
     }
 }
 
-void read_study(const Value& value, StudyTable& study) {
-    TableReader table(value, "[study]");
-    table.read_fields(study);
-    if (const Value* vary = table.take("vary")) {
-        study.vary = TableReader(*vary, "[study] vary").table();
-        for (const auto& entry : study.vary.entries) {
-            if (entry.value.array() && !entry.value.array()->empty()) continue;
-            throw InputError(
-                entry.value.where,
-                fmt::format("vary.\"{}\": found {}; expected a list of values, such as "
-                            "vary.\"propagation.model\" = [\"friis\", \"itu_indoor\"]",
-                            entry.key,
-                            entry.value.array() ? "an empty list" : entry.value.description()));
-        }
-    }
-    table.reject_unknown();
-}
-
 template <class T>
 std::vector<T> read_list(TableReader& document, std::string_view key, auto&& read_item) {
     std::vector<T> list;
@@ -326,7 +308,7 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     read_routing(document, out.routing);
     out.traffic = read_list<TrafficTable>(document, "traffic", read_traffic);
     read_section(document, "trace", out.trace);
-    if (const Value* study = document.take("study")) read_study(*study, out.study);
+    if (const Value* study = document.take("study")) out.study = read_study(*study);
     document.reject_unknown();
     if (out.robots.empty() && out.movement.robots.empty())
         document.missing("robot", "[[robot]] with a name and a place");

@@ -7,6 +7,7 @@
 #include "experiment/robot_table.hpp"
 #include "experiment/rung_tables.hpp"
 #include "experiment/scene_table.hpp"
+#include "experiment/study_table.hpp"
 #include "experiment/value.hpp"
 #include "models/link_changes.hpp"
 #include "models/radio.hpp"
@@ -122,23 +123,12 @@ struct TraceTable {
     }
 };
 
-/// [study]: read and checked here, run by studies.
-struct StudyTable {
-    int replications = 1;
-    Table vary;  ///< key path -> list of values
-
-    static constexpr auto fields() {
-        return describe(field("replications", &StudyTable::replications,
-                              Range{.low = 1, .text = ">= 1"}, "independent repetitions"));
-    }
-};
-
 /// A whole scenario with every default filled in.
 struct Scenario {
     std::string file;  ///< as the user named it; maps are relative to it
     ScenarioTable scenario;
     SceneTable scene;
-    std::shared_ptr<const Scene> world_walls;  ///< if the scene is a Stage world with walls
+    std::shared_ptr<const Scene> walls;  ///< if they are loaded already: those of a Stage world
     Radio radio;
     MediumTable medium;
     PropagationTable propagation;
@@ -164,6 +154,8 @@ void read_propagation(const Value& value, PropagationTable& out);
 /// The reverse: the chosen model's parameters, and those of others that differ from their defaults.
 Table propagation_document(const PropagationTable& propagation);
 
+struct WorldFile;
+
 /// What the command line says over a scenario file.
 struct ScenarioOptions {
     std::vector<std::string> set = {};         ///< "path=value"
@@ -172,7 +164,25 @@ struct ScenarioOptions {
     bool lenient = false;
 };
 
-/// Reads a scenario file, or a Stage world (NAME.world) as a scenario of its own.
+/// A scenario file, or a Stage world (NAME.world) or movement file as a scenario of its own, with
+/// what the command line says over it. Scenarios are made from it, with more settings or none.
+class ScenarioFile {
+  public:
+    /// @throws InputError
+    ScenarioFile(const std::string& path, const ScenarioOptions& options);
+
+    /// The scenario with these values (by path, as for --set) over the file's.
+    /// @throws InputError at the first mistake, at the value's place if that is wrong
+    Scenario scenario(const Table& settings = {}) const;
+
+  private:
+    std::string path_;
+    Value document_;
+    std::vector<std::string> notices_;        // of reading the world
+    std::shared_ptr<const WorldFile> world_;  // if [scene] names one
+};
+
+/// ScenarioFile(path, options).scenario()
 Scenario load_scenario(const std::string& path, const ScenarioOptions& options);
 
 /// The scenario as a document with every default; it reads back as the same scenario.

@@ -145,31 +145,41 @@ void add_world(Table& document, const Table& world) {
 
 }  // namespace
 
-Scenario load_scenario(const std::string& path, const ScenarioOptions& options) {
+ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& options) : path_(path) {
     refuse_map(path);
-    Value document = is_world(path)      ? world_alone(path)
-                     : is_movement(path) ? movement_alone(path)
-                                         : read_toml(path);
-    Table& table = *document.table();
+    document_ = is_world(path)      ? world_alone(path)
+                : is_movement(path) ? movement_alone(path)
+                                    : read_toml(path);
+    Table& table = *document_.table();
     const fs::path folder = fs::path(path).parent_path();
     apply_world_options(table, options, folder);
-
-    std::optional<WorldFile> world;
-    std::vector<std::string> notices;
     const Value* scene = table.find("scene");
     if (scene && scene->table() && scene->table()->find("world")) {
         const SceneTable said = read_scene(*scene);
-        world = located_file(said.map_where, "world", [&] {
+        WorldFile world = located_file(said.map_where, "world", [&] {
             return read_worldfile((folder / *said.world).string(), world_options(said, path));
         });
-        notices = world->notices;
-        add_world(table, stage_document(*world, notices));
+        notices_ = world.notices;
+        add_world(table, stage_document(world, notices_));
+        world_ = std::make_shared<const WorldFile>(std::move(world));
     }
-    for (const auto& option : options.set) set_option(table, option);
-    Scenario scenario = read_scenario(document, path);
-    if (world) scenario.world_walls = load_walls(scenario.scene, path, *world, notices);
+    for (const auto& option : options.set) set_option(document_, option);
+}
+
+Scenario ScenarioFile::scenario(const Table& settings) const {
+    Value document = document_;
+    for (const Entry& entry : settings.entries) {
+        set_value(document, entry.key, entry.value, entry.key_where);
+    }
+    std::vector<std::string> notices = notices_;
+    Scenario scenario = read_scenario(document, path_);
+    if (world_) scenario.walls = load_walls(scenario.scene, path_, *world_, notices);
     scenario.notices.insert(scenario.notices.begin(), notices.begin(), notices.end());
     return scenario;
+}
+
+Scenario load_scenario(const std::string& path, const ScenarioOptions& options) {
+    return ScenarioFile(path, options).scenario();
 }
 
 }  // namespace rovernet

@@ -80,9 +80,7 @@ Table to_document(const Scenario& scenario) {
     for (const auto& each : scenario.traffic) traffic.emplace_back(section(each));
     if (!traffic.empty()) document.set("traffic", std::move(traffic));
     document.set("trace", section(scenario.trace));
-    Table study = section(scenario.study);
-    if (!scenario.study.vary.entries.empty()) study.set("vary", scenario.study.vary);
-    document.set("study", std::move(study));
+    document.set("study", study_document(scenario.study));
     return document;
 }
 

@@ -159,7 +159,7 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
     if (!table->find(step)) {
         Value made{Table{}};
         made.where = option;
-        table->set(step, std::move(made));
+        table->entries.push_back({step, std::move(made), option});
     }
     return *table->find(step);
 }
@@ -199,6 +199,12 @@ Value read_toml(const std::string& path) {
     return parse_toml(text.str(), path);
 }
 
+std::string to_toml(const Value& value) { return inline_text(value); }
+
+std::string plain_text(const Value& value) {
+    return value.string() ? *value.string() : to_toml(value);
+}
+
 std::string to_toml(const Table& document) {
     std::string text;
     for (const auto& entry : document.entries) {
@@ -217,7 +223,17 @@ std::string to_toml(const Table& document) {
     return text;
 }
 
-void set_option(Table& document, const std::string& assignment) {
+void set_value(Value& document, const std::string& path, Value value, const Location& where) {
+    std::stringstream steps(path);
+    Value* at = &document;
+    for (std::string step; std::getline(steps, step, '.');) {
+        if (step.empty()) throw InputError(where, "expected keys joined by single dots");
+        at = &descend(*at, step, where);
+    }
+    *at = std::move(value);
+}
+
+void set_option(Value& document, const std::string& assignment) {
     const Location option{"--set " + assignment, 0, 0, true};
     const auto equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) {
@@ -225,13 +241,6 @@ void set_option(Table& document, const std::string& assignment) {
     }
     if (assignment[equals - 1] == '.') {
         throw InputError(option, "expected keys joined by single dots");
-    }
-    std::stringstream path(assignment.substr(0, equals));
-    Value root{std::move(document)};
-    Value* at = &root;
-    for (std::string step; std::getline(path, step, '.');) {
-        if (step.empty()) throw InputError(option, "expected keys joined by single dots");
-        at = &descend(*at, step, option);
     }
     const std::string text = assignment.substr(equals + 1);
     Value value{text};
@@ -254,8 +263,7 @@ void set_option(Table& document, const std::string& assignment) {
         }
     };
     relocate(relocate, value);
-    *at = std::move(value);
-    document = std::move(*root.table());
+    set_value(document, assignment.substr(0, equals), std::move(value), option);
 }
 
 }  // namespace rovernet

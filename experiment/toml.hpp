@@ -18,10 +18,20 @@ Value parse_toml(std::string_view text, const std::string& source);
 /// The table as a TOML document.
 std::string to_toml(const Table& document);
 
-/// Applies "path=value" to a scenario's document, as the command line's --set does: `radio.power`,
-/// `robot.NAME.radio.power`, `traffic.0.start`. The value is TOML, or else a bare string; numbers
-/// are in SI units.
-/// @throws InputError whose place is the option
-void set_option(Table& document, const std::string& assignment);
+/// A value as it stands behind a key: "15 dBm" with its quotes, [1, 2], { a = 1 }.
+std::string to_toml(const Value& value);
+
+/// The same for people: a text without its quotes.
+std::string plain_text(const Value& value);
+
+/// Sets the value at `path` in a scenario's document: `radio.power`, `robot.NAME.radio.power`,
+/// `traffic.0.start`. Tables on the way are made if they are not there.
+/// @param where  stands for the place of what is made, in later errors
+/// @throws InputError at `where` if the path leads nowhere
+void set_value(Value& document, const std::string& path, Value value, const Location& where);
+
+/// Applies "path=value", as the command line's --set does. The value is TOML, or else a bare
+/// string; numbers are in SI units. @throws InputError whose place is the option
+void set_option(Value& document, const std::string& assignment);
 
 }  // namespace rovernet

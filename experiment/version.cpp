@@ -3,9 +3,27 @@
 
 #include "version_build.hpp"
 
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <fstream>
+#include <sstream>
+
 namespace rovernet {
 
 std::string_view version() { return build::version; }
+
+std::string code_version() {
+    std::string text = fmt::format("{} ({:.12}", build::version, build::commit);
+    if (build::dirty || std::string_view(build::commit) == "unknown") {
+        std::ifstream file("/proc/self/exe", std::ios::binary);
+        std::stringstream bytes;
+        bytes << file.rdbuf();
+        const std::string program = bytes.str();
+        text += fmt::format(" changed {:016x}", XXH64(program.data(), program.size(), 0));
+    }
+    return text + ")";
+}
 
 Table build_provenance() {
     Table table;

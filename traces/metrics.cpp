@@ -63,12 +63,18 @@ void Metrics::on(const Record& record, const RecordContext& context) {
         count(*transmitted, context);
     } else if (const auto* sent = std::get_if<Sent>(&record)) {
         count(*sent);
-    } else if (std::holds_alternative<Dropped>(record)) {
-        ++totals_.drops[drop_of(std::get<Dropped>(record).reason)].count;
+    } else if (const auto* dropped = std::get_if<Dropped>(&record)) {
+        count(*dropped, context);
     }
 }
 
+void Metrics::count(const Dropped& dropped, const RecordContext& context) {
+    if (!counts(dropped.frame, context)) return;
+    ++totals_.drops[drop_of(dropped.reason)].count;
+}
+
 void Metrics::count(const Sent& sent) {
+    if (sent.time < begin_) return;
     ++totals_.messages;
     others_ += std::max(sent.robots, 1U) - 1;
     Flood& f = flood(sent.message);
@@ -78,8 +84,9 @@ void Metrics::count(const Sent& sent) {
 }
 
 void Metrics::count(const Transmitted& transmitted, const RecordContext& context) {
-    ++totals_.transmissions;
     const Frame& frame = transmitted.frame;
+    if (!counts(frame, context)) return;
+    ++totals_.transmissions;
     if (frame.sender == context.messages[frame.message].origin) return;
     auto& bits = flood(frame.message).forwarders;
     const std::size_t word = frame.sender.index() / 64;
@@ -90,6 +97,7 @@ void Metrics::count(const Transmitted& transmitted, const RecordContext& context
 }
 
 void Metrics::count(const Received& received, const RecordContext& context) {
+    if (!counts(received.frame, context)) return;
     for (const Reception& rx : received.receptions) {
         if (!is_decoded(rx.fate)) {
             ++totals_.drops[drop_of(rx.fate)].count;

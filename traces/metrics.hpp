@@ -71,10 +71,14 @@ struct MetricValues {
 
 /// Counts records. Fed by a run, or by read_ns2_trace().
 ///
+/// Messages sent before its begin are left out, with all that becomes of them.
+///
 /// Memory: one bit per (message still in the table, robot), once it has been forwarded, and 8
 /// bytes per delivery, for the percentiles.
 class Metrics {
   public:
+    explicit Metrics(Time begin = start_of_run) : begin_(begin) {}
+
     KindMask kinds() const {
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
                kind_reachable;
@@ -95,8 +99,13 @@ class Metrics {
     void count(const Transmitted&, const RecordContext&);
     void count(const Received&, const RecordContext&);
     void deliver(const Reception&, const Frame&, const RecordContext&);
+    void count(const Dropped&, const RecordContext&);
+    bool counts(const Frame& frame, const RecordContext& context) const {
+        return context.messages[frame.message].created >= begin_;
+    }
     Flood& flood(MessageId);
 
+    Time begin_;
     MetricValues totals_;              ///< only its counts
     std::uint64_t others_ = 0;         ///< sum of (robots - 1)
     std::uint64_t reachable_ = 0;      ///< sum of reachable, where known ...

@@ -31,12 +31,13 @@ struct Ended {
     std::string out, err;
 };
 
-/// The command with its output in files of a folder.
+/// The command, or another program, with its output in files of a folder.
 class Process {
   public:
-    Process(const TemporaryFolder& folder, std::vector<std::string> arguments)
+    Process(const TemporaryFolder& folder, std::vector<std::string> arguments,
+            const char* program = ROVERNET_COMMAND)
         : out_(folder.path("stdout")), err_(folder.path("stderr")) {
-        arguments.insert(arguments.begin(), ROVERNET_COMMAND);
+        arguments.insert(arguments.begin(), program);
         std::vector<char*> argv;
         for (auto& argument : arguments) argv.push_back(argument.data());
         argv.push_back(nullptr);
@@ -50,6 +51,7 @@ class Process {
     }
 
     void interrupt() const { kill(pid_, SIGINT); }
+    pid_t pid() const { return pid_; }
 
     /// Waits for its end, and kills it if that takes too long.
     Ended wait() const {

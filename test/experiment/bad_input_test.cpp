@@ -70,6 +70,8 @@ std::string with_map(const std::string& name) {
     return text.replace(text.find("m.yaml"), 6, name);
 }
 
+std::string study(const std::string& keys) { return robot_a + "[study]\n" + keys; }
+
 std::string traffic(const std::string& rest) {
     return robot_a + "[[traffic]]\nfrom = \"A\"\n" + rest;
 }
@@ -256,9 +258,26 @@ const std::vector<Mistake> mistakes = {
     {traffic("payload = \"F\"\nevery = \"0 s\""), "7:9", {"> 0"}},
     {traffic("payload = \"F\"\ncount = 3"), "4:1", {"\"every\" is missing"}},
     {traffic("payload = \"F\"\nevery = \"1 s\"\ncount = 0"), "8:9", {">= 1"}},
-    {robot_a + "[study]\nreplications = 0", "5:16", {">= 1"}},
-    {robot_a + "[study]\nvary.propagation.model = [\"friis\"]", "5:6", {"vary.\"propagation.m"}},
-    {robot_a + "[study]\nvary.\"propagation.model\" = []", "5:28", {"an empty list"}},
+    {study("replications = 0"), "5:16", {"from 1 to 1000000"}},
+    {study("vary.propagation.model = \"friis\""), "5:26", {"vary.\"propagation.model\"", "a list"}},
+    {study("vary.\"propagation.model\" = []"), "5:28", {"an empty list"}},
+    {study("vary.a.b = [1]\nvary.\"a.b\" = [2]"), "6:6", {"given twice"}},
+    {study("vary.a = { from = 1, to = 2 }"), "5:10", {"\"step\" is missing"}},
+    {study("vary.a = { from = 1, to = 2, step = 0 }"), "5:10", {"no step", "step > 0"}},
+    {study("vary.a = { from = 3, to = 2, step = 1 }"), "5:10", {"from 3 to 2", "step < 0"}},
+    {study("vary.a = { from = 1, to = 9e9, step = 1 }"), "5:10", {"more than 100000 values"}},
+    {study("vary.a = { from = \"1 m\", to = \"9 km\", step = \"1 m\" }"), "5:10", {"units"}},
+    {study("vary.a = { from = \"x\", to = 2, step = 1 }"), "5:19", {"a quantity"}},
+    {study("vary.a = { from = 1, to = 2, stop = 1 }"), "5:30", {"did you mean \"step\"?"}},
+    {study("vary.a = [1]\nzip = [[\"a\", \"b\"]]"), "6:8", {"\"b\" does not vary"}},
+    {study("vary.a = [1]\nvary.b = [1, 2]\nzip = [[\"a\", \"b\"]]"), "7:8", {"1 values", "2"}},
+    {study("vary.a = [1]\nzip = [[\"a\"], [\"a\"]]"), "6:15", {"there twice"}},
+    {study("vary.abc = [1]\nexclude = [{ abd = 1 }]"), "6:14", {"did you mean \"abc\"?"}},
+    {study("vary.a = [1]\nexclude = { a = 1 }"), "6:11", {"a list of tables"}},
+    {study("warmup = \"mser\""), "5:10", {"mser5"}},
+    {study("warmup = \"-1 s\""), "5:10", {">= 0"}},
+    {study("confidence = 95"), "5:14", {"from 0.5 to 0.9999"}},
+    {study("precision = 0"), "5:13", {"> 0"}},
     // Maps, and what only shows on them.
     {with_map("none.yaml"), "2:7", {"none.yaml", "no such file"}},
     {on_map + "[scene.x]", "7:8", {"unknown key \"x\" in [scene]"}},

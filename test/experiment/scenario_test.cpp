@@ -160,7 +160,16 @@ mac = true
 
 [study]
 replications = 30
+confidence = 0.9
+precision = 0.02
+max_replications = 60
+warmup = "2 s"
+metrics = ["reach"]
 vary."propagation.model" = ["disc", "friis"]
+vary."routing.ttl" = [1, 2, 3]
+vary."routing.jitter" = ["1 ms", "2 ms", "3 ms"]
+zip = [["routing.ttl", "routing.jitter"]]
+exclude = [{ "propagation.model" = "disc", "routing.ttl" = [1, 2] }]
 )";
 
 Scenario read(const std::string& text) {
@@ -263,7 +272,12 @@ TEST_CASE("scenario: every key of the file arrives in its field") {
     CHECK_FALSE(s.traffic[1].start);
     CHECK(s.trace.ns2 == Ns2Choice::old_format);
     CHECK(s.study.replications == 30);
-    REQUIRE(s.study.vary.find("propagation.model"));
+    REQUIRE(s.study.vary.size() == 3);
+    CHECK(s.study.vary[0].path == "propagation.model");
+    CHECK(s.study.vary[1].values.size() == 3);
+    CHECK(s.study.warmup.given == Duration{2s});
+    CHECK(s.study.zip.size() == 1);
+    CHECK(s.study.exclude.size() == 1);
 }
 
 TEST_CASE("scenario: printed with every default, it reads back as the same scenario") {

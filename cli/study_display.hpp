@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "study/sweep.hpp"
+
+#include <chrono>
+#include <string>
+
+namespace rovernet::cli {
+
+/// How far a sweep is, on standard error: a line that changes on a terminal, else one every 10 s.
+class SweepDisplay {
+  public:
+    SweepDisplay();
+    ~SweepDisplay();
+    SweepDisplay(const SweepDisplay&) = delete;
+    SweepDisplay& operator=(const SweepDisplay&) = delete;
+    void show(const SweepProgress& progress);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    bool on_terminal_;
+    bool shown_ = false;
+    Clock::time_point started_ = Clock::now();
+    Clock::time_point last_ = started_;
+};
+
+/// "12 runs finished, 1 failed, 87 left; 3.4 runs/s, 26 s to go"
+std::string progress_text(const SweepProgress& progress, double elapsed_s);
+
+/// A duration for people [s]: "26 s", "4 min", "3.2 h".
+std::string duration_text(double seconds);
+
+}  // namespace rovernet::cli

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "cli/study_run.hpp"
+
+#include "cli/study_display.hpp"
+#include "experiment/quantity.hpp"
+#include "study/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <thread>
+
+namespace rovernet::cli {
+namespace {
+
+WorkerLimits limits_of(const StudyArguments& a) {
+    const auto amount = [](const char* option, const std::string& text, Dimension dimension) {
+        Value value(text);
+        value.where = {fmt::format("--{} {}", option, text), 0, 0, true};
+        const double v = read_quantity(value, option, dimension);
+        if (v > 0) return v;
+        throw InputError(value.where, "expected a value > 0");
+    };
+    WorkerLimits limits;
+    if (a.timeout) limits.timeout_s = amount("timeout", *a.timeout, Dimension::time);
+    if (a.memory) {
+        limits.memory = static_cast<std::uint64_t>(amount("memory", *a.memory, Dimension::size));
+    }
+    return limits;
+}
+
+}  // namespace
+
+ScenarioOptions study_options(const StudyArguments& a) {
+    ScenarioOptions options = options_of(a);
+    const auto set = [&](const char* key, const auto& value) {
+        if (value) options.set.push_back(fmt::format("study.{}={}", key, *value));
+    };
+    set("replications", a.replications);
+    set("max_replications", a.max_replications);
+    set("precision", a.precision);
+    return options;
+}
+
+SweepResult run_study(const StudyArguments& a, Study& study, Store& store,
+                      std::optional<Shard> shard) {
+    SweepOptions options{
+        .workers = a.workers, .limits = limits_of(a), .fail_fast = a.fail_fast, .shard = shard};
+    if (options.workers == 0) options.workers = std::max(1U, std::thread::hardware_concurrency());
+    SweepDisplay display;
+    options.progress = [&](const SweepProgress& progress) { display.show(progress); };
+    options.stop = [] {
+        if (stop_requested == 0) return Stop::no;
+        return stop_requested == 1 ? Stop::when_idle : Stop::at_once;
+    };
+    return rovernet::sweep(study, store, options);
+}
+
+void check_end(const StudyArguments& a, const Store& store, const SweepResult& result) {
+    if (stop_requested > 0 && result.progress.left > 0) {
+        throw CommandEnd(
+            interrupted,
+            fmt::format("interrupted; what was finished is kept: go on with\n  {}", a.command));
+    }
+    if (result.progress.failed == 0) return;
+    const StoredRun& run = *result.failure;
+    const auto points = store.points();
+    throw CommandEnd(
+        partly_failed,
+        fmt::format("{} runs failed; the first: {}\n  {}\nall of them: rovernet results {} "
+                    "--failures; the same sweep tries them again",
+                    result.progress.failed, run.error,
+                    run_command(store, points.at(run.point), run.replication), store.path()));
+}
+
+}  // namespace rovernet::cli

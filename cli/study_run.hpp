@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/commands.hpp"
+#include "study/sweep.hpp"
+
+namespace rovernet::cli {
+
+/// The options over the file of a study, those for its replications among them.
+ScenarioOptions study_options(const StudyArguments& arguments);
+
+/// Runs a study with workers, shows how far it is, and stops as Ctrl-C says.
+SweepResult run_study(const StudyArguments& arguments, Study& study, Store& store,
+                      std::optional<Shard> shard = {});
+
+/// @throws CommandEnd if the study was interrupted, or a part of it failed
+void check_end(const StudyArguments& arguments, const Store& store, const SweepResult& result);
+
+}  // namespace rovernet::cli

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "study/sweep.hpp"
+
+#include "cli/commands.hpp"
+#include "cli/diagnostics.hpp"
+#include "cli/study_run.hpp"
+#include "experiment/json.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <unistd.h>
+
+namespace rovernet::cli {
+namespace {
+
+std::string store_path(const SweepArguments& a) {
+    if (a.store) return *a.store;
+    return std::filesystem::path(a.file).replace_extension(".db").string();
+}
+
+/// Throws away the store, if that is what the person wants.
+void begin_afresh(const SweepArguments& a, const std::string& path) {
+    if (!std::filesystem::exists(path)) return;
+    const std::size_t runs = Store::open(path).runs().size();
+    if (runs > 0 && !a.yes) {
+        const std::string question = fmt::format("{}: throw away its {} runs?", path, runs);
+        if (isatty(STDIN_FILENO) == 0) {
+            throw std::invalid_argument("--fresh: " + question + " Say so with --yes");
+        }
+        fmt::print(stderr, "{} [y/N] ", question);
+        std::string answer;
+        std::getline(std::cin, answer);
+        if (answer != "y" && answer != "yes") throw std::invalid_argument("nothing was changed");
+    }
+    for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path + ending);
+}
+
+void print_plan(const SweepArguments& a, const Study& study) {
+    const auto& points = study.points();
+    const std::uint64_t runs =
+        points.size() * static_cast<std::uint64_t>(study.table().replications);
+    if (!a.json) {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            fmt::print("{:>6}  {}\n", i, settings_text(points[i].settings));
+        }
+        fmt::print("{} points x {} replications = {} runs{}\n", points.size(),
+                   study.table().replications, runs,
+                   study.table().precision ? " at least: precision may ask for more" : "");
+        return;
+    }
+    Array list;
+    for (const StudyPoint& point : points) {
+        Table row;
+        row.set("id", point.id);
+        row.set("settings", point.settings);
+        list.emplace_back(std::move(row));
+    }
+    Table table;
+    table.set("points", std::move(list));
+    table.set("replications", study.table().replications);
+    table.set("runs", runs);
+    fmt::print("{}", to_json(table));
+}
+
+void print_end(const SweepArguments& a, const Store& store, const SweepProgress& p) {
+    if (a.json) {
+        Table table;
+        table.set("store", store.path());
+        table.set("before", p.before);
+        table.set("finished", p.finished);
+        table.set("failed", p.failed);
+        table.set("left", p.left);
+        fmt::print("{}", to_json(table));
+        return;
+    }
+    notice(fmt::format("{} runs finished{}, {} failed, {} left; results in {}", p.finished,
+                       p.before > 0 ? fmt::format(", {} were there", p.before) : "", p.failed,
+                       p.left, store.path()));
+}
+
+}  // namespace
+
+void sweep(const SweepArguments& a) {
+    Study study(a.file, study_options(a));
+    for (const std::string& text : study.base().notices) notice(text);
+    if (a.dry_run) return print_plan(a, study);
+    if (a.shard && study.table().precision) {
+        throw std::invalid_argument(
+            "--shard: how often a precision repeats is known to a whole "
+            "sweep only; expected replications instead");
+    }
+    std::optional<Shard> shard;
+    if (a.shard) shard = Shard{*a.shard, a.chunk};
+    const std::string path = store_path(a);
+    if (a.fresh) begin_afresh(a, path);
+    Store store = open_store(path, study);
+    const SweepResult result = run_study(a, study, store, shard);
+    print_end(a, store, result.progress);
+    check_end(a, store, result);
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "study/explain.hpp"
+
+#include "experiment/json.hpp"
+#include "experiment/toml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace rovernet {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A word for a shell.
+std::string quoted(const std::string& word) {
+    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               std::string_view("_-./=:,+").find(c) != std::string_view::npos;
+    });
+    if (plain) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+/// Words that the sweep was given behind its file, such as --set and --seed with theirs.
+std::vector<std::string> options_of(const Store& store) {
+    std::vector<std::string> words;
+    const std::string text = store.property("options");
+    if (text.empty()) return words;
+    const Value list = parse_json(text);
+    for (const Value& word : *list.array()) words.push_back(*word.string());
+    return words;
+}
+
+}  // namespace
+
+std::string run_command(const Store& store, const StoredPoint& point, std::uint32_t replication) {
+    const fs::path folder = fs::path(store.path()).parent_path();
+    const fs::path file = folder / store.property("file");
+    std::string command = "rovernet run " + quoted(fs::proximate(file).string());
+    for (const std::string& word : options_of(store)) command += " " + quoted(word);
+    for (const Entry& setting : point.settings.entries) {
+        command += " --set " + quoted(setting.key + "=" + to_toml(setting.value));
+    }
+    return command + fmt::format(" --replication {}", replication);
+}
+
+FoundRun find_run(const Store& store, const std::string& name) {
+    std::vector<StoredRun> found;
+    for (StoredRun& run : store.runs()) {
+        const std::string place = fmt::format("{}/{}", run.point, run.replication);
+        if (place == name || (name.find('/') == std::string::npos && run.id.starts_with(name))) {
+            found.push_back(std::move(run));
+        }
+    }
+    if (found.size() != 1) {
+        throw std::invalid_argument(fmt::format(
+            "{} \"{}\"; expected POINT/REPLICATION such as 0/3, or the beginning of a run's id: "
+            "rovernet results STUDY --csv --provenance lists them",
+            found.empty() ? "there is no run" : "more than one run begins with", name));
+    }
+    FoundRun result{.run = std::move(found.front()), .point = {}};
+    for (StoredPoint& point : store.points()) {
+        if (point.number == result.run.point) result.point = std::move(point);
+    }
+    for (const std::string& metric : metric_names()) {
+        for (const StoredValue& v : store.values(metric, result.run.point)) {
+            if (v.replication != result.run.replication) continue;
+            result.run.measurement.metrics.push_back({metric, v.value});
+        }
+    }
+    return result;
+}
+
+}  // namespace rovernet

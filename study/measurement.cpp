@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "study/measurement.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/run.hpp"
+#include "experiment/warmup.hpp"
+#include "traces/fingerprint.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <ctime>
+
+namespace rovernet {
+namespace {
+
+double cpu_seconds() {
+    std::timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+std::optional<double> number_of(const Value& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
+        return static_cast<double>(*whole);
+    }
+    if (const auto* number = std::get_if<double>(&value.data)) return *number;
+    return std::nullopt;
+}
+
+std::vector<MetricValue> flat(const MetricValues& values, std::uint64_t events, Duration warmup) {
+    Table table;
+    append_metrics(table, values);
+    std::vector<MetricValue> list;
+    for (const Entry& entry : table.entries) {
+        if (!entry.value.table()) list.push_back({entry.key, number_of(entry.value)});
+    }
+    for (const DropCount& drop : values.drops) {
+        list.push_back({fmt::format("drops.{}", drop.reason), static_cast<double>(drop.count)});
+    }
+    list.push_back({"events", static_cast<double>(events)});
+    list.push_back({"warmup_s", seconds(warmup)});
+    return list;
+}
+
+/// Cuts the text before the next `end` off the front; all of it if there is none.
+std::string_view cut(std::string_view& text, char end) {
+    const std::string_view piece = text.substr(0, text.find(end));
+    text.remove_prefix(std::min(piece.size() + 1, text.size()));
+    return piece;
+}
+
+std::optional<double> number_in(std::string_view text) {
+    double v = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
+    return error == std::errc{} ? std::optional(v) : std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<std::string>& metric_names() {
+    static const auto names = [] {
+        std::vector<std::string> list;
+        for (auto& metric : flat({}, 0, {})) list.push_back(std::move(metric.name));
+        return list;
+    }();
+    return names;
+}
+
+Measurement measure(const Scenario& scenario) {
+    Measurement result;
+    result.started = utc_now();
+    result.host = host_name();
+    const auto started = std::chrono::steady_clock::now();
+    const double cpu = cpu_seconds();
+    NetworkSettings settings = network_settings(scenario);
+    settings.warmup = warmup_of(scenario);
+    Network network(settings);
+    populate(network, scenario);
+    const auto fingerprint = std::make_shared<Fingerprint>();
+    network.add_sink(fingerprint);
+    network.run_for(scenario.scenario.duration);
+    result.metrics = flat(network.metrics(), network.events(), settings.warmup);
+    result.fingerprint = fingerprint->text();
+    result.cpu_s = cpu_seconds() - cpu;
+    result.wall_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    return result;
+}
+
+std::string to_text(const Measurement& m) {
+    std::string text =
+        fmt::format("{}\n{}\n{}\n{}\n{}\n", m.fingerprint, m.cpu_s, m.wall_s, m.started, m.host);
+    for (const MetricValue& metric : m.metrics) {
+        text += metric.name + ' ';
+        if (metric.value) fmt::format_to(std::back_inserter(text), "{}", *metric.value);
+        text += '\n';
+    }
+    return text;
+}
+
+Measurement measurement_of(std::string_view text) {
+    Measurement m;
+    m.fingerprint = cut(text, '\n');
+    m.cpu_s = number_in(cut(text, '\n')).value_or(0);
+    m.wall_s = number_in(cut(text, '\n')).value_or(0);
+    m.started = cut(text, '\n');
+    m.host = cut(text, '\n');
+    while (!text.empty()) {
+        std::string_view line = cut(text, '\n');
+        const std::string_view name = cut(line, ' ');
+        m.metrics.push_back({std::string(name), number_in(line)});
+    }
+    return m;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/scenario.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// A metric of a run; without a value where it is not defined, such as the latency of no delivery.
+struct MetricValue {
+    std::string name;
+    std::optional<double> value;
+    friend bool operator==(const MetricValue&, const MetricValue&) = default;
+};
+
+/// What a study keeps of one run.
+struct Measurement {
+    std::vector<MetricValue> metrics;  ///< in the order of metric_names()
+    std::string fingerprint;
+    double cpu_s = 0, wall_s = 0;  ///< [s] of this machine
+    std::string started;           ///< UTC, ISO 8601
+    std::string host;
+    friend bool operator==(const Measurement&, const Measurement&) = default;
+};
+
+/// The metrics of every run: those of summary.json, its drops as "drops.DUP" and so on, its events,
+/// and the time [s] from which on it is measured.
+const std::vector<std::string>& metric_names();
+
+/// Runs a scenario, without writing anything. @throws InputError, RunError
+Measurement measure(const Scenario& scenario);
+
+/// The measurement as a text, and back; for pipes between processes.
+std::string to_text(const Measurement& measurement);
+Measurement measurement_of(std::string_view text);
+
+}  // namespace rovernet

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "study/store.hpp"
+
+#include <string>
+
+namespace rovernet {
+
+/// Takes the runs of another store of the same study that are not here, or that failed here.
+/// @throws InputError if it is no store, or of another version or another study
+void merge(Store& store, const std::string& path);
+
+}  // namespace rovernet

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "study/quantile.hpp"
+#include "study/store.hpp"
+#include "study/summary.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// What a study is asked for.
+struct Question {
+    std::vector<std::string> metrics = {};   ///< those of [study] metrics if empty, or the usual
+    std::vector<std::string> group_by = {};  ///< paths that vary; all of them if empty
+    std::optional<double> confidence = {};   ///< as in [study] if not given
+    std::optional<double> quantile = {};     ///< this one, in place of the mean
+};
+
+/// One metric of the points that agree in what a question groups by.
+struct Answer {
+    Table settings;                          ///< path -> value, of the keys that it groups by
+    std::string metric;                      ///< its name
+    std::map<std::uint32_t, double> values;  ///< by replication: the mean over the group's points
+    std::size_t undefined = 0;               ///< finished runs in which the metric has no value
+    std::optional<Summary> summary;          ///< of the values; nothing without any
+    std::optional<double> value;             ///< the mean or the quantile
+    std::optional<double> low, high;         ///< its interval, if there are enough values for one
+};
+
+/// Answers group by group, in the order of their points, and in it metric by metric. The
+/// replication is the unit: points that a group joins are averaged in each replication first.
+/// @throws std::invalid_argument for a metric or path that the study does not have
+std::vector<Answer> answers(const Store& store, const Question& question);
+
+/// The paths that vary in the store's study.
+std::vector<std::string> varied_paths(const Store& store);
+
+/// [study] confidence of the study.
+double confidence_of(const Store& store);
+
+/// What every result is, as comma-separated values (RFC 4180) with a head: a row per finished run
+/// and metric, sorted by point, replication and metric: point, the varied keys, replication,
+/// metric, value (empty if undefined). The same bytes for the same results.
+/// @param write  gets the text piece by piece
+/// @param provenance  a row per run instead, failed ones too: its id, fingerprint, times, host
+void write_csv(const Store& store, bool provenance,
+               const std::function<void(std::string_view)>& write);
+
+}  // namespace rovernet

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "study/sweep.hpp"
+
+#include "experiment/json.hpp"
+#include "experiment/run.hpp"
+#include "experiment/toml.hpp"
+#include "experiment/version.hpp"
+#include "study/precision.hpp"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace rovernet {
+namespace {
+
+constexpr double longest_wait_s = 0.2;
+
+/// A run of a study: its point and its replication.
+struct Task {
+    std::uint32_t point, replication;
+    std::uint64_t number() const { return std::uint64_t{replication} << 32 | point; }
+    static Task of(std::uint64_t number) {
+        return {static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32)};
+    }
+};
+
+/// The keys of a scenario with their values as texts, for saying where two differ.
+void flatten(const Value& value, const std::string& path, std::map<std::string, std::string>& out) {
+    if (const Table* table = value.table()) {
+        for (const Entry& entry : table->entries) {
+            flatten(entry.value, path.empty() ? entry.key : path + "." + entry.key, out);
+        }
+    } else if (const Array* list = value.array(); list && !list->empty() && list->front().table()) {
+        for (std::size_t i = 0; i < list->size(); ++i) {
+            flatten((*list)[i], fmt::format("{}.{}", path, i), out);
+        }
+    } else {
+        out[path] = to_toml(value);
+    }
+}
+
+/// What differs between the scenario that a store was made for and that of now, in words.
+std::string difference(const std::string& then, const Table& now) {
+    std::map<std::string, std::string> old_keys, new_keys;
+    if (!then.empty()) flatten(parse_json(then), "", old_keys);
+    flatten(now, "", new_keys);
+    for (const auto& [path, text] : old_keys) {
+        const auto found = new_keys.find(path);
+        const std::string other = found == new_keys.end() ? "nothing" : found->second;
+        if (other != text) return fmt::format("{} was {} and is {}", path, text, other);
+    }
+    for (const auto& [path, text] : new_keys) {
+        if (!old_keys.contains(path)) return fmt::format("{} was nothing and is {}", path, text);
+    }
+    return "its map or its movement file has changed";
+}
+
+std::vector<StoredPoint> stored_points(const Study& study) {
+    std::vector<StoredPoint> points;
+    for (const StudyPoint& point : study.points()) {
+        points.push_back({static_cast<std::uint32_t>(points.size()), point.id, point.settings});
+    }
+    return points;
+}
+
+/// The options as words of a command.
+Array option_words(const ScenarioOptions& options) {
+    Array words;
+    const auto append = [&](const char* option, const std::vector<std::string>& values) {
+        for (const std::string& value : values) {
+            words.emplace_back(option);
+            words.emplace_back(value);
+        }
+    };
+    append("--set", options.set);
+    append("--world-path", options.world_path);
+    append("--bitmap", options.bitmaps);
+    if (options.lenient) words.emplace_back("--lenient");
+    return words;
+}
+
+/// One sweep: what is to run, what has run, and the workers.
+class Sweep {
+  public:
+    Sweep(Study& study, Store& store, const SweepOptions& options);
+    SweepResult run();
+
+  private:
+    void plan();
+    void add_run(Task task);
+    void extend(std::uint32_t point);
+    void end_run(Task task);
+    void keep(const TaskEnd& end);
+    void report();
+    std::string id_of(Task task) const {
+        return run_id(study_.points()[task.point].id, task.replication, version_);
+    }
+
+    Study& study_;
+    Store& store_;
+    const SweepOptions& options_;
+    const std::string version_ = code_version();
+    Workers workers_;
+    std::set<std::string> finished_;  // ids of runs in the store
+    std::deque<Task> waiting_;
+    std::map<std::uint64_t, int> attempts_;  // of tasks whose process died
+    std::vector<std::uint32_t> planned_;     // of each point: replications asked for
+    std::vector<std::uint32_t> open_;        // of each point: of those, runs that are not over
+    std::vector<char> hopeless_;             // of each point: a run of it failed
+    std::uint64_t next_ = 0;                 // place of the next run among all, for shards
+    SweepResult result_;
+};
+
+Sweep::Sweep(Study& study, Store& store, const SweepOptions& options)
+    : study_(study),
+      store_(store),
+      options_(options),
+      workers_(
+          options.workers,
+          [&study](std::uint64_t number) {
+              const Task task = Task::of(number);
+              return to_text(measure(study.scenario(task.point, task.replication)));
+          },
+          options.limits),
+      planned_(study.points().size()),
+      open_(study.points().size()),
+      hopeless_(study.points().size()) {}
+
+void Sweep::add_run(Task task) {
+    const std::uint64_t place = next_++;
+    ++planned_[task.point];
+    if (options_.shard && place / options_.shard->size != options_.shard->number) return;
+    if (finished_.contains(id_of(task))) {
+        ++result_.progress.before;
+        return;
+    }
+    ++open_[task.point];
+    ++result_.progress.left;
+    waiting_.push_back(task);
+}
+
+/// First one replication of every point, then the next: a sweep that is stopped has as much of
+/// each.
+void Sweep::plan() {
+    for (const StoredRun& run : store_.runs()) {
+        if (run.error.empty()) finished_.insert(run.id);
+    }
+    const auto points = static_cast<std::uint32_t>(study_.points().size());
+    for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(study_.table().replications); ++r) {
+        for (std::uint32_t p = 0; p < points; ++p) add_run({p, r});
+    }
+    for (std::uint32_t p = 0; p < points; ++p) {
+        if (open_[p] == 0) extend(p);
+    }
+}
+
+/// More replications of a point all of whose runs are over, if its precision wants them.
+void Sweep::extend(std::uint32_t point) {
+    if (!study_.table().precision) return;
+    while (open_[point] == 0 && hopeless_[point] == 0) {
+        std::vector<double> values;
+        for (const StoredValue& v : store_.values(first_metric(study_.table()), point)) {
+            if (v.value) values.push_back(*v.value);
+        }
+        const auto wanted = replications_for(study_.table(), values, planned_[point]);
+        if (wanted <= planned_[point]) return;
+        for (std::uint32_t r = planned_[point]; r < wanted; ++r) add_run({point, r});
+    }
+}
+
+void Sweep::end_run(Task task) {
+    --result_.progress.left;
+    if (--open_[task.point] == 0) extend(task.point);
+}
+
+void Sweep::keep(const TaskEnd& end) {
+    const Task task = Task::of(end.task);
+    if (end.kind == TaskEnd::died && ++attempts_[end.task] == 1) {
+        waiting_.push_front(task);
+        return;
+    }
+    StoredRun run{.id = id_of(task),
+                  .point = task.point,
+                  .replication = task.replication,
+                  .error = {},
+                  .measurement = {}};
+    if (end.kind == TaskEnd::done) {
+        run.measurement = measurement_of(end.text);
+        ++result_.progress.finished;
+    } else {
+        run.error = end.text;
+        run.measurement.started = utc_now();
+        run.measurement.host = host_name();
+        ++result_.progress.failed;
+        hopeless_[task.point] = 1;
+        if (!result_.failure) result_.failure = run;
+    }
+    store_.record(run);
+    end_run(task);
+}
+
+void Sweep::report() { options_.progress(result_.progress); }
+
+SweepResult Sweep::run() {
+    plan();
+    report();
+    for (;;) {
+        const Stop stop = options_.stop();
+        const bool enough = options_.fail_fast && result_.failure;
+        while (stop == Stop::no && !enough && !waiting_.empty() && workers_.has_idle()) {
+            const Task task = waiting_.front();
+            waiting_.pop_front();
+            workers_.begin(task.number());
+        }
+        if (stop == Stop::at_once || workers_.busy() == 0) break;
+        if (const auto end = workers_.wait(longest_wait_s)) keep(*end);
+        report();
+    }
+    result_.stopped = result_.progress.left > 0;
+    return result_;
+}
+
+}  // namespace
+
+Store open_store(const std::string& path, Study& study) {
+    Store store = Store::open_to_write(path);
+    const std::string version = store.property("version");
+    if (!version.empty() && version != code_version()) {
+        throw InputError({path}, fmt::format("its runs were made by version {}, and this is {}; "
+                                             "expected --fresh, which throws them away, or "
+                                             "another --store",
+                                             version, code_version()));
+    }
+    const Table scenario = study.identity(study.base());
+    const std::vector<StoredPoint> points = stored_points(study);
+    std::set<std::string> ids;
+    for (const StoredPoint& point : points) ids.insert(point.id);
+    for (const StoredPoint& point : store.points()) {
+        if (ids.contains(point.id)) continue;
+        throw InputError({path}, fmt::format("it has the point {} of another scenario ({}); "
+                                             "expected --fresh, which throws its runs away, or "
+                                             "another --store",
+                                             settings_text(point.settings),
+                                             difference(store.property("scenario"), scenario)));
+    }
+    store.set_points(points);
+    store.set_property("version", code_version());
+    store.set_property("scenario", to_json_line(scenario));
+    store.set_property("study", to_json_line(study_document(study.table())));
+    const auto folder = std::filesystem::absolute(path).parent_path();
+    store.set_property("file", std::filesystem::proximate(study.base().file, folder).string());
+    store.set_property("options", to_json_line(option_words(study.options())));
+    if (store.property("created").empty()) store.set_property("created", utc_now());
+    return store;
+}
+
+SweepResult sweep(Study& study, Store& store, const SweepOptions& options) {
+    return Sweep(study, store, options).run();
+}
+
+}  // namespace rovernet

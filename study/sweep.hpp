@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "study/store.hpp"
+#include "study/study.hpp"
+#include "study/workers.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace rovernet {
+
+/// The runs of a study that one of several machines makes: of all of them in their order, those
+/// from number * size on, `size` of them.
+struct Shard {
+    std::uint64_t number, size;
+};
+
+/// How far a sweep is.
+struct SweepProgress {
+    std::uint64_t before = 0;    ///< finished by an earlier sweep
+    std::uint64_t finished = 0;  ///< now
+    std::uint64_t failed = 0;    ///< now
+    std::uint64_t left = 0;      ///< as known now: precision may ask for more
+};
+
+/// Whether a sweep goes on.
+enum class Stop { no, when_idle, at_once };
+
+struct SweepOptions {
+    std::size_t workers = 2;  ///< > 0
+    WorkerLimits limits = {};
+    bool fail_fast = false;  ///< begin nothing new once a run has failed
+    std::optional<Shard> shard = {};
+    /// Asked all the time.
+    std::function<Stop()> stop = [] { return Stop::no; };
+    /// Told after every run, and at least every 0.2 s.
+    std::function<void(const SweepProgress&)> progress = [](const SweepProgress&) {};
+};
+
+struct SweepResult {
+    SweepProgress progress;
+    bool stopped = false;              ///< before everything was done
+    std::optional<StoredRun> failure;  ///< the first
+};
+
+/// Opens the store of a study, or makes it. @throws InputError if it has runs of another version or
+/// of points that the study does not have; RunError if it cannot be written
+Store open_store(const std::string& path, Study& study);
+
+/// Runs what the store does not have yet, and what failed, in worker processes; each run is in the
+/// store as soon as it is over. A run whose process dies is tried once more. In all, each point is
+/// repeated [study] replications times; with `precision` until the half-width of the interval of
+/// the first metric is that small, up to max_replications. What is run depends on results alone,
+/// never on which run ended first.
+/// @throws RunError if the store cannot be written any more
+SweepResult sweep(Study& study, Store& store, const SweepOptions& options);
+
+}  // namespace rovernet

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "study/store.hpp"
+#include "test/cli/process.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <random>
+#include <sstream>
+
+using namespace rovernet;
+using namespace rovernet::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Robots in random places that talk: a run takes a few milliseconds.
+const std::string chatter = R"([scenario]
+name = "chatter"
+duration = "10 s"
+[propagation]
+model = "disc"
+range = "30 m"
+[[robot]]
+name = "r"
+count = 30
+place = { model = "uniform", area = [["0 m", "0 m"], ["100 m", "100 m"]] }
+[[traffic]]
+from = "r0"
+size = "20 B"
+every = "200 ms"
+[study]
+replications = 40
+vary."propagation.range" = ["10 m", "15 m", "20 m", "25 m", "30 m"]
+)";
+
+struct Place {
+    explicit Place(const std::string& text = chatter) : file(folder.write("s.toml", text)) {}
+    std::string store() const { return folder.path("s.db"); }
+    std::string csv() const {
+        const Ended ended = command(folder, {"results", store(), "--csv"});
+        REQUIRE(ended.exit == 0);
+        return ended.out;
+    }
+    TemporaryFolder folder;
+    std::string file;
+};
+
+/// Finished runs by id, with what only one making of them has.
+std::map<std::string, std::string> finished(const std::string& store) {
+    std::map<std::string, std::string> runs;
+    if (!fs::exists(store) || fs::file_size(store) == 0) return runs;
+    try {
+        for (const StoredRun& run : Store::open(store).runs()) {
+            if (!run.error.empty()) continue;
+            const Measurement& m = run.measurement;
+            runs[run.id] = fmt::format("{} {} {}", m.started, m.wall_s, m.cpu_s);
+        }
+    } catch (const std::exception&) {
+        // It is only just being made.
+    }
+    return runs;
+}
+
+/// Processes whose parent this is.
+std::vector<pid_t> children_of(pid_t parent) {
+    std::vector<pid_t> children;
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+        std::ifstream stat(entry.path() / "stat");
+        pid_t pid = 0, above = 0;
+        std::string name, state;
+        if (stat >> pid >> name >> state >> above && above == parent && state != "Z") {
+            children.push_back(pid);
+        }
+    }
+    return children;
+}
+
+void wait_a_moment() { std::this_thread::sleep_for(std::chrono::milliseconds{1}); }
+
+}  // namespace
+
+TEST_CASE("sweep: a dry run lists every point, and makes nothing") {
+    const Place place;
+    const Ended ended = command(place.folder, {"sweep", place.file, "--dry-run"});
+    CHECK(ended.exit == 0);
+    CHECK(ended.out.find("2  propagation.range=20 m\n") != std::string::npos);
+    CHECK(ended.out.ends_with("5 points x 40 replications = 200 runs\n"));
+    CHECK_FALSE(fs::exists(place.store()));
+    const Json json = json_of(place.folder, {"sweep", place.file, "--dry-run"});
+    CHECK(json["points"].size() == 5);
+    CHECK(json["points"][4]["settings"]["propagation.range"] == "30 m");
+    CHECK(json["runs"] == 200);
+}
+
+TEST_CASE("sweep: the runs of a study come to a table, to CSV, and to an explanation") {
+    const Place place;
+    const Json made = json_of(place.folder, {"sweep", place.file, "--replications", "6"});
+    CHECK(made["finished"] == 30);
+    const Ended table = command(place.folder, {"results", place.store()});
+    CHECK(table.out.starts_with("propagation.range  n  delivery_ratio"));
+    CHECK(table.err.empty());
+    const Json json =
+        json_of(place.folder, {"results", place.store(), "--metric", "delivery_ratio,events"});
+    REQUIRE(json["rows"].size() == 10);
+    CHECK(json["rows"][0]["n"] == 6);
+    CHECK(json["rows"][0]["low"] <= json["rows"][0]["value"]);
+
+    // What explain prints, run gives again.
+    const Json run = json_of(place.folder, {"explain", place.store(), "3/2"});
+    std::istringstream words(run["command"].get<std::string>());
+    std::vector<std::string> arguments;
+    words.ignore(64, ' ');
+    for (std::string word; words >> word;) arguments.push_back(word);
+    for (auto& word : arguments) std::erase(word, '\'');
+    std::string& value = *std::find_if(arguments.begin(), arguments.end(), [](const auto& word) {
+        return word.starts_with("propagation.range=");
+    });
+    value += " m\"";  // the blank in it has divided the word
+    arguments.erase(std::find(arguments.begin(), arguments.end(), "m\""));
+    arguments.insert(arguments.end(), {"--out", place.folder.path("run")});
+    const Json again = json_of(place.folder, arguments);
+    CHECK(again["fingerprint"] == run["fingerprint"]);
+    CHECK(again["delivery_ratio"] == run["metrics"]["delivery_ratio"]);
+}
+
+TEST_CASE("sweep: few replications are warned of") {
+    const Place place;
+    command(place.folder, {"sweep", place.file, "--replications", "2"});
+    CHECK(command(place.folder, {"results", place.store()}).err.find("fewer than 5 replications") !=
+          std::string::npos);
+}
+
+TEST_CASE("sweep: Ctrl-C ends it with what is finished and with the command to go on") {
+    const Place place;
+    const Process sweep(place.folder, {"sweep", place.file, "--workers", "2"});
+    while (finished(place.store()).size() < 3) wait_a_moment();
+    sweep.interrupt();
+    const Ended ended = sweep.wait();
+    CHECK(ended.exit == 130);
+    CHECK(ended.err.find("go on with\n  rovernet sweep " + place.file) != std::string::npos);
+    const auto kept = finished(place.store());
+    CHECK(kept.size() >= 3);
+    CHECK(kept.size() < 200);
+    CHECK(command(place.folder, {"sweep", place.file}).exit == 0);
+    const auto all = finished(place.store());
+    CHECK(all.size() == 200);
+    for (const auto& [id, making] : kept) CHECK(all.at(id) == making);
+}
+
+TEST_CASE("sweep: a second Ctrl-C does not wait for runs that never end") {
+    const Place place(chatter + "[links]\n");
+    const Process sweep(place.folder,
+                        {"sweep", place.file, "--set", "scenario.duration=1e8", "--set",
+                         "scenario.event_limit=1000000000000", "--workers", "1"});
+    while (children_of(sweep.pid()).empty()) wait_a_moment();
+    sweep.interrupt();
+    std::this_thread::sleep_for(std::chrono::milliseconds{500});
+    CHECK(children_of(sweep.pid()).size() == 1);  // it is finishing
+    sweep.interrupt();
+    CHECK(sweep.wait().exit == 130);
+}
+
+TEST_CASE("sweep: killed 50 times, it loses nothing, repeats nothing, and ends the same") {
+    const Place undisturbed;
+    REQUIRE(command(undisturbed.folder, {"sweep", undisturbed.file}).exit == 0);
+
+    const Place place;
+    std::mt19937 random(1);
+    std::optional<Process> sweep;
+    std::map<std::string, std::string> kept;
+    int kills = 0, landed = 0;
+    while (kills < 50) {
+        if (!sweep || waitpid(sweep->pid(), nullptr, WNOHANG) != 0) {
+            sweep.emplace(place.folder, std::vector<std::string>{"sweep", place.file});
+        }
+        const std::size_t enough = kept.size() + random() % 3;
+        while (finished(place.store()).size() < enough) wait_a_moment();
+        std::vector<pid_t> workers;
+        if (random() % 3 == 0) workers = children_of(sweep->pid());
+        kill(workers.empty() ? sweep->pid() : workers[random() % workers.size()], SIGKILL);
+        if (workers.empty()) {
+            waitpid(sweep->pid(), nullptr, 0);
+            sweep.reset();
+        }
+        ++kills;
+        const auto now = finished(place.store());
+        if (!now.empty() && now.size() < 200) ++landed;
+        for (const auto& [id, making] : kept) REQUIRE(now.at(id) == making);
+        kept = now;
+        if (kept.size() >= 195) break;
+    }
+    CHECK(landed >= 30);
+    if (sweep) sweep->wait();
+    const Ended last = command(place.folder, {"sweep", place.file});
+    CAPTURE(last.err);
+    CHECK(last.exit == 0);
+    const auto all = finished(place.store());
+    CHECK(all.size() == 200);
+    for (const auto& [id, making] : kept) CHECK(all.at(id) == making);
+    CHECK(place.csv() == undisturbed.csv());
+}
+
+TEST_CASE("sweep: two at once on one store, and the second is told so") {
+    const Place place;
+    const Process first(place.folder, {"sweep", place.file, "--set", "scenario.duration=1e8",
+                                       "--set", "scenario.event_limit=1000000000000"});
+    while (children_of(first.pid()).empty()) wait_a_moment();
+    const TemporaryFolder other;
+    const Ended second = command(other, {"sweep", place.file});
+    CHECK(second.exit == 1);
+    CHECK(second.err.find("another sweep is writing") != std::string::npos);
+    first.interrupt();
+    wait_a_moment();
+    first.interrupt();
+    CHECK(first.wait().exit == 130);
+}
+
+TEST_CASE("sweep: a full disk ends it with what was finished, and room lets it go on") {
+    const Place place;
+    const std::string limited =
+        fmt::format("trap '' XFSZ; ulimit -f 200; exec {} sweep {}", ROVERNET_COMMAND, place.file);
+    const Ended full = Process(place.folder, {"-c", limited}, "/bin/bash").wait();
+    CHECK(full.exit == 1);
+    CHECK(full.err.find("what was finished is kept") != std::string::npos);
+    const auto kept = finished(place.store());
+    CHECK(kept.size() > 0);
+    CHECK(kept.size() < 200);
+    CHECK(command(place.folder, {"sweep", place.file}).exit == 0);
+    const auto all = finished(place.store());
+    CHECK(all.size() == 200);
+    for (const auto& [id, making] : kept) CHECK(all.at(id) == making);
+}
+
+TEST_CASE("sweep: a store that cannot be written is said before anything runs") {
+    const Place place;
+    const Ended ended = command(place.folder, {"sweep", place.file, "--store", "/proc/s.db"});
+    CHECK(ended.exit == 1);
+    CHECK(ended.err.find("/proc/s.db: cannot be written") != std::string::npos);
+    CHECK(command(place.folder, {"results", place.folder.path("none.db")}).exit == 3);
+}
+
+TEST_CASE("sweep: --fresh asks, and without a terminal wants --yes") {
+    const Place place;
+    command(place.folder, {"sweep", place.file, "--replications", "1"});
+    const Ended asked = command(place.folder, {"sweep", place.file, "--fresh"});
+    CHECK(asked.exit == 2);
+    CHECK(asked.err.find("5 runs") != std::string::npos);
+    CHECK(finished(place.store()).size() == 5);
+    const Json made = json_of(place.folder, {"sweep", place.file, "--fresh", "--yes", "--seed", "9",
+                                             "--replications", "2"});
+    CHECK(made["finished"] == 10);
+    CHECK(made["before"] == 0);
+}
+
+TEST_CASE("sweep: runs that fail end it with 4, and are listed with their command") {
+    const Place place;
+    const Ended ended = command(place.folder, {"sweep", place.file, "--replications", "2", "--set",
+                                               "scenario.event_limit=500"});
+    CHECK(ended.exit == 4);
+    CHECK(ended.err.find("rovernet run ") != std::string::npos);
+    const Ended failures = command(place.folder, {"results", place.store(), "--failures"});
+    CHECK(failures.out.find("propagation.range=30 m\n") != std::string::npos);
+    CHECK(failures.out.find("--replication 1\n") != std::string::npos);
+}

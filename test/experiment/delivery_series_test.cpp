@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "traces/delivery_series.hpp"
+
+#include "experiment/network.hpp"
+#include "models/disc.hpp"
+#include "routing/flood.hpp"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+TEST_CASE("delivery series: each message's share of the others that got it, in order of sending") {
+    Network net({.propagation = Disc{.range = Meters{10}}});
+    net.route(Flood{.ttl = 5});
+    const auto series = std::make_shared<DeliverySeries>();
+    net.add_sink(series);
+    const NodeId a = net.add({.name = "a", .at = {}});
+    net.add({.name = "b", .at = {5, 0}});
+    const NodeId c = net.add({.name = "c", .at = {50, 0}});
+    net.at(Time{1s}, [&] { net.broadcast(a, "one"); });
+    net.at(Time{2s}, [&] { net.broadcast(c, "two"); });
+    net.at(Time{3s}, [&] { net.broadcast(a, "three"); });
+    net.run_for(4s);
+    CHECK(series->sent() == std::vector<Time>{Time{1s}, Time{2s}, Time{3s}});
+    CHECK(series->delivered() == std::vector<double>{0.5, 0, 0.5});
+}
+
+TEST_CASE("delivery series: a lone robot's message reaches nobody") {
+    Network net;
+    net.route(Flood{});
+    const auto series = std::make_shared<DeliverySeries>();
+    net.add_sink(series);
+    net.broadcast(net.add({.name = "a", .at = {}}), "one");
+    net.run_for(1s);
+    CHECK(series->delivered() == std::vector<double>{0});
+}

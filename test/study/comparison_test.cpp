@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "study/comparison.hpp"
+
+#include "sim/random.hpp"
+#include "study/distributions.hpp"
+#include "test/study/listed_numbers.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+using namespace rovernet;
+using test::is_close;
+
+namespace {
+
+// Relative: a - b is rounded like b, so that small differences have fewer digits.
+constexpr double vector_accuracy = 1e-13;
+constexpr double rounding = 1e-14;  // relative: of some operations
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// The pairs of one study, with a true mean difference, deviation 1 and correlation 0.8.
+struct Pairs {
+    std::vector<double> a, b;
+    Pairs(std::size_t n, std::uint32_t study, double difference) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto draw = [&](std::uint64_t what) {
+                return normal(
+                    {.replication = study, .purpose = Purpose::destination, .a = what, .index = i});
+            };
+            const double shared = 2 * draw(0);
+            a.push_back(shared + draw(1) + difference);
+            b.push_back(shared + draw(2));
+        }
+    }
+};
+
+/// Holm's procedure itself: which hypotheses fall at this level.
+std::vector<bool> rejected(const std::vector<double>& p, double level) {
+    std::vector<bool> fallen(p.size());
+    for (std::size_t left = p.size(); left > 0; --left) {
+        std::size_t smallest = p.size();
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (!fallen[i] && (smallest == p.size() || p[i] < p[smallest])) smallest = i;
+        }
+        if (static_cast<double>(left) * p[smallest] > level) break;
+        fallen[smallest] = true;
+    }
+    return fallen;
+}
+
+/// The least level at which each falls, of all at which anything changes; 1 if there is none.
+std::vector<double> brute_force_holm(const std::vector<double>& p) {
+    std::vector<double> levels{1};
+    for (const double each : p) {
+        for (std::size_t left = 1; left <= p.size(); ++left) {
+            levels.push_back(std::min(1.0, static_cast<double>(left) * each));
+        }
+    }
+    std::sort(levels.begin(), levels.end(), std::greater<>{});
+    std::vector<double> adjusted(p.size(), 1);
+    for (const double level : levels) {
+        const auto fallen = rejected(p, level);
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (fallen[i]) adjusted[i] = level;
+        }
+    }
+    return adjusted;
+}
+
+/// A comparison of 30 pairs as the sentences need it.
+PairedComparison comparison(double mean, double half_width) {
+    PairedComparison c;
+    c.difference = {.n = 30, .mean = mean, .standard_deviation = 1, .min = -1, .max = 1};
+    c.confidence = 0.95;
+    c.half_width = half_width;
+    return c;
+}
+
+}  // namespace
+
+TEST_CASE("comparison: means, deviations, half-widths and p are those of R (vectors paired_t)") {
+    const test::Vectors vectors("paired_t.csv");
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        CAPTURE(vectors.text(i, "case"));
+        const auto a = test::listed_numbers(vectors.text(i, "a"));
+        const auto b = test::listed_numbers(vectors.text(i, "b"));
+        const auto c = compare_pairs(a, b);
+        REQUIRE(c);
+        CHECK(c->difference.n == a.size());
+        CHECK(c->confidence == 0.95);
+        CHECK(is_close(c->difference.mean, vectors.number(i, "mean"), vector_accuracy));
+        CHECK(
+            is_close(*c->difference.standard_deviation, vectors.number(i, "sd"), vector_accuracy));
+        CHECK(is_close(c->half_width, vectors.number(i, "half_width"), vector_accuracy));
+        CHECK(is_close(c->p, vectors.number(i, "p"), vector_accuracy));
+    }
+}
+
+TEST_CASE("comparison: Student's ten patients slept 1.58 h more on the other drug, p = 0.2833 %") {
+    const std::array a{0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0};
+    const std::array b{1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4};
+    const auto c = compare_pairs(a, b);
+    const double t = c->difference.mean * std::sqrt(10) / *c->difference.standard_deviation;
+    CHECK(std::abs(t - -4.0621) < 0.5e-4);  // half the last printed digit
+    CHECK(std::abs(c->p - 0.002833) < 0.5e-6);
+    CHECK(comparison_text("the first drug", "the second", *c, c->p) ==
+          "the first drug is 1.58 below the second (95 % 0.70 to 2.46, n = 10, Holm p = 0.003)");
+}
+
+TEST_CASE("comparison: fewer than two pairs are none") {
+    CHECK(!compare_pairs({}, {}));
+    CHECK(!compare_pairs(std::array{1.0}, std::array{2.0}));
+    CHECK(compare_pairs(std::array{1.0, 2.0}, std::array{2.0, 4.0}));
+}
+
+TEST_CASE("comparison: exchanging a and b changes the sign and nothing else") {
+    const Pairs pairs(12, 1, 0.5);
+    const auto forth = compare_pairs(pairs.a, pairs.b), back = compare_pairs(pairs.b, pairs.a);
+    CHECK(forth->difference.mean == -back->difference.mean);
+    CHECK(forth->difference.standard_deviation == back->difference.standard_deviation);
+    CHECK(forth->half_width == back->half_width);
+    CHECK(forth->p == back->p);
+    CHECK(forth->detectable == back->detectable);
+    CHECK(forth->variance_ratio == back->variance_ratio);
+}
+
+TEST_CASE("comparison: p is at most the level when the interval leaves 0 out") {
+    int found = 0;
+    for (std::uint32_t study = 0; study < 300; ++study) {
+        const Pairs pairs(8, study, 1);
+        for (const double confidence : {0.8, 0.95, 0.99}) {
+            const auto c = compare_pairs(pairs.a, pairs.b, confidence);
+            CHECK((c->p <= 1 - confidence) == (std::abs(c->difference.mean) >= c->half_width));
+            if (c->p <= 1 - confidence) ++found;
+        }
+    }
+    CHECK(found > 300);  // both kinds occur
+    CHECK(found < 800);
+}
+
+TEST_CASE("comparison: equal differences are certain if not 0, and none if 0") {
+    const std::array a{1.0, 2.0, 4.0}, less{0.5, 1.5, 3.5}, constant{3.0, 3.0, 3.0};
+    const auto apart = compare_pairs(a, less);
+    CHECK(apart->difference.mean == 0.5);
+    CHECK(apart->half_width == 0);
+    CHECK(apart->p == 0);
+    CHECK(apart->detectable == 0.0);
+    CHECK(apart->variance_ratio == infinity);
+    const auto same = compare_pairs(a, a);
+    CHECK(same->difference.mean == 0);
+    CHECK(same->p == 1);
+    CHECK(same->variance_ratio == infinity);
+    CHECK(!compare_pairs(constant, constant)->variance_ratio);
+    CHECK(compare_pairs(constant, a)->variance_ratio == 1);
+}
+
+TEST_CASE("comparison: the variance ratio is 1 / (1 - correlation) for equal variances") {
+    // var(a - b) = 2 var(a) (1 - r)
+    const std::array a{1.0, 2.0, 3.0, 4.0, 5.0}, b{2.0, 1.0, 4.0, 3.0, 5.0};
+    const auto c = compare_pairs(a, b);  // variances 2.5, covariance 2
+    CHECK(is_close(*c->variance_ratio, 1 / (1 - 0.8), rounding));
+    const std::array opposite{-1.0, -2.0, -3.0, -4.0, -5.0};
+    CHECK(is_close(*compare_pairs(a, opposite)->variance_ratio, 0.5, rounding));
+}
+
+TEST_CASE("comparison: the detectable difference is the shift in standard errors") {
+    // The differences are -1, 0, 1: s = 1 (vectors detectable_shift, n = 3).
+    const std::array a{1.0, 2.0, 3.0}, b{2.0, 2.0, 2.0};
+    const test::Vectors vectors("detectable_shift.csv");
+    int compared = 0;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        if (vectors.number(i, "n") != 3) continue;
+        const auto family = static_cast<std::size_t>(vectors.number(i, "family"));
+        const auto c = compare_pairs(a, b, vectors.number(i, "confidence"), family);
+        CHECK(is_close(*c->detectable, vectors.number(i, "d") / std::sqrt(3), rounding));
+        ++compared;
+    }
+    CHECK(compared == 6);
+    CHECK(!compare_pairs(std::array{0.0, 1.0}, std::array{0.0, 0.0}, 0.95, 1000)->detectable);
+}
+
+TEST_CASE("comparison: a true difference of the detectable size is found in 80 % of studies") {
+    constexpr std::size_t n = 10, family = 4;
+    const double size = *t_shift(n - 1, 0.05 / family, 0.8) * std::sqrt(2.0 / n);
+    int found = 0;
+    for (std::uint32_t study = 0; study < 10'000; ++study) {
+        const Pairs pairs(n, study, size);
+        std::vector<double> differences(n);
+        for (std::size_t i = 0; i < n; ++i) differences[i] = pairs.a[i] - pairs.b[i];
+        const Summary s = *summary_of(differences);
+        const double t = s.mean * std::sqrt(n) / *s.standard_deviation;
+        if (t_exceeded(n - 1, t) <= 0.05 / family) ++found;
+    }
+    CHECK(std::abs(found - 8000) < 160);  // 4 standard deviations
+}
+
+TEST_CASE("comparison: without a difference, p is uniform") {
+    std::array<int, 10> counts{};
+    for (std::uint32_t study = 0; study < 2000; ++study) {
+        const Pairs pairs(5, study, 0);
+        ++counts[static_cast<std::size_t>(compare_pairs(pairs.a, pairs.b)->p * 10)];
+    }
+    for (const int count : counts) CHECK(std::abs(count - 200) < 4 * std::sqrt(200 * 0.9));
+}
+
+TEST_CASE("comparison: what is not pairs of numbers is refused") {
+    const std::array two{1.0, 2.0}, bad{1.0, not_a_number};
+    CHECK_THROWS_WITH_AS(compare_pairs(two, std::array{1.0}),
+                         "compare_pairs: needs pairs, got 2 and 1 values", std::invalid_argument);
+    CHECK_THROWS_WITH(compare_pairs(two, bad), "compare_pairs: values must be finite, got nan");
+    CHECK_THROWS_WITH(compare_pairs(bad, two), "compare_pairs: values must be finite, got nan");
+    CHECK_THROWS_WITH(compare_pairs(two, two, 1),
+                      "compare_pairs: confidence must be above 0 and below 1, got 1");
+    CHECK_THROWS_WITH_AS(compare_pairs(two, two, 0.95, 0), "compare_pairs: family must be > 0",
+                         std::invalid_argument);
+}
+
+TEST_CASE("holm: adjusted p-values are those of R (vectors holm)") {
+    const test::Vectors vectors("holm.csv");
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        const auto adjusted = holm(test::listed_numbers(vectors.text(i, "p")));
+        const auto expected = test::listed_numbers(vectors.text(i, "adjusted"));
+        REQUIRE(adjusted.size() == expected.size());
+        for (std::size_t j = 0; j < expected.size(); ++j) {
+            CHECK(is_close(adjusted[j], expected[j], rounding));
+        }
+    }
+}
+
+TEST_CASE("holm: an adjusted p is the least level at which the step-down procedure rejects") {
+    for (std::uint32_t family = 0; family < 300; ++family) {
+        std::vector<double> p;
+        for (std::size_t i = 0; i < family % 9; ++i) {
+            const Key key{.replication = family, .purpose = Purpose::order, .index = i};
+            // some ties, and small ones as well as large ones
+            p.push_back(family % 2 ? static_cast<double>(below(key, 8)) / 7
+                                   : std::pow(uniform(key), 4));
+        }
+        const auto adjusted = holm(p);
+        CHECK(adjusted == brute_force_holm(p));
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            CHECK(adjusted[i] >= p[i]);
+            CHECK(adjusted[i] <= std::min(1.0, static_cast<double>(p.size()) * p[i]));
+        }
+    }
+}
+
+TEST_CASE("holm: a p that is no probability is refused") {
+    for (const double bad : {-0.1, 1.1, not_a_number}) {
+        CHECK_THROWS_AS(holm(std::array{0.5, bad}), std::invalid_argument);
+    }
+}
+
+TEST_CASE("sentence: a difference that is found") {
+    CHECK(comparison_text("friis", "disc", comparison(0.2131, 0.0332), 1e-5) ==
+          "friis is 0.213 above disc (95 % 0.180 to 0.246, n = 30, Holm p < 0.001)");
+    CHECK(comparison_text("friis", "disc", comparison(-0.2131, 0.0332), 0.05) ==
+          "friis is 0.213 below disc (95 % 0.180 to 0.246, n = 30, Holm p = 0.050)");
+}
+
+TEST_CASE("sentence: no detectable difference, and which one would have been") {
+    PairedComparison c = comparison(0.0021, 0.0119);
+    CHECK(comparison_text("friis", "disc", c, 0.0501) ==
+          "no detectable difference between friis and disc (0.002, 95 % -0.010 to 0.014, n = 30, "
+          "Holm p = 0.050)");
+    c.detectable = 0.0209;
+    c.confidence = 0.999;
+    CHECK(comparison_text("friis", "disc", c, 0.0012) ==
+          "no detectable difference between friis and disc (0.002, 99.9 % -0.010 to 0.014, n = 30, "
+          "Holm p = 0.001); a difference of 0.021 would have been detected with 80 % power");
+}
+
+TEST_CASE("sentence: replications that all say the same") {
+    const std::array a{1.0, 2.0, 4.0}, less{0.9, 1.9, 3.9}, equal{1.0, 2.0, 4.0};
+    CHECK(comparison_text("a", "b", *compare_pairs(a, equal), 1) ==
+          "a and b are equal in each of 3 replications");
+    const std::array even{0.5, 1.5, 3.5};
+    CHECK(comparison_text("a", "b", *compare_pairs(a, even), 0) ==
+          "a is 0.5 above b in each of 3 replications");
+    CHECK(comparison_text("a", "b", *compare_pairs(even, a), 0) ==
+          "a is 0.5 below b in each of 3 replications");
+    // Equal but for rounding is not equal; what is printed is.
+    CHECK(comparison_text("a", "b", *compare_pairs(a, less), 0) ==
+          "a is 0.1 above b (95 % 0.1 to 0.1, n = 3, Holm p < 0.001)");
+}
+
+TEST_CASE("sentence: the half-width has two digits, and never are there decimals of nothing") {
+    const auto found = [](double mean, double half_width) {
+        return comparison_text("a", "b", comparison(mean, half_width), 0);
+    };
+    CHECK(found(12.34, 1.0).starts_with("a is 12.3 above b (95 % 11.3 to 13.3,"));
+    CHECK(found(12.34, 0.999).starts_with("a is 12.34 above b (95 % 11.34 to 13.34,"));
+    CHECK(found(12345.6, 10.4).starts_with("a is 12346 above b (95 % 12335 to 12356,"));
+    CHECK(found(12345.6, 1234).starts_with("a is 12346 above b (95 % 11112 to 13580,"));
+    CHECK(found(2e-5, 1.5e-6).starts_with("a is 0.0000200 above b (95 % 0.0000185 to 0.0000215,"));
+}
+
+TEST_CASE("sentence: a number that rounds to 0 has no sign") {
+    CHECK(comparison_text("a", "b", comparison(-0.01, 0.5), 0.9)
+              .starts_with("no detectable difference between a and b (-0.01, 95 % -0.51 to 0.49,"));
+    CHECK(comparison_text("a", "b", comparison(-0.004, 0.5), 0.9)
+              .starts_with("no detectable difference between a and b (0.00, 95 % -0.50 to 0.50,"));
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "study/results.hpp"
+
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace rovernet;
+using namespace rovernet::test;
+
+namespace {
+
+/// Two models x two powers, three replications: the value is 100 model + 10 power + replication.
+Store made(const std::string& path) {
+    Store store = Store::open_to_write(path);
+    std::vector<StoredPoint> points;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        Table settings;
+        settings.set("propagation.model", i < 2 ? "disc" : "friis, \"free\"");
+        settings.set("radio.power", static_cast<int>(i % 2));
+        points.push_back({i, std::to_string(i), settings});
+    }
+    store.set_points(points);
+    store.set_property("study", R"({"confidence":0.9,"metrics":["reach"]})");
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        for (std::uint32_t r = 0; r < 3; ++r) {
+            StoredRun run{};
+            run.id = std::to_string(10 * i + r);
+            run.point = i;
+            run.replication = r;
+            const double value = 100.0 * (i / 2) + 10 * (i % 2) + r;
+            run.measurement.metrics = {{"reach", value}, {"hops_mean", std::nullopt}};
+            run.measurement.fingerprint = "f";
+            store.record(run);
+        }
+    }
+    return store;
+}
+
+constexpr double rounding = 1e-9;  // of sums of a few numbers below 1e3
+
+}  // namespace
+
+TEST_CASE("results: a group is of one point if nothing else is asked, with mean and interval") {
+    const TemporaryFolder folder;
+    const auto list = answers(made(folder.path("s.db")), {});
+    REQUIRE(list.size() == 4);
+    CHECK(list[2].metric == "reach");
+    CHECK(list[2].values.size() == 3);
+    CHECK(std::abs(*list[2].value - 101) < rounding);
+    // t of 2 degrees at 90 % is 2.919985580; the standard deviation of 100, 101, 102 is 1
+    const double half = 2.919985580353726 / std::sqrt(3.0);
+    CHECK(std::abs(*list[2].high - (101 + half)) < rounding);
+    CHECK(std::abs(*list[2].low - (101 - half)) < rounding);
+}
+
+TEST_CASE("results: points that a group joins are averaged in each replication first") {
+    const TemporaryFolder folder;
+    const auto list = answers(made(folder.path("s.db")), {.group_by = {"propagation.model"}});
+    REQUIRE(list.size() == 2);
+    CHECK(list[0].settings.entries.size() == 1);
+    CHECK(list[0].values == std::map<std::uint32_t, double>{{0, 5}, {1, 6}, {2, 7}});
+    CHECK(list[0].summary->n == 3);
+    CHECK(list[1].values.at(2) == 107);
+}
+
+TEST_CASE("results: a metric without a value is counted, and is nothing") {
+    const TemporaryFolder folder;
+    const auto list = answers(made(folder.path("s.db")), {.metrics = {"hops_mean"}});
+    CHECK(list[0].undefined == 3);
+    CHECK_FALSE(list[0].value);
+    CHECK_FALSE(list[0].summary);
+}
+
+TEST_CASE("results: a quantile stands in place of the mean, if it is asked for") {
+    const TemporaryFolder folder;
+    const auto list = answers(made(folder.path("s.db")), {.quantile = 0.5});
+    CHECK(*list[0].value == 1);
+    CHECK_FALSE(list[0].low);  // three values are too few for an interval
+}
+
+TEST_CASE("results: what a study does not have is an error with what is near") {
+    const TemporaryFolder folder;
+    const Store store = made(folder.path("s.db"));
+    CHECK_THROWS_WITH_AS(answers(store, {.metrics = {"reech"}}),
+                         doctest::Contains("did you mean \"reach\"?"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(answers(store, {.group_by = {"radio.powr"}}),
+                         doctest::Contains("did you mean \"radio.power\"?"), std::invalid_argument);
+}
+
+TEST_CASE("results: CSV has a row per run and metric, quotes what needs it, and a head") {
+    const TemporaryFolder folder;
+    std::string text;
+    write_csv(made(folder.path("s.db")), false, [&](std::string_view piece) { text += piece; });
+    CHECK(
+        text.starts_with("point,propagation.model,radio.power,replication,metric,value\n"
+                         "0,disc,0,0,hops_mean,\n0,disc,0,0,reach,0\n"));
+    CHECK(text.ends_with("3,\"friis, \"\"free\"\"\",1,2,reach,112\n"));
+    CHECK(std::count(text.begin(), text.end(), '\n') == 25);
+}

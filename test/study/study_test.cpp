@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "study/study.hpp"
+
+#include "experiment/toml.hpp"
+#include "sim/error.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using namespace rovernet;
+using namespace rovernet::test;
+
+namespace {
+
+const std::string two_robots = R"([scenario]
+name = "pair"
+[propagation]
+model = "disc"
+range = "10 m"
+[[robot]]
+name = "A"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "r"
+count = 3
+at = ["5 m", "0 m"]
+[[traffic]]
+from = "A"
+payload = "F"
+)";
+
+std::vector<std::string> points_of(const std::string& keys) {
+    const Value document = parse_toml("[study]\n" + keys, "s.toml");
+    const StudyTable study = read_study(*document.table()->find("study"));
+    std::vector<std::string> texts;
+    for (const Table& settings : study_points(study, {"s.toml"})) {
+        texts.push_back(settings_text(settings));
+    }
+    return texts;
+}
+
+using Texts = std::vector<std::string>;
+
+std::string error_of(const std::string& text) {
+    const TemporaryFolder folder;
+    try {
+        Study(folder.write("s.toml", text), {});
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+/// The id of the only point of a scenario.
+std::string id_of(const std::string& text, const ScenarioOptions& options = {}) {
+    const TemporaryFolder folder;
+    return Study(folder.write("s.toml", text), options).points().at(0).id;
+}
+
+}  // namespace
+
+TEST_CASE("study: the points are all combinations, the last key's values first") {
+    CHECK(points_of("vary.a = [1, 2]\nvary.b = [\"x\", \"y\", \"z\"]") ==
+          Texts{"a=1, b=x", "a=1, b=y", "a=1, b=z", "a=2, b=x", "a=2, b=y", "a=2, b=z"});
+    CHECK(points_of("") == Texts{"the scenario as it is"});
+}
+
+TEST_CASE("study: keys of a zip go together, wherever they stand") {
+    CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nvary.c = [3, 4]\nzip = [[\"a\", \"c\"]]") ==
+          Texts{"a=1, b=7, c=3", "a=1, b=8, c=3", "a=2, b=7, c=4", "a=2, b=8, c=4"});
+    CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nvary.c = [3, 4]\nzip = [[\"c\", \"a\", "
+                    "\"b\"]]") == Texts{"a=1, b=7, c=3", "a=2, b=8, c=4"});
+}
+
+TEST_CASE("study: a point is left out if all keys of an exclusion have one of its values") {
+    CHECK(points_of("vary.a = [1, 2, 3]\nvary.b = [7, 8]\nexclude = [{ a = [1, 3], b = 8 }]") ==
+          Texts{"a=1, b=7", "a=2, b=7", "a=2, b=8", "a=3, b=7"});
+    CHECK(points_of("vary.a = [1, 2]\nvary.b = [7, 8]\nexclude = [{ a = 1 }, { b = 8 }]") ==
+          Texts{"a=2, b=7"});
+    CHECK_THROWS_WITH_AS(points_of("vary.a = [1]\nexclude = [{ a = 1 }]"),
+                         doctest::Contains("leaves no point"), InputError);
+}
+
+TEST_CASE("study: a range has both ends and no digits of rounding") {
+    CHECK(points_of("vary.a = { from = 0, to = 0.5, step = 0.1 }") ==
+          Texts{"a=0.0", "a=0.1", "a=0.2", "a=0.3", "a=0.4", "a=0.5"});
+    CHECK(points_of("vary.a = { from = 3, to = 1, step = -1 }") == Texts{"a=3", "a=2", "a=1"});
+    CHECK(points_of("vary.a = { from = 1, to = 6, step = 2 }") == Texts{"a=1", "a=3", "a=5"});
+    CHECK(points_of("vary.a.b = { from = \"0.5 m\", to = \"1.5 m\", step = \"0.5 m\" }") ==
+          Texts{"a.b=0.5 m", "a.b=1 m", "a.b=1.5 m"});
+    CHECK(points_of("vary.a = { from = 2, to = 2, step = 1 }") == Texts{"a=2"});
+}
+
+TEST_CASE("study: paths may be written in quotes or as keys of keys") {
+    CHECK(points_of("vary.\"a.b\" = [1]\nvary.c.d = [2]\n[study.vary.e]\nf = [3]") ==
+          Texts{"a.b=1, c.d=2, e.f=3"});
+    // A path that ends in one of the words of a range is a path if its value is a list.
+    CHECK(points_of("vary.traffic.0.from = [\"A\"]") == Texts{"traffic.0.from=A"});
+}
+
+TEST_CASE("study: a million points are listed, more are an error") {
+    const std::string range = " = { from = 1, to = 1000, step = 1 }\n";
+    CHECK(points_of("vary.a" + range + "vary.b" + range).size() == 1'000'000);
+    CHECK_THROWS_WITH_AS(points_of("vary.a" + range + "vary.b" + range + "vary.c = [1, 2]"),
+                         doctest::Contains("more than 1000000 points"), InputError);
+}
+
+TEST_CASE("study: a point's scenario has its values, and its replication") {
+    const TemporaryFolder folder;
+    const std::string path = folder.write(
+        "s.toml",
+        two_robots + "[study]\nvary.robot.r.count = [3, 5]\nvary.radio.power = [\"5 dBm\"]");
+    Study study(path, {});
+    const Scenario scenario = study.scenario(1, 7);
+    CHECK(scenario.robots[1].count == 5);
+    CHECK(scenario.radio.power.value == 5.0);
+    CHECK(scenario.scenario.replication == 7);
+    CHECK(study.scenario(0, 0).robots[1].count == 3);
+}
+
+TEST_CASE("study: a mistake in what varies is an error before anything runs, at its place") {
+    const auto wrong = [](const std::string& keys) {
+        return error_of(two_robots + "[study]\n" + keys);
+    };
+    CHECK(wrong("vary.radio.pwer = [\"5 dBm\"]").find("s.toml:17:12: unknown key \"pwer\"") !=
+          std::string::npos);
+    CHECK(wrong("vary.radio.power = [\"5 dBm\", \"5 m\"]").find("s.toml:17:30: ") !=
+          std::string::npos);
+    CHECK(wrong("vary.radio.power = [\"5 dBm\", \"5 m\"]").find("at the point radio.power=5 m") !=
+          std::string::npos);
+    CHECK(wrong("vary.robot.x.count = [1]").find("nothing in the list is named \"x\"") !=
+          std::string::npos);
+    CHECK(
+        wrong("vary.reception.model = [\"threshold\", \"sinr\"]").find("\"disc\" has no levels") !=
+        std::string::npos);
+}
+
+TEST_CASE("study: what changes a result changes a point's id, and nothing else does") {
+    const std::string id = id_of(two_robots);
+    CHECK(id.size() == 16);
+    CHECK(id_of(two_robots) == id);
+    CHECK(id_of("# a comment\n" + two_robots) == id);
+    CHECK(id_of(two_robots + "[study]\nreplications = 9\nmetrics = [\"reach\"]") == id);
+    CHECK(id_of(two_robots + "[trace]\nns2 = \"new\"") == id);
+    CHECK(id_of(two_robots, {.set = {"scenario.name=other"}}) == id);
+    CHECK(id_of(two_robots, {.set = {"routing.jitter=10 ms"}}) ==
+          id_of(two_robots));  // the default
+    std::set<std::string> ids{id};
+    for (const char* set : {"scenario.seed=2", "scenario.duration=5", "radio.power=\"9 dBm\"",
+                            "robot.r.count=4", "propagation.range=11", "study.warmup=1"}) {
+        CAPTURE(set);
+        CHECK(ids.insert(id_of(two_robots, {.set = {set}})).second);
+    }
+}
+
+TEST_CASE("study: another map under the same name is another point") {
+    const TemporaryFolder folder;
+    const std::string path = folder.write(
+        "s.toml", "[scene]\nmap = \"m.pgm\"\nsize = [\"20 m\", \"20 m\"]\n" + two_robots);
+    const auto id = [&](const std::string& pixels) {
+        folder.write("m.pgm", "P2 2 2 255 " + pixels);
+        return Study(path, {}).points()[0].id;
+    };
+    CHECK(id("255 255 255 255") == id("255 255 255 255"));
+    CHECK(id("255 255 255 255") != id("255 255 255 0"));
+}
+
+TEST_CASE("study: another movement file under the same name is another point") {
+    const TemporaryFolder folder;
+    const std::string path =
+        folder.write("s.toml", "[movement]\nfile = \"m.tcl\"\n[propagation]\nmodel = \"friis\"\n");
+    const auto id = [&](const std::string& x) {
+        folder.write("m.tcl",
+                     "$node_(0) set X_ 1\n$node_(0) set Y_ 1\n$node_(0) set Z_ 0\n$ns_ at 1 "
+                     "\"$node_(0) setdest " +
+                         x + " 5 1\"\n");
+        return Study(path, {}).points()[0].id;
+    };
+    CHECK(id("7") == id("7"));
+    CHECK(id("7") != id("8"));
+}
+
+TEST_CASE("study: a run's id depends on point, replication and version") {
+    const std::string id = run_id("0123456789abcdef", 3, "0.1.0");
+    CHECK(run_id("0123456789abcdef", 3, "0.1.0") == id);
+    CHECK(run_id("0123456789abcdee", 3, "0.1.0") != id);
+    CHECK(run_id("0123456789abcdef", 4, "0.1.0") != id);
+    CHECK(run_id("0123456789abcdef", 3, "0.1.1") != id);
+}

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "study/sweep.hpp"
+
+#include "sim/error.hpp"
+#include "study/explain.hpp"
+#include "study/results.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <map>
+
+using namespace rovernet;
+using namespace rovernet::test;
+
+namespace {
+
+/// Robots in random places: replications differ.
+const std::string scattered = R"([scenario]
+name = "scattered"
+duration = "2 s"
+[propagation]
+model = "disc"
+range = "30 m"
+[[robot]]
+name = "A"
+at = ["50 m", "50 m"]
+[[robot]]
+name = "r"
+count = 20
+place = { model = "uniform", area = [["0 m", "0 m"], ["100 m", "100 m"]] }
+[[traffic]]
+from = "A"
+size = "20 B"
+)";
+
+const std::string study_keys = R"([study]
+replications = 3
+vary."propagation.range" = ["15 m", "30 m"]
+)";
+
+/// The store's file in a folder, and its study.
+struct Bench {
+    explicit Bench(const std::string& text) { folder.write("s.toml", text); }
+    Study study(std::vector<std::string> set = {}) const {
+        return Study(folder.path("s.toml"), {.set = std::move(set)});
+    }
+    std::string store() const { return folder.path("s.db"); }
+
+    SweepResult sweep(SweepOptions options = {}, const std::vector<std::string>& set = {}) const {
+        Study s = study(set);
+        Store db = open_store(store(), s);
+        return rovernet::sweep(s, db, options);
+    }
+    std::string csv() const {
+        std::string text;
+        write_csv(Store::open(store()), false, [&](std::string_view piece) { text += piece; });
+        return text;
+    }
+    TemporaryFolder folder;
+};
+
+std::string message_of(const Bench& bench, const std::vector<std::string>& set = {}) {
+    try {
+        Study study = bench.study(set);
+        open_store(bench.store(), study);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("sweep: every replication of every point runs once, and again it is all there") {
+    const Bench bench(scattered + study_keys);
+    const SweepResult first = bench.sweep();
+    CHECK(first.progress.finished == 6);
+    CHECK(first.progress.failed == 0);
+    CHECK_FALSE(first.stopped);
+    const std::string csv = bench.csv();
+    const SweepResult again = bench.sweep();
+    CHECK(again.progress.before == 6);
+    CHECK(again.progress.finished == 0);
+    CHECK(bench.csv() == csv);
+}
+
+TEST_CASE("sweep: a run is what a network of its own gives") {
+    const Bench bench(scattered + study_keys);
+    bench.sweep();
+    const Store store = Store::open(bench.store());
+    for (const StoredRun& run : store.runs()) {
+        Study study = bench.study();
+        const Measurement alone = measure(study.scenario(run.point, run.replication));
+        CHECK(alone.fingerprint == run.measurement.fingerprint);
+        const FoundRun found = find_run(store, run.id);
+        CHECK(found.run.measurement.metrics == alone.metrics);
+    }
+}
+
+TEST_CASE("sweep: the results are the same bytes from one worker and from five") {
+    const Bench one(scattered + study_keys), five(scattered + study_keys);
+    one.sweep({.workers = 1});
+    five.sweep({.workers = 5});
+    CHECK(one.csv() == five.csv());
+}
+
+TEST_CASE("sweep: the same replication at two points has the same robots in the same places") {
+    // The larger range reaches at least those that the smaller one does.
+    const Bench bench(scattered + study_keys);
+    bench.sweep({}, {"study.replications=10"});
+    std::map<std::uint32_t, std::vector<double>> deliveries;
+    for (const auto& v : Store::open(bench.store()).values("deliveries")) {
+        deliveries[v.replication].push_back(*v.value);
+    }
+    bool differ = false;
+    for (const auto& [replication, values] : deliveries) {
+        REQUIRE(values.size() == 2);
+        CHECK(values[0] <= values[1]);
+        differ = differ || values[0] != deliveries[0][0];
+    }
+    CHECK(differ);  // from one replication to the next
+}
+
+TEST_CASE("sweep: more values and more replications go on with what is there") {
+    const Bench bench(scattered + study_keys);
+    bench.sweep();
+    const SweepResult more =
+        bench.sweep({}, {"study.vary={ \"propagation.range\" = [\"5 m\", \"15 m\", \"30 m\"] }",
+                         "study.replications=4"});
+    CHECK(more.progress.before == 6);
+    CHECK(more.progress.finished == 6);
+    const Bench whole(scattered + study_keys);
+    whole.sweep({}, {"study.vary={ \"propagation.range\" = [\"5 m\", \"15 m\", \"30 m\"] }",
+                     "study.replications=4"});
+    CHECK(bench.csv() == whole.csv());
+}
+
+TEST_CASE("sweep: another scenario or version does not mix with what is there") {
+    const Bench bench(scattered + study_keys);
+    bench.sweep();
+    const std::string csv = bench.csv();
+    const std::string text = message_of(bench, {"scenario.seed=2"});
+    CHECK(text.find("scenario.seed was 1 and is 2") != std::string::npos);
+    CHECK(text.find("--fresh") != std::string::npos);
+    CHECK(message_of(bench, {"study.vary={ \"propagation.range\" = [\"30 m\"] }"})
+              .find("propagation.range=15 m") != std::string::npos);
+    { Store::open_to_write(bench.store()).set_property("version", "0.0.9 (abc)"); }
+    CHECK(message_of(bench).find("0.0.9 (abc)") != std::string::npos);
+    CHECK(bench.csv() == csv);
+}
+
+TEST_CASE("sweep: a run that fails is kept with its reason, and tried again the next time") {
+    const Bench bench(scattered + study_keys);
+    // The event limit is met by the larger range only.
+    std::uint64_t most = 0, least = 1'000'000;
+    bench.sweep();
+    for (const auto& v : Store::open(bench.store()).values("events")) {
+        (v.point == 0 ? least : most) = static_cast<std::uint64_t>(*v.value);
+    }
+    REQUIRE(least < most);
+    const Bench limited(scattered + study_keys);
+    const auto limit = "scenario.event_limit=" + std::to_string(least + 1);
+    const SweepResult result = limited.sweep({}, {limit});
+    CHECK(result.progress.failed > 0);
+    CHECK(result.progress.failed + result.progress.finished == 6);
+    REQUIRE(result.failure);
+    CHECK(result.failure->error.find("event") != std::string::npos);
+    const SweepResult again = limited.sweep({}, {limit});
+    CHECK(again.progress.before == result.progress.finished);
+    CHECK(again.progress.failed == result.progress.failed);
+    const SweepResult fast = limited.sweep({.workers = 1, .fail_fast = true}, {limit});
+    CHECK(fast.progress.failed == 1);
+    CHECK(fast.stopped == (fast.progress.left > 0));
+}
+
+TEST_CASE("sweep: a run that takes too long is tried twice, and costs only itself") {
+    const Bench bench(scattered + "[[traffic]]\nfrom = \"r0\"\nsize = \"9 B\"\nevery = \"1 ms\"\n" +
+                      "[study]\nvary.\"scenario.duration\" = [\"10 ms\", \"1e8 s\"]\n");
+    const SweepResult result = bench.sweep({.workers = 2, .limits = {.timeout_s = 3, .memory = {}}},
+                                           {"scenario.event_limit=1000000000000"});
+    CHECK(result.progress.finished == 1);
+    CHECK(result.progress.failed == 1);
+    CHECK(result.failure->error.find("took longer than 3 s") != std::string::npos);
+}
+
+TEST_CASE("sweep: stopped, it finishes what runs and keeps it; then it goes on to the same end") {
+    const Bench bench(scattered + study_keys), whole(scattered + study_keys);
+    whole.sweep();
+    SweepOptions options{.workers = 1};
+    std::uint64_t over = 0;
+    options.progress = [&](const SweepProgress& p) { over = p.finished; };
+    options.stop = [&] { return over >= 2 ? Stop::when_idle : Stop::no; };
+    const SweepResult result = bench.sweep(options);
+    CHECK(result.stopped);
+    CHECK(result.progress.finished == 2);
+    CHECK(bench.sweep().progress.finished == 4);
+    CHECK(bench.csv() == whole.csv());
+    const Bench at_once(scattered + study_keys);
+    options.stop = [&] { return over >= 2 ? Stop::at_once : Stop::no; };
+    over = 0;
+    CHECK(at_once.sweep(options).stopped);
+    at_once.sweep();
+    CHECK(at_once.csv() == whole.csv());
+}
+
+TEST_CASE("sweep: shards are the whole when they are together") {
+    const Bench bench(scattered + study_keys);
+    std::uint64_t finished = 0;
+    for (std::uint64_t i = 0; i < 3; ++i) {
+        finished += bench.sweep({.workers = 1, .shard = Shard{i, 2}}).progress.finished;
+        CHECK(finished == 2 * (i + 1));
+    }
+    CHECK(bench.sweep({.shard = Shard{3, 2}}).progress.finished == 0);
+    const Bench whole(scattered + study_keys);
+    whole.sweep();
+    CHECK(bench.csv() == whole.csv());
+}
+
+TEST_CASE("sweep: precision repeats each point until its interval is narrow, however it runs") {
+    const Bench bench(scattered + study_keys);
+    const std::vector<std::string> wanted = {"study.precision=0.1", "study.max_replications=40"};
+    bench.sweep({.workers = 3}, wanted);
+    const Store store = Store::open(bench.store());
+    for (const Answer& answer : answers(store, {.metrics = {"delivery_ratio"}})) {
+        const double half = (*answer.high - *answer.low) / 2;
+        CHECK((half <= 0.1 || answer.values.size() == 40));
+    }
+    CHECK(bench.sweep({}, wanted).progress.finished == 0);
+    const Bench one(scattered + study_keys);
+    one.sweep({.workers = 1}, wanted);
+    CHECK(one.csv() == bench.csv());
+}
+
+TEST_CASE("explain: the command that makes a run again has the sweep's options and the point's") {
+    const Bench bench(scattered + study_keys);
+    bench.sweep({}, {"scenario.name=it's"});
+    const Store store = Store::open(bench.store());
+    const FoundRun found = find_run(store, "1/2");
+    const std::string command = run_command(store, found.point, found.run.replication);
+    CHECK(command.starts_with("rovernet run "));
+    CHECK(
+        command.ends_with("s.toml --set 'scenario.name=it'\\''s' --set "
+                          "'propagation.range=\"30 m\"' --replication 2"));
+    CHECK(find_run(store, found.run.id.substr(0, 10)).run.id == found.run.id);
+    CHECK_THROWS_AS(find_run(store, "7/0"), std::invalid_argument);
+    CHECK_THROWS_AS(find_run(store, ""), std::invalid_argument);
+}

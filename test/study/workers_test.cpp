@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "study/workers.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+using namespace rovernet;
+
+namespace {
+
+constexpr double long_enough_s = 60;  // for whatever a loaded machine does meanwhile
+
+/// Has all tasks done, and tells how each ended.
+std::map<std::uint64_t, TaskEnd> all(Workers& workers, std::uint64_t tasks) {
+    std::map<std::uint64_t, TaskEnd> ends;
+    std::uint64_t next = 0;
+    while (ends.size() < tasks) {
+        while (next < tasks && workers.has_idle()) workers.begin(next++);
+        const auto end = workers.wait(long_enough_s);
+        REQUIRE(end);
+        ends.insert({end->task, *end});
+    }
+    return ends;
+}
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+}  // namespace
+
+TEST_CASE("workers: every task is answered once, by as many processes as there may be") {
+    Workers workers(3, [](std::uint64_t task) { return fmt::format("{} {}", task, getpid()); }, {});
+    const auto ends = all(workers, 100);
+    std::map<std::string, int> by_process;
+    for (const auto& [task, end] : ends) {
+        CHECK(end.kind == TaskEnd::done);
+        const auto blank = end.text.find(' ');
+        CHECK(end.text.substr(0, blank) == std::to_string(task));
+        ++by_process[end.text.substr(blank)];
+    }
+    CHECK(by_process.size() <= 3);
+    CHECK(workers.busy() == 0);
+}
+
+TEST_CASE("workers: an answer of many megabytes comes whole") {
+    Workers workers(
+        2, [](std::uint64_t task) { return std::string(20'000'000, task == 0 ? 'a' : 'b'); }, {});
+    const auto ends = all(workers, 2);
+    CHECK(ends.at(0).text == std::string(20'000'000, 'a'));
+    CHECK(ends.at(1).text == std::string(20'000'000, 'b'));
+}
+
+TEST_CASE("workers: what a task throws is its end, and its process goes on") {
+    Workers workers(1,
+                    [](std::uint64_t task) -> std::string {
+                        if (task == 1) throw std::runtime_error("no such luck");
+                        return std::to_string(getpid());
+                    },
+                    {});
+    const auto ends = all(workers, 3);
+    CHECK(ends.at(1).kind == TaskEnd::failed);
+    CHECK(ends.at(1).text == "no such luck");
+    CHECK(ends.at(0).text == ends.at(2).text);
+}
+
+TEST_CASE("workers: a crash costs its task only, and says its last words") {
+    Workers workers(1,
+                    [](std::uint64_t task) -> std::string {
+                        if (task == 1) {
+                            const std::string words(5000, '.');
+                            (void)!write(STDERR_FILENO, words.data(), words.size());
+                            constexpr char last[] = "the end is near\n";
+                            (void)!write(STDERR_FILENO, last, sizeof last - 1);
+                            raise(SIGKILL);
+                        }
+                        if (task == 2) _exit(7);
+                        return "well";
+                    },
+                    {});
+    const auto ends = all(workers, 4);
+    CHECK(ends.at(0).text == "well");
+    CHECK(ends.at(1).kind == TaskEnd::died);
+    CHECK(ends.at(1).text.find("signal 9") != std::string::npos);
+    CHECK(ends.at(1).text.ends_with(".the end is near"));
+    CHECK(ends.at(1).text.size() < 2200);
+    CHECK(ends.at(2).kind == TaskEnd::died);
+    CHECK(ends.at(2).text == "its process exited with 7");
+    CHECK(ends.at(3).text == "well");
+}
+
+TEST_CASE("workers: a task that takes too long is ended, while others go on") {
+    Workers workers(2,
+                    [](std::uint64_t task) -> std::string {
+                        if (task == 0) {
+                            for (;;) pause();
+                        }
+                        return "well";
+                    },
+                    {.timeout_s = 0.3, .memory = {}});
+    const auto ends = all(workers, 20);
+    CHECK(ends.at(0).kind == TaskEnd::died);
+    CHECK(ends.at(0).text == "took longer than 0.3 s");
+    for (std::uint64_t task = 1; task < 20; ++task) CHECK(ends.at(task).text == "well");
+}
+
+TEST_CASE("workers: a task that wants too much memory dies alone") {
+    if (sanitized) return;  // whose shadow memory is more than any limit
+    Workers workers(
+        1,
+        [](std::uint64_t task) {
+            return std::to_string(std::string(task == 1 ? 4'000'000'000 : 1, 'x').size());
+        },
+        {.timeout_s = {}, .memory = 2'000'000'000});
+    const auto ends = all(workers, 3);
+    CHECK(ends.at(1).kind == TaskEnd::died);
+    CHECK(ends.at(1).text.find("out of memory") != std::string::npos);
+    CHECK(ends.at(2).text == "1");
+}
+
+TEST_CASE("workers: one that died between its tasks is found and replaced") {
+    Workers workers(1, [](std::uint64_t) { return std::to_string(getpid()); }, {});
+    workers.begin(0);
+    const pid_t pid = std::stoi(workers.wait(long_enough_s)->text);
+    kill(pid, SIGKILL);
+    workers.begin(1);
+    CHECK(workers.wait(long_enough_s)->kind == TaskEnd::died);
+    workers.begin(1);
+    CHECK(workers.wait(long_enough_s)->kind == TaskEnd::done);
+}
+
+TEST_CASE("workers: waiting ends when its time is over, and there is nothing to tell") {
+    Workers workers(1,
+                    [](std::uint64_t) -> std::string {
+                        for (;;) pause();
+                    },
+                    {});
+    CHECK_FALSE(workers.wait(0.01));
+    workers.begin(0);
+    CHECK_FALSE(workers.wait(0.05));
+    CHECK(workers.busy() == 1);
+    CHECK_FALSE(workers.has_idle());
+}
+
+TEST_CASE("workers: they do not outlive the process that they work for") {
+    int pids[2];
+    REQUIRE(pipe(pids) == 0);
+    const pid_t supervisor = fork();
+    if (supervisor == 0) {
+        Workers workers(1,
+                        [&](std::uint64_t) -> std::string {
+                            const pid_t own = getpid();
+                            (void)!write(pids[1], &own, sizeof own);
+                            for (;;) pause();
+                        },
+                        {});
+        workers.begin(0);
+        for (;;) pause();
+    }
+    pid_t worker = 0;
+    REQUIRE(read(pids[0], &worker, sizeof worker) == sizeof worker);
+    kill(supervisor, SIGKILL);
+    using namespace std::chrono_literals;
+    waitpid(supervisor, nullptr, 0);
+    bool gone = false;
+    for (int i = 0; i < 6000 && !gone; ++i) {
+        std::ifstream state(fmt::format("/proc/{}/stat", worker));
+        std::string number, name, letter;
+        gone = !(state >> number >> name >> letter) || letter == "Z";
+        std::this_thread::sleep_for(10ms);
+    }
+    CHECK(gone);
+}

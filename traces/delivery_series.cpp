@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "traces/delivery_series.hpp"
+
+#include <algorithm>
+
+namespace rovernet {
+
+void DeliverySeries::on(const Record& record, const RecordContext& context) {
+    if (const auto* sent = std::get_if<Sent>(&record)) {
+        sent_.push_back(sent->time);  // uids are given in this order
+        others_.push_back(std::max(sent->robots, 1U) - 1);
+        deliveries_.push_back(0);
+    } else if (const auto* received = std::get_if<Received>(&record)) {
+        std::uint32_t& deliveries = deliveries_[context.messages[received->frame.message].uid];
+        for (const Reception& rx : received->receptions) deliveries += rx.delivered ? 1 : 0;
+    }
+}
+
+std::vector<double> DeliverySeries::delivered() const {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < sent_.size(); ++i) {
+        ratios.push_back(others_[i] == 0 ? 0.0 : static_cast<double>(deliveries_[i]) / others_[i]);
+    }
+    return ratios;
+}
+
+}  // namespace rovernet

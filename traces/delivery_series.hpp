@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ports.hpp"
+#include "sim/record.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rovernet {
+
+/// What became of each message of a run, in the order in which they were sent: a series in time, to
+/// tell the beginning of a run from its steady state.
+class DeliverySeries {
+  public:
+    KindMask kinds() const { return kind_of<Sent>() | kind_of<Received>(); }
+    void on(const Record& record, const RecordContext& context);
+
+    /// When each message was sent, ascending.
+    const std::vector<Time>& sent() const { return sent_; }
+    /// Of each message: deliveries / (robots when it was sent - 1) [-]; 0 for a lone robot's.
+    std::vector<double> delivered() const;
+
+  private:
+    std::vector<Time> sent_;
+    std::vector<std::uint32_t> others_;      // robots that might have got it
+    std::vector<std::uint32_t> deliveries_;  // and those that did
+};
+
+}  // namespace rovernet
