@@ -14,6 +14,7 @@
 #include "mobility/straight.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/list.hpp"
+#include "pictures/chart.hpp"
 #include "pictures/picture.hpp"
 #include "routing/flood.hpp"
 #include "scene/occupancy.hpp"

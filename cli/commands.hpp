@@ -152,6 +152,14 @@ struct ResultsArguments {
 };
 void results(const ResultsArguments& arguments);
 
+struct PlotArguments {
+    std::string store, x, y, by, kind, out;
+    std::optional<double> confidence, quantile;
+    bool log_x = false, log_y = false;
+    int width = 640;
+};
+void plot(const PlotArguments& arguments);
+
 struct ExplainArguments {
     std::string store, run;
     bool json = false;

@@ -6,7 +6,9 @@
 #include "cli/study_run.hpp"
 #include "cli/text_table.hpp"
 #include "experiment/json.hpp"
+#include "experiment/output.hpp"
 #include "study/precision.hpp"
+#include "study/study_chart.hpp"
 
 #include <fmt/format.h>
 
@@ -138,6 +140,9 @@ void compare(const CompareArguments& a) {
     check_end(a, store, result);
     const std::string metric = a.metric.empty() ? first_metric(study.table()) : a.metric;
     const Comparison comparison = compare_models(store, metric, a.baseline);
+    if (a.picture) {
+        write_file(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));
+    }
     if (a.json) {
         print_json(comparison);
     } else {

@@ -307,6 +307,29 @@ void add_results(CLI::App& app, int& exit) {
     results->add_option("--sql", a.sql, "answer this question, such as 'SELECT * FROM result'");
     results->add_flag("--json", a.json, "print one JSON document");
 
+    static cli::PlotArguments p;
+    CLI::App* plot =
+        add_command(app, "plot", "Draw what a study came to", exit, [] { cli::plot(p); });
+    plot->add_option("STUDY", p.store, "store of a study, as sweep makes it")->required();
+    plot->add_option("-x", p.x, "key that varies, such as robots or radio.power");
+    plot->add_option("-y", p.y, "metric, such as delivery_ratio")->required();
+    plot->add_option("--by", p.by, "key of the lines, or of the rows of a heat map");
+    plot->add_option("--kind", p.kind,
+                     "lines, bars, cdf or heat_map (default: lines over numbers, "
+                     "bars over words)");
+    plot->add_option("--confidence", p.confidence, "of the intervals, such as 0.95")
+        ->check(CLI::Range(0.5, 0.9999));
+    plot->add_option("--quantile", p.quantile, "this quantile in place of the mean, such as 0.9")
+        ->check(CLI::Range(0.0001, 0.9999));
+    plot->add_flag("--log-x", p.log_x, "a logarithmic axis");
+    plot->add_flag("--log-y", p.log_y, "a logarithmic axis");
+    plot->add_option("--width", p.width, "of the picture, in pixels")
+        ->check(CLI::Range(200, 10000))
+        ->capture_default_str();
+    plot->add_option("-o,--output", p.out,
+                     "NAME.svg, or to restyle it NAME.gp (gnuplot) or NAME.vl.json (Vega-Lite)")
+        ->required();
+
     static cli::ExplainArguments e;
     CLI::App* explain = add_command(app, "explain", "How one run of a study came about", exit,
                                     [] { cli::explain(e); });

@@ -8,6 +8,7 @@
 #include "experiment/toml.hpp"
 #include "study/explain.hpp"
 #include "study/study.hpp"
+#include "study/study_chart.hpp"
 
 #include <fmt/format.h>
 
@@ -89,9 +90,18 @@ std::size_t failures_in(const Store& store) {
         runs.begin(), runs.end(), [](const StoredRun& run) { return !run.error.empty(); }));
 }
 
+std::optional<std::vector<std::string>> group_by_of(const ResultsArguments& a, const Store& store) {
+    if (a.group_by.empty()) return std::nullopt;
+    std::vector<std::string> paths;
+    for (const std::string& word : a.group_by) {
+        paths.push_back(varied_path(varied_paths(store), word));
+    }
+    return paths;
+}
+
 void print_answers(const ResultsArguments& a, const Store& store) {
     const auto list = answers(store, {.metrics = a.metrics,
-                                      .group_by = a.group_by,
+                                      .group_by = group_by_of(a, store),
                                       .confidence = a.confidence,
                                       .quantile = a.quantile});
     const std::size_t failures = failures_in(store);

@@ -170,4 +170,23 @@ std::string quantity_text(double value, Dimension dimension) {
     return fmt::format("{} {}", value / k.units.front().factor, k.units.front().name);
 }
 
+std::string_view base_unit(Dimension dimension) {
+    constexpr std::string_view names[] = {"dBm",   "dB", "Hz",  "m",     "m/s", "s",
+                                          "bit/s", "B",  "rad", "rad/s", "dB/m"};
+    return names[static_cast<std::size_t>(dimension)];
+}
+
+std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts) {
+    for (std::size_t i = 0; i < std::size(kinds); ++i) {
+        const auto dimension = static_cast<Dimension>(i);
+        try {
+            for (const std::string& text : texts) read_quantity(Value(text), "", dimension);
+            return dimension;
+        } catch (const InputError&) {
+            // In another, perhaps.
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace rovernet

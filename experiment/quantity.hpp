@@ -4,8 +4,10 @@
 #include "experiment/value.hpp"
 #include "sim/units.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rovernet {
 
@@ -29,6 +31,12 @@ enum class Dimension {
 /// is in SI units (a power in watts).
 /// @throws InputError saying what was found, which units are possible and what might be meant
 double read_quantity(const Value& value, std::string_view key, Dimension dimension);
+
+/// The base unit's name.
+std::string_view base_unit(Dimension dimension);
+
+/// The dimension in which all these texts are quantities, if there is one.
+std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts);
 
 /// The quantity [base unit] as a text that reads back as the same number.
 std::string quantity_text(double value, Dimension dimension);

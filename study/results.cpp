@@ -117,12 +117,13 @@ double confidence_of(const Store& store) {
 
 std::vector<Answer> answers(const Store& store, const Question& question) {
     const std::vector<std::string> varied = varied_paths(store);
-    for (const auto& path : question.group_by) check_known(path, varied, "the key");
+    const auto paths = question.group_by.value_or(varied);
+    for (const auto& path : paths) check_known(path, varied, "the key");
     const auto metrics = question.metrics.empty() ? metrics_of(store) : question.metrics;
     for (const auto& metric : metrics) check_known(metric, metric_names(), "the metric");
     const double confidence = question.confidence.value_or(confidence_of(store));
     const auto points = store.points();
-    const auto groups = groups_of(points, question.group_by.empty() ? varied : question.group_by);
+    const auto groups = groups_of(points, paths);
     std::map<std::uint32_t, std::size_t> group_of;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         for (const std::uint32_t point : groups[g].points) group_of[point] = g;

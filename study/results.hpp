@@ -15,10 +15,11 @@ namespace rovernet {
 
 /// What a study is asked for.
 struct Question {
-    std::vector<std::string> metrics = {};   ///< those of [study] metrics if empty, or the usual
-    std::vector<std::string> group_by = {};  ///< paths that vary; all of them if empty
-    std::optional<double> confidence = {};   ///< as in [study] if not given
-    std::optional<double> quantile = {};     ///< this one, in place of the mean
+    std::vector<std::string> metrics = {};  ///< those of [study] metrics if empty, or the usual
+    /// Paths that vary; all of them if not given, none: everything in one group.
+    std::optional<std::vector<std::string>> group_by = {};
+    std::optional<double> confidence = {};  ///< as in [study] if not given
+    std::optional<double> quantile = {};    ///< this one, in place of the mean
 };
 
 /// One metric of the points that agree in what a question groups by.

@@ -58,7 +58,8 @@ TEST_CASE("results: a group is of one point if nothing else is asked, with mean 
 
 TEST_CASE("results: points that a group joins are averaged in each replication first") {
     const TemporaryFolder folder;
-    const auto list = answers(made(folder.path("s.db")), {.group_by = {"propagation.model"}});
+    const auto list = answers(made(folder.path("s.db")),
+                              {.group_by = std::vector<std::string>{"propagation.model"}});
     REQUIRE(list.size() == 2);
     CHECK(list[0].settings.entries.size() == 1);
     CHECK(list[0].values == std::map<std::uint32_t, double>{{0, 5}, {1, 6}, {2, 7}});
@@ -86,7 +87,7 @@ TEST_CASE("results: what a study does not have is an error with what is near") {
     const Store store = made(folder.path("s.db"));
     CHECK_THROWS_WITH_AS(answers(store, {.metrics = {"reech"}}),
                          doctest::Contains("did you mean \"reach\"?"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS(answers(store, {.group_by = {"radio.powr"}}),
+    CHECK_THROWS_WITH_AS(answers(store, {.group_by = std::vector<std::string>{"radio.powr"}}),
                          doctest::Contains("did you mean \"radio.power\"?"), std::invalid_argument);
 }
 

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// What a chart draws its points as.
+enum class ChartKind {
+    /// A line per series through its points in the order of x, broken where a y is missing.
+    lines,
+    /// Bars from 0 at words, grouped by series. Where nothing would be seen of their differences
+    /// (all ends within the upper fifth of the longest bar, or a logarithmic axis, which has no 0)
+    /// dots take their place: a bar is read by its length, a dot by its place.
+    bars,
+    /// A mark per point, with its label.
+    scatter,
+    /// The share of a series' points at or below x, as steps; y is not looked at.
+    cdf,
+    /// A row of cells per series, the first at the bottom and named as the series; y is the value
+    /// of the cell at x.
+    heat_map,
+};
+
+/// A point of a chart. What is not finite, beyond 1e100, or not above 0 on a logarithmic axis is
+/// left out, and the chart says how many values that are.
+struct ChartPoint {
+    double x = 0;               ///< where x is a number
+    std::string category = {};  ///< where x is a word; then the number is not looked at
+    double y = 0;
+    std::optional<double> low = {}, high = {};  ///< where the interval around y ends
+    std::string label = {};                     ///< written beside it, in a scatter
+    std::uint64_t n = 0;                        ///< observations behind it; 0 if that is not known
+};
+
+/// Points that belong together.
+struct ChartSeries {
+    std::string name;
+    std::vector<ChartPoint> points = {};
+};
+
+/// A chart as plain data. Labels carry their units; any text may be empty.
+struct Chart {
+    ChartKind kind = ChartKind::lines;
+    std::string title = {}, x_label = {}, y_label = {};
+    std::string value_label = {};  ///< of the colours of a heat map
+    std::string note = {};         ///< below it: what the intervals are, where the numbers are from
+    bool log_x = false, log_y = false;     ///< of axes with numbers
+    bool x_from_zero = false;              ///< the axis of x shows 0 too, unless it is logarithmic
+    std::vector<ChartSeries> series = {};  ///< their names differ
+};
+
+/// How the charts of a picture stand.
+struct ChartLayout {
+    std::string title = {};
+    double width = 640;   ///< [px] of a chart with all its texts, 200 at least
+    double height = 320;  ///< [px] of the part between its axes, 80 at least
+    int columns = 2;      ///< charts side by side at most, 1 at least
+};
+
+/// Draws charts as one Scalable Vector Graphics document, row by row. The same bytes on every
+/// machine. A chart without a value says "no results".
+/// @throws std::invalid_argument for a layout out of its range
+std::string chart_svg(std::span<const Chart> panels, const ChartLayout& layout = {});
+
+/// The chart as a script of gnuplot (5.2 or later) with its numbers inside, to restyle it; it
+/// writes an SVG to its standard output. No text of the chart is run as a command.
+std::string chart_gnuplot(const Chart& chart);
+
+/// The chart as a specification of Vega-Lite 5 with its numbers inside, as JSON.
+std::string chart_vega_lite(const Chart& chart);
+
+}  // namespace rovernet

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/chart_marks.hpp"
+
+#include "pictures/chart_style.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rovernet {
+namespace {
+
+constexpr double mark_radius = 3.6;        // [px]
+constexpr double small_mark_radius = 1.6;  // [px] where there are many
+constexpr double line_width = 1.8;         // [px]
+constexpr double whisker_width = 1.3;      // [px]
+constexpr std::size_t most_tips = 1000;    // of a chart, so that large ones stay small files
+constexpr Color dark{0x22, 0x22, 0x22};
+
+/// What a viewer shows for a point: its series, place, interval and count.
+std::string tip_of(const Chart& chart, const ChartView& view, std::size_t series,
+                   const DrawnPoint& p) {
+    if (view.points > most_tips) return "";
+    const std::string x =
+        view.has_words ? view.words[static_cast<std::size_t>(p.x)] : number_text(p.x);
+    std::string out = fmt::format("{}: {}, {}", chart.series[series].name, x, number_text(p.y));
+    if (p.low && p.high) {
+        out += fmt::format(" ({} to {})", number_text(*p.low), number_text(*p.high));
+    }
+    if (p.source->n > 0) out += fmt::format(", n = {}", p.source->n);
+    if (!p.source->label.empty()) out = p.source->label + ", " + out;
+    return out;
+}
+
+void add_path(Svg& svg, const char* what, const SvgPath& path, Color stroke, double width,
+              const std::string& dashes = "none") {
+    if (path.empty()) return;
+    svg.add("path", {{"class", what},
+                     {"d", path.text()},
+                     {"fill", "none"},
+                     {"stroke", stroke},
+                     {"stroke-width", width},
+                     {"stroke-linejoin", "round"},
+                     {"stroke-dasharray", dashes}});
+}
+
+/// Appends a whisker at x from one end of the interval to the other, or to the point; what is
+/// beyond the axis has no cap.
+void append_whisker(SvgPath& path, const ChartFrame& frame, const DrawnPoint& p, double x) {
+    constexpr double cap = 3;  // [px] half the width of its ends
+    if (!p.low && !p.high) return;
+    const double px = frame.at(x, p.y).x;
+    const double low = frame.at(x, p.low.value_or(p.y)).y;
+    const double high = frame.at(x, p.high.value_or(p.y)).y;
+    path.move(px, low).vertical(high);
+    const auto shown = [&](double v) { return v >= frame.y.low && v <= frame.y.high; };
+    if (p.low && shown(*p.low)) path.move(px - cap, low).horizontal(px + cap);
+    if (p.high && shown(*p.high)) path.move(px - cap, high).horizontal(px + cap);
+}
+
+/// Draws the marks of a series, in one path if there are too many for tips.
+void draw_marks(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame,
+                std::size_t series, double offset) {
+    const ChartStyle style = chart_style(series);
+    SvgPath all;
+    for (const auto& p : view.series[series]) {
+        const PicturePoint at = frame.at(p.x + offset, p.y);
+        if (view.points > most_tips) {
+            style.marker.append_to(all, at, small_mark_radius);
+        } else {
+            draw_mark(svg, at, series, tip_of(chart, view, series, p));
+        }
+    }
+    if (!all.empty()) {
+        svg.add("path", {{"class", "marks"}, {"d", all.text()}, {"fill", style.color}});
+    }
+}
+
+/// Where a run of points ends that are joined and have both ends of an interval; `begin` if there
+/// is none.
+std::size_t end_of_run(const std::vector<DrawnPoint>& points, std::size_t begin) {
+    std::size_t end = begin;
+    while (end < points.size() && points[end].low && points[end].high &&
+           (end == begin || points[end].joined)) {
+        ++end;
+    }
+    return end;
+}
+
+/// The intervals of a line: bands where neighbours have them, whiskers elsewhere.
+void draw_intervals(Svg& svg, const ChartView& view, const ChartFrame& frame, std::size_t series) {
+    const auto& points = view.series[series];
+    const Color color = chart_style(series).color;
+    SvgPath band, whiskers;
+    for (std::size_t i = 0; i < points.size();) {
+        const std::size_t end = end_of_run(points, i);
+        if (!has_band(view, series) || end < i + 2) {
+            append_whisker(whiskers, frame, points[i], points[i].x);
+            ++i;
+            continue;
+        }
+        for (std::size_t k = i; k < end; ++k) {
+            const PicturePoint at = frame.at(points[k].x, *points[k].high);
+            k == i ? band.move(at.x, at.y) : band.line(at.x, at.y);
+        }
+        for (std::size_t k = end; k-- > i;) {
+            const PicturePoint at = frame.at(points[k].x, *points[k].low);
+            band.line(at.x, at.y);
+        }
+        band.close();
+        i = end;
+    }
+    if (!band.empty()) {
+        svg.add("path",
+                {{"class", "band"}, {"d", band.text()}, {"fill", color}, {"fill-opacity", 0.16}});
+    }
+    add_path(svg, "whisker", whiskers, color, whisker_width);
+}
+
+/// Whether a point has no line on either side.
+bool any_alone(const std::vector<DrawnPoint>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool goes_on = i + 1 < points.size() && points[i + 1].joined;
+        if (!points[i].joined && !goes_on) return true;
+    }
+    return false;
+}
+
+void draw_bar(Svg& svg, double left, double right, double from, double to, std::size_t series,
+              const std::string& tip) {
+    constexpr double least_edged = 4;  // [px]
+    const bool edged = right - left >= least_edged;
+    svg.open("rect", {{"class", "bar"},
+                      {"x", left},
+                      {"y", std::min(from, to)},
+                      {"width", right - left},
+                      {"height", std::max(from, to) - std::min(from, to)},
+                      {"fill", bar_color(series)},
+                      {"stroke", edged ? hex(chart_style(series).color) : "none"}});
+    if (!tip.empty()) svg.title(tip);
+    svg.close();
+}
+
+/// What labels of a scatter have to leave free.
+void keep_marks_free(LabelPlaces& places, const ChartView& view, const ChartFrame& frame) {
+    constexpr double reach = mark_radius + 1;  // [px]
+    for (const auto& points : view.series) {
+        for (const auto& p : points) {
+            const PicturePoint at = frame.at(p.x, p.y);
+            places.keep_free({at.x - reach, at.y - reach, at.x + reach, at.y + reach});
+            places.avoid(frame.at(p.x, p.low.value_or(p.y)), frame.at(p.x, p.high.value_or(p.y)));
+        }
+    }
+}
+
+}  // namespace
+
+PicturePoint ChartFrame::at(double x_value, double y_value) const {
+    const double left = box.left + inset, width = box.right - box.left - 2 * inset;
+    const double height = box.bottom - box.top;
+    return {left + x.share(x_value) * width, box.bottom - y.share(y_value) * height};
+}
+
+Color bar_color(std::size_t series) {
+    constexpr double share = 0.75;  // of the series' colour, on white
+    return blend(chart_style(series).color, {255, 255, 255}, share);
+}
+
+void draw_mark(Svg& svg, PicturePoint at, std::size_t series, const std::string& tip) {
+    const ChartStyle style = chart_style(series);
+    SvgPath path;
+    style.marker.append_to(path, at, mark_radius);
+    svg.open("path", {{"class", "mark"},
+                      {"d", path.text()},
+                      {"fill", style.color},
+                      {"stroke", "#ffffff"},
+                      {"stroke-width", 0.7}});
+    if (!tip.empty()) svg.title(tip);
+    svg.close();
+}
+
+bool room_for_marks(const ChartView& view, const ChartFrame& frame) {
+    constexpr double spacing = 12;  // [px] from mark to mark
+    std::size_t longest = 0;
+    for (const auto& points : view.series) longest = std::max(longest, points.size());
+    return static_cast<double>(longest) * spacing <= frame.box.right - frame.box.left;
+}
+
+void draw_lines(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame) {
+    for (std::size_t i = 0; i < view.series.size(); ++i) draw_intervals(svg, view, frame, i);
+    for (std::size_t i = 0; i < view.series.size(); ++i) {
+        const ChartStyle style = chart_style(i);
+        SvgPath line;
+        for (const auto& p : view.series[i]) {
+            const PicturePoint at = frame.at(p.x, p.y);
+            p.joined ? line.line(at.x, at.y) : line.move(at.x, at.y);
+        }
+        add_path(svg, "line", line, style.color, line_width, style.dash_text());
+        if (room_for_marks(view, frame) || any_alone(view.series[i])) {
+            draw_marks(svg, chart, view, frame, i, 0);
+        }
+    }
+}
+
+void draw_bars(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame) {
+    const std::size_t count = view.series.size();
+    const double half = 0.5 * bars_at_word / static_cast<double>(std::max<std::size_t>(count, 1));
+    for (std::size_t i = 0; i < count; ++i) {
+        const double offset = bar_offset(i, count);
+        SvgPath whiskers;
+        for (const auto& p : view.series[i]) {
+            append_whisker(whiskers, frame, p, p.x + offset);
+            if (view.dots) continue;
+            const PicturePoint left = frame.at(p.x + offset - half, 0);
+            const PicturePoint right = frame.at(p.x + offset + half, p.y);
+            draw_bar(svg, left.x, right.x, left.y, right.y, i, tip_of(chart, view, i, p));
+        }
+        add_path(svg, "whisker", whiskers, view.dots ? chart_style(i).color : dark, whisker_width);
+        if (view.dots) draw_marks(svg, chart, view, frame, i, offset);
+    }
+}
+
+std::size_t draw_scatter(Svg& svg, const Chart& chart, const ChartView& view,
+                         const ChartFrame& frame) {
+    constexpr double size = 11, descent = 3;  // [px] of the labels
+    constexpr std::size_t most_characters = 40;
+    LabelPlaces places(frame.box);
+    keep_marks_free(places, view, frame);
+    std::size_t homeless = 0;
+    for (std::size_t i = 0; i < view.series.size(); ++i) {
+        SvgPath whiskers;
+        for (const auto& p : view.series[i]) append_whisker(whiskers, frame, p, p.x);
+        add_path(svg, "whisker", whiskers, chart_style(i).color, whisker_width);
+        draw_marks(svg, chart, view, frame, i, 0);
+    }
+    for (const auto& points : view.series) {
+        for (const auto& p : points) {
+            const std::string label = shortened(p.source->label, most_characters);
+            if (label.empty()) continue;
+            const auto box = places.place(frame.at(p.x, p.y), mark_radius + 1,
+                                          text_width(label, size), size + descent);
+            if (box)
+                svg.text(box->left, box->bottom - descent, label, {.size = size, .halo = true});
+            homeless += !box;
+        }
+    }
+    return homeless;
+}
+
+void draw_cdf(Svg& svg, const ChartView& view, const ChartFrame& frame) {
+    for (std::size_t i = 0; i < view.series.size(); ++i) {
+        if (view.series[i].empty()) continue;
+        SvgPath path;
+        path.move(frame.box.left, frame.box.bottom);
+        double height = frame.box.bottom;
+        for (const auto& p : view.series[i]) {
+            const PicturePoint at = frame.at(p.x, p.y);
+            path.horizontal(at.x).vertical(at.y);
+            height = at.y;
+        }
+        if (height < frame.box.bottom) path.horizontal(frame.box.right);
+        add_path(svg, "line", path, chart_style(i).color, line_width, chart_style(i).dash_text());
+    }
+}
+
+}  // namespace rovernet

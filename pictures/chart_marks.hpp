@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pictures/chart.hpp"
+#include "pictures/chart_axis.hpp"
+#include "pictures/chart_view.hpp"
+#include "pictures/label.hpp"
+#include "pictures/plot.hpp"
+#include "pictures/svg.hpp"
+
+#include <cstddef>
+
+namespace rovernet {
+
+/// The part of a chart between its axes.
+struct ChartFrame {
+    Box box;  ///< [px]
+    ChartAxis x, y;
+    double inset = 0;  ///< [px] left and right, so that no mark stands on the y axis
+
+    PicturePoint at(double x_value, double y_value) const;
+};
+
+// Each draws the points of a chart into its frame.
+
+/// Lines with marks, and the intervals as a band, or as whiskers where there are few points or x is
+/// a word.
+void draw_lines(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
+/// Bars or dots, with whiskers.
+void draw_bars(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
+/// Marks with whiskers and labels. @return how many labels found no place
+std::size_t draw_scatter(Svg& svg, const Chart& chart, const ChartView& view,
+                         const ChartFrame& frame);
+/// Steps.
+void draw_cdf(Svg& svg, const ChartView& view, const ChartFrame& frame);
+
+/// Whether a chart of lines has room for the marks of its points.
+bool room_for_marks(const ChartView& view, const ChartFrame& frame);
+/// The inside of a series' bars.
+Color bar_color(std::size_t series);
+/// Draws a mark of a series. @param tip  what a viewer shows for it, or ""
+void draw_mark(Svg& svg, PicturePoint at, std::size_t series, const std::string& tip);
+
+}  // namespace rovernet

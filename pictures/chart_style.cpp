@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/chart_style.hpp"
+
+#include <array>
+
+namespace rovernet {
+namespace {
+
+// The colours for categories of M. Okabe and K. Ito, Color Universal Design (2008), without the
+// yellow, which is too light for a line on white.
+constexpr std::array colors{Color{0x00, 0x72, 0xb2}, Color{0xd5, 0x5e, 0x00},
+                            Color{0x00, 0x9e, 0x73}, Color{0xcc, 0x79, 0xa7},
+                            Color{0x00, 0x00, 0x00}, Color{0xe6, 0x9f, 0x00},
+                            Color{0x56, 0xb4, 0xe9}};
+
+constexpr std::array dashes{std::array<double, 4>{}, std::array<double, 4>{8, 3, 8, 3},
+                            std::array<double, 4>{2.5, 2.5, 2.5, 2.5},
+                            std::array<double, 4>{9, 2.5, 2.5, 2.5}};
+
+// Corners that enclose about the same area; eight corners look round at this size.
+constexpr PicturePoint disc[] = {{1, 0},  {0.71, 0.71},   {0, 1},  {-0.71, 0.71},
+                                 {-1, 0}, {-0.71, -0.71}, {0, -1}, {0.71, -0.71}};
+constexpr PicturePoint square[] = {{0.87, 0.87}, {-0.87, 0.87}, {-0.87, -0.87}, {0.87, -0.87}};
+constexpr PicturePoint triangle[] = {{0, -1.3}, {1.2, 0.85}, {-1.2, 0.85}};
+constexpr PicturePoint diamond[] = {{0, -1.3}, {1.3, 0}, {0, 1.3}, {-1.3, 0}};
+constexpr PicturePoint down[] = {{0, 1.3}, {1.2, -0.85}, {-1.2, -0.85}};
+constexpr PicturePoint cross[] = {{0.45, -1.3}, {0.45, -0.45}, {1.3, -0.45},   {1.3, 0.45},
+                                  {0.45, 0.45}, {0.45, 1.3},   {-0.45, 1.3},   {-0.45, 0.45},
+                                  {-1.3, 0.45}, {-1.3, -0.45}, {-0.45, -0.45}, {-0.45, -1.3}};
+constexpr std::array<ChartMarker, 6> markers{{{"circle", 7, disc},
+                                              {"square", 5, square},
+                                              {"triangle-up", 9, triangle},
+                                              {"diamond", 13, diamond},
+                                              {"triangle-down", 11, down},
+                                              {"cross", 1, cross}}};
+
+}  // namespace
+
+void ChartMarker::append_to(SvgPath& path, PicturePoint centre, double radius) const {
+    bool first = true;
+    for (const PicturePoint corner : corners) {
+        const double x = centre.x + radius * corner.x, y = centre.y + radius * corner.y;
+        first ? path.move(x, y) : path.line(x, y);
+        first = false;
+    }
+    path.close();
+}
+
+std::string ChartStyle::dash_text() const {
+    std::string out;
+    for (const double length : dashes) out += (out.empty() ? "" : " ") + svg_number(length);
+    return out.empty() ? "none" : out;
+}
+
+ChartStyle chart_style(std::size_t series) {
+    const auto& d = dashes[series % dashes.size()];
+    ChartStyle out{colors[series % colors.size()], {}, markers[series % markers.size()]};
+    if (d[0] > 0) out.dashes.assign(d.begin(), d.end());
+    return out;
+}
+
+}  // namespace rovernet

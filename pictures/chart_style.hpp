@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pictures/color.hpp"
+#include "pictures/plot.hpp"
+#include "pictures/svg.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rovernet {
+
+/// The mark of a series: its name as Vega-Lite says it, its number in gnuplot, its corners.
+struct ChartMarker {
+    const char* vega = "";
+    int gnuplot = 0;
+    std::span<const PicturePoint> corners = {};  // of a mark of radius 1
+
+    /// Appends the mark to a path. @param radius  [px]
+    void append_to(SvgPath& path, PicturePoint centre, double radius) const;
+};
+
+/// How a series looks: told apart by colour, by dashes and by its mark, each of which does for the
+/// first few series alone, so that neither colour-blind eyes nor grey paper lose one.
+struct ChartStyle {
+    Color color;
+    std::vector<double> dashes;  ///< [px] drawn and left, in turn; none: a full line
+    ChartMarker marker;
+
+    /// The dashes as SVG writes them.
+    std::string dash_text() const;
+};
+
+/// The style of the n-th series; styles come again after a few dozen.
+ChartStyle chart_style(std::size_t series);
+
+}  // namespace rovernet

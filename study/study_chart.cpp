@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "study/study_chart.hpp"
+
+#include "experiment/quantity.hpp"
+#include "experiment/toml.hpp"
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace rovernet {
+namespace {
+
+/// The values of a key as numbers of one unit.
+struct Numbers {
+    std::vector<double> values;
+    std::string unit;
+};
+
+/// The number at the beginning of a text; the rest is its unit.
+std::optional<double> leading_number(const std::string& text, std::string& unit) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc{}) return std::nullopt;
+    unit.assign(rest, end);
+    unit.erase(0, unit.find_first_not_of(' '));
+    return number;
+}
+
+/// The values as they stand if they share their unit, or else in the base unit of what they
+/// measure; nothing if they are words.
+std::optional<Numbers> numbers_of(const std::vector<Answer>& list, const std::string& path) {
+    std::vector<std::string> texts;
+    for (const Answer& answer : list) texts.push_back(plain_text(*answer.settings.find(path)));
+    Numbers numbers;
+    bool same_unit = true;
+    for (const std::string& text : texts) {
+        std::string unit;
+        const auto number = leading_number(text, unit);
+        if (!number) return std::nullopt;
+        same_unit = same_unit && (numbers.values.empty() || unit == numbers.unit);
+        numbers.values.push_back(*number);
+        numbers.unit = unit;
+    }
+    if (same_unit) return numbers;
+    const auto dimension = shared_dimension(texts);
+    if (!dimension) return std::nullopt;
+    numbers.unit = base_unit(*dimension);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        numbers.values[i] = read_quantity(Value(texts[i]), path, *dimension);
+    }
+    return numbers;
+}
+
+std::string label_of(const std::string& path, const std::string& unit) {
+    return unit.empty() ? path : fmt::format("{} [{}]", path, unit);
+}
+
+/// Metrics in seconds end in _s.
+std::string metric_label(const std::string& metric) {
+    return metric.ends_with("_s") ? metric.substr(0, metric.size() - 2) + " [s]" : metric;
+}
+
+std::string percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
+
+/// From how many replications the values are: "30", or "5 to 30".
+std::string replications_text(const std::vector<Answer>& list) {
+    std::size_t least = SIZE_MAX, most = 0;
+    for (const Answer& answer : list) {
+        least = std::min(least, answer.values.size());
+        most = std::max(most, answer.values.size());
+    }
+    return least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most);
+}
+
+std::string note_of(const std::vector<Answer>& list, const ChartQuestion& q, double confidence) {
+    const std::string what = q.quantile ? percent(*q.quantile) + " quantiles" : "means";
+    const std::string of = replications_text(list);
+    if (q.kind == ChartKind::cdf) return fmt::format("of {} replications", of);
+    if (q.kind == ChartKind::heat_map) return fmt::format("{} of {} replications", what, of);
+    return fmt::format("{} of {} replications, with {} intervals", what, of, percent(confidence));
+}
+
+ChartSeries& series_named(Chart& chart, const std::string& name) {
+    for (ChartSeries& series : chart.series) {
+        if (series.name == name) return series;
+    }
+    return chart.series.emplace_back(ChartSeries{.name = name});
+}
+
+void add_distribution(ChartSeries& series, const Answer& answer) {
+    for (const auto& [replication, value] : answer.values) series.points.push_back({.x = value});
+}
+
+/// A point of the chart, but for its x.
+ChartPoint point_of(const Answer& answer) {
+    return {.y = answer.value.value_or(std::nan("")),
+            .low = answer.low,
+            .high = answer.high,
+            .n = answer.values.size()};
+}
+
+}  // namespace
+
+std::string varied_path(const std::vector<std::string>& paths, const std::string& word) {
+    std::vector<std::string> found;
+    for (const std::string& path : paths) {
+        if (path == word) return path;
+        const bool is_count = path.starts_with("robot.") && path.ends_with(".count");
+        if (path.ends_with("." + word) || (word == "robots" && is_count)) found.push_back(path);
+    }
+    if (found.size() == 1) return found.front();
+    const std::string near = did_you_mean(word, paths);
+    throw std::invalid_argument(fmt::format(
+        "the key \"{}\" {} in this study; expected {}{}{}", word,
+        found.empty() ? "does not vary" : "means several", paths.empty() ? "" : "one of ",
+        paths.empty() ? "none, as nothing varies" : fmt::format("{}", fmt::join(paths, ", ")),
+        near.empty() ? "" : "; " + near));
+}
+
+Chart study_chart(const Store& store, const ChartQuestion& question) {
+    ChartQuestion q = question;
+    const std::vector<std::string> paths = varied_paths(store);
+    const bool cdf = q.kind == ChartKind::cdf;
+    if (q.x.empty() && !cdf) throw std::invalid_argument("-x: expected a key that varies");
+    if (cdf && !q.x.empty()) throw std::invalid_argument("-x: a cdf has its metric there: use -y");
+    if (q.kind == ChartKind::heat_map && q.by.empty()) {
+        throw std::invalid_argument("--by: a heat map needs a key for its rows");
+    }
+    std::vector<std::string> group_by;
+    for (std::string* word : {&q.x, &q.by}) {
+        if (word->empty()) continue;
+        *word = varied_path(paths, *word);
+        group_by.push_back(*word);
+    }
+    const auto list = answers(store, {.metrics = {q.y},
+                                      .group_by = group_by,
+                                      .confidence = q.confidence,
+                                      .quantile = q.quantile});
+    const auto numbers = q.x.empty() ? std::nullopt : numbers_of(list, q.x);
+    if (!q.kind) q.kind = numbers ? ChartKind::lines : ChartKind::bars;
+
+    Chart chart{.kind = *q.kind, .log_x = q.log_x, .log_y = q.log_y};
+    chart.x_label = cdf ? metric_label(q.y) : label_of(q.x, numbers ? numbers->unit : "");
+    chart.y_label = cdf                             ? "share of replications"
+                    : q.kind == ChartKind::heat_map ? q.by
+                                                    : metric_label(q.y);
+    if (q.kind == ChartKind::heat_map) chart.value_label = metric_label(q.y);
+    chart.note = note_of(list, q, q.confidence.value_or(confidence_of(store)));
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const Answer& answer = list[i];
+        ChartSeries& series =
+            series_named(chart, q.by.empty() ? "" : plain_text(*answer.settings.find(q.by)));
+        if (cdf) {
+            add_distribution(series, answer);
+            continue;
+        }
+        ChartPoint point = point_of(answer);
+        if (numbers) {
+            point.x = numbers->values[i];
+        } else {
+            point.category = plain_text(*answer.settings.find(q.x));
+        }
+        series.points.push_back(point);
+    }
+    return chart;
+}
+
+std::vector<Chart> comparison_charts(const Comparison& comparison) {
+    const auto around = [](double middle, const std::optional<double>& half, int sign) {
+        return half ? std::optional(middle + sign * *half) : std::nullopt;
+    };
+    Chart values{.kind = ChartKind::bars,
+                 .x_label = "propagation model",
+                 .y_label = metric_label(comparison.metric)};
+    Chart errors{.kind = ChartKind::scatter,
+                 .x_label = "CPU time per run [ms]",
+                 .y_label = "mean distance to " + comparison.dearest,
+                 .x_from_zero = true};
+    ChartSeries& bars = values.series.emplace_back(ChartSeries{});
+    ChartSeries& dots = errors.series.emplace_back(ChartSeries{});
+    for (const ComparedModel& m : comparison.models) {
+        const double mean = m.summary.mean;
+        bars.points.push_back({.category = m.model,
+                               .y = mean,
+                               .low = around(mean, m.half_width, -1),
+                               .high = around(mean, m.half_width, 1),
+                               .n = m.summary.n});
+        dots.points.push_back({.x = 1e3 * m.cpu_s,
+                               .y = m.error,
+                               .low = around(m.error, m.error_half_width, -1),
+                               .high = around(m.error, m.error_half_width, 1),
+                               .label = m.model,
+                               .n = m.summary.n});
+    }
+    values.note = fmt::format("means of {} replications, with {} intervals",
+                              comparison.models.front().summary.n, percent(comparison.confidence));
+    return {values, errors};
+}
+
+}  // namespace rovernet

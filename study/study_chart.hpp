@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pictures/chart.hpp"
+#include "study/compare.hpp"
+#include "study/results.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// What of a study a chart shows.
+struct ChartQuestion {
+    std::optional<ChartKind> kind = {};  ///< by the values of x if not given: lines or bars
+    std::string x = {};                  ///< key that varies, see varied_path(); of a cdf none
+    std::string y = {};                  ///< metric
+    std::string by = {};                 ///< key of the series, or of the rows of a heat map
+    std::optional<double> confidence = {};
+    std::optional<double> quantile = {};
+    bool log_x = false, log_y = false;
+};
+
+/// The key that a word means: the whole path, or its last part if no other path ends so, or
+/// "robots" for the count of robots. @throws std::invalid_argument if it means none
+std::string varied_path(const std::vector<std::string>& paths, const std::string& word);
+
+/// What a study came to, as a chart: a value with its interval per x and series, or, as cdf, the
+/// distribution over the replications. Keys that are neither x nor by are averaged over.
+Chart study_chart(const Store& store, const ChartQuestion& question);
+
+/// A comparison as two charts: the metric of each model with its interval, and its error to the
+/// dearest model against its cost.
+std::vector<Chart> comparison_charts(const Comparison& comparison);
+
+}  // namespace rovernet

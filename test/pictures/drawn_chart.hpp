@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "pictures/chart.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rovernet::test {
+
+constexpr ChartKind chart_kinds[] = {ChartKind::lines, ChartKind::bars, ChartKind::scatter,
+                                     ChartKind::cdf, ChartKind::heat_map};
+
+/// A chart of one series, "s".
+inline Chart one_series(ChartKind kind, std::vector<ChartPoint> points) {
+    return {.kind = kind, .series = {{"s", std::move(points)}}};
+}
+
+inline std::string drawn(const Chart& chart) { return chart_svg({&chart, 1}); }
+
+}  // namespace rovernet::test

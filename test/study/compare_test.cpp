@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "study/compare.hpp"
+
+#include "study/study_chart.hpp"
+#include "study/sweep.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace rovernet;
+using namespace rovernet::test;
+
+namespace {
+
+/// A store of models with their values per replication, and seconds of CPU.
+Store made(const std::string& path, const std::vector<std::string>& models,
+           const std::vector<std::vector<std::optional<double>>>& values) {
+    Store store = Store::open_to_write(path);
+    std::vector<StoredPoint> points;
+    for (std::uint32_t i = 0; i < models.size(); ++i) {
+        Table settings;
+        settings.set("propagation.model", models[i]);
+        points.push_back({i, models[i], settings});
+    }
+    store.set_points(points);
+    for (std::uint32_t i = 0; i < models.size(); ++i) {
+        for (std::uint32_t r = 0; r < values[i].size(); ++r) {
+            StoredRun run{};
+            run.id = models[i] + std::to_string(r);
+            run.point = i;
+            run.replication = r;
+            run.measurement.metrics = {{"reach", values[i][r]}};
+            run.measurement.cpu_s = 1.0 + i;
+            store.record(run);
+        }
+    }
+    return store;
+}
+
+constexpr double rounding = 1e-12;  // of means of a few numbers below 10
+
+}  // namespace
+
+TEST_CASE("compare: differences are paired, errors are distances to the dearest model") {
+    const TemporaryFolder folder;
+    const Store store = made(folder.path("s.db"), {"raytrace_2007", "disc", "friis"},
+                             {{0.2, 0.4, 0.6}, {0.3, 0.3, 0.9}, {1.0, 1.0, 1.0}});
+    const Comparison c = compare_models(store, "reach", "disc");
+    CHECK(c.dearest == "raytrace_2007");  // last on the ladder, first in the study
+    CHECK(c.baseline == "disc");
+    REQUIRE(c.models.size() == 3);
+    const ComparedModel& ray = c.models[0];
+    CHECK(std::abs(ray.summary.mean - 0.4) < rounding);
+    CHECK(ray.error == 0);
+    CHECK(ray.cpu_s == 1);
+    CHECK(std::abs(ray.difference->difference.mean - (-0.1)) < rounding);
+    CHECK(ray.sentence.find("between raytrace_2007 and disc") != std::string::npos);
+    CHECK_FALSE(c.models[1].difference);
+    CHECK(c.models[1].sentence.empty());
+    CHECK(std::abs(c.models[1].error - (0.1 + 0.1 + 0.3) / 3) < rounding);
+    CHECK(c.models[2].holm_p >= c.models[2].difference->p);
+    // var(ray) = 0.04, var(disc) = 0.12, var(ray - disc) = 0.04
+    REQUIRE(c.pairs.size() == 3);
+    CHECK(std::abs(*c.pairs[0].ratio - (0.04 + 0.12) / 0.04) < 1e-9);
+}
+
+TEST_CASE("compare: only replications in which all models have a value count") {
+    const TemporaryFolder folder;
+    const Store store =
+        made(folder.path("s.db"), {"disc", "friis"}, {{0.2, {}, 0.6, 0.9}, {1.0, 1.0, 0.8}});
+    const Comparison c = compare_models(store, "reach", "");
+    CHECK(c.baseline == "friis");
+    CHECK(c.models[0].summary.n == 2);
+    CHECK(std::abs(c.models[0].summary.mean - 0.4) < rounding);
+    CHECK_THROWS_WITH_AS(compare_models(store, "reach", "disk"),
+                         doctest::Contains("did you mean \"disc\"?"), std::invalid_argument);
+    const Store none = made(folder.path("n.db"), {"disc", "friis"}, {{{}, 1.0}, {1.0, {}}});
+    CHECK_THROWS_WITH_AS(compare_models(none, "reach", ""), doctest::Contains("no replication"),
+                         std::invalid_argument);
+}
+
+TEST_CASE("compare: one replication gives means and no more") {
+    const TemporaryFolder folder;
+    const Store store = made(folder.path("s.db"), {"disc", "friis"}, {{0.5}, {1.0}});
+    const Comparison c = compare_models(store, "reach", "");
+    CHECK(c.models[0].summary.mean == 0.5);
+    CHECK_FALSE(c.models[0].half_width);
+    CHECK_FALSE(c.models[0].difference);
+    CHECK(c.models[0].error == 0.5);
+}
+
+TEST_CASE("compare: its charts show each model's value and its error against its cost") {
+    const TemporaryFolder folder;
+    const Store store = made(folder.path("s.db"), {"disc", "friis"}, {{0.2, 0.4}, {1.0, 1.0}});
+    const auto charts = comparison_charts(compare_models(store, "reach", ""));
+    REQUIRE(charts.size() == 2);
+    CHECK(charts[0].series[0].points[0].category == "disc");
+    CHECK(std::abs(charts[0].series[0].points[0].y - 0.3) < rounding);
+    CHECK(charts[1].series[0].points[0].label == "disc");
+    CHECK(charts[1].series[0].points[0].x == 1000);  // [ms]
+    CHECK(std::abs(charts[1].series[0].points[0].y - 0.7) < rounding);
+    CHECK(charts[1].series[0].points[1].y == 0);
+}
+
+TEST_CASE("compare: common random numbers halve the variance of every difference, in the rescue") {
+    const TemporaryFolder folder;
+    Study study(ROVERNET_EXAMPLES "/rescue/study.toml", {.set = {"study.replications=100"}});
+    Store store = open_store(folder.path("s.db"), study);
+    REQUIRE(sweep(study, store, {}).progress.failed == 0);
+    const Comparison c = compare_models(store, "delivery_ratio", "");
+    int compared = 0;
+    for (const PairedVariance& pair : c.pairs) {
+        const auto varies = [&](const std::string& name) {
+            const auto found = std::find_if(c.models.begin(), c.models.end(),
+                                            [&](const auto& m) { return m.model == name; });
+            return *found->summary.standard_deviation > 0;
+        };
+        if (!varies(pair.a) || !varies(pair.b)) continue;
+        CAPTURE(pair.a);
+        CAPTURE(pair.b);
+        CHECK(*pair.ratio >= 2);
+        ++compared;
+    }
+    CHECK(compared == 3);
+}
