@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mobility/cell_search.hpp"
 #include "scene/free_space.hpp"
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"
@@ -17,7 +18,7 @@ namespace rovernet {
 /// cut), then pulled tight by line of sight. Start and goal join the cells near them by any
 /// straight line that is passable, so they may lie where no cell centre is free. Near the shortest
 /// way, not the shortest: corners stand about a cell off. Every part of a path is Scene::passable.
-/// Deterministic: equal costs are settled by the order of the neighbours.
+/// The same question has the same answer, whatever was asked before: see CellSearch for ties.
 class Planner {
   public:
     /// Prepares the free cells once. The scene must outlive the planner.
@@ -28,12 +29,13 @@ class Planner {
     ///
     /// None if an end lies off the map or nearer to an obstacle than the radius, or if there is no
     /// way. Corners between the ends are at the height of `from`.
-    std::optional<std::vector<Vec3>> shortest_path(Vec3 from, Vec3 to) const;
+    std::optional<std::vector<Vec3>> shortest_path(Vec3 from, Vec3 to);
 
   private:
     const Scene* scene_;
     Meters radius_;
     FreeSpace space_;
+    CellSearch search_;
 };
 
 /// Plans once; keep a Planner to plan often.

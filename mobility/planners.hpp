@@ -16,7 +16,7 @@ class Planners {
     explicit Planners(const Scene& scene) : scene_(&scene) {}
 
     const Scene& scene() const { return *scene_; }
-    const Planner& of_radius(Meters radius) {
+    Planner& of_radius(Meters radius) {
         return by_radius_.try_emplace(radius, *scene_, radius).first->second;
     }
 

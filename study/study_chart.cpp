@@ -93,7 +93,7 @@ ChartSeries& series_named(Chart& chart, const std::string& name) {
     return chart.series.emplace_back(ChartSeries{.name = name});
 }
 
-void add_distribution(ChartSeries& series, const Answer& answer) {
+void add_replications(ChartSeries& series, const Answer& answer) {
     for (const auto& [replication, value] : answer.values) series.points.push_back({.x = value});
 }
 
@@ -157,7 +157,7 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
         ChartSeries& series =
             series_named(chart, q.by.empty() ? "" : plain_text(*answer.settings.find(q.by)));
         if (cdf) {
-            add_distribution(series, answer);
+            add_replications(series, answer);
             continue;
         }
         ChartPoint point = point_of(answer);

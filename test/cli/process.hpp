@@ -53,6 +53,17 @@ class Process {
     void interrupt() const { kill(pid_, SIGINT); }
     pid_t pid() const { return pid_; }
 
+    /// Interrupts it again and again until it ends.
+    Ended stop() const {
+        using namespace std::chrono_literals;
+        int status = 0;
+        for (int i = 0; i < 600 && waitpid(pid_, &status, WNOHANG) != pid_; ++i) {
+            interrupt();
+            std::this_thread::sleep_for(100ms);
+        }
+        return ended(status);
+    }
+
     /// Waits for its end, and kills it if that takes too long.
     Ended wait() const {
         using namespace std::chrono_literals;

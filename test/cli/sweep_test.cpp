@@ -160,8 +160,7 @@ TEST_CASE("sweep: a second Ctrl-C does not wait for runs that never end") {
     sweep.interrupt();
     std::this_thread::sleep_for(std::chrono::milliseconds{500});
     CHECK(children_of(sweep.pid()).size() == 1);  // it is finishing
-    sweep.interrupt();
-    CHECK(sweep.wait().exit == 130);
+    CHECK(sweep.stop().exit == 130);
 }
 
 TEST_CASE("sweep: killed 50 times, it loses nothing, repeats nothing, and ends the same") {
@@ -213,10 +212,7 @@ TEST_CASE("sweep: two at once on one store, and the second is told so") {
     const Ended second = command(other, {"sweep", place.file});
     CHECK(second.exit == 1);
     CHECK(second.err.find("another sweep is writing") != std::string::npos);
-    first.interrupt();
-    wait_a_moment();
-    first.interrupt();
-    CHECK(first.wait().exit == 130);
+    CHECK(first.stop().exit == 130);
 }
 
 TEST_CASE("sweep: a full disk ends it with what was finished, and room lets it go on") {

@@ -100,7 +100,7 @@ TEST_CASE("planner: there is no way into a wall, off the map or into a closed ro
         ".#####.",
         ".......",
     }));
-    const Planner planner(scene, 0.2_m);
+    Planner planner(scene, 0.2_m);
     CHECK_FALSE(planner.shortest_path({0.5, 0.5}, {1.5, 1.5}));  // in a wall
     CHECK_FALSE(planner.shortest_path({2.5, 2.5}, {3.5, 3.5}));  // in the unknown
     CHECK_FALSE(planner.shortest_path({0.5, 0.5}, {2.5, 2.5}));  // a closed room
@@ -122,7 +122,7 @@ TEST_CASE("planner: a way is found exactly where flooding finds one, and it is p
     for (int trial = 0; trial < 40; ++trial) {
         const OccupancyGrid grid = test::random_map(draw, 30, 20, 20 + draw.below(20));
         const Scene scene(grid);
-        const Planner planner(scene, Meters{0.4});
+        Planner planner(scene, Meters{0.4});
         for (int i = 0; i < 20; ++i) {
             const int column = draw.below(30), row = draw.below(20);
             const int goal_column = draw.below(30), goal_row = draw.below(20);
@@ -176,7 +176,7 @@ TEST_CASE("planner: ends between the cells of a tight corridor are reached") {
         "####..",
         "......",
     }));
-    const Planner planner(scene, 0.8_m);
+    Planner planner(scene, 0.8_m);
     const auto path = planner.shortest_path({3.5, 3}, {5, 1});
     REQUIRE(path);
     CHECK(passable(scene, *path, 0.8_m));
@@ -188,7 +188,7 @@ TEST_CASE("planner: the same question has the same answer to the last bit") {
     grid.yaw = 0.3;
     grid.origin = {3, -2, 0};
     const Scene scene(grid);
-    const Planner planner(scene, 0.3_m), again(scene, 0.3_m);
+    Planner planner(scene, 0.3_m), again(scene, 0.3_m);
     int found = 0;
     for (int i = 0; i < 50; ++i) {
         const Vec3 from = scene.frame().to_world({draw.uniform(0, 50), draw.uniform(0, 50)}, 1);
