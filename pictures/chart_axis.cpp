@@ -95,12 +95,14 @@ struct TickEnds {
 
 ChartAxis linear_axis(const ChartRange& shown, int most) {
     double low = shown.low(), high = shown.high();
-    const bool share = low >= 0 && high <= 1 && high - low >= 0.5 - slack;
+    constexpr double beyond = 0.05;  // of an interval's end
+    const bool share = low >= -beyond && high <= 1 + beyond && high - low >= 0.5 - slack;
     if (share) {
-        low = 0;
-        high = 1;
+        low = std::min(low, 0.0);
+        high = std::max(high, 1.0);
     }
-    TickEnds ends(low, high, round_number((high - low) / most));
+    const double least_step = shown.whole() && !share ? 1.0 : 0.0;
+    TickEnds ends(low, high, std::max(round_number((high - low) / most), least_step));
     while (ends.last - ends.first >= most)
         ends = TickEnds(low, high, round_number(2.5 * ends.step));
     ChartAxis axis{.low = ends.low, .high = ends.high};
@@ -162,6 +164,7 @@ void ChartRange::include(double v) {
     low_ = empty_ ? v : std::min(low_, v);
     high_ = empty_ ? v : std::max(high_, v);
     empty_ = false;
+    whole_ = whole_ && v == std::floor(v);
 }
 
 double ChartAxis::share(double v) const {

@@ -13,9 +13,10 @@ class ChartRange {
     bool empty() const { return empty_; }
     double low() const { return low_; }    ///< 0 if empty
     double high() const { return high_; }  ///< 0 if empty
+    bool whole() const { return whole_; }  ///< none of them has a fraction
 
   private:
-    bool empty_ = true;
+    bool empty_ = true, whole_ = true;
     double low_ = 0, high_ = 0;
 };
 
@@ -37,7 +38,8 @@ struct ChartAxis {
 };
 
 /// An axis of numbers. It shows the whole range, with at most `most` >= 3 texts at multiples of 1,
-/// 2 or 5 times a power of ten; 0 ... 1 if the numbers lie there and use half of it. A logarithmic
+/// 2 or 5 times a power of ten, of whole numbers at such; 0 ... 1 if the numbers lie there, but for
+/// ends of intervals just outside, and use half of it. A logarithmic
 /// axis has texts at powers of ten, or at 1, 2 and 5 times them if there are few.
 /// @param range  within -1e100 ... 1e100, of positive numbers if log
 ChartAxis number_axis(const ChartRange& range, bool log, int most);

@@ -166,6 +166,26 @@ TEST_CASE("chart axis: numbers have four digits and no needless zeros") {
     CHECK(number_text(0.0001) == "0.0001");
 }
 
+TEST_CASE("chart axis: between whole numbers there are no ticks with a fraction") {
+    ChartRange few;
+    for (const double v : {1, 2, 3, 4, 6}) few.include(v);
+    for (const ChartTick& tick : number_axis(few, false, 12).ticks) {
+        CHECK(tick.value == std::floor(tick.value));
+        CHECK(tick.text.find('.') == std::string::npos);
+    }
+    few.include(2.5);
+    CHECK_FALSE(few.whole());
+}
+
+TEST_CASE("chart axis: an interval's end just beyond a share shows all from 0 to 1") {
+    ChartRange range;
+    range.include(0.22);
+    range.include(1.002);
+    CHECK(number_axis(range, false, 6).low == 0);
+    CHECK(number_axis(range, false, 6).ticks.back().value == 1);
+    CHECK(number_axis(range, false, 6).high > 1.001);
+}
+
 TEST_CASE("chart axis: words stand in the middle of equal parts") {
     const ChartAxis axis = word_axis({"a", "b", "c", "d"});
     CHECK(std::abs(axis.share(0) - 0.125) < rounding);

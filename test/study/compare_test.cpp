@@ -106,7 +106,9 @@ TEST_CASE("compare: its charts show each model's value and its error against its
 
 TEST_CASE("compare: common random numbers halve the variance of every difference, in the rescue") {
     const TemporaryFolder folder;
-    Study study(ROVERNET_EXAMPLES "/rescue/study.toml", {.set = {"study.replications=100"}});
+    const Array models = {"disc", "friis", "itu_indoor", "log_distance", "raytrace_2007"};
+    Study study(ROVERNET_EXAMPLES "/rescue/study.toml", {.set = {"study.replications=100"}},
+                std::vector<Vary>{{"propagation.model", {}, models}});
     Store store = open_store(folder.path("s.db"), study);
     REQUIRE(sweep(study, store, {}).progress.failed == 0);
     const Comparison c = compare_models(store, "delivery_ratio", "");
