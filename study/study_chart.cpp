@@ -115,7 +115,9 @@ std::string varied_path(const std::vector<std::string>& paths, const std::string
         if (path.ends_with("." + word) || (word == "robots" && is_count)) found.push_back(path);
     }
     if (found.size() == 1) return found.front();
-    const std::string near = did_you_mean(word, paths);
+    std::vector<std::string> words = paths;
+    for (const std::string& path : paths) words.push_back(path.substr(path.rfind('.') + 1));
+    const std::string near = did_you_mean(word, words);
     throw std::invalid_argument(fmt::format(
         "the key \"{}\" {} in this study; expected {}{}{}", word,
         found.empty() ? "does not vary" : "means several", paths.empty() ? "" : "one of ",

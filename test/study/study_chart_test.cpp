@@ -123,6 +123,8 @@ TEST_CASE("study chart: a question that it cannot answer is an error that says w
     CHECK_THROWS_WITH_AS(ask({.x = "count", .y = "reach"}), doctest::Contains("several"), Error);
     CHECK_THROWS_WITH_AS(ask({.x = "a.cont", .y = "reach"}),
                          doctest::Contains("did you mean \"a.count\"?"), Error);
+    CHECK_THROWS_WITH_AS(ask({.x = "coutn", .y = "reach"}),
+                         doctest::Contains("did you mean \"count\"?"), Error);
     CHECK_THROWS_WITH_AS(ask({.x = "a.count", .y = "recah"}),
                          doctest::Contains("did you mean \"reach\"?"), Error);
     CHECK_THROWS_WITH_AS(ask({.kind = ChartKind::heat_map, .x = "a.count", .y = "reach"}),
