@@ -132,6 +132,9 @@ struct StudyArguments : FileArguments {
 struct SweepArguments : StudyArguments {
     std::optional<std::uint64_t> shard;
     std::uint64_t chunk = 50;
+    std::optional<std::string> except;  ///< store whose finished runs are not made
+    std::vector<std::string> merge;     ///< stores
+    std::string executor = "local", sbatch;
     bool dry_run = false, resume = false, fresh = false, yes = false;
 };
 void sweep(const SweepArguments& arguments);

@@ -4,6 +4,7 @@
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
 #include "sim/error.hpp"
+#include "study/command_words.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -218,15 +219,12 @@ void add_bench(CLI::App& app, int& exit) {
     flood->add_flag("--json", a.json, "print one JSON document");
 }
 
-/// The command as it was typed, for a person to repeat.
+/// The command as it was typed, for a person to go on with: what it threw away stays so.
 std::string command_line(int argc, char** argv) {
-    std::string line = "rovernet";
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const bool plain = word.find_first_of(" \"'$&|;<>()*?[]#~`\\") == std::string::npos;
-        line += plain ? " " + word : fmt::format(" '{}'", word);
-    }
-    return line;
+    std::vector<std::string> words{"rovernet"};
+    std::copy_if(argv + 1, argv + argc, std::back_inserter(words),
+                 [](std::string_view word) { return word != "--fresh" && word != "--yes"; });
+    return shell_command(words);
 }
 
 /// How a study is run.
@@ -266,6 +264,14 @@ void add_sweep(CLI::App& app, int& exit, const std::string& command) {
     sweep->add_option("--chunk", a.chunk, "runs of a chunk")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    sweep->add_option("--except", a.except, "make no run that this store has finished");
+    sweep->add_option("--merge", a.merge, "move the runs of these stores into the study's")
+        ->excludes("--shard");
+    sweep->add_option("--executor", a.executor, "local (default), or slurm: a job array")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->excludes("--shard")
+        ->excludes("--merge");
+    sweep->add_option("--sbatch", a.sbatch, "more options for sbatch, such as \"--time=1:00\"");
 }
 
 void add_compare(CLI::App& app, int& exit, const std::string& command) {

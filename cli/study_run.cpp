@@ -41,11 +41,10 @@ ScenarioOptions study_options(const StudyArguments& a) {
     return options;
 }
 
-SweepResult run_study(const StudyArguments& a, Study& study, Store& store,
-                      std::optional<Shard> shard) {
-    SweepOptions options{
-        .workers = a.workers, .limits = limits_of(a), .fail_fast = a.fail_fast, .shard = shard};
-    if (options.workers == 0) options.workers = std::max(1U, std::thread::hardware_concurrency());
+SweepResult run_study(const StudyArguments& a, Study& study, Store& store, SweepOptions options) {
+    options.workers = a.workers > 0 ? a.workers : std::max(1U, std::thread::hardware_concurrency());
+    options.limits = limits_of(a);
+    options.fail_fast = a.fail_fast;
     SweepDisplay display;
     options.progress = [&](const SweepProgress& progress) { display.show(progress); };
     options.stop = [] {

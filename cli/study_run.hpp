@@ -10,8 +10,9 @@ namespace rovernet::cli {
 ScenarioOptions study_options(const StudyArguments& arguments);
 
 /// Runs a study with workers, shows how far it is, and stops as Ctrl-C says.
+/// @param options  which of the runs; the arguments say the rest
 SweepResult run_study(const StudyArguments& arguments, Study& study, Store& store,
-                      std::optional<Shard> shard = {});
+                      SweepOptions options = {});
 
 /// @throws CommandEnd if the study was interrupted, or a part of it failed
 void check_end(const StudyArguments& arguments, const Store& store, const SweepResult& result);

@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/slurm.hpp"
 #include "cli/study_run.hpp"
 #include "experiment/json.hpp"
 
@@ -21,12 +22,16 @@ std::string store_path(const SweepArguments& a) {
     return std::filesystem::path(a.file).replace_extension(".db").string();
 }
 
-/// Throws away the store, if that is what the person wants.
+/// Throws away the store and its shards, if that is what the person wants.
 void begin_afresh(const SweepArguments& a, const std::string& path) {
-    if (!std::filesystem::exists(path)) return;
-    const std::size_t runs = Store::open(path).runs().size();
-    if (runs > 0 && !a.yes) {
-        const std::string question = fmt::format("{}: throw away its {} runs?", path, runs);
+    const std::string shards = path + ".slurm/shards";
+    const bool has_shards =
+        std::filesystem::is_directory(shards) && !std::filesystem::is_empty(shards);
+    const std::size_t runs =
+        std::filesystem::exists(path) ? Store::open(path).runs().size() : std::size_t{0};
+    if ((runs > 0 || has_shards) && !a.yes) {
+        const std::string question = fmt::format("{}: throw away its {} runs{}?", path, runs,
+                                                 has_shards ? " and its shards on Slurm" : "");
         if (isatty(STDIN_FILENO) == 0) {
             throw std::invalid_argument("--fresh: " + question + " Say so with --yes");
         }
@@ -36,6 +41,7 @@ void begin_afresh(const SweepArguments& a, const std::string& path) {
         if (answer != "y" && answer != "yes") throw std::invalid_argument("nothing was changed");
     }
     for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path + ending);
+    std::filesystem::remove_all(shards);
 }
 
 void print_plan(const SweepArguments& a, const Study& study) {
@@ -86,18 +92,22 @@ void print_end(const SweepArguments& a, const Store& store, const SweepProgress&
 void sweep(const SweepArguments& a) {
     Study study(a.file, study_options(a));
     for (const std::string& text : study.base().notices) notice(text);
-    if (a.dry_run) return print_plan(a, study);
-    if (a.shard && study.table().precision) {
+    const bool on_slurm = a.executor == "slurm";
+    if (a.dry_run && !on_slurm) return print_plan(a, study);
+    if ((a.shard || on_slurm || !a.merge.empty()) && study.table().precision) {
         throw std::invalid_argument(
-            "--shard: how often a precision repeats is known to a whole "
+            "--shard, --merge, --executor slurm: how often a precision repeats is known to a whole "
             "sweep only; expected replications instead");
     }
-    std::optional<Shard> shard;
-    if (a.shard) shard = Shard{*a.shard, a.chunk};
     const std::string path = store_path(a);
-    if (a.fresh) begin_afresh(a, path);
+    if (a.fresh && !a.dry_run) begin_afresh(a, path);
+    if (on_slurm) return submit_sweep(a, study, path);
     Store store = open_store(path, study);
-    const SweepResult result = run_study(a, study, store, shard);
+    if (!a.merge.empty()) return merge_shards(a, study, store);
+    SweepOptions options;
+    if (a.shard) options.shard = Shard{*a.shard, a.chunk};
+    if (a.except) options.elsewhere = finished_runs(Store::open(*a.except));
+    const SweepResult result = run_study(a, study, store, options);
     print_end(a, store, result.progress);
     check_end(a, store, result);
 }

@@ -3,10 +3,10 @@
 
 #include "experiment/json.hpp"
 #include "experiment/toml.hpp"
+#include "study/command_words.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -14,18 +14,6 @@ namespace rovernet {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A word for a shell.
-std::string quoted(const std::string& word) {
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               std::string_view("_-./=:,+").find(c) != std::string_view::npos;
-    });
-    if (plain) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
 
 /// Words that the sweep was given behind its file, such as --set and --seed with theirs.
 std::vector<std::string> options_of(const Store& store) {
@@ -42,10 +30,10 @@ std::vector<std::string> options_of(const Store& store) {
 std::string run_command(const Store& store, const StoredPoint& point, std::uint32_t replication) {
     const fs::path folder = fs::path(store.path()).parent_path();
     const fs::path file = folder / store.property("file");
-    std::string command = "rovernet run " + quoted(fs::proximate(file).string());
-    for (const std::string& word : options_of(store)) command += " " + quoted(word);
+    std::string command = "rovernet run " + shell_word(fs::proximate(file).string());
+    for (const std::string& word : options_of(store)) command += " " + shell_word(word);
     for (const Entry& setting : point.settings.entries) {
-        command += " --set " + quoted(setting.key + "=" + to_toml(setting.value));
+        command += " --set " + shell_word(setting.key + "=" + to_toml(setting.value));
     }
     return command + fmt::format(" --replication {}", replication);
 }

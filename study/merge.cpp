@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <map>
 
 namespace rovernet {
@@ -37,6 +38,15 @@ void merge(Store& store, const std::string& path) {
         run.point = numbers[ids[run.point]];
         store.record(run);
     }
+}
+
+void merge_and_remove(Store& store, const std::string& path) {
+    // What a killed process left in the journal comes into the file; who writes keeps us out.
+    if (!std::filesystem::exists(path)) throw InputError({path}, "there is no such shard");
+    Store::open_to_write(path);
+    // Without runs it may not say whose it is: its process ended too early for that.
+    if (!Store::open(path).runs().empty()) merge(store, path);
+    for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path + ending);
 }
 
 }  // namespace rovernet

@@ -11,4 +11,8 @@ namespace rovernet {
 /// @throws InputError if it is no store, or of another version or another study
 void merge(Store& store, const std::string& path);
 
+/// Takes a shard's runs as merge() does, once nobody writes to it, and removes it.
+/// @throws also RunError if somebody writes to it. Whatever is thrown, it stays
+void merge_and_remove(Store& store, const std::string& path);
+
 }  // namespace rovernet

@@ -5,6 +5,7 @@
 #include "experiment/run.hpp"
 #include "experiment/toml.hpp"
 #include "experiment/version.hpp"
+#include "study/command_words.hpp"
 #include "study/precision.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,18 @@ struct Task {
     static Task of(std::uint64_t number) {
         return {static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32)};
     }
+    /// First one replication of every point, then the next: a sweep that is stopped has as much of
+    /// each.
+    static Task at(std::uint64_t place, std::size_t points) {
+        return {static_cast<std::uint32_t>(place % points),
+                static_cast<std::uint32_t>(place / points)};
+    }
 };
+
+/// Runs that every point is asked for, precision or not.
+std::uint64_t planned_runs(const Study& study) {
+    return study.points().size() * static_cast<std::uint64_t>(study.table().replications);
+}
 
 /// The keys of a scenario with their values as texts, for saying where two differ.
 void flatten(const Value& value, const std::string& path, std::map<std::string, std::string>& out) {
@@ -67,22 +79,6 @@ std::vector<StoredPoint> stored_points(const Study& study) {
     return points;
 }
 
-/// The options as words of a command.
-Array option_words(const ScenarioOptions& options) {
-    Array words;
-    const auto append = [&](const char* option, const std::vector<std::string>& values) {
-        for (const std::string& value : values) {
-            words.emplace_back(option);
-            words.emplace_back(value);
-        }
-    };
-    append("--set", options.set);
-    append("--world-path", options.world_path);
-    append("--bitmap", options.bitmaps);
-    if (options.lenient) words.emplace_back("--lenient");
-    return words;
-}
-
 /// One sweep: what is to run, what has run, and the workers.
 class Sweep {
   public:
@@ -105,7 +101,7 @@ class Sweep {
     const SweepOptions& options_;
     const std::string version_ = code_version();
     Workers workers_;
-    std::set<std::string> finished_;  // ids of runs in the store
+    std::set<std::string> finished_;  // ids of runs here or elsewhere
     std::deque<Task> waiting_;
     std::map<std::uint64_t, int> attempts_;  // of tasks whose process died
     std::vector<std::uint32_t> planned_;     // of each point: replications asked for
@@ -143,17 +139,14 @@ void Sweep::add_run(Task task) {
     waiting_.push_back(task);
 }
 
-/// First one replication of every point, then the next: a sweep that is stopped has as much of
-/// each.
 void Sweep::plan() {
-    for (const StoredRun& run : store_.runs()) {
-        if (run.error.empty()) finished_.insert(run.id);
+    finished_ = finished_runs(store_);
+    finished_.insert(options_.elsewhere.begin(), options_.elsewhere.end());
+    const std::uint64_t runs = planned_runs(study_);
+    for (std::uint64_t place = 0; place < runs; ++place) {
+        add_run(Task::at(place, study_.points().size()));
     }
-    const auto points = static_cast<std::uint32_t>(study_.points().size());
-    for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(study_.table().replications); ++r) {
-        for (std::uint32_t p = 0; p < points; ++p) add_run({p, r});
-    }
-    for (std::uint32_t p = 0; p < points; ++p) {
+    for (std::uint32_t p = 0; p < open_.size(); ++p) {
         if (open_[p] == 0) extend(p);
     }
 }
@@ -253,9 +246,35 @@ Store open_store(const std::string& path, Study& study) {
     store.set_property("study", to_json_line(study_document(study.table())));
     const auto folder = std::filesystem::absolute(path).parent_path();
     store.set_property("file", std::filesystem::proximate(study.base().file, folder).string());
-    store.set_property("options", to_json_line(option_words(study.options())));
+    Array options;
+    for (std::string& word : option_words(study.options())) options.emplace_back(std::move(word));
+    store.set_property("options", to_json_line(options));
     if (store.property("created").empty()) store.set_property("created", utc_now());
     return store;
+}
+
+std::set<std::string> finished_runs(const Store& store) {
+    std::set<std::string> ids;
+    for (StoredRun& run : store.runs()) {
+        if (run.error.empty()) ids.insert(std::move(run.id));
+    }
+    return ids;
+}
+
+std::vector<RunState> run_states(const Study& study, const Store& store) {
+    std::map<std::string, RunState> known;
+    for (const StoredRun& run : store.runs()) {
+        known[run.id] = run.error.empty() ? RunState::finished : RunState::failed;
+    }
+    const std::string version = code_version();
+    std::vector<RunState> states(planned_runs(study), RunState::missing);
+    for (std::uint64_t place = 0; place < states.size(); ++place) {
+        const Task task = Task::at(place, study.points().size());
+        const auto run =
+            known.find(run_id(study.points()[task.point].id, task.replication, version));
+        if (run != known.end()) states[place] = run->second;
+    }
+    return states;
 }
 
 SweepResult sweep(Study& study, Store& store, const SweepOptions& options) {

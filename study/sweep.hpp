@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace rovernet {
 
@@ -34,6 +36,7 @@ struct SweepOptions {
     WorkerLimits limits = {};
     bool fail_fast = false;  ///< begin nothing new once a run has failed
     std::optional<Shard> shard = {};
+    std::set<std::string> elsewhere = {};  ///< ids of runs that another store has: not made here
     /// Asked all the time.
     std::function<Stop()> stop = [] { return Stop::no; };
     /// Told after every run, and at least every 0.2 s.
@@ -49,6 +52,16 @@ struct SweepResult {
 /// Opens the store of a study, or makes it. @throws InputError if it has runs of another version or
 /// of points that the study does not have; RunError if it cannot be written
 Store open_store(const std::string& path, Study& study);
+
+/// The ids of a store's finished runs.
+std::set<std::string> finished_runs(const Store& store);
+
+/// What a store has of one run.
+enum class RunState { missing, failed, finished };
+
+/// What a store has of every run of a study, in the order that shards divide. Of a study with a
+/// precision, only of the runs that every point is asked for.
+std::vector<RunState> run_states(const Study& study, const Store& store);
 
 /// Runs what the store does not have yet, and what failed, in worker processes; each run is in the
 /// store as soon as it is over. A run whose process dies is tried once more. In all, each point is

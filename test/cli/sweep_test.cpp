@@ -203,6 +203,18 @@ TEST_CASE("sweep: killed 50 times, it loses nothing, repeats nothing, and ends t
     CHECK(place.csv() == undisturbed.csv());
 }
 
+TEST_CASE("sweep: a worker that is killed costs nothing, as its run is made once more") {
+    const Place place;
+    const Process sweep(place.folder, {"sweep", place.file, "--workers", "1", "--set",
+                                       "scenario.duration=300", "--replications", "3"});
+    while (children_of(sweep.pid()).empty()) wait_a_moment();
+    kill(children_of(sweep.pid()).front(), SIGKILL);
+    const Ended ended = sweep.wait();
+    CAPTURE(ended.err);
+    CHECK(ended.exit == 0);
+    CHECK(finished(place.store()).size() == 15);
+}
+
 TEST_CASE("sweep: two at once on one store, and the second is told so") {
     const Place place;
     const Process first(place.folder, {"sweep", place.file, "--set", "scenario.duration=1e8",

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "study/sweep.hpp"
 
+#include "experiment/version.hpp"
 #include "sim/error.hpp"
 #include "study/explain.hpp"
+#include "study/merge.hpp"
 #include "study/results.hpp"
 #include "test/scene/temporary_folder.hpp"
 
@@ -217,6 +219,38 @@ TEST_CASE("sweep: shards are the whole when they are together") {
     CHECK(bench.csv() == whole.csv());
 }
 
+TEST_CASE("sweep: the states of the runs are in the order that shards divide") {
+    const Bench bench(scattered + study_keys);
+    bench.sweep({.workers = 1, .shard = Shard{1, 2}});
+    Study study = bench.study();
+    Store store = open_store(bench.store(), study);
+    store.record({.id = run_id(study.points()[1].id, 2, code_version()),
+                  .point = 1,
+                  .replication = 2,
+                  .error = "it broke",
+                  .measurement = {}});
+    using enum RunState;
+    CHECK(run_states(study, store) ==
+          std::vector{missing, missing, finished, finished, missing, failed});
+    CHECK(finished_runs(store).size() == 2);
+}
+
+TEST_CASE("sweep: runs that another store has are not made again") {
+    const Bench bench(scattered + study_keys), other(scattered + study_keys);
+    other.sweep({.workers = 1, .shard = Shard{0, 4}});
+    const SweepResult rest = bench.sweep({.elsewhere = finished_runs(Store::open(other.store()))});
+    CHECK(rest.progress.before == 4);
+    CHECK(rest.progress.finished == 2);
+    {
+        Study study = bench.study();
+        Store store = open_store(bench.store(), study);
+        merge_and_remove(store, other.store());
+    }
+    const Bench whole(scattered + study_keys);
+    whole.sweep();
+    CHECK(bench.csv() == whole.csv());
+}
+
 TEST_CASE("sweep: precision repeats each point until its interval is narrow, however it runs") {
     const Bench bench(scattered + study_keys);
     const std::vector<std::string> wanted = {"study.precision=0.1", "study.max_replications=40"};
@@ -230,6 +264,14 @@ TEST_CASE("sweep: precision repeats each point until its interval is narrow, how
     const Bench one(scattered + study_keys);
     one.sweep({.workers = 1}, wanted);
     CHECK(one.csv() == bench.csv());
+}
+
+TEST_CASE("sweep: precision asks no more of a point of which a run failed") {
+    const Bench bench(scattered + study_keys);
+    const SweepResult result = bench.sweep(
+        {}, {"study.precision=1e-9", "study.max_replications=50", "scenario.event_limit=1"});
+    CHECK(result.progress.failed == 6);
+    CHECK_FALSE(result.stopped);
 }
 
 TEST_CASE("explain: the command that makes a run again has the sweep's options and the point's") {
