@@ -148,7 +148,7 @@ void compare(const CompareArguments& arguments);
 
 struct ResultsArguments {
     std::string store;
-    std::vector<std::string> metrics, group_by;
+    std::vector<std::string> metrics, group_by, where;
     std::optional<double> confidence, quantile;
     std::optional<std::string> sql;
     bool csv = false, json = false, provenance = false, failures = false;
@@ -157,6 +157,7 @@ void results(const ResultsArguments& arguments);
 
 struct PlotArguments {
     std::string store, x, y, by, kind, out;
+    std::vector<std::string> where;
     std::optional<double> confidence, quantile;
     bool log_x = false, log_y = false;
     int width = 640;

@@ -281,19 +281,17 @@ void add_compare(CLI::App& app, int& exit, const std::string& command) {
         add_command(app, "compare", "Propagation models beside each other on one scenario", exit,
                     [] { cli::compare(a); });
     add_study_file(*compare, a, any_file);
-    compare
-        ->add_option("--models", a.models,
-                     "which (default: those that [study] varies), such as disc,friis")
+    compare->add_option("--models", a.models, "which (default: those of [study] vary)")
         ->delimiter(',');
     compare->add_option("--metric", a.metric, "compared (default: the study's first)");
-    compare->add_option("--baseline", a.baseline,
-                        "whose difference is shown (default: the dearest model)");
+    compare->add_option("--baseline", a.baseline, "to differ from (default: the dearest)");
     compare->add_option("--store", a.store, "keep the runs in this file, and go on from there");
     compare->add_option("-o,--output", a.picture, "picture to write: NAME.svg");
     add_study_run(*compare, a);
 }
 
 void add_results(CLI::App& app, int& exit) {
+    constexpr const char* only_points = "only points with KEY=VALUE, such as ttl=6";
     static cli::ResultsArguments a;
     CLI::App* results =
         add_command(app, "results", "What a study came to", exit, [] { cli::results(a); });
@@ -302,6 +300,7 @@ void add_results(CLI::App& app, int& exit) {
         ->delimiter(',');
     results->add_option("--group-by", a.group_by, "keys that vary; the others are averaged over")
         ->delimiter(',');
+    results->add_option("--where", a.where, only_points)->allow_extra_args(false);
     results->add_option("--confidence", a.confidence, "of the intervals, such as 0.95")
         ->check(CLI::Range(0.5, 0.9999));
     results->add_option("--quantile", a.quantile, "this quantile in place of the mean, such as 0.9")
@@ -320,6 +319,7 @@ void add_results(CLI::App& app, int& exit) {
     plot->add_option("-x", p.x, "key that varies, such as robots or radio.power");
     plot->add_option("-y", p.y, "metric, such as delivery_ratio")->required();
     plot->add_option("--by", p.by, "key of the lines, or of the rows of a heat map");
+    plot->add_option("--where", p.where, only_points)->allow_extra_args(false);
     plot->add_option("--kind", p.kind,
                      "lines, bars, cdf or heat_map (default: lines over numbers, "
                      "bars over words)");

@@ -36,6 +36,7 @@ void plot(const PlotArguments& a) {
                                             .x = a.x,
                                             .y = a.y,
                                             .by = a.by,
+                                            .where = conditions_of(varied_paths(store), a.where),
                                             .confidence = a.confidence,
                                             .quantile = a.quantile,
                                             .log_x = a.log_x,

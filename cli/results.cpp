@@ -102,6 +102,7 @@ std::optional<std::vector<std::string>> group_by_of(const ResultsArguments& a, c
 void print_answers(const ResultsArguments& a, const Store& store) {
     const auto list = answers(store, {.metrics = a.metrics,
                                       .group_by = group_by_of(a, store),
+                                      .where = conditions_of(varied_paths(store), a.where),
                                       .confidence = a.confidence,
                                       .quantile = a.quantile});
     const std::size_t failures = failures_in(store);

@@ -48,6 +48,31 @@ struct Group {
     std::vector<std::uint32_t> points;
 };
 
+bool meets(const StoredPoint& point, const Condition& condition) {
+    const Value* value = point.settings.find(condition.path);
+    return value && plain_text(*value) == condition.value;
+}
+
+/// The points that meet all conditions.
+std::vector<StoredPoint> points_where(const Store& store, const std::vector<Condition>& where) {
+    std::vector<StoredPoint> points = store.points();
+    for (const Condition& condition : where) {
+        std::vector<std::string> values;
+        for (const StoredPoint& point : points) {
+            const Value* value = point.settings.find(condition.path);
+            if (value) values.push_back(plain_text(*value));
+        }
+        std::erase_if(points, [&](const StoredPoint& p) { return !meets(p, condition); });
+        if (!points.empty()) continue;
+        std::sort(values.begin(), values.end());
+        values.erase(std::unique(values.begin(), values.end()), values.end());
+        throw std::invalid_argument(fmt::format("no point has {} = {}; there are {}",
+                                                condition.path, condition.value,
+                                                fmt::join(values, ", ")));
+    }
+    return points;
+}
+
 std::vector<Group> groups_of(const std::vector<StoredPoint>& points,
                              const std::vector<std::string>& paths) {
     std::vector<Group> groups;
@@ -122,8 +147,10 @@ std::vector<Answer> answers(const Store& store, const Question& question) {
     const auto metrics = question.metrics.empty() ? metrics_of(store) : question.metrics;
     for (const auto& metric : metrics) check_known(metric, metric_names(), "the metric");
     const double confidence = question.confidence.value_or(confidence_of(store));
-    const auto points = store.points();
-    const auto groups = groups_of(points, paths);
+    for (const Condition& condition : question.where) {
+        check_known(condition.path, varied, "the key");
+    }
+    const auto groups = groups_of(points_where(store, question.where), paths);
     std::map<std::uint32_t, std::size_t> group_of;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         for (const std::uint32_t point : groups[g].points) group_of[point] = g;
@@ -134,7 +161,9 @@ std::vector<Answer> answers(const Store& store, const Question& question) {
         std::vector<std::map<std::uint32_t, std::vector<double>>> values(groups.size());
         const auto answer = [&](std::size_t g) -> Answer& { return list[g * metrics.size() + m]; };
         for (const StoredValue& v : store.values(metrics[m])) {
-            const std::size_t g = group_of.at(v.point);
+            const auto found = group_of.find(v.point);
+            if (found == group_of.end()) continue;
+            const std::size_t g = found->second;
             if (v.value) {
                 values[g][v.replication].push_back(*v.value);
             } else {

@@ -13,11 +13,17 @@
 
 namespace rovernet {
 
+/// A key that varies, and the value that it has to have, as results print it.
+struct Condition {
+    std::string path, value;
+};
+
 /// What a study is asked for.
 struct Question {
     std::vector<std::string> metrics = {};  ///< those of [study] metrics if empty, or the usual
     /// Paths that vary; all of them if not given, none: everything in one group.
     std::optional<std::vector<std::string>> group_by = {};
+    std::vector<Condition> where = {};      ///< of the points that meet all of these
     std::optional<double> confidence = {};  ///< as in [study] if not given
     std::optional<double> quantile = {};    ///< this one, in place of the mean
 };
@@ -35,7 +41,8 @@ struct Answer {
 
 /// Answers group by group, in the order of their points, and in it metric by metric. The
 /// replication is the unit: points that a group joins are averaged in each replication first.
-/// @throws std::invalid_argument for a metric or path that the study does not have
+/// @throws std::invalid_argument for a metric or path that the study does not have, or if no point
+///         meets the conditions
 std::vector<Answer> answers(const Store& store, const Question& question);
 
 /// The paths that vary in the store's study.

@@ -79,9 +79,13 @@ std::string replications_text(const std::vector<Answer>& list) {
 }
 
 std::string note_of(const std::vector<Answer>& list, const ChartQuestion& q, double confidence) {
-    const std::string what = q.quantile ? percent(*q.quantile) + " quantiles" : "means";
+    std::string where;
+    for (const Condition& condition : q.where) {
+        where += fmt::format("{} = {}; ", condition.path, condition.value);
+    }
+    const std::string what = where + (q.quantile ? percent(*q.quantile) + " quantiles" : "means");
     const std::string of = replications_text(list);
-    if (q.kind == ChartKind::cdf) return fmt::format("of {} replications", of);
+    if (q.kind == ChartKind::cdf) return fmt::format("{}of {} replications", where, of);
     if (q.kind == ChartKind::heat_map) return fmt::format("{} of {} replications", what, of);
     return fmt::format("{} of {} replications, with {} intervals", what, of, percent(confidence));
 }
@@ -125,6 +129,20 @@ std::string varied_path(const std::vector<std::string>& paths, const std::string
         near.empty() ? "" : "; " + near));
 }
 
+std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
+                                     const std::vector<std::string>& texts) {
+    std::vector<Condition> conditions;
+    for (const std::string& text : texts) {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos) {
+            throw std::invalid_argument(
+                fmt::format("--where: \"{}\"; expected KEY=VALUE, such as ttl=6", text));
+        }
+        conditions.push_back({varied_path(paths, text.substr(0, equals)), text.substr(equals + 1)});
+    }
+    return conditions;
+}
+
 Chart study_chart(const Store& store, const ChartQuestion& question) {
     ChartQuestion q = question;
     const std::vector<std::string> paths = varied_paths(store);
@@ -142,6 +160,7 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
     }
     const auto list = answers(store, {.metrics = {q.y},
                                       .group_by = group_by,
+                                      .where = q.where,
                                       .confidence = q.confidence,
                                       .quantile = q.quantile});
     const auto numbers = q.x.empty() ? std::nullopt : numbers_of(list, q.x);

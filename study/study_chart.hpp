@@ -16,6 +16,7 @@ struct ChartQuestion {
     std::string x = {};                  ///< key that varies, see varied_path(); of a cdf none
     std::string y = {};                  ///< metric
     std::string by = {};                 ///< key of the series, or of the rows of a heat map
+    std::vector<Condition> where = {};   ///< of the points that meet all of these
     std::optional<double> confidence = {};
     std::optional<double> quantile = {};
     bool log_x = false, log_y = false;
@@ -24,6 +25,11 @@ struct ChartQuestion {
 /// The key that a word means: the whole path, or its last part if no other path ends so, or
 /// "robots" for the count of robots. @throws std::invalid_argument if it means none
 std::string varied_path(const std::vector<std::string>& paths, const std::string& word);
+
+/// Texts such as "ttl=6" as conditions on the keys that their first parts mean.
+/// @throws std::invalid_argument
+std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
+                                     const std::vector<std::string>& texts);
 
 /// What a study came to, as a chart: a value with its interval per x and series, or, as cdf, the
 /// distribution over the replications. Keys that are neither x nor by are averaged over.

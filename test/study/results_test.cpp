@@ -67,6 +67,18 @@ TEST_CASE("results: points that a group joins are averaged in each replication f
     CHECK(list[1].values.at(2) == 107);
 }
 
+TEST_CASE("results: conditions choose points, and one that no point meets is an error") {
+    const TemporaryFolder folder;
+    const Store store = made(folder.path("s.db"));
+    const auto list =
+        answers(store, {.where = {{"propagation.model", "disc"}, {"radio.power", "1"}}});
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].values.at(0) == 10);
+    CHECK_THROWS_WITH_AS(answers(store, {.where = {{"radio.power", "2"}}}),
+                         doctest::Contains("there are 0, 1"), std::invalid_argument);
+    CHECK_THROWS_AS(answers(store, {.where = {{"radio.pwr", "1"}}}), std::invalid_argument);
+}
+
 TEST_CASE("results: a metric without a value is counted, and is nothing") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")), {.metrics = {"hops_mean"}});

@@ -114,6 +114,20 @@ TEST_CASE("study chart: a cdf has a point per replication, a heat map a row per 
     CHECK(std::abs(map.series[1].points[2].y - 12.1) < rounding);
 }
 
+TEST_CASE("study chart: it may show the points that meet a condition, and says so") {
+    const TemporaryFolder folder;
+    const Store store =
+        made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});
+    const Chart chart =
+        study_chart(store, {.x = "robots",
+                            .y = "latency_mean_s",
+                            .where = conditions_of({"robot.r.count", "routing.ttl"}, {"ttl=3"})});
+    CHECK(std::abs(chart.series[0].points[1].y - (10 + 2 + 0.1)) < rounding);
+    CHECK(chart.note == "routing.ttl = 3; means of 3 replications, with 95 % intervals");
+    CHECK_THROWS_WITH_AS(conditions_of({"routing.ttl"}, {"ttl"}), doctest::Contains("KEY=VALUE"),
+                         std::invalid_argument);
+}
+
 TEST_CASE("study chart: a question that it cannot answer is an error that says what it can") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), "a.count", {10}, "b.count", {1});
