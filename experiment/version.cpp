@@ -13,7 +13,9 @@ namespace rovernet {
 
 std::string_view version() { return build::version; }
 
-std::string code_version() {
+namespace {
+
+std::string code_version_now() {
     std::string text = fmt::format("{} ({:.12}", build::version, build::commit);
     if (build::dirty || std::string_view(build::commit) == "unknown") {
         std::ifstream file("/proc/self/exe", std::ios::binary);
@@ -23,6 +25,13 @@ std::string code_version() {
         text += fmt::format(" changed {:016x}", XXH64(program.data(), program.size(), 0));
     }
     return text + ")";
+}
+
+}  // namespace
+
+const std::string& code_version() {
+    static const std::string version = code_version_now();
+    return version;
 }
 
 Table build_provenance() {
