@@ -44,7 +44,7 @@ TEST_CASE("slurm: a chunk is as small as wanted, or as an array of 1000 tasks al
     const auto tasks = [](std::uint64_t runs, std::uint64_t chunk) {
         return runs / chunk + (runs % chunk > 0 ? 1 : 0);
     };
-    for (const std::uint64_t wanted : {1, 2, 50}) {
+    for (const std::uint64_t wanted : {1U, 2U, 50U}) {
         for (std::uint64_t runs = 0; runs < 60'000; runs += 7) {
             const std::uint64_t chunk = chunk_for_array(runs, wanted);
             CHECK(tasks(runs, chunk) <= 1000);
