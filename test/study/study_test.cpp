@@ -86,6 +86,8 @@ TEST_CASE("study: a point is left out if all keys of an exclusion have one of it
 TEST_CASE("study: a range has both ends and no digits of rounding") {
     CHECK(points_of("vary.a = { from = 0, to = 0.5, step = 0.1 }") ==
           Texts{"a=0.0", "a=0.1", "a=0.2", "a=0.3", "a=0.4", "a=0.5"});
+    CHECK(points_of("vary.a = { from = 0, to = 0.3, step = 0.1 }") ==  // 0.3 / 0.1 is below 3
+          Texts{"a=0.0", "a=0.1", "a=0.2", "a=0.3"});
     CHECK(points_of("vary.a = { from = 3, to = 1, step = -1 }") == Texts{"a=3", "a=2", "a=1"});
     CHECK(points_of("vary.a = { from = 1, to = 6, step = 2 }") == Texts{"a=1", "a=3", "a=5"});
     CHECK(points_of("vary.a.b = { from = \"0.5 m\", to = \"1.5 m\", step = \"0.5 m\" }") ==

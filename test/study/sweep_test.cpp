@@ -100,6 +100,19 @@ TEST_CASE("sweep: a run is what a network of its own gives") {
     }
 }
 
+TEST_CASE("sweep: a run leaves out its warm-up, and says how long that was") {
+    const Bench bench(scattered + "every = \"500 ms\"\n");
+    const auto value = [&](const std::vector<std::string>& set, const std::string& name) {
+        const Measurement m = measure(bench.study(set).scenario(0, 0));
+        const auto found = std::find_if(m.metrics.begin(), m.metrics.end(),
+                                        [&](const MetricValue& v) { return v.name == name; });
+        return *found->value;
+    };
+    CHECK(value({}, "messages") == 5);  // at 0, 0.5 ... 2 s
+    CHECK(value({"study.warmup=1"}, "messages") == 3);
+    CHECK(value({"study.warmup=1"}, "warmup_s") == 1);
+}
+
 TEST_CASE("sweep: the results are the same bytes from one worker and from five") {
     const Bench one(scattered + study_keys), five(scattered + study_keys);
     one.sweep({.workers = 1});
