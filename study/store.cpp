@@ -173,12 +173,14 @@ Store Store::open(const std::string& path) {
 Store Store::open_to_write(const std::string& path) {
     if (std::filesystem::is_directory(path)) throw InputError({path}, "a directory, not a store");
     auto lock = std::make_unique<WriteLock>(path);
-    const bool is_new = std::filesystem::file_size(path) == 0;
     return told(path, [&] {
         auto database =
             std::make_unique<Database>(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
         database->lock = std::move(lock);
-        if (is_new) database->make_schema();
+        // Not the file's size: a process killed while it made the tables leaves some of them.
+        const int tables =
+            database->sqlite.execAndGet("SELECT count(*) FROM sqlite_master").getInt();
+        if (tables == 0) database->make_schema();
         Store store(path, std::move(database));
         // Against kill -9; a power cut may take the last runs, but never the file's order.
         store.database_->sqlite.exec("PRAGMA journal_mode = WAL");

@@ -69,6 +69,13 @@ std::string wall_bytes(const Scene& scene) {
         append(static_cast<double>(wall.material));
     }
     for (const Cell cell : scene.grid().cells) bytes += static_cast<char>(cell);
+    for (const Material& m : scene.materials()) {  // some are of a file beside the map
+        append(m.per_crossing ? m.per_crossing->value : -1);
+        append(m.per_metre ? m.per_metre->value : -1);
+        append(m.slab ? static_cast<double>(*m.slab) : -1);
+        append(m.thickness.value);
+        append(m.height.value);
+    }
     return bytes;
 }
 

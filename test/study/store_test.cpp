@@ -173,6 +173,15 @@ TEST_CASE("store: what is no store is said to be none") {
                          doctest::Contains("cannot be written"), RunError);
 }
 
+TEST_CASE("store: a file whose making was cut short is made anew") {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("s.db");
+    exec(path, "PRAGMA user_version = 0; CREATE TABLE t (x); DROP TABLE t");  // pages, no tables
+    REQUIRE(std::filesystem::file_size(path) > 0);
+    two_points(path).record(run("r0", 0, 0, 0.5));
+    CHECK(Store::open(path).values("reach").size() == 1);
+}
+
 TEST_CASE("store: one of a newer format is refused, and not touched") {
     const TemporaryFolder folder;
     const std::string path = folder.path("s.db");

@@ -169,6 +169,20 @@ TEST_CASE("study: another map under the same name is another point") {
     CHECK(id("255 255 255 255") != id("255 255 255 0"));
 }
 
+TEST_CASE("study: other materials in the file beside the map are another point") {
+    const TemporaryFolder folder;
+    folder.write("m.pgm", "P2 2 2 255 0 255 255 255");
+    const std::string path = folder.write(
+        "s.toml", "[scene]\nmap = \"m.pgm\"\nsize = [\"20 m\", \"20 m\"]\n" + two_robots);
+    const auto id = [&](const std::string& loss) {
+        folder.write("m.materials.toml",
+                     "all = { greys = [0, 127], per_crossing = \"" + loss + "\" }\n");
+        return Study(path, {}).points()[0].id;
+    };
+    CHECK(id("3 dB") == id("3 dB"));
+    CHECK(id("3 dB") != id("4 dB"));
+}
+
 TEST_CASE("study: another movement file under the same name is another point") {
     const TemporaryFolder folder;
     const std::string path =
