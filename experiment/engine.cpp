@@ -34,7 +34,8 @@ Engine::Engine(NetworkSettings settings)
                .all_pairs = settings_.reference,
                .interference_cut = interference_cut(settings_.reception),
                .seed = settings_.seed,
-               .replication = settings_.replication}) {
+               .replication = settings_.replication}),
+      frames_meet_(!std::holds_alternative<Threshold>(settings_.reception)) {
     if (!positive.contains(settings_.floor_height.value)) {
         throw_out_of_range("network", "floor_height", positive.text, settings_.floor_height.value);
     }
@@ -42,7 +43,7 @@ Engine::Engine(NetworkSettings settings)
         if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
     }
     if (const auto* sinr = std::get_if<Sinr>(&settings_.reception)) {
-        sinr_receivers_ = SinrReceivers(*sinr);
+        sinr_receiver_ = SinrReceiver(*sinr);
     }
     if (const auto* aloha = std::get_if<Aloha>(&settings_.access)) aloha_.emplace(*aloha);
     if (const auto* csma = std::get_if<Csma>(&settings_.access)) {

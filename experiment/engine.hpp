@@ -117,13 +117,19 @@ class Engine final : public LinkLayer, public Air {
     bool comes_next(Key key) {
         return key.time() <= end_of_run_ && queue_.runs_before_next(key);
     }
-    void fly(std::size_t slot, Time end);
-    void count_on_air(Time end);
-    void meet(NodeId node, const Arrival& arrival);
     BitRate rate_of(const AirFrame& frame) const;
-    void disturb(const Collision& rung, NodeId node, const Arrival& arrival);
-    void judge(std::size_t slot, std::span<Reception> receptions);
+    void transmit_sensed(Flight& flight, Time end);
+    void put_on_air(std::size_t slot, Time end);
+    void count_on_air(Time end);
     void garble(Flight& flight);
+    using Frames = std::vector<const Emission*>;
+    Duration longest_delay() const { return medium_.delay(on_air_.reach()); }
+    void judge(const Flight& flight, std::span<Reception> receptions);
+    void judge_collision(const Emission& judged, const Frames& others, Reception& reception);
+    void judge_sinr(const Flight& flight, const Emission& judged, const Frames& others,
+                    Reception& reception);
+    std::optional<Arrival> arrival(const Emission& frame, NodeId node);
+    static Lock* lock_of(Flight& flight, NodeId node);
     void arrive(const Scheduler<Occurrence>::Event& event);
     void receive(Flight& flight, std::span<Reception> receptions);
     void hand_up(const Flight& flight, std::span<Reception> receptions);
@@ -157,8 +163,11 @@ class Engine final : public LinkLayer, public Air {
     std::vector<Sink> sinks_;
     KindMask wanted_ = 0;
     Slots<Flight> flights_;
-    OnAir on_air_;  // at rungs above threshold
-    SinrReceivers sinr_receivers_;
+    bool frames_meet_;               // the rung is above threshold
+    OnAir on_air_;                   // if frames meet
+    Frames near_, all_;              // what the flight that is judged may meet ...
+    std::vector<Arrival> arrivals_;  // ... at one of its receivers
+    SinrReceiver sinr_receiver_;
     std::vector<Time> ends_;       // at the rung sinr, of the frames that are on air
     std::size_t most_on_air_ = 0;  // of them at a time
     std::optional<AlohaAccess> aloha_;

@@ -56,8 +56,12 @@ NodeId Engine::add(Robot robot) {
     medium_.add(robot.radio, key, robot.propagation.value_or(settings_.propagation));
     if (aloha_) aloha_->add();
     if (dcf_) dcf_->add();
-    const NodeId id = legs_.add(
-        {.start = now_, .from = robot.at, .to = robot.at, .heading = robot.heading.value});
+    const Leg leg{.start = now_, .from = robot.at, .to = robot.at, .heading = robot.heading.value};
+    const NodeId id = legs_.add(leg);
+    if (frames_meet_) {
+        on_air_.changes(id, leg, false);
+        on_air_.goes(leg, robot.radio.antenna_height);
+    }
     names_.add(robot.name);
     const Body body{robot.radius, robot.top_speed, robot.turn_rate};
     if (bodies_.empty() || bodies_.back() != body) bodies_.push_back(body);
@@ -145,6 +149,10 @@ void Engine::take(NodeId id, const Leg& leg) {
 }
 
 void Engine::put(NodeId id, const Leg& leg) {
+    if (frames_meet_) {
+        on_air_.changes(id, legs_.leg(id), medium_.is_on(id));
+        on_air_.goes(leg, medium_.radio(id).antenna_height);
+    }
     legs_.replace(id, leg);
     medium_.moved(id, legs_);
     if (!watch_) return;
@@ -175,12 +183,12 @@ void Engine::place(NodeId id, Vec3 at) {
     Leg leg = standing_leg(mover(id));
     leg.from = leg.to = at;
     if (running_) return take(id, leg);
-    legs_.replace(id, leg);
-    medium_.moved(id, legs_);
+    put(id, leg);
 }
 
 void Engine::switch_robot(NodeId id, bool on) {
     if (medium_.is_on(id) == on) return;
+    if (frames_meet_) on_air_.changes(id, legs_.leg(id), !on);
     medium_.switch_radio(id, on);
     if (!on && aloha_) aloha_->switch_off(*this, id);
     if (!on && dcf_) dcf_->switch_off(*this, id);

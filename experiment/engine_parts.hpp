@@ -31,8 +31,10 @@ struct Occurrence {
 /// A frame on its way to its receivers, some of which it may have reached already.
 struct Flight {
     AirFrame air;
-    std::uint32_t number = 0;  // among those of its sender, at rungs above threshold
+    std::uint32_t number = 0;    // among those of its sender, at rungs above threshold
+    std::uint64_t emission = 0;  // its serial on air, at rungs above threshold
     std::vector<Reception> receptions;
+    std::vector<Lock> locks;  // of the receptions, at the rung "sinr"
     std::size_t arrived = 0;
 };
 

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/arrival.hpp"
 #include "models/candidates.hpp"
-#include "models/membership.hpp"
 #include "models/neighbour_index.hpp"
+#include "models/on_air.hpp"
 #include "models/pair_cache.hpp"
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
-#include "models/shadowed_range.hpp"
+#include "models/radio_kinds.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/record.hpp"
 
+#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -40,7 +39,9 @@ class Medium {
         std::uint32_t replication = 0;
     };
 
-    explicit Medium(const Settings& settings) : settings_(settings) {}
+    explicit Medium(const Settings& settings)
+        : settings_(settings),
+          kinds_(settings.interference_cut, shadowing_draws(settings.seed, settings.replication)) {}
 
     /// Adds the next node. `key`: the robot's, for random draws.
     /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot
@@ -61,45 +62,44 @@ class Medium {
     bool is_on(NodeId node) const { return off_ == 0 || stations_[node.index()].on; }
     const Radio& radio(NodeId node) const { return radios_[stations_[node.index()].radio]; }
     /// The gates of both let them have a link: one of them is open, or they share a network.
-    bool may_link(NodeId a, NodeId b) const {
-        return !gated_ || Membership::match(kind(a).membership, kind(b).membership);
-    }
-    Dbm noise(NodeId node) const { return kind(node).noise; }
+    bool may_link(NodeId a, NodeId b) const { return kinds_.may_link(kind(a), kind(b)); }
+    Dbm noise(NodeId node) const { return kinds_.noise(kind(node)); }
     /// What `frames` that the cut left out may add to a receiver's noise; there is a cut.
     Db left_out(std::size_t frames) const;
+
+    struct Found {
+        NodeId node;
+        double squared_distance;  ///< [m^2] between the antennas
+    };
 
     /// Appends to `out` the nodes that hear `from` when it sends at `start`, in the order in which
     /// the frame ends at them, then of NodeId. `start` must not decrease from call to call.
     /// @param end  of the frame at the transmitter
     void receivers(NodeId from, Time start, Time end, const Legs& legs,
                    std::vector<Reception>& out);
+    /// The same, and those that only sense it: returned in no order, good until the next call.
+    std::span<const Found> sensors(NodeId from, Time start, Time end, const Legs& legs,
+                                   std::vector<Reception>& receivers);
+    /// [m] how far the farthest of those receivers is
+    double heard_within() const;
+    /// [ns] that a frame is under way.
+    Duration delay(double distance) const;
 
-    /// One that senses a transmission.
-    struct Hearer {
-        NodeId node;
-        Duration delay;           ///< [ns] that the frame is under way
-        double squared_distance;  ///< [m^2] between the antennas
-        double loss_db;           ///< [dB]; NaN if the link goes by distance: see level()
-        bool senses;              ///< else it is disturbed at most
-    };
-    struct Hearers {
-        /// Those whose link is up, in the order in which the frame ends at them, then of NodeId.
-        std::span<const Hearer> receivers;
-        std::span<const Hearer> others;  ///< who only sense it, in no order
-    };
-    /// Those that sense `from` at `t`, which must not decrease; good until the next call.
-    Hearers sensed(NodeId from, Time t, const Legs& legs);
-    /// Received power [dBm] at `to` over a link of `from` that goes by distance.
-    Dbm level(NodeId from, NodeId to, double squared_distance) const;
-    /// Received power [dBm] at `to` after `loss` [dB].
-    Dbm level_after(NodeId from, NodeId to, double loss_db) const {
-        return received_power(kind(from).radio, kind(to).radio, Db{loss_db});
+    /// [m^2] Nobody farther is disturbed by what `node` sends; may be infinite.
+    double squared_reach(NodeId node) {
+        return kinds_.squared_reach(kind(node), Strength::disturbing);
     }
+    /// A frame as it arrives at `to`, which is `at` [m] when it begins; nothing if it is too weak
+    /// to disturb, or if the two may have no link. The level is left open where the distance and
+    /// the pair decide it.
+    std::optional<Arrival> arrival(const Emission& frame, NodeId to, Vec3 at) {
+        at.z += kinds_.height(kind(to));
+        const double d2 = squared_distance(frame.origin, at);
+        return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, at);
+    }
+    /// Received power [dBm] at `to` of a frame whose level was left open.
+    Dbm level(const Arrival& arrival, NodeId to) const;
 
-    struct Found {
-        NodeId node;
-        double squared_distance;  ///< [m^2] between the antennas
-    };
     /// Those that hear `from` at `t`, which must not decrease; good until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
         find_hearers(from, t, legs);
@@ -116,7 +116,7 @@ class Medium {
     /// or gated link is down whatever its level.
     bool link_up(NodeId from, NodeId to, Time t, const Legs& legs) const;
     /// The model that rules what `node` transmits.
-    const Propagation& model(NodeId node) const { return models_[kind(node).model]; }
+    const Propagation& model(NodeId node) const { return kinds_.model(kind(node)); }
 
     /// A node's antenna at `t` [m].
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
@@ -126,75 +126,50 @@ class Medium {
     struct Station {
         std::uint64_t key;
         std::uint32_t radio;  // index into radios_
-        std::uint32_t kind;   // index into kinds_
+        RadioKinds::Kind kind;
         bool on = true;
     };
-    /// Nobody of a kind that is farther hears, senses or is disturbed. NaN: to be computed.
-    struct Ranges {
-        double heard2 = nan, sensed2 = nan, audible2 = nan;  // [m^2]
-        static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    };
-    /// Stations that are alike in all that decides a link.
-    struct Kind {
-        Radio radio;  // without labels and addresses
-        Membership membership;
-        std::uint32_t model;  // index into models_
-        Dbm noise;
-        std::uint32_t stations = 1;  // of this kind
-        // [m^2] nobody farther hears it, or senses it; < 0: to be computed
-        double reach2 = -1, sensed_reach2 = -1;
-        std::vector<Ranges> ranges = {};                          // to each kind, by distance
-        std::vector<std::optional<ShadowedRange>> shadowed = {};  // the same with shadowing
-    };
+    using Kind = RadioKinds::Kind;
 
-    const Kind& kind(NodeId node) const { return kinds_[stations_[node.index()].kind]; }
-    std::uint32_t kind_of(const Radio& radio, std::uint32_t model);
-    Membership membership(const Radio& radio);
+    Kind kind(NodeId node) const { return stations_[node.index()].kind; }
     void choose_cells();
-
-    void find_in_reach(NodeId from, Time t, const Legs& legs);
-    void find_in_shadowed_range(NodeId from, const ShadowedLoss& loss, Time t, const Legs& legs);
-    void find_in_range(NodeId from, Time t, const Legs& legs);
-    void find_sensed_in_range(NodeId from, Time t, const Legs& legs);
-    void find_sensed_in_reach(NodeId from, Time t, const Legs& legs);
-    Duration delay(double distance) const;
-    Dbm weakest_audible(const Radio& to) const;
-    Db audible_budget(const Radio& from, const Radio& to) const;
-    void find_hearers(NodeId from, Time t, const Legs& legs);
+    void find(NodeId from, Strength strength, Time t, const Legs& legs);
+    void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
+    void find_in_table(NodeId from, Strength strength, Time t, const Legs& legs);
+    void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs);
+    void find_hearers(NodeId from, Time t, const Legs& legs) {
+        find(from, Strength::decodable, t, legs);
+    }
+    void sort_receivers(Time end, std::vector<Reception>& out);
     void late_receivers(Time end, std::vector<Reception>& out) const;
+    void look_from(NodeId from, Time t, const Legs& legs);
+    void share_draws(const PairDraws& draws);
+    template <class Use>
+    auto within(NodeId from, double reach2, Use use) const;
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
     template <class Budget>
     void find_losses(NodeId from, double reach2, Time t, const Legs& legs, Budget budget);
-    double squared_reach(const Kind& from, Db best_receiver) const;
-    double squared_reach(Kind& from);
-    double squared_sensed_reach(Kind& from);
-    Ranges compute_ranges(const Kind& from, const Radio& to) const;
+    std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there);
     LinkBatch batch(NodeId from, Vec3 origin) const;
-    double loss(NodeId from, NodeId to, Vec3 here, Vec3 there) const;
+    double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Db give_up) const;
 
     Settings settings_;
     std::vector<Station> stations_;
     std::vector<Radio> radios_;  // those that differ
-    std::vector<Kind> kinds_;
-    std::vector<double> heights_;  // [m] antennas' of the kinds
-    std::size_t off_ = 0;          // stations that are switched off
-    std::vector<std::string> essids_ = {"any"};
-    std::vector<std::pair<int, Hertz>> channels_;
-    bool gated_ = false;  // some two radios do not match
-    std::vector<Propagation> models_;
-    Db best_receiver_{-1e300};  // gain - cable loss - sensitivity of the most sensitive station
-    Db best_sensor_{-1e300};    // the same for what is sensed
+    std::size_t off_ = 0;        // stations that are switched off
+    RadioKinds kinds_;
     NeighbourIndex index_;
+    std::vector<std::uint64_t> shares_;  // of draws, by place in the index, if tables decide
+    std::uint64_t shares_of_bin_ = 0;    // those of the index's so many-th bin
     PairCache pairs_;
     bool cells_chosen_ = false;
 
     // What is under work, kept for its memory.
     Vec3 origin_;
-    std::vector<Found> found_;
+    std::vector<Found> found_, sensors_;
     std::vector<std::uint64_t> order_;
     Candidates candidates_;
-    std::vector<Hearer> receivers_, sensors_;
 };
 
 }  // namespace rovernet

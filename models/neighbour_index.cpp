@@ -40,24 +40,23 @@ void NeighbourIndex::moved(NodeId node, const Legs& legs) {
                          ? before.from + seconds(before.end - before.start) * before.velocity
                          : before.from + seconds(leg.start - before.start) * before.velocity;
     const double jump = distance(was, leg.from);
-    if (speed(leg) > top_speed_ || jump > 1e-3 * height_) return keep_apart(now);
+    if (speed(leg) > top_speed_ || jump > 1e-3 * rows_.width()) return keep_apart(now);
     jumped_ += jump;
     entries_[place] = now;
 }
 
 std::span<const std::uint32_t> NeighbourIndex::near(Vec3 centre, double reach) {
     found_ = 0;
-    const auto cells_x = cells(centre.x, reach, width_, columns_);
-    const auto cells_y = cells(centre.y, reach, height_, rows_);
-    // Wide enough for what single precision leaves of coordinates.
-    const double wide = reach + 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
+    const auto columns = columns_.near(centre.x, reach);
+    const auto rows = rows_.near(centre.y, reach);
+    const double wide = reach + rounding(centre, reach);
     const auto reach2 = static_cast<float>(wide * wide);
     const auto x = static_cast<float>(centre.x), y = static_cast<float>(centre.y);
-    for_each_wrapped(cells_y, rows_, [&](std::size_t bottom, std::size_t top) {
+    rows.each([&](std::size_t bottom, std::size_t top) {
         for (std::size_t row = bottom; row < top; ++row) {
-            for_each_wrapped(cells_x, columns_, [&](std::size_t left, std::size_t right) {
-                look_through(first_[row * columns_ + left], first_[row * columns_ + right], x, y,
-                             reach2);
+            const std::uint32_t* const first = first_.data() + row * columns_.cells();
+            columns.each([&](std::size_t left, std::size_t right) {
+                look_through(first[left], first[right], x, y, reach2);
             });
         }
     });
@@ -126,14 +125,14 @@ void NeighbourIndex::lay_grid(Time t, const Legs& legs) {
     }
     const double most = 2.0 * static_cast<double>(legs.size()) + 1;
     constexpr double cells_per_height = 4;
-    height_ = std::max(wanted_cell_, 1e-3);
-    width_ = height_ / cells_per_height;
-    const double needed_rows = std::floor((y.high - y.low) / height_) + 2;
-    const double needed_columns = std::floor((x.high - x.low) / width_) + 2;
+    const double height = std::max(wanted_cell_, 1e-3), width = height / cells_per_height;
+    const double needed_rows = std::floor((y.high - y.low) / height) + 2;
+    const double needed_columns = std::floor((x.high - x.low) / width) + 2;
     const double rows = std::min(needed_rows, std::floor(std::sqrt(most / cells_per_height)) + 1);
     const double columns = std::min(needed_columns, std::floor(most / rows) + 1);
-    rows_ = static_cast<std::size_t>(std::min(needed_rows, std::floor(most / columns) + 1));
-    columns_ = static_cast<std::size_t>(columns);
+    rows_ = WrappedAxis(
+        height, static_cast<std::size_t>(std::min(needed_rows, std::floor(most / columns) + 1)));
+    columns_ = WrappedAxis(width, static_cast<std::size_t>(columns));
 }
 
 /// Sorts all nodes into cells by counting.
@@ -145,7 +144,7 @@ void NeighbourIndex::bin(Time t, const Legs& legs) {
     looked_at_ = 0;
     apart_.clear();
     place_.resize(legs.size());
-    first_.assign(columns_ * rows_ + 1, 0);
+    first_.assign(columns_.cells() * rows_.cells() + 1, 0);
     const auto is_slow = [&](const Leg& leg) { return speed(leg) <= top_speed_; };
     std::vector<std::uint32_t> cell(legs.size());
     for (std::uint32_t i = 0; i < legs.size(); ++i) {
@@ -174,6 +173,7 @@ void NeighbourIndex::bin(Time t, const Legs& legs) {
     }
     allowed_apart_ = apart_.size() + few(legs.size());
     stale_ = false;
+    ++bins_;
 }
 
 }  // namespace rovernet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/wrapped_axis.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
@@ -50,26 +51,46 @@ class NeighbourIndex {
         wanted_cell_ = size;
     }
 
+    /// To be called before visit() and visit_if(): bins the nodes anew if it is time to.
+    void refresh(Time t, const Legs& legs) {
+        if (is_stale(t)) bin(t, legs);
+    }
     /// Calls visit(entry, position) for every node that is within `radius` [m] of `centre` at `t`,
     /// and for some others, in no order to rely on. `t` must not decrease from call to call.
     template <class Visit>
     void visit(Vec3 centre, double radius, Time t, const Legs& legs, Visit visit) {
-        if (is_stale(t)) bin(t, legs);
         for (const Entry& e : apart_) visit(e, position(e, t, legs));
         for (const std::uint32_t i : near(centre, radius + slack(t))) {
             visit(entries_[i], position(entries_[i], t, legs));
         }
     }
 
+    /// As above, but of the entries() only those for which passes(place, at_least) holds; the
+    /// squared distance [m^2] between entry and centre, heights aside, is no less than that.
+    template <class Passes, class Visit>
+    void visit_if(Vec3 centre, double radius, Time t, const Legs& legs, Passes passes,
+                  Visit visit) {
+        for (const Entry& e : apart_) visit(e, position(e, t, legs));
+        const double reach = radius + slack(t);
+        const auto x = static_cast<float>(centre.x), y = static_cast<float>(centre.y);
+        const double off = slack(t) + rounding(centre, reach);
+        for (const std::uint32_t i : near(centre, reach)) {
+            const float dx = x_[i] - x, dy = y_[i] - y;
+            // (d - off)^2 >= d^2 - 2 off d, and single precision rounds the sum.
+            const double at_least =
+                (1 - 1e-6) * static_cast<double>(dx * dx + dy * dy) - 2 * off * (reach + off);
+            if (passes(i, at_least > 0 ? at_least : 0.0)) {
+                visit(entries_[i], position(entries_[i], t, legs));
+            }
+        }
+    }
+    /// The nodes in the order of their cells, but for those kept apart; good until the next bin.
+    std::span<const Entry> entries() const { return entries_; }
+    /// Counts how often the nodes were binned.
+    std::uint64_t bins() const { return bins_; }
+
   private:
     static constexpr std::uint32_t is_apart = 0x80000000;  // bit of a place in apart_
-    static constexpr double far = 1e15;  // [cells] beyond it positions share the last cell
-
-    /// `count` cells of one axis, from `first` on, before they wrap around.
-    struct Cells {
-        std::int64_t first;
-        std::int64_t count;
-    };
 
     static Vec3 position(const Entry& e, Time t, const Legs& legs) {
         if (t >= e.end) [[unlikely]]
@@ -80,30 +101,12 @@ class NeighbourIndex {
     double slack(Time t) const { return top_speed_ * seconds(t - binned_) + jumped_; }
     bool is_stale(Time t) const {
         return stale_ || apart_.size() > allowed_apart_ ||
-               (slack(t) > 0.1 * height_ && looked_at_ > labels_.size());
+               (slack(t) > 0.1 * rows_.width() && looked_at_ > labels_.size());
     }
-    static std::int64_t cell_of(double x, double size) {
-        return static_cast<std::int64_t>(std::floor(std::clamp(x / size, -far, far)));
+    /// [m] No more is lost of a coordinate around `centre` in single precision.
+    static double rounding(Vec3 centre, double reach) {
+        return 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
     }
-    static Cells cells(double centre, double reach, double size, std::size_t wrap) {
-        const double rounding = 1e-9 * (std::abs(centre) + reach);
-        const std::int64_t first = cell_of(centre - reach - rounding, size);
-        const std::int64_t last = cell_of(centre + reach + rounding, size);
-        return {first, std::min(last - first + 1, static_cast<std::int64_t>(wrap))};
-    }
-    static std::size_t wrapped_cell(std::int64_t cell, std::size_t wrap) {
-        const auto n = static_cast<std::int64_t>(wrap);
-        return static_cast<std::size_t>((cell % n + n) % n);
-    }
-    /// Calls use(begin, end) for the cells once they have wrapped around: one range, or two.
-    template <class Use>
-    static void for_each_wrapped(Cells cells, std::size_t wrap, Use use) {
-        const std::size_t begin = wrapped_cell(cells.first, wrap);
-        const std::size_t end = begin + static_cast<std::size_t>(cells.count);
-        use(begin, std::min(end, wrap));
-        if (end > wrap) use(0, end - wrap);
-    }
-
     /// The entries that were binned within `reach` [m] of `centre`, and some others.
     std::span<const std::uint32_t> near(Vec3 centre, double reach);
     void look_through(std::uint32_t begin, std::uint32_t end, float x, float y, float reach2);
@@ -112,8 +115,7 @@ class NeighbourIndex {
         return {leg.from, leg.velocity, leg.start, leg.end, node, label};
     }
     std::size_t cell_at(Vec3 p) const {
-        return wrapped_cell(cell_of(p.y, height_), rows_) * columns_ +
-               wrapped_cell(cell_of(p.x, width_), columns_);
+        return rows_.cell_at(p.y) * columns_.cells() + columns_.cell_at(p.x);
     }
     void keep_apart(const Entry& e);
     void bin(Time t, const Legs& legs);
@@ -128,14 +130,14 @@ class NeighbourIndex {
     std::vector<std::uint32_t> first_;   // entry of a cell; one more than there are cells
     std::vector<std::uint32_t> place_;   // of a node in entries_, or in apart_
     std::vector<Entry> apart_;
-    std::size_t columns_ = 1, rows_ = 1;
-    double wanted_cell_ = 1;         // [m]
-    double width_ = 1, height_ = 1;  // [m] of the cells
-    double top_speed_ = 0;           // [m/s] of the entries
-    double jumped_ = 0;              // [m] sum of what legs did not continue exactly
+    WrappedAxis columns_, rows_;
+    double wanted_cell_ = 1;  // [m]
+    double top_speed_ = 0;    // [m/s] of the entries
+    double jumped_ = 0;       // [m] sum of what legs did not continue exactly
     Time binned_ = start_of_run;
     std::size_t looked_at_ = 0;  // entries and cells since then
     std::size_t allowed_apart_ = 0;
+    std::uint64_t bins_ = 0;
     bool stale_ = true;
 };
 

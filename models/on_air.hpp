@@ -1,85 +1,131 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/wrapped_axis.hpp"
+#include "sim/geometry.hpp"
 #include "sim/ids.hpp"
+#include "sim/legs.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <vector>
 
 namespace rovernet {
 
-/// A frame as it arrives at one node.
-struct Arrival {
-    static constexpr std::uint32_t no_reception = 0xffffffff;  ///< it is sensed, not decoded
-    enum class Lock : std::uint8_t {
-        open,    ///< not decided yet
-        held,    ///< the receiver locked on to it
-        missed,  ///< it did not
-    };
-
-    Time begin;
-    Time end;
-    double level_dbm;          ///< [dBm] received power; NaN until somebody asked for it
-    double squared_distance;   ///< [m^2] from the sender
+/// A frame on air: when and where it was sent.
+struct Emission {
+    Time begin, end;           ///< at the sender
+    Vec3 origin;               ///< [m] the sender's antenna at `begin`
     NodeId from;               ///< its sender
-    std::uint32_t flight = 0;  ///< known to the caller
-    std::uint32_t reception = no_reception;  ///< its place among the flight's
-    bool collided = false;                   ///< lost to another frame
-    Lock lock = Lock::open;                  ///< of a receiver at the rung "sinr"
-
-    bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
+    double heard_within;       ///< [m] from the origin: nobody farther is a receiver
+    double squared_reach;      ///< [m^2] nobody farther is disturbed; may be infinite
+    std::uint32_t flight;      ///< known to the caller
+    std::uint64_t serial = 0;  ///< its number, in the order of sending
 };
 
-/// What a node sends, as it drowns everything there.
-constexpr Arrival own_frame(NodeId node, Time begin, Time end) {
-    return {.begin = begin,
-            .end = end,
-            .level_dbm = std::numeric_limits<double>::infinity(),
-            .squared_distance = 0,
-            .from = node};
-}
-
-/// The frames that are on air at each node, its own included.
+/// The frames that are on air, and those that were so lately that they may still matter.
+///
+/// Kept once each, where they were sent: who receives a frame asks what else was on air around it,
+/// so that a frame that meets no other costs hardly anything. Since a frame's levels are fixed when
+/// it begins, what nodes were before their legs or radios changed is kept as long as the frames.
 class OnAir {
   public:
-    /// Forgets those added first at `node` that ended by `since`, so that lists at which nobody
-    /// looks stay short.
-    void add(NodeId node, const Arrival& arrival, Time since);
+    /// A node goes along `leg` from now on.
+    void goes(const Leg& leg, Meters antenna_height);
+    /// What `node` has been until now, and since its last change.
+    void changes(NodeId node, const Leg& leg, bool on);
 
-    /// Calls use(arrival) for each at `node` that ends after `since`, in the order of adding; if it
-    /// returns false that one is forgotten. Those that ended before are forgotten, too.
+    /// Adds a frame; `begin` must not decrease. @return its serial
+    std::uint64_t add(Emission frame);
+    /// Forgets the first frames, as long as they ended by `t`, and calls use(frame) for each.
     template <class Use>
-    void each(NodeId node, Time since, Use use) {
-        if (node.index() >= last_.size()) return;
-        std::uint32_t& last = last_[node.index()];
-        std::uint32_t before = last;
-        for (bool more = last != none; more;) {
-            const std::uint32_t here = entries_[before].next;
-            more = here != last;
-            Arrival& arrival = entries_[here].arrival;
-            if (arrival.end > since && use(arrival)) {
-                before = here;
-            } else {
-                forget_next(before, last);
-            }
+    void forget(Time t, Use use) {
+        for (; !frames_.empty() && frames_.front().end <= t; frames_.pop_front(), ++first_) {
+            use(frames_.front());
         }
+        while (!changes_.empty() && changes_.front().serial <= first_) {
+            changes_.pop_front();
+            ++first_change_;
+        }
+    }
+    const Emission& operator[](std::uint64_t serial) const { return frames_[serial - first_]; }
+
+    /// All, in the order of their serials.
+    const std::deque<Emission>& frames() const { return frames_; }
+    /// Calls use(frame) for each, itself included, that may disturb a receiver of `frame` until
+    /// `now`, and for some others. Receivers that changed lately may meet more.
+    template <class Use>
+    void each_near(const Emission& frame, Time now, Use use) const {
+        const double moved = fastest_ * seconds(now - frames_.front().begin);
+        const double reach = frame.heard_within + this->reach() + moved;
+        const auto columns = columns_.near(frame.origin.x, reach);
+        rows_.near(frame.origin.y, reach).each([&](std::size_t bottom, std::size_t top) {
+            for (std::size_t row = bottom; row < top; ++row) {
+                columns.each([&](std::size_t left, std::size_t right) {
+                    for (std::size_t column = left; column < right; ++column) {
+                        visit(cells_[row * columns_.cells() + column], use);
+                    }
+                });
+            }
+        });
+    }
+
+    /// A node before it changed.
+    struct Before {
+        Leg leg;
+        bool on;
+        std::uint64_t serial;    // of the next frame
+        std::uint64_t previous;  // change of the same node
+    };
+    /// The node's leg or radio has changed since a frame began that is kept.
+    bool has_changed(NodeId node) const { return last_change(node) >= first_change_; }
+    /// What the node was when the frame began; null if it has not changed since.
+    const Before* before(NodeId node, const Emission& frame) const;
+
+    /// [ns] of the longest frame
+    Duration longest() const { return longest_; }
+    /// [m] no frame disturbs anybody farther away, nor is anybody farther away
+    double reach() const {
+        constexpr double anywhere = 4e15;
+        return std::min({reach_, distance(low_, high_), anywhere});
     }
 
   private:
-    static constexpr std::uint32_t none = 0xffffffff;
-    struct Entry {
-        Arrival arrival;
-        std::uint32_t next;
-    };
-    /// Takes the entry that follows `before` out of the list that ends with `last`.
-    void forget_next(std::uint32_t before, std::uint32_t& last);
+    static constexpr std::size_t side = 32;  // [cells] of the grid
+    static constexpr std::uint64_t none = 0;
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    std::vector<std::uint32_t> last_;  // by node: the entry added last, which the first follows
-    std::vector<Entry> entries_;
-    std::uint32_t free_ = none;  // list of entries that are not in use
+    std::uint64_t last_change(NodeId node) const {
+        return node.index() < last_change_.size() ? last_change_[node.index()] : none;
+    }
+    void file(const Emission& frame);
+    void lay_grid();
+    template <class Use>
+    void visit(const std::vector<Emission>& cell, Use use) const {
+        for (const Emission& frame : cell) {
+            if (frame.serial >= first_) use(frame);
+        }
+    }
+
+    std::deque<Emission> frames_;  // in the order of their serials
+    std::uint64_t first_ = 0;      // serial of the first
+    WrappedAxis columns_, rows_;
+    std::vector<std::vector<Emission>> cells_;  // where they were sent; forgotten ones, too
+
+    std::deque<Before> changes_;              // numbered in their order, from 1 on
+    std::uint64_t first_change_ = 1;          // number of the first that is kept
+    std::vector<std::uint64_t> last_change_;  // number, by node
+
+    Duration longest_{0};
+    double reach_ = 0;    // [m] of the frames so far
+    double fastest_ = 0;  // [m/s]
+    // All antennas are between them [m].
+    Vec3 low_ = {infinity, infinity, infinity}, high_ = {-infinity, -infinity, -infinity};
 };
 
 }  // namespace rovernet

@@ -65,6 +65,14 @@ class ShadowedRange {
         return draw < here.sure;
     }
 
+    /// A first look: false only if the robots of these bits of the draws() are out of range at all
+    /// squared distances [m^2] from `at_least` on.
+    bool may_be_in_range(double at_least, std::uint64_t bits) const {
+        const Cell& nearest = cell(at_least);
+        return static_cast<std::uint32_t>(bits >> 33) < nearest.sure + nearest.open;
+    }
+    const PairDraws& draws() const { return draws_; }
+
     /// Probability [-] that a link of this squared distance [m^2] has to be computed.
     double computed_share(double squared_distance) const {
         return cell(squared_distance).open * 0x1p-31;

@@ -3,31 +3,30 @@
 
 namespace rovernet {
 
-/// `node` begins to send after `after`, not later than `until`.
-bool SinrReceivers::sends_within(NodeId node, Time after, Time until) const {
+/// The node begins to send after `after`, not later than `until`.
+bool SinrReceiver::sends_within(Time after, Time until) const {
     return std::any_of(here_.begin(), here_.end(), [&](const Arrival* a) {
-        return a->from == node && a->begin > after && a->begin <= until;
+        return a->own && a->begin > after && a->begin <= until;
     });
 }
 
-/// The frame can be decoded there, and the receiver was on no other when it began.
-bool SinrReceivers::is_free_for(NodeId node, const Arrival& arrival) const {
-    if (arrival.from == node || arrival.reception == Arrival::no_reception) return false;
+/// The receiver was on no other frame when it began.
+bool SinrReceiver::is_free_for(const Arrival& arrival) const {
     return std::none_of(here_.begin(), here_.end(), [&](const Arrival* a) {
         if (a == &arrival || a->begin > arrival.begin || a->end <= arrival.begin) return false;
-        if (a->from == node) return true;
-        return a->lock == Arrival::Lock::held && !sends_within(node, a->begin, arrival.begin);
+        if (a->own) return true;
+        return a->lock && *a->lock == Lock::held && !sends_within(a->begin, arrival.begin);
     });
 }
 
 /// The node sends while the frame arrives.
-bool SinrReceivers::sends_during(NodeId node, const Arrival& judged) const {
+bool SinrReceiver::sends_during(const Arrival& judged) const {
     return std::any_of(here_.begin(), here_.end(),
-                       [&](const Arrival* a) { return a->from == node && a->overlaps(judged); });
+                       [&](const Arrival* a) { return a->own && a->overlaps(judged); });
 }
 
 /// The sum of log_success over the bits of the payload, with the others that are here.
-double SinrReceivers::log_success_of(const Arrival& judged, const SinrFrame& frame) {
+double SinrReceiver::log_success_of(const Arrival& judged, const SinrFrame& frame) {
     const double signal = math::exp10(judged.level_dbm / 10);
     const double noise_mw = math::exp10(frame.noise.value / 10);
     if (here_.empty()) {

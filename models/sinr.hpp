@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/arrival.hpp"
 #include "models/error_rate.hpp"
-#include "models/on_air.hpp"
 #include "sim/math.hpp"
 #include "sim/record.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace rovernet {
@@ -37,45 +38,35 @@ struct SinrFrame {
     Dbm noise;         ///< [dBm] of the receiver
 };
 
-/// The receivers of all nodes.
-class SinrReceivers {
+/// Receivers at this rung: judges frames, one at a time.
+class SinrReceiver {
   public:
-    explicit SinrReceivers(const Sinr& rung = {}) : rung_(rung) {}
+    explicit SinrReceiver(const Sinr& rung = {}) : rung_(rung) {}
 
-    /// Makes a frame known that will arrive at `node` after `now`.
-    void add(OnAir& on_air, NodeId node, const Arrival& arrival, Time now) {
-        longest_ = std::max(longest_, arrival.end - arrival.begin);
-        on_air.add(node, arrival, now - 2 * longest_);
-    }
-
-    /// What becomes of the flight's reception at `node`, which ends at `now`: waiting if the frame
-    /// is decoded. level_of(arrival) [dBm] is asked once for each arrival that overlaps; draw(),
-    /// uniform in (0, 1), if the outcome is not certain.
+    /// What becomes of `signal`, whose receiver can decode it, when it has ended: waiting if the
+    /// frame is decoded. Locks of frames that began by then are decided, and kept with them.
+    /// @param arrivals  those on air at the receiver, `signal` itself among them, that ended after
+    ///        one that `signal` overlaps can have begun
+    /// @param level_of  level_of(arrival) [dBm], asked once for each where it matters
+    /// @param draw      uniform in (0, 1); asked if the outcome is not certain
     template <class LevelOf, class Draw>
-    Fate judge(OnAir& on_air, NodeId node, std::uint32_t flight, std::uint32_t reception, Time now,
-               const SinrFrame& frame, LevelOf level_of, Draw draw) {
+    Fate judge(Arrival& signal, std::span<Arrival> arrivals, const SinrFrame& frame,
+               LevelOf level_of, Draw draw) {
         here_.clear();
-        on_air.each(node, now - 2 * longest_, [&](Arrival& a) {
-            here_.push_back(&a);
-            return true;
-        });
-        const auto judged = std::find_if(here_.begin(), here_.end(), [&](const Arrival* a) {
-            return a->reception == reception && a->flight == flight && a->end == now;
-        });
-        Arrival& signal = **judged;
+        for (Arrival& a : arrivals) here_.push_back(&a);
         const auto level = [&](Arrival& a) {
             if (std::isnan(a.level_dbm)) a.level_dbm = level_of(a);
             return a.level_dbm;
         };
-        if (signal.lock == Arrival::Lock::open) {
+        if (*signal.lock == Lock::open) {
             sort_here(level);
-            settle_locks(node, signal.begin, frame.noise, level);
+            settle_locks(signal.begin, frame.noise, level);
         }
-        if (sends_during(node, signal)) return Fate::busy;
+        if (sends_during(signal)) return Fate::busy;
         std::erase_if(here_,
                       [&](const Arrival* a) { return !a->overlaps(signal) || a == &signal; });
         const Fate lost = here_.empty() ? Fate::garbled : Fate::collided;
-        if (signal.lock == Arrival::Lock::missed) return lost;
+        if (*signal.lock == Lock::missed) return lost;
         level(signal);
         for (Arrival* a : here_) level(*a);
         sort_here(level);
@@ -94,16 +85,16 @@ class SinrReceivers {
             return level(*a) != level(*b) ? level(*a) > level(*b) : a->from < b->from;
         });
     }
-    bool sends_during(NodeId node, const Arrival& judged) const;
+    bool sends_during(const Arrival& judged) const;
     /// Decides for all frames that began by `until`, in their order, whether the receiver locked on
     /// to them.
     template <class Level>
-    void settle_locks(NodeId node, Time until, Dbm noise, Level level) {
+    void settle_locks(Time until, Dbm noise, Level level) {
         for (Arrival* a : here_) {
             if (a->begin > until) return;
-            if (a->lock != Arrival::Lock::open) continue;
-            const bool locks = is_free_for(node, *a) && finds_preamble(*a, noise, level);
-            a->lock = locks ? Arrival::Lock::held : Arrival::Lock::missed;
+            if (!a->lock || *a->lock != Lock::open) continue;
+            const bool locks = is_free_for(*a) && finds_preamble(*a, noise, level);
+            *a->lock = locks ? Lock::held : Lock::missed;
         }
     }
     /// The preamble is strong enough among what is on air when it has been looked at for so long.
@@ -120,8 +111,8 @@ class SinrReceivers {
         const double disturbing_db = 10 * math::log10(others_mw + math::exp10(noise.value / 10));
         return Dbm{level(preamble)} - Dbm{disturbing_db} >= rung_.preamble_threshold;
     }
-    bool is_free_for(NodeId node, const Arrival& arrival) const;
-    bool sends_within(NodeId node, Time after, Time until) const;
+    bool is_free_for(const Arrival& arrival) const;
+    bool sends_within(Time after, Time until) const;
     bool is_certain(const Arrival& judged, const SinrFrame& frame) const {
         return here_.empty() &&
                Dbm{judged.level_dbm} - frame.noise >= certain_sinr(frame.modulation);
@@ -129,7 +120,6 @@ class SinrReceivers {
     double log_success_of(const Arrival& judged, const SinrFrame& frame);
 
     Sinr rung_;
-    Duration longest_{0};
     std::vector<Arrival*> here_;  // what is or was on air at the node, in order of its beginning
     std::vector<Time> changes_;
     std::vector<double> power_mw_;

@@ -86,8 +86,11 @@ class PairDraws {
   public:
     PairDraws(std::uint64_t seed, std::uint32_t replication, Purpose purpose);
 
+    /// What one key adds to a pair, for when it is in many.
+    std::uint64_t share(std::uint64_t key) const { return mix(stream_ + key); }
+    static std::uint64_t bits_of_shares(std::uint64_t a, std::uint64_t b) { return mix(a + b); }
     std::uint64_t bits(std::uint64_t a, std::uint64_t b) const {
-        return mix(mix(stream_ + a) + mix(stream_ + b));
+        return bits_of_shares(share(a), share(b));
     }
     double uniform(std::uint64_t a, std::uint64_t b) const;  ///< as uniform() of these bits
     double normal(std::uint64_t a, std::uint64_t b) const;   ///< as normal() of these bits

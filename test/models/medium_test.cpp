@@ -33,8 +33,10 @@ Propagation model<Disc>() {
 }
 
 Radio random_radio(test::Draw& draw) {
+    const Dbm sensitivity{draw.uniform(-85, -45)};
     return {.power = {draw.uniform(0, 25)},
-            .sensitivity = {draw.uniform(-85, -45)},
+            .sensitivity = sensitivity,
+            .carrier_sense_threshold = sensitivity - Db{draw.uniform(0, 12)},
             .frequency = {draw.uniform(1800e6, 2700e6)},
             .antenna_gain = {draw.uniform(-3, 6)},
             .cable_loss = {draw.uniform(0, 4)},
@@ -49,6 +51,7 @@ struct Crowd {
     Medium medium{{.scene = &scene, .seed = 11, .replication = 2}};
     Legs legs{};
     std::vector<Radio> radios{};
+    std::size_t sensors = 0;  // that were found
 
     explicit Crowd(std::uint32_t seed) : draw(seed) {}
 
@@ -91,9 +94,26 @@ struct Crowd {
                 CHECK(heard[k].node == expected[k].node);
                 CHECK(heard[k].time == expected[k].time);
             }
+            check_sensors(i, t);
             links += heard.size();
         }
         return links;
+    }
+    /// Who senses robot i without hearing it.
+    void check_sensors(std::size_t i, Time t) {
+        std::vector<NodeId> expected, sensing;
+        for (std::size_t j = 0; j < radios.size(); ++j) {
+            const bool senses =
+                medium.path_loss(node(i), node(j), t, legs) <= sensing_budget(radios[i], radios[j]);
+            if (j != i && medium.is_on(node(j)) && senses && !link(i, j, t)) {
+                expected.push_back(node(j));
+            }
+        }
+        std::vector<Reception> heard;
+        for (const auto& s : medium.sensors(node(i), t, t, legs, heard)) sensing.push_back(s.node);
+        std::sort(sensing.begin(), sensing.end());
+        CHECK(sensing == expected);
+        sensors += sensing.size();
     }
 };
 
@@ -113,6 +133,26 @@ TEST_CASE("medium: who hears is who a search over all pairs finds, for every mod
             CHECK(links < robots * (robots - 1));
         }
     });
+}
+
+TEST_CASE("medium: so it is among few kinds of radios, where tables decide with shadowing") {
+    for (const std::size_t kinds : {1, 3}) {
+        CAPTURE(kinds);
+        Crowd crowd(12);
+        std::vector<Radio> radios;
+        // Of random sensitivities, some fit the size of the map.
+        for (std::size_t k = 0; k < kinds; ++k) {
+            radios.push_back(random_radio(crowd.draw));
+            radios.back().sensitivity = Dbm{-62 - 3.0 * static_cast<double>(k)};
+            radios.back().carrier_sense_threshold = radios.back().sensitivity - Db{5};
+        }
+        const Propagation shadowed = LogDistance{.exponent = 3.5, .sigma = Db{6}};
+        for (std::size_t i = 0; i < robots; ++i) crowd.add(shadowed, radios[i % kinds]);
+        std::size_t links = 0;
+        for (const auto t : {0s, 3s, 10s, 60s}) links += crowd.check(start_of_run + t);
+        CHECK(links > 500);
+        CHECK(crowd.sensors > 500);
+    }
 }
 
 TEST_CASE("medium: the transmitter's model rules where models are mixed") {
@@ -287,11 +327,14 @@ TEST_CASE("medium: ns-2's default radio decodes to 250 m and senses to 550 m ove
         legs.add({.from = {x, 0, 0}, .to = {x, 0, 0}});
         medium.add(radio, legs.size(), TwoRay{});
     }
-    const auto hearers = medium.sensed(NodeId{0}, start_of_run, legs);
-    REQUIRE(hearers.receivers.size() == 1);
-    CHECK(hearers.receivers[0].node == NodeId{1});
+    std::vector<Reception> receivers;
     std::vector<NodeId> sensors;
-    for (const auto& h : hearers.others) sensors.push_back(h.node);
+    for (const auto& s : medium.sensors(NodeId{0}, start_of_run, start_of_run, legs, receivers)) {
+        sensors.push_back(s.node);
+    }
+    REQUIRE(receivers.size() == 1);
+    CHECK(receivers[0].node == NodeId{1});
+    CHECK(medium.heard_within() == 249.9);
     std::sort(sensors.begin(), sensors.end());
     CHECK(sensors == std::vector{NodeId{2}, NodeId{3}});
 }

@@ -47,6 +47,7 @@ struct Swarm {
     /// Those within `radius` of `centre`, each once, as the index and as a look at everybody has
     /// it.
     void check_query(Vec3 centre, double radius) {
+        index.refresh(now, legs);
         std::vector<int> seen(legs.size());
         index.visit(centre, radius, now, legs, [&](const NeighbourIndex::Entry& e, Vec3 p) {
             ++seen[e.node.index()];
@@ -58,6 +59,27 @@ struct Swarm {
             REQUIRE(seen[i] <= 1);
             if (within) REQUIRE(seen[i] == 1);
         }
+        check_first_look(centre, radius, seen);
+    }
+    /// The same with a first look: it is told no more than the squared distance, and of whom it
+    /// does not let pass nothing is heard again.
+    void check_first_look(Vec3 centre, double radius, const std::vector<int>& seen) {
+        std::vector<int> visited(legs.size()), stopped(legs.size());
+        const auto passes = [&](std::uint32_t place, double at_least) {
+            const NodeId node = index.entries()[place].node;
+            const Vec3 p = legs.position(node, now);
+            const double dx = p.x - centre.x, dy = p.y - centre.y;
+            REQUIRE(at_least >= 0);
+            REQUIRE(at_least <= dx * dx + dy * dy);
+            stopped[node.index()] += node.value % 3 == 0;
+            return node.value % 3 != 0;
+        };
+        index.visit_if(centre, radius, now, legs, passes,
+                       [&](const NeighbourIndex::Entry& e, Vec3 p) {
+                           ++visited[e.node.index()];
+                           CHECK(p == legs.position(e.node, now));
+                       });
+        for (std::size_t i = 0; i < seen.size(); ++i) REQUIRE(visited[i] + stopped[i] == seen[i]);
     }
 };
 
@@ -90,6 +112,30 @@ TEST_CASE("neighbour index: finds whom a look at everybody finds, while all move
             swarm.check_query(place(), size * swarm.draw.uniform(0, 1));
         }
     }
+}
+
+TEST_CASE("neighbour index: of nodes at rest the first look is told nearly the squared distance") {
+    Swarm swarm(7);
+    const auto place = [&] {
+        return Vec3{swarm.draw.uniform(0, 1e4), swarm.draw.uniform(0, 1e4), 0};
+    };
+    for (int i = 0; i < 500; ++i) swarm.add(place(), 0);
+    swarm.index.set_cell_size(500);
+    swarm.index.refresh(swarm.now, swarm.legs);
+    int looked_at = 0;
+    for (int query = 0; query < 100; ++query) {
+        const Vec3 centre = place();
+        const auto passes = [&](std::uint32_t i, double at_least) {
+            const Vec3 p = swarm.index.entries()[i].from;
+            const double dx = p.x - centre.x, dy = p.y - centre.y, d2 = dx * dx + dy * dy;
+            CHECK(d2 - at_least < 100 + 1e-3 * d2);
+            ++looked_at;
+            return false;
+        };
+        swarm.index.visit_if(centre, 500, swarm.now, swarm.legs, passes,
+                             [](const NeighbourIndex::Entry&, Vec3) { FAIL("passed"); });
+    }
+    CHECK(looked_at > 300);
 }
 
 TEST_CASE("neighbour index: one node at 1e9 m, all in one place, a line, and no radius") {

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// From a node that sends to those that get the frame.
+#include "experiment/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rovernet {
+
+Time Engine::transmit(const AirFrame& air) {
+    const Frame& frame = air.frame;
+    if (air.kind == AirFrame::data) emit(Transmitted{now_, frame, air.heard_from});
+    if (wanted_ & kind_of<AirSent>()) emit(AirSent{now_, air, bytes(air)});
+    const std::size_t slot = flights_.take();
+    Flight& flight = flights_[slot];
+    flight.air = air;
+    flight.receptions.clear();
+    flight.arrived = 0;
+    const Time end = now_ + airtime(air);
+    if (dcf_) {
+        transmit_sensed(flight, end);
+    } else {
+        medium_.receivers(frame.sender, now_, end, legs_, flight.receptions);
+    }
+    if (dcf_ || frames_meet_) flight.number = node(frame.sender).transmissions++;
+    if (frames_meet_) put_on_air(slot, end);
+    if (medium_.radio(frame.sender).success_rate < 1) garble(flight);
+    if (flight.receptions.empty()) {
+        if (!frames_meet_) flights_.release(slot);
+        return end;
+    }
+    if (air.kind == AirFrame::data) messages_.hold(frame.message);
+    queue_.schedule(flight.receptions.front().time, Priority::frame_end,
+                    {Occurrence::Kind::frame, frame.sender, slot});
+    return end;
+}
+
+/// Finds the receivers, and tells all that sense the frame.
+void Engine::transmit_sensed(Flight& flight, Time end) {
+    const NodeId sender = flight.air.frame.sender;
+    const auto sensors = medium_.sensors(sender, now_, end, legs_, flight.receptions);
+    const Duration airtime = end - now_;
+    for (const Reception& r : flight.receptions) dcf_->energy(r.node, r.time - airtime, r.time);
+    for (const Medium::Found& s : sensors) {
+        const Duration delay = medium_.delay(std::sqrt(s.squared_distance));
+        dcf_->energy(s.node, now_ + delay, end + delay);
+    }
+}
+
+/// Keeps a frame for as long as it may meet others.
+void Engine::put_on_air(std::size_t slot, Time end) {
+    Flight& flight = flights_[slot];
+    const NodeId sender = flight.air.frame.sender;
+    if (std::holds_alternative<Sinr>(settings_.reception)) {
+        count_on_air(end);
+        flight.locks.assign(flight.receptions.size(), Lock::open);
+    }
+    // A reception may still be judged that began so long ago, and one that it depends on before.
+    const Duration matters = 2 * (on_air_.longest() + longest_delay());
+    on_air_.forget(now_ - matters, [&](const Emission& frame) { flights_.release(frame.flight); });
+    flight.emission = on_air_.add({.begin = now_,
+                                   .end = end,
+                                   .origin = medium_.antenna(sender, now_, legs_),
+                                   .from = sender,
+                                   .heard_within = medium_.heard_within(),
+                                   .squared_reach = medium_.squared_reach(sender),
+                                   .flight = static_cast<std::uint32_t>(slot)});
+}
+
+void Engine::count_on_air(Time end) {
+    std::erase_if(ends_, [&](Time each) { return each <= now_; });
+    ends_.push_back(end);
+    most_on_air_ = std::max(most_on_air_, ends_.size());
+}
+
+std::optional<Db> Engine::interference_left_out() const {
+    if (!std::holds_alternative<Sinr>(settings_.reception)) return std::nullopt;
+    // Beside the frame that is received.
+    return medium_.left_out(std::max<std::size_t>(most_on_air_, 1) - 1);
+}
+
+/// Decides which receivers get the frame with errors, by its sender's success rate.
+void Engine::garble(Flight& flight) {
+    if (flight.air.kind != AirFrame::data) return;
+    const Frame& frame = flight.air.frame;
+    const double success = medium_.radio(frame.sender).success_rate;
+    for (Reception& r : flight.receptions) {
+        const Key draw{settings_.seed,
+                       settings_.replication,
+                       Purpose::link_success,
+                       combine(key(frame.sender), key(r.node)),
+                       combine(messages_[frame.message].key, frame.path),
+                       frame.hops + (std::uint64_t{flight.air.attempt} << 16)};
+        if (is_decoded(r.fate) && uniform(draw) >= success) r.fate = Fate::garbled;
+    }
+}
+
+/// Decides what becomes of receptions that end now, by what else is on air there.
+void Engine::judge(const Flight& flight, std::span<Reception> receptions) {
+    const Emission& judged = on_air_[flight.emission];
+    const bool locks = std::holds_alternative<Sinr>(settings_.reception);
+    // What was over by `since` or begins at `until` arrives nowhere together with it; nor with what
+    // its receivers may have locked on to before.
+    const Time since = judged.begin - longest_delay() - (locks ? on_air_.longest() : Duration{0});
+    const Time until = judged.end + longest_delay();
+    const auto may_matter = [&](const Emission& e) {
+        return e.end > since && e.begin < until && e.serial != judged.serial;
+    };
+    near_.clear();
+    all_.clear();
+    on_air_.each_near(judged, now_, [&](const Emission& e) {
+        if (may_matter(e)) near_.push_back(&e);
+    });
+    for (Reception& r : receptions) {
+        if (!medium_.is_on(r.node)) continue;
+        const bool near = !settings_.reference && !on_air_.has_changed(r.node);
+        if (!near && all_.empty()) {
+            for (const Emission& e : on_air_.frames()) {
+                if (may_matter(e)) all_.push_back(&e);
+            }
+        }
+        const auto& frames = near ? near_ : all_;
+        if (locks) {
+            judge_sinr(flight, judged, frames, r);
+        } else if (!frames.empty()) {
+            judge_collision(judged, frames, r);
+        }
+    }
+}
+
+/// A frame as it arrives at a node; nothing if the node does not notice it.
+std::optional<Arrival> Engine::arrival(const Emission& frame, NodeId node) {
+    if (frame.from == node) return own_frame(node, frame.begin, frame.end);
+    if (on_air_.has_changed(node)) {
+        if (const OnAir::Before* before = on_air_.before(node, frame)) {
+            if (!before->on) return std::nullopt;
+            return medium_.arrival(frame, node, before->leg.position(frame.begin));
+        }
+    }
+    return medium_.arrival(frame, node, legs_.position(node, frame.begin));
+}
+
+void Engine::judge_collision(const Emission& judged, const Frames& others, Reception& reception) {
+    const NodeId node = reception.node;
+    const auto& rung = std::get<Collision>(settings_.reception);
+    constexpr double open = std::numeric_limits<double>::quiet_NaN();
+    Arrival signal{.begin = reception.time - (judged.end - judged.begin),
+                   .end = reception.time,
+                   .level_dbm = open,
+                   .squared_distance = open,
+                   .from = judged.from};
+    const auto level_of = [&](Arrival& a) {
+        if (&a == &signal) signal = *arrival(judged, node);
+        return std::isnan(a.level_dbm) ? medium_.level(a, node).value : a.level_dbm;
+    };
+    for (const Emission* frame : others) {
+        auto other = arrival(*frame, node);
+        if (!other || rung.survives(signal, *other, level_of)) continue;
+        reception.fate = other->own ? Fate::busy : Fate::collided;
+        if (!other->own) return;
+    }
+}
+
+void Engine::judge_sinr(const Flight& flight, const Emission& judged, const Frames& others,
+                        Reception& reception) {
+    const NodeId node = reception.node;
+    arrivals_.clear();
+    const auto add = [&](const Emission& frame) {
+        const auto arrives = arrival(frame, node);
+        if (!arrives) return;
+        arrivals_.push_back(*arrives);
+        arrivals_.back().lock = lock_of(flights_[frame.flight], node);
+    };
+    add(judged);
+    for (const Emission* frame : others) add(*frame);
+    const BitRate rate = rate_of(flight.air);
+    const Duration preamble = medium_.radio(judged.from).preamble;
+    const Fate fate = sinr_receiver_.judge(
+        arrivals_.front(), arrivals_,
+        {.modulation = *modulation_of(rate),
+         .rate = rate.value,
+         .payload = judged.end - judged.begin - preamble,
+         .noise = medium_.noise(node)},
+        [&](const Arrival& a) { return medium_.level(a, node).value; },
+        [&] {
+            return uniform({settings_.seed, settings_.replication, Purpose::bit_errors,
+                            combine(key(judged.from), key(node)), flight.number, 0});
+        });
+    const bool decoded_but_garbled = is_decoded(fate) && reception.fate == Fate::garbled;
+    if (!decoded_but_garbled) reception.fate = fate;
+}
+
+/// What `node` made of a frame; null if it could not decode it.
+Lock* Engine::lock_of(Flight& flight, NodeId node) {
+    const auto& all = flight.receptions;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Reception& r) { return r.node == node; });
+    if (found == all.end()) return nullptr;
+    return &flight.locks[static_cast<std::size_t>(found - all.begin())];
+}
+
+/// Serves the receptions of a transmission by one event: as many as come before anything else can
+/// happen, then the event is queued again for the rest, in its old place among equal times.
+void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
+    Flight& flight = flights_[event.payload.data];
+    auto& all = flight.receptions;
+    for (auto key = event.key;;) {
+        const std::size_t first = flight.arrived;
+        // Nothing that a reception sets off happens sooner than least_reaction after it.
+        const Time horizon = all[first].time + least_reaction;
+        std::size_t last = all.size();
+        if (settings_.reference || all.back().time > horizon ||
+            !comes_next(event.key.at(all.back().time))) {
+            last = first + 1;
+        }
+        while (!settings_.reference && last < all.size() && all[last].time <= horizon &&
+               comes_next(event.key.at(all[last].time))) {
+            ++last;
+        }
+        flight.arrived = last;
+        now_ = all[last - 1].time;
+        const auto ended = std::span{all}.subspan(first, last - first);
+        if (frames_meet_) judge(flight, ended);
+        receive(flight, ended);
+        if (last == all.size()) break;
+        key = event.key.at(all[last].time);
+        if (settings_.reference || !comes_next(key)) {
+            queue_.requeue(key, event.payload);
+            return;
+        }
+    }
+    const AirFrame air = flight.air;
+    if (!frames_meet_) flights_.release(event.payload.data);  // else once it is off the air
+    if (air.kind == AirFrame::data) release(air.frame.message);
+}
+
+}  // namespace rovernet

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ids.hpp"
+#include "sim/time.hpp"
+
+#include <cstdint>
+#include <limits>
+
+namespace rovernet {
+
+/// What a receiver at the rung "sinr" made of a frame that it could decode.
+enum class Lock : std::uint8_t {
+    open,    ///< not decided yet
+    held,    ///< it locked on to it
+    missed,  ///< it did not
+};
+
+/// A frame as it arrives at one node.
+struct Arrival {
+    Time begin;
+    Time end;
+    double level_dbm;         ///< [dBm] received power; NaN until somebody asked for it
+    double squared_distance;  ///< [m^2] from where it was sent
+    NodeId from;              ///< its sender
+    bool own = false;         ///< the node sends it itself, and hears nothing else
+    Lock* lock = nullptr;     ///< at the rung "sinr", if the node can decode it
+
+    bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
+};
+
+/// What a node sends, as it drowns everything there.
+constexpr Arrival own_frame(NodeId node, Time begin, Time end) {
+    return {.begin = begin,
+            .end = end,
+            .level_dbm = std::numeric_limits<double>::infinity(),
+            .squared_distance = 0,
+            .from = node,
+            .own = true};
+}
+
+}  // namespace rovernet

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "models/radio_kinds.hpp"
+
+#include "models/link_range.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace rovernet {
+namespace {
+
+/// More kinds of radios than this are not compared with each other for being alike.
+constexpr std::size_t most_compared = 64;
+
+/// The place of `value` in `list`, added if it is not there yet.
+template <class T>
+std::uint32_t number_of(std::vector<T>& list, const T& value) {
+    const auto found = std::find(list.begin(), list.end(), value);
+    const auto place = static_cast<std::uint32_t>(found - list.begin());
+    if (found == list.end()) list.push_back(value);
+    return place;
+}
+
+Radio without_labels(Radio radio) {
+    const Radio plain;
+    radio.ip = plain.ip;
+    radio.mac = plain.mac;
+    radio.netmask = plain.netmask;
+    radio.mode = plain.mode;
+    radio.encryption = plain.encryption;
+    radio.range_db = plain.range_db;
+    return radio;
+}
+
+Decision cheapest_decision(const Propagation& model, Hertz frequency) {
+    if (model.shape() == LossShape::by_distance) return Decision::by_range;
+    return model.shadowed_loss(frequency) ? Decision::by_table : Decision::by_loss;
+}
+
+}  // namespace
+
+Membership RadioKinds::membership(const Radio& radio) {
+    return {.essid = number_of(essids_, radio.essid),
+            .channel = number_of(channels_, {radio.channel, radio.frequency}),
+            .gated = radio.gate == Gate::network};
+}
+
+RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagation) {
+    const Radio plain = without_labels(radio);
+    const std::uint32_t model = number_of(models_, propagation);
+    for (std::size_t i = 0; i < std::min(kinds_.size(), most_compared); ++i) {
+        if (kinds_[i].model != model || kinds_[i].radio != plain) continue;
+        ++kinds_[i].stations;
+        return static_cast<Kind>(i);
+    }
+    kinds_.push_back({.radio = plain,
+                      .membership = membership(radio),
+                      .model = model,
+                      .cheapest = cheapest_decision(propagation, plain.frequency),
+                      .noise = noise_floor(plain)});
+    heights_.push_back(plain.antenna_height.value);
+    // All match as long as all have the same network, or none is gated.
+    const bool gated = kinds_.back().membership.gated;
+    gated_ = gated_ || (gated && (essids_.size() > 2 || channels_.size() > 1));
+    Radio sender;
+    sender.power = Dbm{0};
+    sender.antenna_gain = sender.cable_loss = Db{0};
+    for (const Strength s : strengths) {
+        Db& best = best_budget_[static_cast<std::size_t>(s)];
+        if (budget(s, sender, plain) <= best) continue;
+        best = budget(s, sender, plain);
+        for (Alike& each : kinds_) each.reach2[s] = unknown;
+    }
+    return static_cast<Kind>(kinds_.size() - 1);
+}
+
+Db RadioKinds::budget(Strength strength, const Radio& from, const Radio& to) const {
+    if (strength == Strength::decodable) return link_budget(from, to);
+    const Db sensible = sensing_budget(from, to);
+    if (strength == Strength::sensible || !interference_cut_) return sensible;
+    return std::max(sensible, link_budget(from, to) + (to.sensitivity - weakest_disturbing(to)));
+}
+
+Dbm RadioKinds::weakest_disturbing(const Radio& to) const {
+    assert(interference_cut_);
+    constexpr Db below_noise{10};
+    return std::max(to.sensitivity - *interference_cut_, noise_floor(to) - below_noise);
+}
+
+double RadioKinds::squared_reach(Kind from, Strength strength) {
+    constexpr double slack = 1 + 1e-9;  // rounding of the model's inverse
+    double& reach2 = kinds_[from].reach2[strength];
+    if (std::isnan(reach2)) {
+        const Radio& sender = radio(from);
+        const Db most = best_budget_[static_cast<std::size_t>(strength)] + Db{sender.power.value} +
+                        sender.antenna_gain - sender.cable_loss;
+        const double reach = model(from).reach(most, sender.frequency).value * slack;
+        reach2 = reach * reach;
+    }
+    return reach2;
+}
+
+void RadioKinds::prepare(Kind from) {
+    Alike& mine = kinds_[from];
+    if (mine.cheapest == Decision::by_range) mine.range2.resize(kinds_.size());
+    if (decision(from) == Decision::by_table) mine.tables.resize(kinds_.size());
+}
+
+double RadioKinds::compute_range(Kind from, Kind to, Strength strength) {
+    const Radio& sender = radio(from);
+    const double range2 = largest_squared_distance(model(from), sender.frequency,
+                                                   budget(strength, sender, radio(to)));
+    return kinds_[from].range2[to][strength] = range2;
+}
+
+ShadowedRange RadioKinds::make_table(Kind from, Kind to, Strength strength) const {
+    const Radio& sender = radio(from);
+    return {*model(from).shadowed_loss(sender.frequency), budget(strength, sender, radio(to)),
+            draws_};
+}
+
+}  // namespace rovernet

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/membership.hpp"
+#include "models/propagation.hpp"
+#include "models/radio.hpp"
+#include "models/shadowed_range.hpp"
+#include "sim/random.hpp"
+#include "sim/units.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rovernet {
+
+/// What a signal is strong enough for, strongest first.
+enum class Strength { decodable, sensible, disturbing };
+
+/// How it is decided for whom a signal is strong enough: the cheapest way that its model allows.
+enum class Decision {
+    by_range,  ///< by the distance alone
+    by_table,  ///< by the distance and a draw of the pair
+    by_loss,   ///< by asking the model
+};
+
+/// The kinds of stations: those of a kind are alike in all that decides a link, their model
+/// included. What a pair of kinds needs is computed when it is first asked for.
+class RadioKinds {
+  public:
+    using Kind = std::uint32_t;
+
+    /// @param interference_cut  see Medium::Settings
+    /// @param draws             for ShadowedRange
+    RadioKinds(std::optional<Db> interference_cut, const PairDraws& draws)
+        : interference_cut_(interference_cut), draws_(draws) {}
+
+    /// Counts one station; @return its kind.
+    Kind add(const Radio& radio, const Propagation& model);
+
+    std::size_t size() const { return kinds_.size(); }
+    std::size_t stations(Kind kind) const { return kinds_[kind].stations; }
+    /// Without labels and addresses.
+    const Radio& radio(Kind kind) const { return kinds_[kind].radio; }
+    const Propagation& model(Kind kind) const { return models_[kinds_[kind].model]; }
+    Dbm noise(Kind kind) const { return kinds_[kind].noise; }
+    double height(Kind kind) const { return heights_[kind]; }  ///< [m] of the antenna
+
+    /// Some two kinds may have no link.
+    bool are_gated() const { return gated_; }
+    bool may_link(Kind a, Kind b) const {
+        return !gated_ || Membership::match(kinds_[a].membership, kinds_[b].membership);
+    }
+
+    /// The largest path loss [dB] at which a signal is strong enough.
+    Db budget(Strength strength, const Radio& from, const Radio& to) const;
+    /// The weakest signal [dBm] that disturbs `to`; there must be a cut.
+    Dbm weakest_disturbing(const Radio& to) const;
+    /// [m^2] A signal is strong enough for nobody farther away; may be infinite.
+    double squared_reach(Kind from, Strength strength);
+
+    Decision decision(Kind from) const {
+        // A table costs time and memory: it pays where many radios are alike.
+        constexpr std::size_t most_tables = 16;
+        const Decision cheapest = kinds_[from].cheapest;
+        const bool pays = cheapest != Decision::by_table || kinds_.size() <= most_tables;
+        return pays ? cheapest : Decision::by_loss;
+    }
+    /// Decides by_range.
+    bool in_range(Kind from, Kind to, Strength strength, double squared_distance) {
+        const double range2 = kinds_[from].range2[to][strength];
+        if (squared_distance <= range2) return true;
+        return std::isnan(range2) && squared_distance <= compute_range(from, to, strength);
+    }
+    /// Decides by_table.
+    const ShadowedRange& table(Kind from, Kind to, Strength strength) {
+        auto& table = kinds_[from].tables[to][static_cast<std::size_t>(strength)];
+        if (!table) [[unlikely]]
+            table = make_table(from, to, strength);
+        return *table;
+    }
+    /// To be called before in_range() and table() are asked about `from`.
+    void prepare(Kind from);
+
+  private:
+    static constexpr std::array strengths = {Strength::decodable, Strength::sensible,
+                                             Strength::disturbing};
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    /// [m^2], by Strength.
+    struct SquaredDistances {
+        std::array<double, strengths.size()> of = {unknown, unknown, unknown};
+        double& operator[](Strength s) { return of[static_cast<std::size_t>(s)]; }
+    };
+    using Tables = std::array<std::optional<ShadowedRange>, strengths.size()>;
+    struct Alike {
+        Radio radio;
+        Membership membership;
+        std::uint32_t model;  // index into models_
+        Decision cheapest;
+        Dbm noise;
+        std::size_t stations = 1;
+        SquaredDistances reach2 = {};
+        std::vector<SquaredDistances> range2 = {};  // to each kind
+        std::vector<Tables> tables = {};            // to each kind
+    };
+
+    Membership membership(const Radio& radio);
+    double compute_range(Kind from, Kind to, Strength strength);
+    ShadowedRange make_table(Kind from, Kind to, Strength strength) const;
+
+    std::optional<Db> interference_cut_;
+    PairDraws draws_;
+    std::vector<Alike> kinds_;
+    std::vector<double> heights_;  // [m] of their antennas
+    std::vector<Propagation> models_;
+    std::vector<std::string> essids_ = {"any"};
+    std::vector<std::pair<int, Hertz>> channels_;
+    bool gated_ = false;
+    // By Strength: the largest budget that any kind allows a sender of 0 dBm.
+    std::array<Db, strengths.size()> best_budget_ = {Db{-1e300}, Db{-1e300}, Db{-1e300}};
+};
+
+}  // namespace rovernet

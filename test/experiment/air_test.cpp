@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+// What meets what on air, against a search over all pairs of frames that knows nothing of how the
+// network keeps them.
+#include "experiment/network.hpp"
+#include "mobility/waypoints.hpp"
+#include "models/friis.hpp"
+#include "models/log_distance.hpp"
+#include "routing/flood.hpp"
+#include "test/scene/drawn_map.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A loss that tells nothing of its shape, nor of its reach.
+struct Slope {
+    static constexpr std::string_view name = "slope";
+    void loss(const LinkBatch& links, Db, std::span<double> out_db) const {
+        for (std::size_t i = 0; i < out_db.size(); ++i) out_db[i] = 40 + links.distance(i) / 5;
+    }
+};
+
+/// A robot as it was when a frame began.
+struct Robot {
+    Vec3 antenna;
+    bool on;
+};
+
+struct Sending {
+    NodeId from;
+    Time begin, end;
+    std::vector<Robot> robots;
+};
+
+/// Everything that was sent, and everything that came of it.
+struct Log {
+    const Network* net = nullptr;
+    std::vector<Sending> sendings{};
+    std::vector<std::pair<std::size_t, Reception>> receptions{};
+    std::map<std::pair<NodeId, std::uint64_t>, std::size_t> by_frame{};  // sender, path: sending
+
+    KindMask kinds() const { return kind_of<Transmitted>() | kind_of<Received>(); }
+    void on(const Record& record, const RecordContext& context) {
+        if (const auto* sent = std::get_if<Transmitted>(&record)) {
+            const Frame& frame = sent->frame;
+            const Radio& radio = net->medium().radio(frame.sender);
+            const Message& message = context.messages[frame.message];
+            Sending sending{
+                frame.sender, sent->time, sent->time + airtime(radio, message.size), {}};
+            for (std::uint32_t i = 0; i < context.legs.size(); ++i) {
+                sending.robots.push_back(
+                    {net->medium().antenna(NodeId{i}, sent->time, context.legs),
+                     net->medium().is_on(NodeId{i})});
+            }
+            by_frame[{frame.sender, combine(message.uid, frame.path)}] = sendings.size();
+            sendings.push_back(sending);
+            return;
+        }
+        const auto& received = std::get<Received>(record);
+        const Frame& frame = received.frame;
+        const auto uid = context.messages[frame.message].uid;
+        const std::size_t sending = by_frame.at({frame.sender, combine(uid, frame.path)});
+        for (const Reception& r : received.receptions) receptions.emplace_back(sending, r);
+    }
+};
+
+struct Heard {
+    Time begin, end;
+    double level_dbm;
+};
+
+/// Robots that run about, jump, come later, and are switched off and on while frames fly.
+struct Playground {
+    std::uint32_t seed;
+    test::Draw draw;
+    Propagation propagation;
+    Collision rung;
+    Network net;
+    std::vector<Radio> radios{};
+    std::shared_ptr<Log> log = std::make_shared<Log>();
+
+    Playground(std::uint32_t number, Propagation model, Collision collision, bool reference)
+        : seed(number),
+          draw(number),
+          propagation(model),
+          rung(collision),
+          net({.seed = number,
+               .propagation = model,
+               .reception = collision,
+               .reference = reference,
+               .metrics = false}) {
+        log->net = &net;
+        net.add_sink(Sink{log});
+        net.route(Flood{.ttl = 3, .jitter = 3ms});
+    }
+
+    Vec3 place() { return {draw.uniform(0, 400), draw.uniform(0, 400), 0}; }
+    NodeId anyone() {
+        return {static_cast<std::uint32_t>(draw.below(static_cast<int>(radios.size())))};
+    }
+    void add() {
+        const double height = draw.below(2) ? 1 : 2;
+        const Radio radio{.power = {draw.uniform(0, 6)},
+                          .sensitivity = {-75},
+                          .carrier_sense_threshold = {{-85}},
+                          .rate = {draw.below(2) ? 2e6 : 11e6},
+                          .antenna_height = {height}};
+        radios.push_back(radio);
+        net.add({.name = {},
+                 .at = place(),
+                 .radio = radio,
+                 .move = Waypoints{.path = {place(), place()}, .speed = {draw.uniform(1, 3000)}}});
+    }
+    void change() {
+        const NodeId node = anyone();
+        switch (draw.below(5)) {
+            case 0: return net.place(node, place());
+            case 1: return net.switch_off(node);
+            case 2: return net.switch_on(node);
+            case 3: return add();
+            default:
+                return net.move(node,
+                                Waypoints{.path = {place()}, .speed = {draw.uniform(1, 900)}});
+        }
+    }
+    void play() {
+        for (int i = 0; i < 25; ++i) add();
+        for (int i = 0; i < 150; ++i) {
+            const Time t = start_of_run + Duration{draw.below(40'000'000)};
+            net.at(t, [this] { net.broadcast(anyone(), "x", 50U + 50U * draw.below(8)); });
+            for (int k = 0; k < 2; ++k) {
+                net.at(t + Duration{draw.below(1'000'000)}, [this] { change(); });
+            }
+        }
+        net.run_for(100ms);
+    }
+
+    /// A sending as it arrives at `node`, if it is strong enough to disturb there.
+    std::optional<Heard> heard(const Sending& sending, NodeId node) const {
+        if (node.index() >= sending.robots.size() || !sending.robots[node.index()].on) return {};
+        const Vec3 from = sending.robots[sending.from.index()].antenna;
+        const Vec3 to = sending.robots[node.index()].antenna;
+        const Radio& sender = radios[sending.from.index()];
+        const std::uint64_t from_key = key(sending.from), to_key = key(node);
+        const Scene scene;
+        const LinkBatch link{.frequency = sender.frequency,
+                             .from = from,
+                             .to = {&to, 1},
+                             .from_key = from_key,
+                             .to_keys = {&to_key, 1},
+                             .scene = &scene,
+                             .seed = seed};
+        double loss = 0;
+        propagation.loss(link, Db{std::numeric_limits<double>::infinity()}, {&loss, 1});
+        if (Db{loss} > sensing_budget(sender, radios[node.index()])) return {};
+        const Duration delay = from_seconds(distance(from, to) / speed_of_light);
+        return Heard{sending.begin + delay, sending.end + delay,
+                     received_power(sender, radios[node.index()], Db{loss}).value};
+    }
+    std::uint64_t key(NodeId node) const { return name_key(net.name(node)); }
+
+    /// What becomes of a sending at a node that can receive it.
+    Fate expected(const Sending& f, NodeId node) const {
+        const Heard mine = *heard(f, node);
+        Fate fate = Fate::waiting;
+        for (const Sending& g : log->sendings) {
+            if (&g == &f) continue;
+            const bool own = g.from == node;
+            const auto other = own ? Heard{g.begin, g.end, 1e300} : heard(g, node);
+            if (!other || mine.begin >= other->end || other->begin >= mine.end) continue;
+            const bool in_order = mine.begin <= other->begin || rung.capture == CaptureOrder::later;
+            if (in_order && mine.level_dbm >= other->level_dbm + rung.capture_ratio.value) continue;
+            if (!own) return Fate::collided;
+            fate = Fate::busy;
+        }
+        return fate;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("air: frames meet as all pairs of them say, while robots run, jump, come and go") {
+    std::map<Fate, int> fates;
+    for (std::uint32_t seed = 1; seed <= 24; ++seed) {
+        CAPTURE(seed);
+        const std::vector<Propagation> models{LogDistance{.exponent = 3},
+                                              LogDistance{.exponent = 3, .sigma = Db{4}}, Slope{}};
+        const auto capture = seed % 2 ? CaptureOrder::first : CaptureOrder::later;
+        Playground ground(seed, models[seed % 3], {.capture_ratio = Db{6}, .capture = capture},
+                          seed % 5 == 0);
+        ground.play();
+        for (const auto& [sending, reception] : ground.log->receptions) {
+            if (reception.fate == Fate::off) continue;
+            const Fate expected = ground.expected(ground.log->sendings[sending], reception.node);
+            const Fate fate = is_decoded(reception.fate) ? Fate::waiting : reception.fate;
+            REQUIRE(fate == expected);
+            ++fates[fate];
+        }
+    }
+    CHECK(fates[Fate::waiting] > 1000);
+    CHECK(fates[Fate::collided] > 1000);
+    CHECK(fates[Fate::busy] > 20);
+}
+
+namespace {
+
+/// The fates of what `node` gets, in the order of their arrival.
+std::vector<Fate> fates_at(const Log& log, NodeId node) {
+    std::vector<Fate> fates;
+    for (const auto& [sending, r] : log.receptions) {
+        if (r.node == node) fates.push_back(is_decoded(r.fate) ? Fate::waiting : r.fate);
+    }
+    return fates;
+}
+
+/// Robots in free space that send 100 bytes at 1 Mb/s (992 us) when they are told.
+struct OpenField {
+    Network net{{.propagation = Friis{}, .reception = Collision{}, .metrics = false}};
+    std::shared_ptr<Log> log = std::make_shared<Log>();
+
+    OpenField() {
+        log->net = &net;
+        net.add_sink(Sink{log});
+        net.route(Flood{.ttl = 1});
+    }
+    NodeId add(double x, Dbm power = Dbm{0}) {
+        return net.add({.name = {},
+                        .at = {x, 0},
+                        .radio = {.power = power, .sensitivity = {-75}, .rate = {1e6}}});
+    }
+    void send(NodeId node, Duration t) {
+        net.at(start_of_run + t, [this, node] { net.broadcast(node, "x", 100); });
+    }
+};
+
+}  // namespace
+
+TEST_CASE("air: a robot that jumps takes along what was on air where it was") {
+    for (const bool jumps : {false, true}) {
+        OpenField space;
+        const NodeId there = space.add(0), here = space.add(1e6), robot = space.add(1);
+        if (!jumps) space.net.place(robot, {1e6 + 1, 0});
+        space.send(there, 1ms);
+        space.net.at(start_of_run + 1100us, [&space, robot] {
+            space.net.place(robot, {1e6 + 1, 0});
+        });
+        space.send(here, 1200us);
+        space.net.run_for(10ms);
+        const auto both = std::vector{Fate::collided, Fate::collided};
+        CHECK(fates_at(*space.log, robot) == (jumps ? both : std::vector{Fate::waiting}));
+    }
+}
+
+TEST_CASE("air: a frame from afar that was over where it was sent meets one where it arrives") {
+    for (const bool later : {false, true}) {
+        OpenField space;
+        const NodeId robot = space.add(0), near = space.add(30);
+        const NodeId far = space.add(29'979.2458, Dbm{80});  // 100 us away
+        space.send(far, 1ms);
+        // The far frame ends at 1992 us, and 100 us later at the robot.
+        space.send(near, later ? 2095us : 2085us);
+        space.net.run_for(10ms);
+        const auto fates = fates_at(*space.log, robot);
+        REQUIRE(fates.size() == 2);
+        CHECK(fates[1] == (later ? Fate::waiting : Fate::collided));
+    }
+}
