@@ -232,14 +232,26 @@ void Medium::sort_receivers(Time end, std::vector<Reception>& out) {
         order_[i] = count << 32 | found_[i].node.value;
     }
     if (longest >> 32 != 0) return late_receivers(end, out);
-    std::sort(order_.begin(), order_.end());
     const std::size_t first = out.size();
     out.resize(first + order_.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-        const Duration under_way{static_cast<std::int64_t>(order_[i] >> 32)};
-        out[first + i].node = NodeId{static_cast<std::uint32_t>(order_[i])};
-        out[first + i].time = end + under_way;
+    const auto put = [&](std::size_t place, std::uint64_t key) {
+        const Duration under_way{static_cast<std::int64_t>(key >> 32)};
+        out[first + place].node = NodeId{static_cast<std::uint32_t>(key)};
+        out[first + place].time = end + under_way;
+    };
+    // To count the lesser ones of each takes more comparisons than to sort, and no branch that
+    // goes either way: faster among few.
+    constexpr std::size_t few = 32;
+    if (order_.size() <= few) {
+        for (const std::uint64_t key : order_) {
+            std::size_t lesser = 0;
+            for (const std::uint64_t other : order_) lesser += other < key;
+            put(lesser, key);
+        }
+        return;
     }
+    std::sort(order_.begin(), order_.end());
+    for (std::size_t i = 0; i < order_.size(); ++i) put(i, order_[i]);
 }
 
 /// As sort_receivers(), of those found, some of which are more than four light seconds away.
