@@ -128,6 +128,7 @@ bool Engine::advance(Time end, std::uint64_t most_events) {
         const auto event = queue_.pop();
         now_ = event.key.time();
         ++served_;
+        if (!queue_.empty()) medium_.prefetch(queue_.next().node);
         serve(event);
     }
     now_ = std::max(now_, end);

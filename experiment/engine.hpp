@@ -30,7 +30,7 @@ class Engine final : public LinkLayer, public Air {
     std::size_t size() const override { return nodes_.size(); }
     const Message& message(MessageId id) const override { return messages_[id]; }
     bool is_on(NodeId node) const override { return medium_.is_on(node); }
-    std::uint64_t key(NodeId node) const override { return nodes_[node.index()].key; }
+    std::uint64_t key(NodeId node) const override { return medium_.key(node); }
     void broadcast(const Frame& frame, std::optional<NodeId> heard_from) override;
     void unicast(const Frame& frame, std::optional<NodeId> heard_from) override {
         broadcast(frame, heard_from);

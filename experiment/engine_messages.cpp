@@ -20,7 +20,7 @@ MessageId Engine::new_message(NodeId id, NodeId to, std::string payload, std::ui
                           .uid = next_uid_++,
                           .number = number,
                           .to = to,
-                          .key = combine(origin.key, number),
+                          .key = combine(key(id), number),
                           .size = bytes,
                           .created = now_,
                           .payload = std::move(payload)});

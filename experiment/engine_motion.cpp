@@ -65,8 +65,7 @@ NodeId Engine::add(Robot robot) {
     names_.add(robot.name);
     const Body body{robot.radius, robot.top_speed, robot.turn_rate};
     if (bodies_.empty() || bodies_.back() != body) bodies_.push_back(body);
-    nodes_.push_back({.key = key,
-                      .body = static_cast<std::uint32_t>(bodies_.size() - 1),
+    nodes_.push_back({.body = static_cast<std::uint32_t>(bodies_.size() - 1),
                       .movement = std::move(robot.move)});
     if (watch_) watch_->added(id, now_);
     if (running_) begin_movements();
@@ -84,7 +83,7 @@ Mover Engine::mover(NodeId id) {
             .top_speed = body(id).top_speed,
             .draws = {.seed = settings_.seed,
                       .replication = settings_.replication,
-                      .a = robot.key,
+                      .a = key(id),
                       .b = robot.movements}};
 }
 

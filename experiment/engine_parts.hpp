@@ -58,7 +58,6 @@ struct Body {
 /// What the network keeps of every robot beyond its name, its leg and its radio. There may be
 /// millions: what only few robots have lies in tables of the engine.
 struct Node {
-    std::uint64_t key = 0;
     std::uint32_t body = 0;       // index into bodies_
     std::uint32_t movements = 0;  // begun so far
     Movement movement = {};

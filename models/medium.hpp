@@ -52,6 +52,11 @@ class Medium {
         stations_.reserve(nodes);
         index_.reserve(nodes);
     }
+    /// Fetches what sending takes into the caches; `node` is about to.
+    void prefetch(NodeId node) const {
+        __builtin_prefetch(&stations_[node.index()]);
+        index_.prefetch(node);
+    }
     /// The node's leg has been replaced.
     void moved(NodeId node, const Legs& legs) {
         index_.moved(node, legs);
@@ -60,6 +65,8 @@ class Medium {
 
     void switch_radio(NodeId node, bool on);
     bool is_on(NodeId node) const { return off_ == 0 || stations_[node.index()].on; }
+    /// What add() was given.
+    std::uint64_t key(NodeId node) const { return stations_[node.index()].key; }
     const Radio& radio(NodeId node) const { return radios_[stations_[node.index()].radio]; }
     /// The gates of both let them have a link: one of them is open, or they share a network.
     bool may_link(NodeId a, NodeId b) const { return kinds_.may_link(kind(a), kind(b)); }

@@ -43,8 +43,9 @@ void Medium::choose_cells() {
 /// Makes the index about `from` at `t`.
 void Medium::look_from(NodeId from, Time t, const Legs& legs) {
     if (!cells_chosen_) choose_cells();
-    origin_ = antenna(from, t, legs);
     index_.refresh(t, legs);
+    origin_ = index_.position_of(from, t, legs);
+    origin_.z += kinds_.height(kind(from));
 }
 
 /// For the index: calls use(entry, antenna, squared distance) for those within reach that are on

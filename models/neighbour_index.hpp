@@ -55,6 +55,16 @@ class NeighbourIndex {
     void refresh(Time t, const Legs& legs) {
         if (is_stale(t)) bin(t, legs);
     }
+    /// Where the node is [m]: as `legs` have it, and near in memory if its neighbours were looked
+    /// at.
+    Vec3 position_of(NodeId node, Time t, const Legs& legs) const {
+        const std::uint32_t place = place_[node.index()];
+        const Entry& e = place & is_apart ? apart_[place & ~is_apart] : entries_[place];
+        return position(e, t, legs);
+    }
+    void prefetch(NodeId node) const {
+        if (node.index() < place_.size()) __builtin_prefetch(&place_[node.index()]);
+    }
     /// Calls visit(entry, position) for every node that is within `radius` [m] of `centre` at `t`,
     /// and for some others, in no order to rely on. `t` must not decrease from call to call.
     template <class Visit>

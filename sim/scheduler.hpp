@@ -95,6 +95,8 @@ class Scheduler {
     std::optional<Time> next_time() const {
         return empty() ? std::nullopt : std::optional(queue_.top().time());
     }
+    /// What the event is about that is served next; there must be one.
+    const Payload& next() const { return slots_[queue_.top().slot()].payload; }
     /// Would an event with this key be served before everything that is queued?
     bool runs_before_next(Key key) const { return key < queue_.top(); }
 
