@@ -86,6 +86,7 @@ class Pair {
     void serve(Duration delay) {
         const auto first = sorted_.begin();
         REQUIRE(queue_.next_time() == std::get<Time>(first->first));
+        REQUIRE(queue_.next() == first->second);
         const auto event = queue_.pop();
         REQUIRE(event.payload == first->second);
         REQUIRE(event.key.time() == std::get<Time>(first->first));
