@@ -120,6 +120,8 @@ class Engine final : public LinkLayer, public Air {
     BitRate rate_of(const AirFrame& frame) const;
     void transmit_sensed(Flight& flight, Time end);
     void put_on_air(std::size_t slot, Time end);
+    void forget_frames();
+    void keep_past(NodeId id, bool on);
     void count_on_air(Time end);
     void garble(Flight& flight);
     using Frames = std::vector<const Emission*>;

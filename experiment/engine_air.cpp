@@ -56,9 +56,7 @@ void Engine::put_on_air(std::size_t slot, Time end) {
         count_on_air(end);
         flight.locks.assign(flight.receptions.size(), Lock::open);
     }
-    // A reception may still be judged that began so long ago, and one that it depends on before.
-    const Duration matters = 2 * (on_air_.longest() + longest_delay());
-    on_air_.forget(now_ - matters, [&](const Emission& frame) { flights_.release(frame.flight); });
+    forget_frames();
     flight.emission = on_air_.add({.begin = now_,
                                    .end = end,
                                    .origin = medium_.antenna(sender, now_, legs_),
@@ -66,6 +64,19 @@ void Engine::put_on_air(std::size_t slot, Time end) {
                                    .heard_within = medium_.heard_within(),
                                    .squared_reach = medium_.squared_reach(sender),
                                    .flight = static_cast<std::uint32_t>(slot)});
+}
+
+/// Forgets those that matter no more.
+void Engine::forget_frames() {
+    // A reception may still be judged that began so long ago, and one that it depends on before.
+    const Duration matters = 2 * (on_air_.longest() + longest_delay());
+    on_air_.forget(now_ - matters, [&](const Emission& frame) { flights_.release(frame.flight); });
+}
+
+/// Before a node's leg or radio changes: what it was matters for the frames on air.
+void Engine::keep_past(NodeId id, bool on) {
+    forget_frames();
+    on_air_.changes(id, legs_.leg(id), on);
 }
 
 void Engine::count_on_air(Time end) {
@@ -109,9 +120,11 @@ void Engine::judge(const Flight& flight, std::span<Reception> receptions) {
     };
     near_.clear();
     all_.clear();
-    on_air_.each_near(judged, now_, [&](const Emission& e) {
-        if (may_matter(e)) near_.push_back(&e);
-    });
+    if (!settings_.reference) {
+        on_air_.each_near(judged, now_, [&](const Emission& e) {
+            if (may_matter(e)) near_.push_back(&e);
+        });
+    }
     for (Reception& r : receptions) {
         if (!medium_.is_on(r.node)) continue;
         const bool near = !settings_.reference && !on_air_.has_changed(r.node);

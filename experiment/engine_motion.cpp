@@ -59,7 +59,7 @@ NodeId Engine::add(Robot robot) {
     const Leg leg{.start = now_, .from = robot.at, .to = robot.at, .heading = robot.heading.value};
     const NodeId id = legs_.add(leg);
     if (frames_meet_) {
-        on_air_.changes(id, leg, false);
+        keep_past(id, false);
         on_air_.goes(leg, robot.radio.antenna_height);
     }
     names_.add(robot.name);
@@ -149,7 +149,7 @@ void Engine::take(NodeId id, const Leg& leg) {
 
 void Engine::put(NodeId id, const Leg& leg) {
     if (frames_meet_) {
-        on_air_.changes(id, legs_.leg(id), medium_.is_on(id));
+        keep_past(id, medium_.is_on(id));
         on_air_.goes(leg, medium_.radio(id).antenna_height);
     }
     legs_.replace(id, leg);
@@ -187,7 +187,7 @@ void Engine::place(NodeId id, Vec3 at) {
 
 void Engine::switch_robot(NodeId id, bool on) {
     if (medium_.is_on(id) == on) return;
-    if (frames_meet_) on_air_.changes(id, legs_.leg(id), !on);
+    if (frames_meet_) keep_past(id, !on);
     medium_.switch_radio(id, on);
     if (!on && aloha_) aloha_->switch_off(*this, id);
     if (!on && dcf_) dcf_->switch_off(*this, id);

@@ -54,7 +54,7 @@ class Medium {
     }
     /// Fetches what sending takes into the caches; `node` is about to.
     void prefetch(NodeId node) const {
-        __builtin_prefetch(&stations_[node.index()]);
+        if (node.index() < stations_.size()) __builtin_prefetch(&stations_[node.index()]);
         index_.prefetch(node);
     }
     /// The node's leg has been replaced.

@@ -37,7 +37,7 @@ class OnAir {
   public:
     /// A node goes along `leg` from now on.
     void goes(const Leg& leg, Meters antenna_height);
-    /// What `node` has been until now, and since its last change.
+    /// What `node` has been until now, and since its last change; kept if there are frames.
     void changes(NodeId node, const Leg& leg, bool on);
 
     /// Adds a frame; `begin` must not decrease. @return its serial

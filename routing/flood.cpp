@@ -28,6 +28,7 @@ void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
 
 void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
     auto& by_node = knowledge(link, frame.message);
+    // Together, so that none waits for the one before.
     for (const auto& reception : receptions) __builtin_prefetch(&by_node[reception.node.index()]);
     for (auto& reception : receptions) {
         Knowledge& mine = by_node[reception.node.index()];

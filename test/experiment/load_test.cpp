@@ -425,3 +425,16 @@ TEST_CASE("load: what happened before a storm reached the event limit is not los
     CHECK(metrics.transmissions == shorter.world.copies->transmissions);
     CHECK(metrics.deliveries == 9);
 }
+
+TEST_CASE("load: robots that change all the time while nobody sends leave nothing behind") {
+    Watched watched(disc(10, Collision{}));
+    watched.add({0, 1});
+    watched.send(0, 1ms);
+    watched.net.run_until(start_of_run + 10ms);
+    const std::size_t before = allocated();
+    for (int i = 0; i < 100'000; ++i) {
+        watched.net.place(NodeId{1}, {static_cast<double>(i % 7), 0, 0});
+        watched.net.run_for(1ms);
+    }
+    CHECK(allocated() < before + 100'000);
+}
