@@ -117,7 +117,7 @@ struct Playground {
         const double height = draw.below(2) ? 1 : 2;
         const Radio radio{.power = {draw.uniform(0, 6)},
                           .sensitivity = {-75},
-                          .carrier_sense_threshold = {{-85}},
+                          .carrier_sense_threshold = {{draw.below(2) ? -85.0 : -78.0}},
                           .rate = {draw.below(2) ? 2e6 : 11e6},
                           .antenna_height = {height}};
         radios.push_back(radio);
@@ -238,10 +238,10 @@ struct OpenField {
         net.add_sink(Sink{log});
         net.route(Flood{.ttl = 1});
     }
-    NodeId add(double x, Dbm power = Dbm{0}) {
-        return net.add({.name = {},
-                        .at = {x, 0},
-                        .radio = {.power = power, .sensitivity = {-75}, .rate = {1e6}}});
+    NodeId add(double x, Radio radio = {.power = {0}}) {
+        radio.sensitivity = Dbm{-75};
+        radio.rate = BitRate{1e6};
+        return net.add({.name = {}, .at = {x, 0}, .radio = radio});
     }
     void send(NodeId node, Duration t) {
         net.at(start_of_run + t, [this, node] { net.broadcast(node, "x", 100); });
@@ -270,7 +270,7 @@ TEST_CASE("air: a frame from afar that was over where it was sent meets one wher
     for (const bool later : {false, true}) {
         OpenField space;
         const NodeId robot = space.add(0), near = space.add(30);
-        const NodeId far = space.add(29'979.2458, Dbm{80});  // 100 us away
+        const NodeId far = space.add(29'979.2458, {.power = {80}});  // 100 us away
         space.send(far, 1ms);
         // The far frame ends at 1992 us, and 100 us later at the robot.
         space.send(near, later ? 2095us : 2085us);
@@ -278,5 +278,20 @@ TEST_CASE("air: a frame from afar that was over where it was sent meets one wher
         const auto fates = fates_at(*space.log, robot);
         REQUIRE(fates.size() == 2);
         CHECK(fates[1] == (later ? Fate::waiting : Fate::collided));
+    }
+}
+
+TEST_CASE("air: frames of another network do not disturb, unless it is an open one") {
+    for (const Gate gate : {Gate::network, Gate::none}) {
+        OpenField space;
+        const Radio ours{.power = {0}, .essid = "ours"};
+        const NodeId robot = space.add(0, ours), near = space.add(30, ours);
+        const NodeId other = space.add(10, {.power = {0}, .essid = "theirs", .gate = gate});
+        space.send(near, 1ms);
+        space.send(other, 1100us);
+        space.net.run_for(10ms);
+        const auto fates = fates_at(*space.log, robot);
+        REQUIRE(fates.size() == (gate == Gate::network ? 1 : 2));
+        CHECK(fates[0] == (gate == Gate::network ? Fate::waiting : Fate::collided));
     }
 }

@@ -178,3 +178,30 @@ TEST_CASE("on air: what a node was when a frame began is known as long as the fr
     CHECK(changed > 1000);
     CHECK(unchanged > 1000);
 }
+
+TEST_CASE("on air: nobody is reached farther away than anybody is") {
+    OnAir on_air;
+    on_air.goes(rest({0, 0, 0}), Meters{0});
+    on_air.goes(rest({3, 0, 0}), Meters{4});
+    const auto send = [&](double reach) {
+        on_air.add({.begin = at(0),
+                    .end = at(1),
+                    .origin = {},
+                    .from = NodeId{0},
+                    .heard_within = 1,
+                    .squared_reach = reach * reach,
+                    .flight = 0});
+    };
+    send(2);
+    CHECK(on_air.reach() == 2);
+    send(infinity);
+    CHECK(on_air.reach() == 5);
+    Leg trip = rest({});
+    trip.to = {0, -12, 0};
+    on_air.goes(trip, Meters{0});
+    CHECK(on_air.reach() == 13);
+    Leg leaving = rest({});
+    leaving.velocity = {0, 1, 0};
+    on_air.goes(leaving, Meters{0});  // for ever
+    CHECK(on_air.reach() > 1e12);
+}
