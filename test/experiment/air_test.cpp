@@ -144,7 +144,9 @@ struct Playground {
         for (int i = 0; i < 25; ++i) add();
         for (int i = 0; i < 150; ++i) {
             const Time t = start_of_run + Duration{draw.below(40'000'000)};
-            net.at(t, [this] { net.broadcast(anyone(), "x", 50U + 50U * draw.below(8)); });
+            net.at(t, [this] {
+                net.broadcast(anyone(), "x", 50 + 50 * static_cast<std::uint32_t>(draw.below(8)));
+            });
             for (int k = 0; k < 2; ++k) {
                 net.at(t + Duration{draw.below(1'000'000)}, [this] { change(); });
             }

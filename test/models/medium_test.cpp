@@ -136,7 +136,7 @@ TEST_CASE("medium: who hears is who a search over all pairs finds, for every mod
 }
 
 TEST_CASE("medium: so it is among few kinds of radios, where tables decide with shadowing") {
-    for (const std::size_t kinds : {1, 3}) {
+    for (const std::size_t kinds : {std::size_t{1}, std::size_t{3}}) {
         CAPTURE(kinds);
         Crowd crowd(12);
         std::vector<Radio> radios;

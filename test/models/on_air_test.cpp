@@ -105,7 +105,7 @@ TEST_CASE("on air: frames are forgotten from the first on, as long as they are o
         on_air.forget(t, [&](const Emission& e) { forgotten.push_back(e.flight); });
     };
     std::uint32_t flight = 10;
-    for (const int lasts : {5, 100, 2, 3}) {
+    for (const std::uint32_t lasts : {5U, 100U, 2U, 3U}) {
         on_air.add({.begin = at(flight),
                     .end = at(flight + lasts),
                     .origin = {},
