@@ -128,7 +128,7 @@ bool Engine::advance(Time end, std::uint64_t most_events) {
         const auto event = queue_.pop();
         now_ = event.key.time();
         ++served_;
-        if (!queue_.empty()) medium_.prefetch(queue_.next().node);
+        if (!queue_.empty()) medium_.prefetch(queue_.next().node);  // while this one is served
         serve(event);
     }
     now_ = std::max(now_, end);
