@@ -7,6 +7,7 @@
 #include "experiment/name_table.hpp"
 #include "experiment/network.hpp"
 #include "mobility/planners.hpp"
+#include "models/on_air.hpp"
 #include "sim/scheduler.hpp"
 #include "sim/slots.hpp"
 
@@ -128,8 +129,9 @@ class Engine final : public LinkLayer, public Air {
     Duration longest_delay() const { return medium_.delay(on_air_.reach()); }
     void judge(const Flight& flight, std::span<Reception> receptions);
     void judge_collision(const Emission& judged, const Frames& others, Reception& reception);
-    void judge_sinr(const Flight& flight, const Emission& judged, const Frames& others,
+    void judge_sinr(const SinrFrame& sent, const Emission& judged, const Frames& others,
                     Reception& reception);
+    SinrFrame sinr_frame(const Flight& flight) const;
     std::optional<Arrival> arrival(const Emission& frame, NodeId node);
     static Lock* lock_of(Flight& flight, NodeId node);
     void arrive(const Scheduler<Occurrence>::Event& event);

@@ -59,7 +59,7 @@ void Engine::put_on_air(std::size_t slot, Time end) {
     forget_frames();
     flight.emission = on_air_.add({.begin = now_,
                                    .end = end,
-                                   .origin = medium_.antenna(sender, now_, legs_),
+                                   .origin = medium_.origin(),
                                    .from = sender,
                                    .heard_within = medium_.heard_within(),
                                    .squared_reach = medium_.squared_reach(sender),
@@ -125,6 +125,7 @@ void Engine::judge(const Flight& flight, std::span<Reception> receptions) {
             if (may_matter(e)) near_.push_back(&e);
         });
     }
+    const SinrFrame sent = locks ? sinr_frame(flight) : SinrFrame{};
     for (Reception& r : receptions) {
         if (!medium_.is_on(r.node)) continue;
         const bool near = !settings_.reference && !on_air_.has_changed(r.node);
@@ -135,7 +136,7 @@ void Engine::judge(const Flight& flight, std::span<Reception> receptions) {
         }
         const auto& frames = near ? near_ : all_;
         if (locks) {
-            judge_sinr(flight, judged, frames, r);
+            judge_sinr(sent, judged, frames, r);
         } else if (!frames.empty()) {
             judge_collision(judged, frames, r);
         }
@@ -175,7 +176,16 @@ void Engine::judge_collision(const Emission& judged, const Frames& others, Recep
     }
 }
 
-void Engine::judge_sinr(const Flight& flight, const Emission& judged, const Frames& others,
+/// What judging a flight's receptions takes, but for the receiver's noise.
+SinrFrame Engine::sinr_frame(const Flight& flight) const {
+    const Emission& sent = on_air_[flight.emission];
+    const BitRate rate = rate_of(flight.air);
+    return {.modulation = *modulation_of(rate),
+            .rate = rate.value,
+            .payload = sent.end - sent.begin - medium_.radio(sent.from).preamble};
+}
+
+void Engine::judge_sinr(const SinrFrame& sent, const Emission& judged, const Frames& others,
                         Reception& reception) {
     const NodeId node = reception.node;
     arrivals_.clear();
@@ -187,18 +197,15 @@ void Engine::judge_sinr(const Flight& flight, const Emission& judged, const Fram
     };
     add(judged);
     for (const Emission* frame : others) add(*frame);
-    const BitRate rate = rate_of(flight.air);
-    const Duration preamble = medium_.radio(judged.from).preamble;
+    SinrFrame frame = sent;
+    frame.noise = medium_.noise(node);
     const Fate fate = sinr_receiver_.judge(
-        arrivals_.front(), arrivals_,
-        {.modulation = *modulation_of(rate),
-         .rate = rate.value,
-         .payload = judged.end - judged.begin - preamble,
-         .noise = medium_.noise(node)},
+        arrivals_.front(), arrivals_, frame,
         [&](const Arrival& a) { return medium_.level(a, node).value; },
         [&] {
-            return uniform({settings_.seed, settings_.replication, Purpose::bit_errors,
-                            combine(key(judged.from), key(node)), flight.number, 0});
+            const std::uint64_t pair = combine(key(judged.from), key(node));
+            return uniform({settings_.seed, settings_.replication, Purpose::bit_errors, pair,
+                            flights_[judged.flight].number, 0});
         });
     const bool decoded_but_garbled = is_decoded(fate) && reception.fate == Fate::garbled;
     if (!decoded_but_garbled) reception.fate = fate;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/time.hpp"
 
@@ -8,6 +9,17 @@
 #include <limits>
 
 namespace rovernet {
+
+/// A frame as it was sent.
+struct Emission {
+    Time begin, end;           ///< at the sender
+    Vec3 origin;               ///< [m] the sender's antenna at `begin`
+    NodeId from;               ///< its sender
+    double heard_within;       ///< [m] from the origin: nobody farther is a receiver
+    double squared_reach;      ///< [m^2] nobody farther is disturbed; may be infinite
+    std::uint32_t flight;      ///< known to the caller
+    std::uint64_t serial = 0;  ///< its number, in the order of sending
+};
 
 /// What a receiver at the rung "sinr" made of a frame that it could decode.
 enum class Lock : std::uint8_t {

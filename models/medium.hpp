@@ -4,7 +4,6 @@
 #include "models/arrival.hpp"
 #include "models/candidates.hpp"
 #include "models/neighbour_index.hpp"
-#include "models/on_air.hpp"
 #include "models/pair_cache.hpp"
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
@@ -87,7 +86,8 @@ class Medium {
     /// The same, and those that only sense it: returned in no order, good until the next call.
     std::span<const Found> sensors(NodeId from, Time start, Time end, const Legs& legs,
                                    std::vector<Reception>& receivers);
-    /// [m] how far the farthest of those receivers is
+    /// Of that search: the sender's antenna [m], and how far the farthest receiver is [m].
+    Vec3 origin() const { return origin_; }
     double heard_within() const;
     /// [ns] that a frame is under way.
     Duration delay(double distance) const;
@@ -109,7 +109,7 @@ class Medium {
 
     /// Those that hear `from` at `t`, which must not decrease; good until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
-        find_hearers(from, t, legs);
+        find(from, Strength::decodable, t, legs);
         return found_;
     }
 
@@ -144,9 +144,6 @@ class Medium {
     void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_in_table(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs);
-    void find_hearers(NodeId from, Time t, const Legs& legs) {
-        find(from, Strength::decodable, t, legs);
-    }
     void sort_receivers(Time end, std::vector<Reception>& out);
     void late_receivers(Time end, std::vector<Reception>& out) const;
     void look_from(NodeId from, Time t, const Legs& legs);
@@ -155,8 +152,6 @@ class Medium {
     auto within(NodeId from, double reach2, Use use) const;
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
-    template <class Budget>
-    void find_losses(NodeId from, double reach2, Time t, const Legs& legs, Budget budget);
     std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there);
     LinkBatch batch(NodeId from, Vec3 origin) const;
     double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Db give_up) const;

@@ -52,11 +52,11 @@ void Medium::look_from(NodeId from, Time t, const Legs& legs) {
 /// and may link.
 template <class Use>
 auto Medium::within(NodeId from, double reach2, Use use) const {
-    return [=, this](const Entry& e, Vec3 p) {
+    return [=, this, mine = kind(from)](const Entry& e, Vec3 p) {
         p.z += kinds_.height(e.label);
         const double d2 = squared_distance(origin_, p);
         if (d2 > reach2 || e.node == from || !is_on(e.node)) return;
-        if (kinds_.are_gated() && !may_link(from, e.node)) return;
+        if (!kinds_.may_link(mine, e.label)) return;
         use(e, p, d2);
     };
 }
@@ -131,26 +131,21 @@ void Medium::share_draws(const PairDraws& draws) {
     }
 }
 
-/// Gathers those within reach, with budget(radio) [dB] and the loss of each.
-template <class Budget>
-void Medium::find_losses(NodeId from, double reach2, Time t, const Legs& legs, Budget budget) {
-    candidates_.clear();
-    const bool rests = settings_.keep_losses && !settings_.all_pairs && at_rest(legs.leg(from), t);
-    visit(from, reach2, t, legs, [&](const Entry& e, Vec3 p, double d2) {
-        candidates_.add({.node = e.node,
-                         .rests = rests && at_rest(e, t),
-                         .key = stations_[e.node.index()].key,
-                         .antenna = p,
-                         .squared_distance = d2,
-                         .budget_db = budget(kinds_.radio(e.label)).value});
-    });
-    candidates_.compute_losses(model(from), batch(from, origin_), from, pairs_);
-}
-
 void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs) {
     const Radio& mine = kinds_.radio(kind(from));
-    find_losses(from, kinds_.squared_reach(kind(from), strength), t, legs,
-                [&](const Radio& to) { return kinds_.budget(strength, mine, to); });
+    const bool rests = settings_.keep_losses && !settings_.all_pairs && at_rest(legs.leg(from), t);
+    candidates_.clear();
+    visit(from, kinds_.squared_reach(kind(from), strength), t, legs,
+          [&](const Entry& e, Vec3 p, double d2) {
+              const Db budget = kinds_.budget(strength, mine, kinds_.radio(e.label));
+              candidates_.add({.node = e.node,
+                               .rests = rests && at_rest(e, t),
+                               .key = stations_[e.node.index()].key,
+                               .antenna = p,
+                               .squared_distance = d2,
+                               .budget_db = budget.value});
+          });
+    candidates_.compute_losses(model(from), batch(from, origin_), from, pairs_);
     for (const Candidate& c : candidates_.all()) {
         if (c.loss_db > c.budget_db) continue;
         const bool decodable = strength == Strength::decodable ||
@@ -204,13 +199,13 @@ Duration Medium::delay(double distance) const {
 
 void Medium::receivers(NodeId from, Time start, Time end, const Legs& legs,
                        std::vector<Reception>& out) {
-    find_hearers(from, start, legs);
+    find(from, Strength::decodable, start, legs);
     sort_receivers(end, out);
 }
 
 std::span<const Medium::Found> Medium::sensors(NodeId from, Time start, Time end, const Legs& legs,
                                                std::vector<Reception>& receivers) {
-    find(from, Strength::sensible, start, legs);
+    find(from, Strength::detectable, start, legs);
     sort_receivers(end, receivers);
     return sensors_;
 }
@@ -272,7 +267,7 @@ std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
     seen[from.index()] = true;
     const std::size_t all = stations_.size() - off_ + (is_on(from) ? 0 : 1);
     for (std::size_t next = 0; next < frontier.size() && frontier.size() < all; ++next) {
-        find_hearers(frontier[next], t, legs);
+        find(frontier[next], Strength::decodable, t, legs);
         for (const auto [node, squared_distance] : found_) {
             if (seen[node.index()]) continue;
             seen[node.index()] = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/arrival.hpp"
 #include "models/wrapped_axis.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
@@ -16,17 +17,6 @@
 #include <vector>
 
 namespace rovernet {
-
-/// A frame on air: when and where it was sent.
-struct Emission {
-    Time begin, end;           ///< at the sender
-    Vec3 origin;               ///< [m] the sender's antenna at `begin`
-    NodeId from;               ///< its sender
-    double heard_within;       ///< [m] from the origin: nobody farther is a receiver
-    double squared_reach;      ///< [m^2] nobody farther is disturbed; may be infinite
-    std::uint32_t flight;      ///< known to the caller
-    std::uint64_t serial = 0;  ///< its number, in the order of sending
-};
 
 /// The frames that are on air, and those that were so lately that they may still matter.
 ///

@@ -76,9 +76,9 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
 
 Db RadioKinds::budget(Strength strength, const Radio& from, const Radio& to) const {
     if (strength == Strength::decodable) return link_budget(from, to);
-    const Db sensible = sensing_budget(from, to);
-    if (strength == Strength::sensible || !interference_cut_) return sensible;
-    return std::max(sensible, link_budget(from, to) + (to.sensitivity - weakest_disturbing(to)));
+    const Db detectable = sensing_budget(from, to);
+    if (strength == Strength::detectable || !interference_cut_) return detectable;
+    return std::max(detectable, link_budget(from, to) + (to.sensitivity - weakest_disturbing(to)));
 }
 
 Dbm RadioKinds::weakest_disturbing(const Radio& to) const {

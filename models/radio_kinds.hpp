@@ -21,7 +21,7 @@
 namespace rovernet {
 
 /// What a signal is strong enough for, strongest first.
-enum class Strength { decodable, sensible, disturbing };
+enum class Strength { decodable, detectable, disturbing };
 
 /// How it is decided for whom a signal is strong enough: the cheapest way that its model allows.
 enum class Decision {
@@ -52,8 +52,6 @@ class RadioKinds {
     Dbm noise(Kind kind) const { return kinds_[kind].noise; }
     double height(Kind kind) const { return heights_[kind]; }  ///< [m] of the antenna
 
-    /// Some two kinds may have no link.
-    bool are_gated() const { return gated_; }
     bool may_link(Kind a, Kind b) const {
         return !gated_ || Membership::match(kinds_[a].membership, kinds_[b].membership);
     }
@@ -89,7 +87,7 @@ class RadioKinds {
     void prepare(Kind from);
 
   private:
-    static constexpr std::array strengths = {Strength::decodable, Strength::sensible,
+    static constexpr std::array strengths = {Strength::decodable, Strength::detectable,
                                              Strength::disturbing};
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     /// [m^2], by Strength.
@@ -121,7 +119,7 @@ class RadioKinds {
     std::vector<Propagation> models_;
     std::vector<std::string> essids_ = {"any"};
     std::vector<std::pair<int, Hertz>> channels_;
-    bool gated_ = false;
+    bool gated_ = false;  // some two kinds may have no link
     // By Strength: the largest budget that any kind allows a sender of 0 dBm.
     std::array<Db, strengths.size()> best_budget_ = {Db{-1e300}, Db{-1e300}, Db{-1e300}};
 };

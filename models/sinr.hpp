@@ -35,7 +35,7 @@ struct SinrFrame {
     Modulation modulation;
     double rate;       ///< [bit/s]
     Duration payload;  ///< [ns] how much of its end is payload
-    Dbm noise;         ///< [dBm] of the receiver
+    Dbm noise = {};    ///< [dBm] of the receiver
 };
 
 /// Receivers at this rung: judges frames, one at a time.
