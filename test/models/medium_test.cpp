@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -352,4 +353,32 @@ TEST_CASE("medium: what is left out adds to the noise what the weakest that is t
     Medium wide{{.scene = &field, .interference_cut = Db{60}}};
     wide.add({}, 1, Friis{});
     CHECK(wide.left_out(10).value == doctest::Approx(10 * std::log10(2.0)).epsilon(1e-9));
+}
+
+TEST_CASE("medium: a frame disturbs down to the cut below the sensitivity, or where it is sensed") {
+    const Scene field;
+    const Radio radio{.sensitivity = {-85}};  // nothing weaker is sensed; noise of -93.6 dBm
+    for (const std::optional<Db> cut : {std::optional<Db>{}, std::optional{Db{6}}}) {
+        Medium medium{{.scene = &field, .interference_cut = cut}};
+        medium.add(radio, 1, Friis{});
+        medium.add(radio, 2, Friis{});
+        for (const double below : {-1.0, 1.0, 5.0, 7.0}) {
+            CAPTURE(below);
+            const double loss = radio.power.value - radio.sensitivity.value + below;
+            const double d = Friis{}.reach(Db{loss}, radio.frequency).value;
+            const Emission frame{.begin = start_of_run,
+                                 .end = start_of_run + 1ms,
+                                 .origin = {0, 0, radio.antenna_height.value},
+                                 .from = NodeId{0},
+                                 .heard_within = 0,
+                                 .squared_reach = medium.squared_reach(NodeId{0}),
+                                 .flight = 0};
+            const auto arrival = medium.arrival(frame, NodeId{1}, {d, 0, 0});
+            REQUIRE(arrival.has_value() == (below < (cut ? cut->value : 0)));
+            if (!arrival) continue;
+            const double level = radio.sensitivity.value - below;
+            CHECK(medium.level(*arrival, NodeId{1}).value == doctest::Approx(level).epsilon(1e-9));
+            CHECK(arrival->end == frame.end + medium.delay(d));
+        }
+    }
 }

@@ -140,6 +140,14 @@ TEST_CASE("sinr: who sends hears nothing, and has let go of what it was locked o
     CHECK(r.judge(next) == Fate::waiting);
 }
 
+TEST_CASE("sinr: what it sends later does not free the receiver before") {
+    Receiver r;
+    r.hear(NodeId{1}, at(0), at(100), -50);
+    const auto second = r.hear(NodeId{2}, at(10), at(50), -30);
+    r.hear(here, at(60), at(61), std::numeric_limits<double>::infinity(), false);
+    CHECK(r.judge(second) == Fate::collided);
+}
+
 TEST_CASE("sinr: a draw decides where bits may fail, and none where they cannot") {
     Receiver r;
     const double weak = -94 + certain_sinr(Modulation::cck_11).value - 8;
