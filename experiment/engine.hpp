@@ -137,6 +137,7 @@ class Engine final : public LinkLayer, public Air {
     void arrive(const Scheduler<Occurrence>::Event& event);
     void receive(Flight& flight, std::span<Reception> receptions);
     void hand_up(const Flight& flight, std::span<Reception> receptions);
+    void hand_up_heard(const Flight& flight, std::span<Reception> receptions);
     void receive_broadcast(Flight& flight, std::span<Reception> receptions);
     void receive_unicast(Flight& flight, std::span<Reception> receptions);
     void tell_stations(const Flight& flight, std::span<const Reception> receptions);

@@ -25,7 +25,9 @@ Time Engine::transmit(const AirFrame& air) {
     }
     if (dcf_ || frames_meet_) flight.number = node(frame.sender).transmissions++;
     if (frames_meet_) put_on_air(slot, end);
-    if (medium_.radio(frame.sender).success_rate < 1) garble(flight);
+    const bool errors = medium_.radio(frame.sender).success_rate < 1;
+    if (errors) garble(flight);
+    flight.undisturbed = !errors && !frames_meet_;
     if (flight.receptions.empty()) {
         if (!frames_meet_) flights_.release(slot);
         return end;

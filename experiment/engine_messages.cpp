@@ -77,11 +77,23 @@ void Engine::hand_up(const Flight& flight, std::span<Reception> receptions) {
 
 void Engine::receive_broadcast(Flight& flight, std::span<Reception> receptions) {
     receiving_ = true;
+    if (flight.undisturbed && medium_.all_are_on()) {
+        hand_up(flight, receptions);
+    } else {
+        hand_up_heard(flight, receptions);
+    }
+    receiving_ = false;
+    emit(Received{flight.air.frame, receptions});
+    if (has_reactions_) hand_over(flight, receptions);
+}
+
+/// Hands up those that got through to nodes that are on; says which are off.
+void Engine::hand_up_heard(const Flight& flight, std::span<Reception> receptions) {
+    const auto heard = [&](const Reception& r) {
+        return is_decoded(r.fate) && medium_.is_on(r.node);
+    };
     auto next = receptions.begin();
     while (next != receptions.end()) {
-        const auto heard = [&](const Reception& r) {
-            return is_decoded(r.fate) && medium_.is_on(r.node);
-        };
         const auto deaf = std::find_if_not(next, receptions.end(), heard);
         if (next != deaf) hand_up(flight, {next, deaf});
         next = std::find_if(deaf, receptions.end(), heard);
@@ -89,9 +101,6 @@ void Engine::receive_broadcast(Flight& flight, std::span<Reception> receptions) 
             if (!medium_.is_on(r->node)) r->fate = Fate::off;
         }
     }
-    receiving_ = false;
-    emit(Received{flight.air.frame, receptions});
-    if (has_reactions_) hand_over(flight, receptions);
 }
 
 void Engine::hand_over(const Flight& flight, std::span<const Reception> receptions) {

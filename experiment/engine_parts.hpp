@@ -36,6 +36,7 @@ struct Flight {
     std::vector<Reception> receptions;
     std::vector<Lock> locks;  // of the receptions, at the rung "sinr"
     std::size_t arrived = 0;
+    bool undisturbed = false;  // who hears it gets it without errors
 };
 
 /// Shared, so that a callback keeps its state and outlives its being replaced while it runs.

@@ -63,7 +63,8 @@ class Medium {
     }
 
     void switch_radio(NodeId node, bool on);
-    bool is_on(NodeId node) const { return off_ == 0 || stations_[node.index()].on; }
+    bool all_are_on() const { return off_ == 0; }
+    bool is_on(NodeId node) const { return all_are_on() || stations_[node.index()].on; }
     /// What add() was given.
     std::uint64_t key(NodeId node) const { return stations_[node.index()].key; }
     const Radio& radio(NodeId node) const { return radios_[stations_[node.index()].radio]; }
@@ -88,7 +89,7 @@ class Medium {
                                    std::vector<Reception>& receivers);
     /// Of that search: the sender's antenna [m], and how far the farthest receiver is [m].
     Vec3 origin() const { return origin_; }
-    double heard_within() const;
+    double heard_within() const { return std::sqrt(squared_heard_within_); }
     /// [ns] that a frame is under way.
     Duration delay(double distance) const;
 
@@ -145,7 +146,10 @@ class Medium {
     void find_in_table(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs);
     void sort_receivers(Time end, std::vector<Reception>& out);
-    void late_receivers(Time end, std::vector<Reception>& out) const;
+    void take(NodeId node, double squared_distance) {
+        found_.push_back({node, squared_distance});
+        squared_heard_within_ = std::max(squared_heard_within_, squared_distance);
+    }
     void look_from(NodeId from, Time t, const Legs& legs);
     void share_draws(const PairDraws& draws);
     template <class Use>
@@ -170,7 +174,7 @@ class Medium {
     // What is under work, kept for its memory.
     Vec3 origin_;
     std::vector<Found> found_, sensors_;
-    std::vector<std::uint64_t> order_;
+    double squared_heard_within_ = 0;  // [m^2] of those found
     Candidates candidates_;
 };
 

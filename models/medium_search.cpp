@@ -2,8 +2,10 @@
 // Who is within reach: what every transmission asks.
 #include "models/friis.hpp"
 #include "models/medium.hpp"
+#include "models/rough_ranks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -64,13 +66,14 @@ auto Medium::within(NodeId from, double reach2, Use use) const {
 template <class Use>
 void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use) {
     look_from(from, t, legs);
-    index_.visit(origin_, std::sqrt(reach2), t, legs, within(from, reach2, use));
+    index_.visit(origin_, std::sqrt(std::max(reach2, 0.0)), t, legs, within(from, reach2, use));
 }
 
 /// Those for whom a signal of `from` is strong enough: in found_ who can decode it, in sensors_ the
 /// others.
 void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs) {
     found_.clear();
+    squared_heard_within_ = 0;
     sensors_.clear();
     kinds_.prepare(kind(from));
     switch (kinds_.decision(kind(from))) {
@@ -82,15 +85,23 @@ void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs) {
 
 void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& legs) {
     const Kind mine = kind(from);
-    const double reach2 = kinds_.squared_reach(mine, strength);
-    visit(from, reach2, t, legs, [&](const Entry& e, Vec3, double d2) {
-        if (kinds_.in_range(mine, e.label, Strength::decodable, d2)) {
-            found_.push_back({e.node, d2});
-        } else if (strength != Strength::decodable &&
-                   kinds_.in_range(mine, e.label, strength, d2)) {
-            sensors_.push_back({e.node, d2});
-        }
-    });
+    const bool alike = kinds_.size() == 1;
+    if (alike && strength == Strength::decodable) {
+        const double range2 = kinds_.squared_range(mine, mine, strength);
+        return visit(from, range2, t, legs,
+                     [&](const Entry& e, Vec3, double d2) { take(e.node, d2); });
+    }
+    const auto in_range = [&](const Entry& e, Strength s, double d2) {
+        return d2 <= kinds_.squared_range(mine, e.label, s);
+    };
+    visit(from, kinds_.squared_reach(mine, strength), t, legs,
+          [&](const Entry& e, Vec3, double d2) {
+              if (in_range(e, Strength::decodable, d2)) {
+                  take(e.node, d2);
+              } else if (strength != Strength::decodable && in_range(e, strength, d2)) {
+                  sensors_.push_back({e.node, d2});
+              }
+          });
 }
 
 void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& legs) {
@@ -105,19 +116,20 @@ void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& l
         // Who can decode it senses it, too.
         const bool decodes =
             strength == Strength::decodable || in_range(e, d2, Strength::decodable);
-        (decodes ? found_ : sensors_).push_back({e.node, d2});
+        if (decodes) {
+            take(e.node, d2);
+        } else {
+            sensors_.push_back({e.node, d2});
+        }
     };
     // Their draws rule out most before anything else about them is looked at.
     const PairDraws draws = shadowing_draws(settings_.seed, settings_.replication);
     const std::uint64_t share = draws.share(key);
     if (std::exchange(shares_of_bin_, index_.bins()) != index_.bins()) share_draws(draws);
-    const ShadowedRange* const only = kinds_.size() == 1 ? &kinds_.table(0, 0, strength) : nullptr;
-    const std::uint64_t* const shares = shares_.data();
-    const auto passes = [=, this](std::uint32_t place, double at_least) {
-        const std::uint64_t bits = PairDraws::bits_of_shares(share, shares[place]);
-        if (only) return only->may_be_in_range(at_least, bits);
-        return kinds_.table(mine, index_.entries()[place].label, strength)
-            .may_be_in_range(at_least, bits);
+    const FirstLook& look = kinds_.first_look(mine, strength);
+    const auto passes = [share, &look, shares = shares_.data()](std::uint32_t place,
+                                                                float at_least) {
+        return look.passes(at_least, PairDraws::bits_of_shares(share, shares[place]));
     };
     const double reach2 = kinds_.squared_reach(mine, strength);
     index_.visit_if(origin_, std::sqrt(reach2), t, legs, passes, within(from, reach2, use));
@@ -150,7 +162,11 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
         if (c.loss_db > c.budget_db) continue;
         const bool decodable = strength == Strength::decodable ||
                                c.loss_db <= link_budget(mine, kinds_.radio(kind(c.node))).value;
-        (decodable ? found_ : sensors_).push_back({c.node, c.squared_distance});
+        if (decodable) {
+            take(c.node, c.squared_distance);
+        } else {
+            sensors_.push_back({c.node, c.squared_distance});
+        }
     }
 }
 
@@ -163,7 +179,7 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
     kinds_.prepare(mine);
     switch (kinds_.decision(mine)) {
         case Decision::by_range:
-            if (!kinds_.in_range(mine, theirs, Strength::disturbing, d2)) return std::nullopt;
+            if (d2 > kinds_.squared_range(mine, theirs, Strength::disturbing)) return std::nullopt;
             break;
         case Decision::by_table: {
             const auto& table = kinds_.table(mine, theirs, Strength::disturbing);
@@ -210,55 +226,38 @@ std::span<const Medium::Found> Medium::sensors(NodeId from, Time start, Time end
     return sensors_;
 }
 
-double Medium::heard_within() const {
-    double most = 0;
-    for (const Found& f : found_) most = std::max(most, f.squared_distance);
-    return std::sqrt(most);
-}
-
 /// Appends those found, in the order in which a frame that ends at `end` ends at them.
 void Medium::sort_receivers(Time end, std::vector<Reception>& out) {
-    // One number to sort by: the delay, then the node.
-    order_.resize(found_.size());
-    std::uint64_t longest = 0;
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-        const Duration under_way = delay(std::sqrt(found_[i].squared_distance));
-        const auto count = static_cast<std::uint64_t>(under_way.count());
-        longest = std::max(longest, count);
-        order_[i] = count << 32 | found_[i].node.value;
-    }
-    if (longest >> 32 != 0) return late_receivers(end, out);
-    const std::size_t first = out.size();
-    out.resize(first + order_.size());
-    const auto put = [&](std::size_t place, std::uint64_t key) {
-        const Duration under_way{static_cast<std::int64_t>(key >> 32)};
-        out[first + place].node = NodeId{static_cast<std::uint32_t>(key)};
-        out[first + place].time = end + under_way;
+    const std::size_t first = out.size(), count = found_.size();
+    out.resize(first + count);
+    Reception* const sorted = out.data() + first;
+    const auto put = [&, end](std::size_t place, const Found& f) {
+        sorted[place].node = f.node;
+        sorted[place].time = end + delay(std::sqrt(f.squared_distance));
     };
-    // To count the lesser ones of each takes more comparisons than to sort, and no branch that
-    // goes either way: faster among few.
-    constexpr std::size_t few = 32;
-    if (order_.size() <= few) {
-        for (const std::uint64_t key : order_) {
-            std::size_t lesser = 0;
-            for (const std::uint64_t other : order_) lesser += other < key;
-            put(lesser, key);
-        }
+    const auto sooner = [](const Reception& a, const Reception& b) {
+        return a.time != b.time ? a.time < b.time : a.node < b.node;
+    };
+    if (count > RoughRanks::most) {
+        for (std::size_t i = 0; i < count; ++i) put(i, found_[i]);
+        std::sort(sorted, sorted + count, sooner);
         return;
     }
-    std::sort(order_.begin(), order_.end());
-    for (std::size_t i = 0; i < order_.size(); ++i) put(i, order_[i]);
-}
-
-/// As sort_receivers(), of those found, some of which are more than four light seconds away.
-void Medium::late_receivers(Time end, std::vector<Reception>& out) const {
-    const auto first = static_cast<std::ptrdiff_t>(out.size());
-    for (const Found& f : found_) {
-        out.push_back({.node = f.node, .time = end + delay(std::sqrt(f.squared_distance))});
+    // Among robots that are spread evenly, squared distances are.
+    const double farthest = squared_heard_within_;
+    const double scale = farthest > 0 ? (RoughRanks::seats - 1) / farthest : 0;
+    std::array<std::uint32_t, RoughRanks::most> seats;
+    RoughRanks ranks;
+    for (std::size_t i = 0; i < count; ++i) {
+        seats[i] = ranks.take(static_cast<std::uint32_t>(found_[i].squared_distance * scale));
     }
-    std::sort(out.begin() + first, out.end(), [](const Reception& a, const Reception& b) {
-        return a.time != b.time ? a.time < b.time : a.node < b.node;
-    });
+    ranks.count();
+    for (std::size_t i = 0; i < count; ++i) put(ranks.rank(seats[i]), found_[i]);
+    for (std::size_t i = 1; i < count; ++i) {
+        for (std::size_t k = i; k > 0 && sooner(sorted[k], sorted[k - 1]); --k) {
+            std::swap(sorted[k], sorted[k - 1]);
+        }
+    }
 }
 
 std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {

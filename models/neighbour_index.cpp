@@ -45,50 +45,53 @@ void NeighbourIndex::moved(NodeId node, const Legs& legs) {
     entries_[place] = now;
 }
 
-std::span<const std::uint32_t> NeighbourIndex::near(Vec3 centre, double reach) {
-    found_ = 0;
+std::span<std::uint32_t> NeighbourIndex::near(Vec3 centre, double reach) {
     const auto columns = columns_.near(centre.x, reach);
     const auto rows = rows_.near(centre.y, reach);
-    const double wide = reach + rounding(centre, reach);
-    const auto reach2 = static_cast<float>(wide * wide);
     const auto x = static_cast<float>(centre.x), y = static_cast<float>(centre.y);
+    std::size_t count = 0;
     rows.each([&](std::size_t bottom, std::size_t top) {
         for (std::size_t row = bottom; row < top; ++row) {
             const std::uint32_t* const first = first_.data() + row * columns_.cells();
             columns.each([&](std::size_t left, std::size_t right) {
-                look_through(first[left], first[right], x, y, reach2);
+                count = look_through(first[left], first[right], x, y, count);
             });
         }
     });
-    return {near_.data(), found_};
+    looked_at_ += count + 1;
+    // Without a branch: it would be mispredicted for many.
+    const double wide = reach + rounding(centre, reach);
+    const auto reach2 = static_cast<float>(wide * wide);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        near_[found] = near_[i];
+        found += distance2_[i] <= reach2;
+    }
+    return {near_.data(), found};
 }
 
-/// Adds those near to near_: first the distances of several at once, then without a branch that
-/// would be mispredicted.
-void NeighbourIndex::look_through(std::uint32_t begin, std::uint32_t end, float x, float y,
-                                  float reach2) {
-    looked_at_ += end - begin + 1;
-    if (near_.size() < found_ + (end - begin)) near_.resize(2 * (found_ + (end - begin)));
-    std::array<float, 64> distance2;
-    while (begin < end) {
-        const std::uint32_t count = std::min<std::uint32_t>(end - begin, distance2.size());
-        const float* const xs = x_.data() + begin;
-        const float* const ys = y_.data() + begin;
-        for (std::uint32_t group = 0; group < count; group += at_once) {
-            for (std::uint32_t k = group; k < group + at_once; ++k) {
-                const float dx = xs[k] - x, dy = ys[k] - y;
-                distance2[k] = dx * dx + dy * dy;
-            }
-        }
-        std::uint32_t* const near = near_.data();
-        std::size_t found = found_;
-        for (std::uint32_t k = 0; k < count; ++k) {
-            near[found] = begin + k;
-            found += distance2[k] <= reach2;
-        }
-        found_ = found;
-        begin += count;
+/// Puts entries and their squared distances from (x, y) behind the `count` first of near_ and
+/// distance2_, several at once. @return their number then
+std::size_t NeighbourIndex::look_through(std::uint32_t begin, std::uint32_t end, float x, float y,
+                                         std::size_t count) {
+    const std::size_t most = count + (end - begin) + at_once;
+    if (near_.size() < most) {
+        near_.resize(2 * most);
+        distance2_.resize(2 * most);
     }
+    const float *const xs = x_.data() + begin, *const ys = y_.data() + begin;
+    std::uint32_t* const places = near_.data() + count;
+    float* const distance2 = distance2_.data() + count;
+    for (std::uint32_t group = 0; group < end - begin; group += at_once) {
+        std::array<float, at_once> squares;
+        for (std::uint32_t k = 0; k < at_once; ++k) {
+            const float dx = xs[group + k] - x, dy = ys[group + k] - y;
+            squares[k] = dx * dx + dy * dy;
+        }
+        std::copy(squares.begin(), squares.end(), distance2 + group);
+        for (std::uint32_t k = 0; k < at_once; ++k) places[group + k] = begin + group + k;
+    }
+    return count + (end - begin);
 }
 
 /// Moves a node out of its cell, where an entry that is nowhere remains.

@@ -83,15 +83,20 @@ class NeighbourIndex {
         for (const Entry& e : apart_) visit(e, position(e, t, legs));
         const double reach = radius + slack(t);
         const auto x = static_cast<float>(centre.x), y = static_cast<float>(centre.y);
+        // (d - off)^2 >= d^2 - 2 off d, and single precision rounds.
         const double off = slack(t) + rounding(centre, reach);
-        for (const std::uint32_t i : near(centre, reach)) {
+        const auto less = static_cast<float>(2 * off * (reach + off) * (1 + 1e-6));
+        const std::span<std::uint32_t> places = near(centre, reach);
+        std::size_t passed = 0;
+        for (const std::uint32_t i : places) {
             const float dx = x_[i] - x, dy = y_[i] - y;
-            // (d - off)^2 >= d^2 - 2 off d, and single precision rounds the sum.
-            const double at_least =
-                (1 - 1e-6) * static_cast<double>(dx * dx + dy * dy) - 2 * off * (reach + off);
-            if (passes(i, at_least > 0 ? at_least : 0.0)) {
-                visit(entries_[i], position(entries_[i], t, legs));
-            }
+            const float at_least = (1 - 1e-6F) * (dx * dx + dy * dy) - less;
+            // Without a branch: it would be mispredicted for most that pass.
+            places[passed] = i;
+            passed += passes(i, at_least > 0 ? at_least : 0.0F);
+        }
+        for (const std::uint32_t i : places.first(passed)) {
+            visit(entries_[i], position(entries_[i], t, legs));
         }
     }
     /// The nodes in the order of their cells, but for those kept apart; good until the next bin.
@@ -118,8 +123,9 @@ class NeighbourIndex {
         return 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
     }
     /// The entries that were binned within `reach` [m] of `centre`, and some others.
-    std::span<const std::uint32_t> near(Vec3 centre, double reach);
-    void look_through(std::uint32_t begin, std::uint32_t end, float x, float y, float reach2);
+    std::span<std::uint32_t> near(Vec3 centre, double reach);
+    std::size_t look_through(std::uint32_t begin, std::uint32_t end, float x, float y,
+                             std::size_t count);
 
     static Entry entry(NodeId node, std::uint32_t label, const Leg& leg) {
         return {leg.from, leg.velocity, leg.start, leg.end, node, label};
@@ -136,7 +142,7 @@ class NeighbourIndex {
     std::vector<Entry> entries_;         // in the order of their cells
     std::vector<float> x_, y_;           // [m] where they were binned
     std::vector<std::uint32_t> near_;    // begins with the result of near()
-    std::size_t found_ = 0;              // by near() so far
+    std::vector<float> distance2_;       // [m^2] of what near() looked at
     std::vector<std::uint32_t> first_;   // entry of a cell; one more than there are cells
     std::vector<std::uint32_t> place_;   // of a node in entries_, or in apart_
     std::vector<Entry> apart_;

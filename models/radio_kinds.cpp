@@ -103,7 +103,10 @@ double RadioKinds::squared_reach(Kind from, Strength strength) {
 void RadioKinds::prepare(Kind from) {
     Alike& mine = kinds_[from];
     if (mine.cheapest == Decision::by_range) mine.range2.resize(kinds_.size());
-    if (decision(from) == Decision::by_table) mine.tables.resize(kinds_.size());
+    if (decision(from) == Decision::by_table && mine.tables.size() < kinds_.size()) {
+        mine.tables.resize(kinds_.size());
+        mine.looks = {};
+    }
 }
 
 double RadioKinds::compute_range(Kind from, Kind to, Strength strength) {
@@ -117,6 +120,12 @@ ShadowedRange RadioKinds::make_table(Kind from, Kind to, Strength strength) cons
     const Radio& sender = radio(from);
     return {*model(from).shadowed_loss(sender.frequency), budget(strength, sender, radio(to)),
             draws_};
+}
+
+FirstLook RadioKinds::make_look(Kind from, Strength strength) {
+    FirstLook look(squared_reach(from, strength));
+    for (Kind to = 0; to < size(); ++to) look.let_pass(table(from, to, strength));
+    return look;
 }
 
 }  // namespace rovernet

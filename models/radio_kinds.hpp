@@ -70,11 +70,10 @@ class RadioKinds {
         const bool pays = cheapest != Decision::by_table || kinds_.size() <= most_tables;
         return pays ? cheapest : Decision::by_loss;
     }
-    /// Decides by_range.
-    bool in_range(Kind from, Kind to, Strength strength, double squared_distance) {
+    /// Decides by_range: in range is who is no farther than that [m^2]; negative if nobody is.
+    double squared_range(Kind from, Kind to, Strength strength) {
         const double range2 = kinds_[from].range2[to][strength];
-        if (squared_distance <= range2) return true;
-        return std::isnan(range2) && squared_distance <= compute_range(from, to, strength);
+        return std::isnan(range2) ? compute_range(from, to, strength) : range2;
     }
     /// Decides by_table.
     const ShadowedRange& table(Kind from, Kind to, Strength strength) {
@@ -83,7 +82,14 @@ class RadioKinds {
             table = make_table(from, to, strength);
         return *table;
     }
-    /// To be called before in_range() and table() are asked about `from`.
+    /// Decides by_table whom a sender may reach.
+    const FirstLook& first_look(Kind from, Strength strength) {
+        auto& look = kinds_[from].looks[static_cast<std::size_t>(strength)];
+        if (!look) [[unlikely]]
+            look = make_look(from, strength);
+        return *look;
+    }
+    /// To be called before squared_range(), table() and first_look() are asked about `from`.
     void prepare(Kind from);
 
   private:
@@ -104,13 +110,15 @@ class RadioKinds {
         Dbm noise;
         std::size_t stations = 1;
         SquaredDistances reach2 = {};
-        std::vector<SquaredDistances> range2 = {};  // to each kind
-        std::vector<Tables> tables = {};            // to each kind
+        std::vector<SquaredDistances> range2 = {};                          // to each kind
+        std::vector<Tables> tables = {};                                    // to each kind
+        std::array<std::optional<FirstLook>, strengths.size()> looks = {};  // at all
     };
 
     Membership membership(const Radio& radio);
     double compute_range(Kind from, Kind to, Strength strength);
     ShadowedRange make_table(Kind from, Kind to, Strength strength) const;
+    FirstLook make_look(Kind from, Strength strength);
 
     std::optional<Db> interference_cut_;
     PairDraws draws_;

@@ -6,6 +6,7 @@
 #include "sim/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -65,11 +66,11 @@ class ShadowedRange {
         return draw < here.sure;
     }
 
-    /// A first look: false only if the robots of these bits of the draws() are out of range at all
-    /// squared distances [m^2] from `at_least` on.
-    bool may_be_in_range(double at_least, std::uint64_t bits) const {
+    /// Of the draws 0, 1 ... 2^31 - 1, only so many first ones may be in range at squared distances
+    /// [m^2] from `at_least` on.
+    std::uint32_t most_draws(double at_least) const {
         const Cell& nearest = cell(at_least);
-        return static_cast<std::uint32_t>(bits >> 33) < nearest.sure + nearest.open;
+        return nearest.sure + nearest.open;
     }
     const PairDraws& draws() const { return draws_; }
 
@@ -104,6 +105,35 @@ class ShadowedRange {
     std::uint64_t first_ = 0;  // number of the first cell, which begins at 0
     std::uint64_t last_ = 0;   // number of the last cell, which has no end
     std::vector<Cell> cells_;
+};
+
+/// A first look at pairs that rules out most of those that are out of range: coarser than
+/// ShadowedRange and cheaper.
+class FirstLook {
+  public:
+    /// @param squared_reach  [m^2] nobody farther is in range
+    explicit FirstLook(double squared_reach) : scale_(static_cast<float>(cells / squared_reach)) {}
+
+    /// Lets those pass, too, that are in `range`.
+    void let_pass(const ShadowedRange& range) {
+        for (std::size_t i = 0; i < most_draws_.size(); ++i) {
+            // Its nearer edge, but for rounding.
+            const double nearest = i == 0 ? 0 : (1 - 1e-6) * static_cast<double>(i) / scale_;
+            most_draws_[i] = std::max(most_draws_[i], range.most_draws(nearest));
+        }
+    }
+    /// False only if pairs of these bits of the draws are out of range at all squared distances
+    /// [m^2] from `at_least` on, >= 0.
+    bool passes(float at_least, std::uint64_t bits) const {
+        const auto cell = static_cast<std::uint32_t>(std::min<float>(cells, at_least * scale_));
+        return bits >> 33 < most_draws_[cell];
+    }
+
+  private:
+    static constexpr std::uint16_t cells = 255;  // the last one has no end
+
+    float scale_;  // [1/m^2]
+    std::array<std::uint32_t, cells + 1> most_draws_{};
 };
 
 }  // namespace rovernet

@@ -46,12 +46,13 @@ Fate FloodRouter::fate_of(LinkLayer& link, const Frame& frame, const Reception& 
         wait(link, frame, reception);
         return Fate::waiting;
     }
-    if (mine.is(Knowledge::waiting) && lifts(frame, mine)) {
-        copies_[mine.copy()] = frame;
-        return Fate::duplicate;
+    if (!mine.is(Knowledge::unheard)) {
+        if (!flood_.upgrade || !lifts(frame, mine)) return Fate::duplicate;
+        if (mine.is(Knowledge::waiting)) {
+            copies_[mine.copy()] = frame;
+            return Fate::duplicate;
+        }
     }
-    const bool revives = mine.is(Knowledge::ended) && lifts(frame, mine);
-    if (!mine.is(Knowledge::unheard) && !revives) return Fate::duplicate;
     if (last_hop) {
         mine = Knowledge::ended;
         return Fate::ttl;
@@ -62,7 +63,7 @@ Fate FloodRouter::fate_of(LinkLayer& link, const Frame& frame, const Reception& 
 
 /// Whether a late copy has a higher TTL than the one that the node has not sent.
 bool FloodRouter::lifts(const Frame& frame, const Knowledge& known) const {
-    if (!flood_.upgrade) return false;
+    if (known.is(Knowledge::sent)) return false;
     const int ttl = known.is(Knowledge::waiting) ? copies_[known.copy()].ttl : 1;
     return frame.ttl > ttl;
 }

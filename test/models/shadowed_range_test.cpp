@@ -278,6 +278,53 @@ TEST_CASE("shadowed range: less than one link in a hundred is computed, wherever
     CHECK(sum / looks < 0.002);
 }
 
+TEST_CASE("first look: lets all pass that are in range of somebody, and few others") {
+    Numbers draw(77);
+    for (int network = 0; network < 40; ++network) {
+        const ShadowedLoss loss{.at_reference = draw.uniform(20, 60),
+                                .per_decade = draw.uniform(15, 60),
+                                .reference_distance = 1,
+                                .sigma = draw.uniform(0, 12)};
+        const PairDraws draws = shadowing_draws(draw.bits(), 0);
+        const double budget = draw.uniform(60, 110), less = draw.uniform(0, 15);
+        const ShadowedRange keen(loss, Db{budget}, draws), dull(loss, Db{budget - less}, draws);
+        const double reach = loss.distance(budget + ShadowedLoss::cut_sigmas * loss.sigma);
+        FirstLook look(reach * reach), of_the_dull(reach * reach);
+        look.let_pass(dull);
+        look.let_pass(keen);
+        of_the_dull.let_pass(dull);
+        int passed = 0, in_range = 0;
+        for (std::uint64_t i = 0; i < 5000; ++i) {
+            const double d2 = draw.uniform(0, reach * reach);
+            const auto at_least =
+                static_cast<float>(d2 * (draw.uniform(0, 1) < 0.5 ? 1 - 1e-6 : 0.5));
+            const bool passes = look.passes(at_least, draws.bits(7, i));
+            if (keen.in_range(d2, 7, i)) REQUIRE(passes);
+            if (dull.in_range(d2, 7, i)) REQUIRE(of_the_dull.passes(at_least, draws.bits(7, i)));
+            const bool nearly_exact = static_cast<double>(at_least) > 0.9 * d2;
+            passed += passes && nearly_exact;
+            in_range += keen.in_range(d2, 7, i) && nearly_exact;
+        }
+        CHECK(passed <= in_range + 100);
+    }
+}
+
+TEST_CASE("first look: of no reach and of one without end") {
+    const ShadowedLoss loss{
+        .at_reference = 40, .per_decade = 30, .reference_distance = 1, .sigma = 4};
+    const PairDraws draws = shadowing_draws(3, 1);
+    for (const double reach2 : {0.0, 1e-300, 1e300, infinity}) {
+        const ShadowedRange range(loss, Db{reach2 > 1 ? 1e5 : 100}, draws);
+        FirstLook look(reach2);
+        look.let_pass(range);
+        for (const double d2 : {0.0, 1.0, 1e4, 1e30}) {
+            if (range.in_range(d2, 1, 2)) {
+                CHECK(look.passes(static_cast<float>(d2), draws.bits(1, 2)));
+            }
+        }
+    }
+}
+
 TEST_CASE("shadowed range: a model that offers it is decided by it, and says so itself") {
     for_each_model([]<class Model>() {
         const Propagation model{[] {
