@@ -2,7 +2,9 @@
 #pragma once
 
 #include "sim/event_heap.hpp"
+#include "sim/event_line.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,18 +20,23 @@ namespace rovernet {
 /// the nearest bucket fills it; one that holds too much is first dealt out to lower levels. So a
 /// key moves a few times, always to the end of a bucket. A small queue is the heap alone.
 ///
+/// Frames last about equally long, so that their ends come nearly in order: they stand in a line of
+/// their own, but for those that come before many.
+///
 /// Keys may come in any order, also before top(). Memory follows the most keys ever pending:
 /// buckets share chunks of 64 keys, of which those not full hold at most 0.5 MB.
 ///
 /// Source: R. K. Ahuja et al., J. ACM 37(2), 1990 (the radix heap; here lazy, and not monotone).
 class EventQueue {
   public:
-    bool empty() const { return heap_.empty(); }
-    std::size_t size() const { return heap_.size() + filed_; }
+    bool empty() const { return heap_.empty() && line_.empty(); }
+    std::size_t size() const { return heap_.size() + filed_ + line_.size(); }
     /// The least key; if there is none, the default key.
-    EventKey top() const { return heap_.top(); }
+    EventKey top() const { return top_; }
 
     void push(EventKey key) {
+        top_ = std::min(top_, key);
+        if (key.priority() == Priority::frame_end && line_.push(key)) return;
         if (rank(key) > heap_end_) return file(key);
         heap_.push(key);
         if (heap_.size() > heap_limit_) spill();
@@ -37,13 +44,19 @@ class EventQueue {
 
     /// Removes top(); there must be one.
     void pop() {
-        heap_.pop();
-        if (heap_.empty()) refill();
+        if (line_.front() == top_) {
+            line_.pop();
+        } else {
+            heap_.pop();
+            if (heap_.empty()) refill();
+        }
+        top_ = std::min(line_.front(), heap_.top());
     }
 
     /// Removes every key that `keep` refuses.
     template <class Keep>
     void filter(Keep keep) {
+        line_.filter(keep);
         heap_.filter(keep);
         for (std::size_t level = 0; level < levels; ++level) {
             refile(level, [&](EventKey key) {
@@ -51,6 +64,7 @@ class EventQueue {
             });
         }
         if (heap_.empty()) refill();
+        top_ = std::min(line_.front(), heap_.top());
     }
 
   private:
@@ -112,8 +126,10 @@ class EventQueue {
         }
     }
 
-    // Every key up to heap_end_ is in the heap, every other one in the bucket that place() tells.
-    // The heap is empty only if all is.
+    EventKey top_;
+    EventLine line_;
+    // Of the other keys, all up to heap_end_ are in the heap, the rest in the buckets that place()
+    // tells. The heap is empty only if these are.
     EventHeap heap_;
     Rank heap_end_ = ~Rank{0};
     Rank base_ = 0;
