@@ -125,11 +125,11 @@ class Engine final : public LinkLayer, public Air {
     void keep_past(NodeId id, bool on);
     void count_on_air(Time end);
     void garble(Flight& flight);
-    using Frames = std::vector<const Emission*>;
+    using Frames = std::span<const Emission* const>;
     Duration longest_delay() const { return medium_.delay(on_air_.reach()); }
     void judge(const Flight& flight, std::span<Reception> receptions);
-    void judge_collision(const Emission& judged, const Frames& others, Reception& reception);
-    void judge_sinr(const SinrFrame& sent, const Emission& judged, const Frames& others,
+    void judge_collision(const Emission& judged, Frames others, Reception& reception);
+    void judge_sinr(const SinrFrame& sent, const Emission& judged, Frames others,
                     Reception& reception);
     SinrFrame sinr_frame(const Flight& flight) const;
     std::optional<Arrival> arrival(const Emission& frame, NodeId node);
@@ -168,10 +168,10 @@ class Engine final : public LinkLayer, public Air {
     std::vector<Sink> sinks_;
     KindMask wanted_ = 0;
     Slots<Flight> flights_;
-    bool frames_meet_;               // the rung is above threshold
-    OnAir on_air_;                   // if frames meet
-    Frames near_, all_;              // what the flight that is judged may meet ...
-    std::vector<Arrival> arrivals_;  // ... at one of its receivers
+    bool frames_meet_;                  // the rung is above threshold
+    OnAir on_air_;                      // if frames meet
+    std::vector<const Emission*> all_;  // what the flight that is judged may meet ...
+    std::vector<Arrival> arrivals_;     // ... at one of its receivers
     SinrReceiver sinr_receiver_;
     std::vector<Time> ends_;       // at the rung sinr, of the frames that are on air
     std::size_t most_on_air_ = 0;  // of them at a time

@@ -117,26 +117,19 @@ void Engine::judge(const Flight& flight, std::span<Reception> receptions) {
     // its receivers may have locked on to before.
     const Time since = judged.begin - longest_delay() - (locks ? on_air_.longest() : Duration{0});
     const Time until = judged.end + longest_delay();
-    const auto may_matter = [&](const Emission& e) {
-        return e.end > since && e.begin < until && e.serial != judged.serial;
-    };
-    near_.clear();
+    const Frames nearby = settings_.reference ? Frames{} : on_air_.near(judged, since, until, now_);
     all_.clear();
-    if (!settings_.reference) {
-        on_air_.each_near(judged, now_, [&](const Emission& e) {
-            if (may_matter(e)) near_.push_back(&e);
-        });
-    }
     const SinrFrame sent = locks ? sinr_frame(flight) : SinrFrame{};
     for (Reception& r : receptions) {
         if (!medium_.is_on(r.node)) continue;
         const bool near = !settings_.reference && !on_air_.has_changed(r.node);
         if (!near && all_.empty()) {
             for (const Emission& e : on_air_.frames()) {
-                if (may_matter(e)) all_.push_back(&e);
+                const bool may_matter = e.end > since && e.begin < until;
+                if (may_matter && e.serial != judged.serial) all_.push_back(&e);
             }
         }
-        const auto& frames = near ? near_ : all_;
+        const Frames frames = near ? nearby : Frames{all_};
         if (locks) {
             judge_sinr(sent, judged, frames, r);
         } else if (!frames.empty()) {
@@ -157,7 +150,7 @@ std::optional<Arrival> Engine::arrival(const Emission& frame, NodeId node) {
     return medium_.arrival(frame, node, legs_.position(node, frame.begin));
 }
 
-void Engine::judge_collision(const Emission& judged, const Frames& others, Reception& reception) {
+void Engine::judge_collision(const Emission& judged, Frames others, Reception& reception) {
     const NodeId node = reception.node;
     const auto& rung = std::get<Collision>(settings_.reception);
     constexpr double open = std::numeric_limits<double>::quiet_NaN();
@@ -187,7 +180,7 @@ SinrFrame Engine::sinr_frame(const Flight& flight) const {
             .payload = sent.end - sent.begin - medium_.radio(sent.from).preamble};
 }
 
-void Engine::judge_sinr(const SinrFrame& sent, const Emission& judged, const Frames& others,
+void Engine::judge_sinr(const SinrFrame& sent, const Emission& judged, Frames others,
                         Reception& reception) {
     const NodeId node = reception.node;
     arrivals_.clear();

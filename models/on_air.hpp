@@ -10,10 +10,12 @@
 #include "sim/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace rovernet {
@@ -35,8 +37,9 @@ class OnAir {
     /// Forgets the first frames, as long as they ended by `t`, and calls use(frame) for each.
     template <class Use>
     void forget(Time t, Use use) {
-        for (; !frames_.empty() && frames_.front().end <= t; frames_.pop_front(), ++first_) {
+        while (!frames_.empty() && frames_.front().end <= t) {
             use(frames_.front());
+            take_off();
         }
         while (!changes_.empty() && changes_.front().serial <= first_) {
             changes_.pop_front();
@@ -47,23 +50,10 @@ class OnAir {
 
     /// All, in the order of their serials.
     const std::deque<Emission>& frames() const { return frames_; }
-    /// Calls use(frame) for each, itself included, that may disturb a receiver of `frame` until
-    /// `now`, and for some others. Receivers that changed lately may meet more.
-    template <class Use>
-    void each_near(const Emission& frame, Time now, Use use) const {
-        const double moved = fastest_ * seconds(now - frames_.front().begin);
-        const double reach = frame.heard_within + this->reach() + moved;
-        const auto columns = columns_.near(frame.origin.x, reach);
-        rows_.near(frame.origin.y, reach).each([&](std::size_t bottom, std::size_t top) {
-            for (std::size_t row = bottom; row < top; ++row) {
-                columns.each([&](std::size_t left, std::size_t right) {
-                    for (std::size_t column = left; column < right; ++column) {
-                        visit(cells_[row * columns_.cells() + column], use);
-                    }
-                });
-            }
-        });
-    }
+    /// Of the others that end after `since` and begin before `until`, those that may disturb a
+    /// receiver of `frame` by `now`, and some more; good until the next call. Receivers that
+    /// changed lately may meet further ones.
+    std::span<const Emission* const> near(const Emission& frame, Time since, Time until, Time now);
 
     /// A node before it changed.
     struct Before {
@@ -86,26 +76,36 @@ class OnAir {
     }
 
   private:
-    static constexpr std::size_t side = 32;  // [cells] of the grid
-    static constexpr std::uint64_t none = 0;
+    static constexpr std::size_t side = 64;  // [cells] of the grid
+    static constexpr std::uint64_t none = ~std::uint64_t{0};
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
+    /// The frames that were sent there, as a chain of serials.
+    struct Cell {
+        std::uint64_t oldest = none, newest = none;
+    };
+
     std::uint64_t last_change(NodeId node) const {
-        return node.index() < last_change_.size() ? last_change_[node.index()] : none;
+        return node.index() < last_change_.size() ? last_change_[node.index()] : 0;
     }
-    void file(const Emission& frame);
     void lay_grid();
-    template <class Use>
-    void visit(const std::vector<Emission>& cell, Use use) const {
-        for (const Emission& frame : cell) {
-            if (frame.serial >= first_) use(frame);
-        }
+    void file(std::uint64_t serial);
+    void take_off();
+    /// Cells of one row as bits.
+    static std::uint64_t bits(WrappedAxis::Cells cells) {
+        const auto first = [](std::size_t n) {
+            return n < side ? (std::uint64_t{1} << n) - 1 : none;
+        };
+        return (first(cells.end) & ~first(cells.begin)) | first(cells.wrapped_end);
     }
 
-    std::deque<Emission> frames_;  // in the order of their serials
-    std::uint64_t first_ = 0;      // serial of the first
+    std::deque<Emission> frames_;     // in the order of their serials
+    std::deque<std::uint64_t> next_;  // of each, the serial of the next in its cell
+    std::uint64_t first_ = 0;         // serial of the first
     WrappedAxis columns_, rows_;
-    std::vector<std::vector<Emission>> cells_;  // where they were sent; forgotten ones, too
+    std::vector<Cell> cells_;                 // row by row
+    std::array<std::uint64_t, side> used_{};  // by row, a bit for each cell that is not empty
+    std::vector<const Emission*> near_;       // begins with the result of near()
 
     std::deque<Before> changes_;              // numbered in their order, from 1 on
     std::uint64_t first_change_ = 1;          // number of the first that is kept

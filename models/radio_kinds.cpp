@@ -100,10 +100,12 @@ double RadioKinds::squared_reach(Kind from, Strength strength) {
     return reach2;
 }
 
-void RadioKinds::prepare(Kind from) {
+/// For what a kind needs to know of each of the others.
+void RadioKinds::make_room(Kind from) {
     Alike& mine = kinds_[from];
+    mine.prepared_for = kinds_.size();
     if (mine.cheapest == Decision::by_range) mine.range2.resize(kinds_.size());
-    if (decision(from) == Decision::by_table && mine.tables.size() < kinds_.size()) {
+    if (decision(from) == Decision::by_table) {
         mine.tables.resize(kinds_.size());
         mine.looks = {};
     }

@@ -90,7 +90,10 @@ class RadioKinds {
         return *look;
     }
     /// To be called before squared_range(), table() and first_look() are asked about `from`.
-    void prepare(Kind from);
+    void prepare(Kind from) {
+        if (kinds_[from].prepared_for != kinds_.size()) [[unlikely]]
+            make_room(from);
+    }
 
   private:
     static constexpr std::array strengths = {Strength::decodable, Strength::detectable,
@@ -109,6 +112,7 @@ class RadioKinds {
         Decision cheapest;
         Dbm noise;
         std::size_t stations = 1;
+        std::size_t prepared_for = 0;  // so many kinds
         SquaredDistances reach2 = {};
         std::vector<SquaredDistances> range2 = {};                          // to each kind
         std::vector<Tables> tables = {};                                    // to each kind
@@ -116,6 +120,7 @@ class RadioKinds {
     };
 
     Membership membership(const Radio& radio);
+    void make_room(Kind from);
     double compute_range(Kind from, Kind to, Strength strength);
     ShadowedRange make_table(Kind from, Kind to, Strength strength) const;
     FirstLook make_look(Kind from, Strength strength);

@@ -22,11 +22,12 @@ constexpr Time at(std::int64_t us) { return start_of_run + Duration{1000 * us}; 
 
 Leg rest(Vec3 p) { return {.from = p, .to = p}; }
 
-std::set<std::uint64_t> near(const OnAir& on_air, const Emission& frame, Time now) {
+std::set<std::uint64_t> near(OnAir& on_air, const Emission& frame, Time now,
+                             Time since = start_of_run - Duration{1}, Time until = never) {
     std::set<std::uint64_t> serials;
-    on_air.each_near(frame, now, [&](const Emission& e) {
-        CHECK(serials.insert(e.serial).second);  // each once
-    });
+    for (const Emission* e : on_air.near(frame, since, until, now)) {
+        CHECK(serials.insert(e->serial).second);  // each once
+    }
     return serials;
 }
 
@@ -64,8 +65,9 @@ TEST_CASE("on air: finds every frame that reaches where another is heard") {
             for (const Emission& e : frames) {
                 const double apart = distance(e.origin, judged.origin) - judged.heard_within;
                 const bool reaches = apart <= 0 || apart * apart <= e.squared_reach;
-                if (reaches) REQUIRE(nearby.count(e.serial) == 1);
-                found += reaches;
+                const bool other = e.serial != judged.serial;
+                if (reaches) REQUIRE(nearby.count(e.serial) == other);
+                found += reaches && other;
                 passed_over += !nearby.count(e.serial);
             }
         }
@@ -123,7 +125,11 @@ TEST_CASE("on air: frames are forgotten from the first on, as long as they are o
     forget(at(100));
     CHECK(forgotten.size() == 1);  // the second is on air
     CHECK(on_air[2].flight == 12);
-    CHECK(near(on_air, on_air[1], at(100)) == std::set<std::uint64_t>{1, 2, 3});
+    CHECK(near(on_air, on_air[1], at(100)) == std::set<std::uint64_t>{2, 3});
+    CHECK(near(on_air, on_air[1], at(100), at(16)).empty());
+    CHECK(near(on_air, on_air[1], at(100), at(14)) == std::set<std::uint64_t>{3});
+    CHECK(near(on_air, on_air[1], at(100), at(0), at(13)) == std::set<std::uint64_t>{2});
+    CHECK(near(on_air, on_air[3], at(100), at(0), at(13)) == std::set<std::uint64_t>{1, 2});
     forget(at(111));
     CHECK(forgotten == std::vector<std::uint32_t>{10, 11, 12, 13});
     CHECK(on_air.frames().empty());
