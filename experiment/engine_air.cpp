@@ -159,13 +159,13 @@ void Engine::judge_collision(const Emission& judged, Frames others, Reception& r
                    .level_dbm = open,
                    .squared_distance = open,
                    .from = judged.from};
-    const auto level_of = [&](Arrival& a) {
-        if (&a == &signal) signal = *arrival(judged, node);
-        return std::isnan(a.level_dbm) ? medium_.level(a, node).value : a.level_dbm;
+    const auto is_stronger = [&](Arrival& mine, Arrival& other, Db by) {
+        if (std::isnan(mine.squared_distance)) mine = *arrival(judged, node);
+        return medium_.is_stronger(mine, other, by, node);
     };
     for (const Emission* frame : others) {
         auto other = arrival(*frame, node);
-        if (!other || rung.survives(signal, *other, level_of)) continue;
+        if (!other || rung.survives(signal, *other, is_stronger)) continue;
         reception.fate = other->own ? Fate::busy : Fate::collided;
         if (!other->own) return;
     }

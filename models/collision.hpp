@@ -6,7 +6,6 @@
 #include "sim/units.hpp"
 
 #include <array>
-#include <cmath>
 #include <string_view>
 
 namespace rovernet {
@@ -32,17 +31,14 @@ struct Collision {
     Db capture_ratio{10};  ///< [dB] > 0
     CaptureOrder capture = CaptureOrder::first;
 
-    /// Whether `frame` survives that `other` arrives at the same node. level_of(arrival) [dBm] is
-    /// asked where it matters.
-    template <class LevelOf>
-    bool survives(Arrival& frame, Arrival& other, LevelOf level_of) const {
+    /// Whether `frame` survives that `other` arrives at the same node. is_stronger(frame, other,
+    /// capture_ratio) is asked where it matters.
+    template <class IsStronger>
+    bool survives(Arrival& frame, Arrival& other, IsStronger is_stronger) const {
         if (!frame.overlaps(other)) return true;
-        if (frame.begin > other.begin && capture == CaptureOrder::first) return false;
-        const auto level = [&](Arrival& a) {
-            if (std::isnan(a.level_dbm)) a.level_dbm = level_of(a);
-            return a.level_dbm;
-        };
-        return level(frame) >= level(other) + capture_ratio.value;
+        if (other.own || (frame.begin > other.begin && capture == CaptureOrder::first))
+            return false;
+        return is_stronger(frame, other, capture_ratio);
     }
 };
 

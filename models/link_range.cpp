@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -26,17 +27,21 @@ double last_that(Predicate holds) {
 
 }  // namespace
 
-double largest_squared_distance(const Propagation& model, Hertz frequency, Db budget) {
+double loss_at(const Propagation& model, Hertz frequency, double distance) {
     assert(model.shape() == LossShape::by_distance);
-    const auto within = [&](double d) {
-        const Vec3 to{d, 0, 0};
-        const std::uint64_t key = 0;
-        double loss = 0;
-        LinkBatch link{.frequency = frequency, .from = {}, .to = {&to, 1}, .to_keys = {&key, 1}};
-        model.loss(link, Db{infinity}, {&loss, 1});
-        return loss <= budget.value;
-    };
-    return last_that([&](double squared) { return within(std::sqrt(squared)); });
+    const Vec3 to{distance, 0, 0};
+    const std::uint64_t nobody = 0;
+    const LinkBatch link{
+        .frequency = frequency, .from = {}, .to = {&to, 1}, .to_keys = {&nobody, 1}};
+    double loss = 0;
+    model.loss(link, Db{infinity}, {&loss, 1});
+    return loss;
+}
+
+double largest_squared_distance(const Propagation& model, Hertz frequency, Db budget) {
+    return last_that([&](double squared) {
+        return loss_at(model, frequency, std::sqrt(squared)) <= budget.value;
+    });
 }
 
 }  // namespace rovernet

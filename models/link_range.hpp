@@ -5,6 +5,9 @@
 
 namespace rovernet {
 
+/// Path loss [dB] over a distance [m]. @param model  of shape by_distance
+double loss_at(const Propagation& model, Hertz frequency, double distance);
+
 /// The largest squared distance [m^2] between antennas at which the loss is within `budget`: it is
 /// if and only if squared_distance(a, b) is no larger. Negative if the loss exceeds the budget even
 /// at 0 m; infinite if it never does.

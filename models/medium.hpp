@@ -107,6 +107,9 @@ class Medium {
     }
     /// Received power [dBm] at `to` of a frame whose level was left open.
     Dbm level(const Arrival& arrival, NodeId to) const;
+    /// The level of `frame` at `to` is that of `other` and `by` more, or higher. Levels that are
+    /// open remain so if that is plain without them.
+    bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId to);
 
     /// Those that hear `from` at `t`, which must not decrease; good until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {

@@ -209,6 +209,21 @@ Dbm Medium::level(const Arrival& arrival, NodeId to) const {
     return received_power(kinds_.radio(kind(arrival.from)), kinds_.radio(kind(to)), lost);
 }
 
+bool Medium::is_stronger(Arrival& frame, Arrival& other, Db by, NodeId to) {
+    const Kind sender = kind(frame.from);
+    const bool open = std::isnan(frame.level_dbm) && std::isnan(other.level_dbm);
+    if (open && kind(other.from) == sender && kinds_.decision(sender) == Decision::by_range) {
+        const auto mine = kinds_.loss_bounds(sender, frame.squared_distance);
+        const auto theirs = kinds_.loss_bounds(sender, other.squared_distance);
+        if (theirs.low >= mine.high + by.value) return true;
+        if (theirs.high < mine.low + by.value) return false;
+    }
+    for (Arrival* each : {&frame, &other}) {
+        if (std::isnan(each->level_dbm)) each->level_dbm = level(*each, to).value;
+    }
+    return frame.level_dbm >= other.level_dbm + by.value;
+}
+
 Duration Medium::delay(double distance) const {
     return settings_.propagation_delay ? flight_time(distance) : Duration{0};
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "models/radio_kinds.hpp"
 
-#include "models/link_range.hpp"
-
 #include <algorithm>
 #include <cassert>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/link_range.hpp"
+#include "models/loss_bounds.hpp"
 #include "models/membership.hpp"
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
@@ -75,6 +77,14 @@ class RadioKinds {
         const double range2 = kinds_[from].range2[to][strength];
         return std::isnan(range2) ? compute_range(from, to, strength) : range2;
     }
+    /// Decides by_range: bounds of the path loss over a squared distance [m^2] at which a signal
+    /// may be heard.
+    LossBounds::Bounds loss_bounds(Kind from, double squared_distance) {
+        Alike& mine = kinds_[from];
+        return mine.loss_bounds.at(squared_distance, [&](double d) {
+            return loss_at(models_[mine.model], mine.radio.frequency, d);
+        });
+    }
     /// Decides by_table.
     const ShadowedRange& table(Kind from, Kind to, Strength strength) {
         auto& table = kinds_[from].tables[to][static_cast<std::size_t>(strength)];
@@ -114,6 +124,7 @@ class RadioKinds {
         std::size_t stations = 1;
         std::size_t prepared_for = 0;  // so many kinds
         SquaredDistances reach2 = {};
+        LossBounds loss_bounds = {};
         std::vector<SquaredDistances> range2 = {};                          // to each kind
         std::vector<Tables> tables = {};                                    // to each kind
         std::array<std::optional<FirstLook>, strengths.size()> looks = {};  // at all

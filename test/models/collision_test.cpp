@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
-#include <limits>
 
 using namespace rovernet;
 
@@ -21,7 +20,9 @@ Arrival frame(std::int64_t begin, std::int64_t end, double level) {
 }
 
 bool survives(const Collision& rung, Arrival f, Arrival g) {
-    return rung.survives(f, g, [](const Arrival&) { return 0.0; });
+    return rung.survives(f, g, [](const Arrival& a, const Arrival& b, Db by) {
+        return a.level_dbm >= b.level_dbm + by.value;
+    });
 }
 
 }  // namespace
@@ -71,18 +72,20 @@ TEST_CASE("collision: a node that sends hears nothing, before, during and after"
     }
 }
 
-TEST_CASE("collision: levels are asked for only where they decide, and once") {
-    constexpr double open = std::numeric_limits<double>::quiet_NaN();
+TEST_CASE("collision: who is stronger is asked only where it decides") {
     int asked = 0;
-    const auto level_of = [&](const Arrival&) { return ++asked == 1 ? -40.0 : -60.0; };
-    Arrival f = frame(0, 100, open), before = frame(-50, 50, open), after = frame(100, 200, open);
+    const auto is_stronger = [&](const Arrival&, const Arrival&, Db by) {
+        CHECK(by == Db{10});
+        ++asked;
+        return true;
+    };
+    Arrival f = frame(0, 100, -50), before = frame(-50, 50, -70), after = frame(100, 200, -70);
+    Arrival during = frame(20, 30, -70), own = own_frame(NodeId{0}, at(20), at(30));
     const Collision rung;
-    CHECK_FALSE(rung.survives(f, before, level_of));
-    CHECK(rung.survives(f, after, level_of));
+    CHECK_FALSE(rung.survives(f, before, is_stronger));
+    CHECK(rung.survives(f, after, is_stronger));
+    CHECK_FALSE(rung.survives(f, own, is_stronger));
     CHECK(asked == 0);
-    for (int k = 0; k < 2; ++k) {
-        Arrival during = frame(20, 30, open);
-        CHECK(rung.survives(f, during, level_of));
-        CHECK(asked == 2 + k);
-    }
+    CHECK(rung.survives(f, during, is_stronger));
+    CHECK(asked == 1);
 }

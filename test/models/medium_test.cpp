@@ -368,6 +368,44 @@ TEST_CASE("medium: ns-2's default radio decodes to 250 m and senses to 550 m ove
     CHECK(sensors == std::vector{NodeId{2}, NodeId{3}});
 }
 
+TEST_CASE("medium: which of two frames is stronger is what their levels say, however it is found") {
+    const Scene field;
+    test::Draw draw(23);
+    int stronger = 0, plain = 0;
+    for (const Propagation& model :
+         {Propagation{Friis{}}, Propagation{LogDistance{.sigma = {0}}}, Propagation{TwoRay{}},
+          Propagation{LogDistance{.sigma = {6}}}}) {
+        Medium medium{{.scene = &field, .seed = 5}};
+        for (std::uint64_t i = 0; i < 6; ++i) {
+            medium.add({.power = {i < 4 ? 20.0 : 26.0}}, i, model);
+        }
+        const auto arrival = [&](double d2) {
+            return Arrival{.begin = start_of_run,
+                           .end = start_of_run + 1ms,
+                           .level_dbm = std::numeric_limits<double>::quiet_NaN(),
+                           .squared_distance = d2,
+                           .from = NodeId{static_cast<std::uint32_t>(1 + draw.below(5))}};
+        };
+        for (int i = 0; i < 20'000; ++i) {
+            const double d2 = std::pow(10, draw.uniform(-1, 9)), ratio = draw.uniform(0.1, 30);
+            Arrival a = arrival(d2), b = arrival(d2 * ratio);
+            const Db by{draw.uniform(0, 20)};
+            const double level_a = medium.level(a, NodeId{0}).value;
+            const double level_b = medium.level(b, NodeId{0}).value;
+            const bool is = level_a >= level_b + by.value;
+            REQUIRE(medium.is_stronger(a, b, by, NodeId{0}) == is);
+            stronger += is;
+            plain += std::isnan(a.level_dbm);
+            // Once levels are known they decide, to the last bit.
+            a.level_dbm = level_a;
+            b.level_dbm = level_a - by.value;
+            REQUIRE(medium.is_stronger(a, b, by, NodeId{0}) == (level_a >= b.level_dbm + by.value));
+        }
+    }
+    CHECK(stronger > 10'000);
+    CHECK(plain > 10'000);
+}
+
 TEST_CASE("medium: what is left out adds to the noise what the weakest that is told would add") {
     const Scene field;
     // Noise of -93.6 dBm; the cut is at -95 dBm: each adds 0.72 of the noise at most.

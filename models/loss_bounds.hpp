@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace rovernet {
+
+/// Between which two values a loss lies that never falls with the distance: what it is at a few
+/// distances, each computed when it is first needed. For when a loss need not be known exactly.
+class LossBounds {
+  public:
+    struct Bounds {
+        double low, high;  ///< [dB]
+    };
+
+    /// @param squared_distance  [m^2] >= 0
+    /// @param loss_at           loss [dB] at a distance [m]
+    template <class LossAt>
+    Bounds at(double squared_distance, LossAt loss_at) {
+        // Non-negative numbers are in the order of their bits.
+        const std::uint64_t cell = std::bit_cast<std::uint64_t>(squared_distance) >> shift;
+        if (cell < first || cell >= first + cells) return {-infinity, infinity};
+        if (edges_.empty()) edges_.resize(cells + 1, unknown);
+        return {edge(cell, loss_at) - rounding, edge(cell + 1, loss_at) + rounding};
+    }
+
+  private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    static constexpr double rounding = 1e-9;  // [dB] more than that of any loss
+    // 64 cells of equal width between 1 m^2 and 2 m^2, and between any power of two and the next.
+    static constexpr int shift = 46;
+    static constexpr std::uint64_t first = std::bit_cast<std::uint64_t>(1.0) >> shift;
+    static constexpr std::uint64_t cells = 34 * 64;  // up to 131 km
+
+    template <class LossAt>
+    double edge(std::uint64_t number, LossAt loss_at) {
+        double& edge = edges_[number - first];
+        if (std::isnan(edge)) [[unlikely]]
+            edge = loss_at(std::sqrt(std::bit_cast<double>(number << shift)));
+        return edge;
+    }
+
+    std::vector<double> edges_;  // [dB] where cells begin
+};
+
+}  // namespace rovernet
