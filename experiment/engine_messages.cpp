@@ -89,18 +89,20 @@ void Engine::receive_broadcast(Flight& flight, std::span<Reception> receptions) 
 
 /// Hands up those that got through to nodes that are on; says which are off.
 void Engine::hand_up_heard(const Flight& flight, std::span<Reception> receptions) {
-    const auto heard = [&](const Reception& r) {
-        return is_decoded(r.fate) && medium_.is_on(r.node);
-    };
-    auto next = receptions.begin();
-    while (next != receptions.end()) {
-        const auto deaf = std::find_if_not(next, receptions.end(), heard);
-        if (next != deaf) hand_up(flight, {next, deaf});
-        next = std::find_if(deaf, receptions.end(), heard);
-        for (auto r = deaf; r != next; ++r) {
-            if (!medium_.is_on(r->node)) r->fate = Fate::off;
-        }
+    // Together, and picked without a branch: it would be mispredicted for many.
+    heard_.resize(receptions.size());
+    places_.resize(receptions.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < receptions.size(); ++i) {
+        const bool on = medium_.is_on(receptions[i].node);
+        heard_[count] = receptions[i];
+        places_[count] = i;
+        count += on & is_decoded(receptions[i].fate);
+        if (!on) receptions[i].fate = Fate::off;
     }
+    if (count == 0) return;
+    hand_up(flight, std::span{heard_}.first(count));
+    for (std::size_t k = 0; k < count; ++k) receptions[places_[k]] = heard_[k];
 }
 
 void Engine::hand_over(const Flight& flight, std::span<const Reception> receptions) {
