@@ -18,11 +18,8 @@ Duration flight_time(double d) {
     return Duration{static_cast<std::int64_t>(d * (1e9 / speed_of_light) + 0.5)};
 }
 
-/// Whether a leg, or its copy in the index, stays where it is until it is replaced.
-template <class AnyLeg>
-bool at_rest(const AnyLeg& leg, Time t) {
-    return leg.velocity == Vec3{} && t < leg.end;
-}
+/// Stays where it is until its leg is replaced.
+bool rests(const Leg& leg, Time t) { return leg.velocity == Vec3{} && t < leg.end; }
 
 }  // namespace
 
@@ -145,13 +142,13 @@ void Medium::share_draws(const PairDraws& draws) {
 
 void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs) {
     const Radio& mine = kinds_.radio(kind(from));
-    const bool rests = settings_.keep_losses && !settings_.all_pairs && at_rest(legs.leg(from), t);
+    const bool fixed = settings_.keep_losses && !settings_.all_pairs && rests(legs.leg(from), t);
     candidates_.clear();
     visit(from, kinds_.squared_reach(kind(from), strength), t, legs,
           [&](const Entry& e, Vec3 p, double d2) {
               const Db budget = kinds_.budget(strength, mine, kinds_.radio(e.label));
               candidates_.add({.node = e.node,
-                               .rests = rests && at_rest(e, t),
+                               .rests = fixed && !e.moves,
                                .key = stations_[e.node.index()].key,
                                .antenna = p,
                                .squared_distance = d2,

@@ -26,23 +26,31 @@ std::size_t few(std::size_t nodes) { return nodes / 64 + 16; }
 
 }  // namespace
 
+void NeighbourIndex::Table::put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg) {
+    const bool moves = leg.velocity != Vec3{} || leg.to != leg.from;
+    entries[i] = {leg.from, node, label & 0x7fffffff, moves};
+    if (!moves) {
+        entries[i].from = leg.from + Vec3{};  // adds 0, as a leg does
+        return;
+    }
+    if (motions.size() < entries.size()) motions.resize(entries.size());
+    motions[i] = {leg.velocity, leg.start, leg.end};
+}
+
 void NeighbourIndex::moved(NodeId node, const Legs& legs) {
     if (stale_) return;
     const Leg& leg = legs.leg(node);
-    const Entry now = entry(node, labels_[node.index()], leg);
-    const std::uint32_t place = place_[node.index()];
-    if (place & is_apart) {
-        apart_[place & ~is_apart] = now;
-        return;
+    const std::uint32_t label = labels_[node.index()], place = place_[node.index()];
+    if (place & is_apart) return apart_.put(place & ~is_apart, node, label, leg);
+    Vec3 was = binned_.entries[place].from;
+    if (binned_.entries[place].moves) {
+        const auto& [velocity, start, end] = binned_.motions[place];
+        was = was + seconds(std::min(leg.start, end) - start) * velocity;
     }
-    const Entry& before = entries_[place];
-    const Vec3 was = leg.start >= before.end
-                         ? before.from + seconds(before.end - before.start) * before.velocity
-                         : before.from + seconds(leg.start - before.start) * before.velocity;
     const double jump = distance(was, leg.from);
-    if (speed(leg) > top_speed_ || jump > 1e-3 * rows_.width()) return keep_apart(now);
+    if (speed(leg) > top_speed_ || jump > 1e-3 * rows_.width()) return keep_apart(node, leg);
     jumped_ += jump;
-    entries_[place] = now;
+    binned_.put(place, node, label, leg);
 }
 
 std::span<std::uint32_t> NeighbourIndex::near(Vec3 centre, double reach) {
@@ -95,11 +103,16 @@ std::size_t NeighbourIndex::look_through(std::uint32_t begin, std::uint32_t end,
 }
 
 /// Moves a node out of its cell, where an entry that is nowhere remains.
-void NeighbourIndex::keep_apart(const Entry& e) {
-    std::uint32_t& place = place_[e.node.index()];
-    x_[place] = std::numeric_limits<float>::quiet_NaN();
-    place = is_apart | static_cast<std::uint32_t>(apart_.size());
-    apart_.push_back(e);
+void NeighbourIndex::keep_apart(NodeId node, const Leg& leg) {
+    x_[place_[node.index()]] = std::numeric_limits<float>::quiet_NaN();
+    add_apart(node, leg);
+}
+
+void NeighbourIndex::add_apart(NodeId node, const Leg& leg) {
+    const std::size_t place = apart_.entries.size();
+    place_[node.index()] = is_apart | static_cast<std::uint32_t>(place);
+    apart_.entries.emplace_back();
+    apart_.put(place, node, labels_[node.index()], leg);
 }
 
 /// The speed [m/s] above which a node is kept apart: that of the fastest, unless only a few are
@@ -142,10 +155,10 @@ void NeighbourIndex::lay_grid(Time t, const Legs& legs) {
 void NeighbourIndex::bin(Time t, const Legs& legs) {
     lay_grid(t, legs);
     top_speed_ = choose_top_speed(legs);
-    binned_ = t;
+    binned_at_ = t;
     jumped_ = 0;
     looked_at_ = 0;
-    apart_.clear();
+    apart_ = {};
     place_.resize(legs.size());
     first_.assign(columns_.cells() * rows_.cells() + 1, 0);
     const auto is_slow = [&](const Leg& leg) { return speed(leg) <= top_speed_; };
@@ -157,24 +170,23 @@ void NeighbourIndex::bin(Time t, const Legs& legs) {
     }
     std::uint32_t end = 0;
     for (auto& first : first_) first = end += first;
-    entries_.resize(end);
+    binned_.entries.resize(end);
+    binned_.motions.clear();
     x_.resize(end + at_once);
     y_.resize(end + at_once);
     for (auto i = static_cast<std::uint32_t>(legs.size()); i-- > 0;) {
         const Leg& leg = legs.leg(NodeId{i});
-        const Entry e = entry(NodeId{i}, labels_[i], leg);
         if (!is_slow(leg)) {
-            place_[i] = is_apart | static_cast<std::uint32_t>(apart_.size());
-            apart_.push_back(e);
-        } else {
-            place_[i] = --first_[cell[i]];
-            entries_[place_[i]] = e;
-            const Vec3 p = leg.position(t);
-            x_[place_[i]] = static_cast<float>(p.x);
-            y_[place_[i]] = static_cast<float>(p.y);
+            add_apart(NodeId{i}, leg);
+            continue;
         }
+        const std::uint32_t place = place_[i] = --first_[cell[i]];
+        binned_.put(place, NodeId{i}, labels_[i], leg);
+        const Vec3 p = leg.position(t);
+        x_[place] = static_cast<float>(p.x);
+        y_[place] = static_cast<float>(p.y);
     }
-    allowed_apart_ = apart_.size() + few(legs.size());
+    allowed_apart_ = apart_.entries.size() + few(legs.size());
     stale_ = false;
     ++bins_;
 }

@@ -26,14 +26,12 @@ namespace rovernet {
 /// looked at by every query. The grid wraps around: its memory is bounded wherever the nodes are.
 class NeighbourIndex {
   public:
-    /// A node and its leg: what a query looks at.
+    /// A node and where it is: what a query looks at.
     struct Entry {
-        Vec3 from;
-        Vec3 velocity;
-        Time start;
-        Time end;
+        Vec3 from;  ///< [m] where its leg begins; where it is if it does not move
         NodeId node;
-        std::uint32_t label;  ///< what add() was given
+        std::uint32_t label : 31;  ///< what add() was given
+        std::uint32_t moves : 1;   ///< ever, on its leg
     };
 
     /// Adds the next node.
@@ -59,8 +57,8 @@ class NeighbourIndex {
     /// at.
     Vec3 position_of(NodeId node, Time t, const Legs& legs) const {
         const std::uint32_t place = place_[node.index()];
-        const Entry& e = place & is_apart ? apart_[place & ~is_apart] : entries_[place];
-        return position(e, t, legs);
+        return place & is_apart ? apart_.position(place & ~is_apart, t, legs)
+                                : binned_.position(place, t, legs);
     }
     void prefetch(NodeId node) const {
         if (node.index() < place_.size()) __builtin_prefetch(&place_[node.index()]);
@@ -69,9 +67,9 @@ class NeighbourIndex {
     /// and for some others, in no order to rely on. `t` must not decrease from call to call.
     template <class Visit>
     void visit(Vec3 centre, double radius, Time t, const Legs& legs, Visit visit) {
-        for (const Entry& e : apart_) visit(e, position(e, t, legs));
+        visit_apart(t, legs, visit);
         for (const std::uint32_t i : near(centre, radius + slack(t))) {
-            visit(entries_[i], position(entries_[i], t, legs));
+            visit(binned_.entries[i], binned_.position(i, t, legs));
         }
     }
 
@@ -80,7 +78,7 @@ class NeighbourIndex {
     template <class Passes, class Visit>
     void visit_if(Vec3 centre, double radius, Time t, const Legs& legs, Passes passes,
                   Visit visit) {
-        for (const Entry& e : apart_) visit(e, position(e, t, legs));
+        visit_apart(t, legs, visit);
         const double reach = radius + slack(t);
         const auto x = static_cast<float>(centre.x), y = static_cast<float>(centre.y);
         // (d - off)^2 >= d^2 - 2 off d, and single precision rounds.
@@ -96,26 +94,47 @@ class NeighbourIndex {
             passed += passes(i, at_least > 0 ? at_least : 0.0F);
         }
         for (const std::uint32_t i : places.first(passed)) {
-            visit(entries_[i], position(entries_[i], t, legs));
+            visit(binned_.entries[i], binned_.position(i, t, legs));
         }
     }
     /// The nodes in the order of their cells, but for those kept apart; good until the next bin.
-    std::span<const Entry> entries() const { return entries_; }
+    std::span<const Entry> entries() const { return binned_.entries; }
     /// Counts how often the nodes were binned.
     std::uint64_t bins() const { return bins_; }
 
   private:
     static constexpr std::uint32_t is_apart = 0x80000000;  // bit of a place in apart_
 
-    static Vec3 position(const Entry& e, Time t, const Legs& legs) {
-        if (t >= e.end) [[unlikely]]
-            return legs.leg(e.node).to;
-        return e.from + seconds(t - e.start) * e.velocity;
+    /// Entries, and apart from them what only those that move take.
+    struct Table {
+        struct Motion {
+            Vec3 velocity;
+            Time start, end;
+        };
+        std::vector<Entry> entries;
+        std::vector<Motion> motions;  // none as long as nobody moves
+
+        void put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg);
+        Vec3 position(std::size_t i, Time t, const Legs& legs) const {
+            const Entry& e = entries[i];
+            if (!e.moves) return e.from;
+            const Motion& motion = motions[i];
+            if (t >= motion.end) [[unlikely]]
+                return legs.leg(e.node).to;
+            return e.from + seconds(t - motion.start) * motion.velocity;
+        }
+    };
+
+    template <class Visit>
+    void visit_apart(Time t, const Legs& legs, Visit& visit) {
+        for (std::size_t i = 0; i < apart_.entries.size(); ++i) {
+            visit(apart_.entries[i], apart_.position(i, t, legs));
+        }
     }
     /// How far a node may be from where it was binned [m].
-    double slack(Time t) const { return top_speed_ * seconds(t - binned_) + jumped_; }
+    double slack(Time t) const { return top_speed_ * seconds(t - binned_at_) + jumped_; }
     bool is_stale(Time t) const {
-        return stale_ || apart_.size() > allowed_apart_ ||
+        return stale_ || apart_.entries.size() > allowed_apart_ ||
                (slack(t) > 0.1 * rows_.width() && looked_at_ > labels_.size());
     }
     /// [m] No more is lost of a coordinate around `centre` in single precision.
@@ -127,30 +146,28 @@ class NeighbourIndex {
     std::size_t look_through(std::uint32_t begin, std::uint32_t end, float x, float y,
                              std::size_t count);
 
-    static Entry entry(NodeId node, std::uint32_t label, const Leg& leg) {
-        return {leg.from, leg.velocity, leg.start, leg.end, node, label};
-    }
     std::size_t cell_at(Vec3 p) const {
         return rows_.cell_at(p.y) * columns_.cells() + columns_.cell_at(p.x);
     }
-    void keep_apart(const Entry& e);
+    void keep_apart(NodeId node, const Leg& leg);
+    void add_apart(NodeId node, const Leg& leg);
     void bin(Time t, const Legs& legs);
     void lay_grid(Time t, const Legs& legs);
     double choose_top_speed(const Legs& legs) const;
 
     std::vector<std::uint32_t> labels_;  // by node
-    std::vector<Entry> entries_;         // in the order of their cells
+    Table binned_;                       // in the order of their cells
     std::vector<float> x_, y_;           // [m] where they were binned
     std::vector<std::uint32_t> near_;    // begins with the result of near()
     std::vector<float> distance2_;       // [m^2] of what near() looked at
     std::vector<std::uint32_t> first_;   // entry of a cell; one more than there are cells
-    std::vector<std::uint32_t> place_;   // of a node in entries_, or in apart_
-    std::vector<Entry> apart_;
+    std::vector<std::uint32_t> place_;   // of a node in binned_, or in apart_
+    Table apart_;
     WrappedAxis columns_, rows_;
     double wanted_cell_ = 1;  // [m]
     double top_speed_ = 0;    // [m/s] of the entries
     double jumped_ = 0;       // [m] sum of what legs did not continue exactly
-    Time binned_ = start_of_run;
+    Time binned_at_ = start_of_run;
     std::size_t looked_at_ = 0;  // entries and cells since then
     std::size_t allowed_apart_ = 0;
     std::uint64_t bins_ = 0;
