@@ -81,17 +81,17 @@ class NeighbourIndex {
         visit_apart(t, legs, visit);
         const double reach = radius + slack(t);
         const auto x = static_cast<float>(centre.x), y = static_cast<float>(centre.y);
-        // (d - off)^2 >= d^2 - 2 off d, and single precision rounds.
-        const double off = slack(t) + rounding(centre, reach);
-        const auto less = static_cast<float>(2 * off * (reach + off) * (1 + 1e-6));
+        // So much nearer than where it was binned may it be.
+        const auto off = static_cast<float>((slack(t) + rounding(centre, reach)) * (1 + 1e-6));
         const std::span<std::uint32_t> places = near(centre, reach);
         std::size_t passed = 0;
         for (const std::uint32_t i : places) {
             const float dx = x_[i] - x, dy = y_[i] - y;
-            const float at_least = (1 - 1e-6F) * (dx * dx + dy * dy) - less;
+            const float at = (1 - 1e-6F) * std::sqrt(dx * dx + dy * dy);
+            const float nearest = std::max(0.0F, at - off);
             // Without a branch: it would be mispredicted for most that pass.
             places[passed] = i;
-            passed += passes(i, at_least > 0 ? at_least : 0.0F);
+            passed += passes(i, (1 - 1e-6F) * nearest * nearest);
         }
         for (const std::uint32_t i : places.first(passed)) {
             visit(binned_.entries[i], binned_.position(i, t, legs));
