@@ -256,8 +256,9 @@ void Medium::sort_receivers(Time end, std::vector<Reception>& out) {
         return;
     }
     // Among robots that are spread evenly, squared distances are.
-    const double farthest = squared_heard_within_;
-    const double scale = farthest > 0 ? (RoughRanks::seats - 1) / farthest : 0;
+    constexpr double nowhere = 1e-9;  // [m^2]
+    const double farthest = std::max(squared_heard_within_, nowhere);
+    const double scale = (RoughRanks::seats - 1) / farthest;
     std::array<std::uint32_t, RoughRanks::most> seats;
     RoughRanks ranks;
     for (std::size_t i = 0; i < count; ++i) {

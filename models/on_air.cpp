@@ -55,9 +55,11 @@ std::span<const Emission* const> OnAir::near(const Emission& frame, Time since, 
                     const Emission& other = (*this)[serial];
                     const double d2 = squared_distance(frame.origin, other.origin);
                     // Without a branch: it would be mispredicted for many.
+                    const std::size_t lasts = other.end > since, begun = other.begin < until;
+                    const std::size_t reaches = d2 <= reach * reach,
+                                      another = serial != frame.serial;
                     near_[count] = &other;
-                    count += (other.end > since) & (other.begin < until) & (d2 <= reach * reach) &
-                             (serial != frame.serial);
+                    count += lasts & begun & reaches & another;
                 }
             }
         }

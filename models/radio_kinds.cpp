@@ -105,7 +105,7 @@ void RadioKinds::make_room(Kind from) {
     if (mine.cheapest == Decision::by_range) mine.range2.resize(kinds_.size());
     if (decision(from) == Decision::by_table) {
         mine.tables.resize(kinds_.size());
-        mine.looks = {};
+        mine.looks.assign(strengths.size(), std::nullopt);
     }
 }
 

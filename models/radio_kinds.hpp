@@ -125,9 +125,9 @@ class RadioKinds {
         std::size_t prepared_for = 0;  // so many kinds
         SquaredDistances reach2 = {};
         LossBounds loss_bounds = {};
-        std::vector<SquaredDistances> range2 = {};                          // to each kind
-        std::vector<Tables> tables = {};                                    // to each kind
-        std::array<std::optional<FirstLook>, strengths.size()> looks = {};  // at all
+        std::vector<SquaredDistances> range2 = {};         // to each kind
+        std::vector<Tables> tables = {};                   // to each kind
+        std::vector<std::optional<FirstLook>> looks = {};  // by Strength
     };
 
     Membership membership(const Radio& radio);

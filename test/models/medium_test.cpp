@@ -199,11 +199,11 @@ TEST_CASE("medium: few and many receivers are in order, spread, in rings or all 
     const Scene field;
     test::Draw draw(17);
     for (const bool delayed : {true, false}) {
-        for (const int robots : {2, 13, 60, 120, 128, 129, 130, 131, 400}) {
+        for (const int count : {2, 13, 60, 120, 128, 129, 130, 131, 400}) {
             for (const int rings : {0, 1, 3}) {
                 Medium medium({.scene = &field, .propagation_delay = delayed});
                 Legs legs;
-                for (int i = 0; i < robots; ++i) {
+                for (int i = 0; i < count; ++i) {
                     const double r = rings > 0 ? i % rings * 80.0 : draw.uniform(0, 300);
                     const double angle = draw.uniform(0, 6.28);
                     const Vec3 at{r * std::cos(angle), r * std::sin(angle), 0};
@@ -211,9 +211,9 @@ TEST_CASE("medium: few and many receivers are in order, spread, in rings or all 
                     medium.add({}, static_cast<std::uint64_t>(i), Disc{.range = 1000_m});
                 }
                 std::vector<Reception> heard;
-                const NodeId from{static_cast<std::uint32_t>(robots / 2)};
+                const NodeId from{static_cast<std::uint32_t>(count / 2)};
                 medium.receivers(from, start_of_run, start_of_run + 1ms, legs, heard);
-                REQUIRE(heard.size() == static_cast<std::size_t>(robots - 1));
+                REQUIRE(heard.size() == static_cast<std::size_t>(count - 1));
                 for (std::size_t i = 1; i < heard.size(); ++i) {
                     const Reception &a = heard[i - 1], &b = heard[i];
                     REQUIRE((a.time < b.time || (a.time == b.time && a.node < b.node)));

@@ -15,7 +15,7 @@ TEST_CASE("rough ranks: a number's rank is how many sit before it, whoever came 
     for (int round = 0; round < 300; ++round) {
         const auto count = static_cast<std::size_t>(draw.uniform(0, 1 + RoughRanks::most));
         // Some rounds crowd into few seats, at the end of the row.
-        const double lowest = round % 3 == 0 ? RoughRanks::seats - 1 - round % 7 : 0;
+        const double lowest = round % 3 == 0 ? 1.0 * RoughRanks::seats - 1 - round % 7 : 0;
         RoughRanks ranks;
         std::vector<std::uint32_t> seats;
         for (std::size_t i = 0; i < count; ++i) {
