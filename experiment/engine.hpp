@@ -168,8 +168,8 @@ class Engine final : public LinkLayer, public Air {
     std::vector<Sink> sinks_;
     KindMask wanted_ = 0;
     Slots<Flight> flights_;
-    std::vector<Reception> heard_;     // those of a flight that are handed up ...
-    std::vector<std::size_t> places_;  // ... and where they belong
+    std::vector<Reception> heard_;      // those of a flight that are handed up ...
+    std::vector<std::size_t> places_;   // ... and where they belong
     bool frames_meet_;                  // the rung is above threshold
     OnAir on_air_;                      // if frames meet
     std::vector<const Emission*> all_;  // what the flight that is judged may meet ...

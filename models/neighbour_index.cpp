@@ -27,7 +27,7 @@ std::size_t few(std::size_t nodes) { return nodes / 64 + 16; }
 }  // namespace
 
 void NeighbourIndex::Table::put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg) {
-    const bool moves = leg.velocity != Vec3{} || leg.to != leg.from;
+    const bool moves = leg.velocity != Vec3{};
     entries[i] = {leg.from, node, label & 0x7fffffff, moves};
     if (!moves) {
         entries[i].from = leg.from + Vec3{};  // adds 0, as a leg does

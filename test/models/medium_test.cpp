@@ -168,12 +168,14 @@ TEST_CASE("medium: the transmitter's model rules where models are mixed") {
 }
 
 TEST_CASE("medium: a keener receiver that joins later is heard of at once") {
-    Crowd crowd(3);
-    const Propagation friis = Friis{};
-    for (int i = 0; i < 10; ++i) crowd.add(friis, {.power = {-20.0}, .sensitivity = {-50.0}});
-    const std::size_t before = crowd.check(start_of_run);
-    for (int i = 0; i < 10; ++i) crowd.add(friis, {.power = {-20.0}, .sensitivity = {-85.0}});
-    CHECK(crowd.check(start_of_run) > before);
+    for (const Propagation& model :
+         {Propagation{Friis{}}, Propagation{LogDistance{.sigma = {6}}}}) {
+        Crowd crowd(3);
+        for (int i = 0; i < 10; ++i) crowd.add(model, {.power = {-20.0}, .sensitivity = {-50.0}});
+        const std::size_t before = crowd.check(start_of_run);
+        for (int i = 0; i < 10; ++i) crowd.add(model, {.power = {-20.0}, .sensitivity = {-85.0}});
+        CHECK(crowd.check(start_of_run) > before);
+    }
 }
 
 TEST_CASE("medium: receptions come in the order of time, then of the robots") {

@@ -138,6 +138,19 @@ TEST_CASE("neighbour index: of nodes at rest the first look is told nearly the s
     CHECK(looked_at > 300);
 }
 
+TEST_CASE("neighbour index: a leg without an end leads away, too") {
+    Swarm swarm(4);
+    for (int i = 0; i < 20; ++i) {
+        swarm.index.add(static_cast<std::uint32_t>(i) % 7);
+        const Vec3 from{10.0 * i, 0, 0};
+        swarm.legs.add({.from = from, .velocity = {0, 1.0 * i, 0}, .to = from});
+    }
+    swarm.index.set_cell_size(20);
+    for (int step = 0; step < 30; ++step, swarm.now += 1s) {
+        swarm.check_query({100, 10.0 * step, 0}, 50);
+    }
+}
+
 TEST_CASE("neighbour index: one node at 1e9 m, all in one place, a line, and no radius") {
     Swarm swarm(3);
     for (int i = 0; i < 300; ++i) swarm.add({5, 5, 0}, 0);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <vector>
@@ -294,4 +295,37 @@ TEST_CASE("event queue: a copy is a queue of its own") {
     EventQueue copy = queue;
     CHECK(serves(queue, keys));
     CHECK(serves(copy, keys));
+}
+
+TEST_CASE("event line: takes keys that come nearly in order, and serves them in order") {
+    Dice dice(9);
+    EventLine line;
+    std::set<EventKey> taken;
+    std::uint64_t sequence = 0, refused = 0, before_the_last = 0;
+    EventKey last = key_at(-1, 0);  // popped
+    for (int step = 0; step < 50'000; ++step) {
+        REQUIRE(line.empty() == taken.empty());
+        REQUIRE(line.size() == taken.size());
+        REQUIRE(line.front() == (taken.empty() ? EventKey{} : *taken.begin()));
+        if (!taken.empty() && dice(100) < (step / 500 % 2 == 0 ? 40 : 55)) {
+            last = *taken.begin();
+            taken.erase(taken.begin());
+            line.pop();
+            continue;
+        }
+        const EventKey key = key_at(step + dice(step % 7 == 0 ? 200 : 10), sequence++);
+        const auto later = std::distance(taken.upper_bound(key), taken.end());
+        const bool took = line.push(key);
+        REQUIRE(took == (later <= 8));
+        refused += !took;
+        before_the_last += took && key < last;
+        if (took) taken.insert(key);
+        if (dice(5000) == 0) {
+            const auto keep = [](EventKey k) { return k.sequence() % 3 != 0; };
+            line.filter(keep);
+            std::erase_if(taken, [&](EventKey k) { return !keep(k); });
+        }
+    }
+    CHECK(refused > 100);
+    CHECK(before_the_last > 100);
 }
