@@ -149,7 +149,8 @@ class Medium {
     void find_in_table(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs);
     void sort_receivers(Time end, std::vector<Reception>& out);
-    void take(NodeId node, double squared_distance) {
+    void take(NodeId node, double squared_distance, bool decodes) {
+        if (!decodes) return sensors_.push_back({node, squared_distance});
         found_.push_back({node, squared_distance});
         squared_heard_within_ = std::max(squared_heard_within_, squared_distance);
     }

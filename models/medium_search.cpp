@@ -86,18 +86,15 @@ void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& l
     if (alike && strength == Strength::decodable) {
         const double range2 = kinds_.squared_range(mine, mine, strength);
         return visit(from, range2, t, legs,
-                     [&](const Entry& e, Vec3, double d2) { take(e.node, d2); });
+                     [&](const Entry& e, Vec3, double d2) { take(e.node, d2, true); });
     }
     const auto in_range = [&](const Entry& e, Strength s, double d2) {
         return d2 <= kinds_.squared_range(mine, e.label, s);
     };
     visit(from, kinds_.squared_reach(mine, strength), t, legs,
           [&](const Entry& e, Vec3, double d2) {
-              if (in_range(e, Strength::decodable, d2)) {
-                  take(e.node, d2);
-              } else if (strength != Strength::decodable && in_range(e, strength, d2)) {
-                  sensors_.push_back({e.node, d2});
-              }
+              const bool decodes = in_range(e, Strength::decodable, d2);
+              if (decodes || in_range(e, strength, d2)) take(e.node, d2, decodes);
           });
 }
 
@@ -113,11 +110,7 @@ void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& l
         // Who can decode it senses it, too.
         const bool decodes =
             strength == Strength::decodable || in_range(e, d2, Strength::decodable);
-        if (decodes) {
-            take(e.node, d2);
-        } else {
-            sensors_.push_back({e.node, d2});
-        }
+        take(e.node, d2, decodes);
     };
     // Their draws rule out most before anything else about them is looked at.
     const PairDraws draws = shadowing_draws(settings_.seed, settings_.replication);
@@ -157,13 +150,9 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
     candidates_.compute_losses(model(from), batch(from, origin_), from, pairs_);
     for (const Candidate& c : candidates_.all()) {
         if (c.loss_db > c.budget_db) continue;
-        const bool decodable = strength == Strength::decodable ||
-                               c.loss_db <= link_budget(mine, kinds_.radio(kind(c.node))).value;
-        if (decodable) {
-            take(c.node, c.squared_distance);
-        } else {
-            sensors_.push_back({c.node, c.squared_distance});
-        }
+        const bool decodes = strength == Strength::decodable ||
+                             c.loss_db <= link_budget(mine, kinds_.radio(kind(c.node))).value;
+        take(c.node, c.squared_distance, decodes);
     }
 }
 
