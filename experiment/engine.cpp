@@ -56,6 +56,15 @@ Engine::Engine(NetworkSettings settings)
     }
 }
 
+void Engine::add_sink(Sink sink) {
+    const KindMask kinds = sink.kinds();
+    wanted_ |= kinds;
+    links_wanted_ = links_wanted_ || (kinds & kind_links) != 0;
+    const bool any_order = (kinds & kind_any_order) != 0;
+    order_wanted_ = order_wanted_ || ((kinds & kind_of<Received>()) != 0 && !any_order);
+    sinks_.push_back(std::move(sink));
+}
+
 void Engine::schedule(Time time, Action action) {
     if (time < now_) {
         throw std::invalid_argument(

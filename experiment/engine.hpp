@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/chunks.hpp"
 #include "experiment/engine_parts.hpp"
 #include "experiment/link_watch.hpp"
 #include "experiment/name_table.hpp"
 #include "experiment/network.hpp"
 #include "mobility/planners.hpp"
 #include "models/on_air.hpp"
+#include "sim/chunks.hpp"
 #include "sim/scheduler.hpp"
 #include "sim/slots.hpp"
 
@@ -67,11 +67,7 @@ class Engine final : public LinkLayer, public Air {
     void reserve(std::size_t robots);
     NodeId add(Robot robot);
     void route(Router router);
-    void add_sink(Sink sink) {
-        wanted_ |= sink.kinds();
-        links_wanted_ = links_wanted_ || (sink.kinds() & kind_links) != 0;
-        sinks_.push_back(std::move(sink));
-    }
+    void add_sink(Sink sink);
     void send(NodeId node, std::string payload, std::uint32_t bytes);
     void send_to(NodeId node, NodeId to, std::string payload, std::uint32_t bytes);
     void saturate(NodeId node, NodeId to, std::uint32_t bytes);
@@ -120,6 +116,7 @@ class Engine final : public LinkLayer, public Air {
     }
     BitRate rate_of(const AirFrame& frame) const;
     void transmit_sensed(Flight& flight, Time end);
+    static void sort(Flight& flight);
     void put_on_air(std::size_t slot, Time end);
     void forget_frames();
     void keep_past(NodeId id, bool on);
@@ -167,6 +164,7 @@ class Engine final : public LinkLayer, public Air {
     std::optional<Router> router_;
     std::vector<Sink> sinks_;
     KindMask wanted_ = 0;
+    bool order_wanted_ = false;  // of receptions, by a sink or the router
     Slots<Flight> flights_;
     std::vector<Reception> heard_;      // those of a flight that are handed up ...
     std::vector<std::size_t> places_;   // ... and where they belong

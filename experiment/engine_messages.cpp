@@ -10,6 +10,7 @@ namespace rovernet {
 
 void Engine::route(Router router) {
     if (router_) throw std::invalid_argument("this network has a routing protocol already");
+    order_wanted_ = order_wanted_ || !router.takes_any_order();
     router_.emplace(std::move(router));
 }
 

@@ -33,7 +33,8 @@ struct Flight {
     AirFrame air;
     std::uint32_t number = 0;    // among those of its sender, at rungs above threshold
     std::uint64_t emission = 0;  // its serial on air, at rungs above threshold
-    std::vector<Reception> receptions;
+    Medium::Receivers receivers;
+    bool in_order = false;    // they are sorted
     std::vector<Lock> locks;  // of the receptions, at the rung "sinr"
     std::size_t arrived = 0;
     bool undisturbed = false;  // who hears it gets it without errors

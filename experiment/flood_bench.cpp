@@ -45,7 +45,7 @@ double side(std::uint32_t nodes) {
 struct Count {
     std::uint64_t transmissions = 0, attempts = 0, decoded = 0;
 
-    KindMask kinds() const { return kind_of<Transmitted>() | kind_of<Received>(); }
+    KindMask kinds() const { return kind_of<Transmitted>() | kind_of<Received>() | kind_any_order; }
     void on(const Record& record, const RecordContext&) {
         if (std::holds_alternative<Transmitted>(record)) {
             ++transmissions;

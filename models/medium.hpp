@@ -11,6 +11,7 @@
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/record.hpp"
+#include "sim/sieve.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -79,17 +80,21 @@ class Medium {
         double squared_distance;  ///< [m^2] between the antennas
     };
 
-    /// Appends to `out` the nodes that hear `from` when it sends at `start`, in the order in which
-    /// the frame ends at them, then of NodeId. `start` must not decrease from call to call.
+    /// Those whom a frame reaches.
+    struct Receivers {
+        std::vector<Reception> all;  ///< in no order
+        Time first, last;            ///< ends of the frame at them, if there are any
+    };
+    /// Finds the nodes that hear `from` when it sends at `start`, which must not decrease from call
+    /// to call.
     /// @param end  of the frame at the transmitter
-    void receivers(NodeId from, Time start, Time end, const Legs& legs,
-                   std::vector<Reception>& out);
+    void find_receivers(NodeId from, Time start, Time end, const Legs& legs, Receivers& out);
     /// The same, and those that only sense it: returned in no order, good until the next call.
-    std::span<const Found> sensors(NodeId from, Time start, Time end, const Legs& legs,
-                                   std::vector<Reception>& receivers);
+    std::span<const Found> find_sensors(NodeId from, Time start, Time end, const Legs& legs,
+                                        Receivers& out);
     /// Of that search: the sender's antenna [m], and how far the farthest receiver is [m].
     Vec3 origin() const { return origin_; }
-    double heard_within() const { return std::sqrt(squared_heard_within_); }
+    double heard_within();
     /// [ns] that a frame is under way.
     Duration delay(double distance) const;
 
@@ -114,7 +119,7 @@ class Medium {
     /// Those that hear `from` at `t`, which must not decrease; good until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
         find(from, Strength::decodable, t, legs);
-        return found_;
+        return found_.kept();
     }
 
     /// Nodes other than `from` that a chain of links joins to it at `t`, which must not decrease.
@@ -146,14 +151,10 @@ class Medium {
     void choose_cells();
     void find(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
+    void find_alike(NodeId from, Time t, const Legs& legs);
     void find_in_table(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs);
-    void sort_receivers(Time end, std::vector<Reception>& out);
-    void take(NodeId node, double squared_distance, bool decodes) {
-        if (!decodes) return sensors_.push_back({node, squared_distance});
-        found_.push_back({node, squared_distance});
-        squared_heard_within_ = std::max(squared_heard_within_, squared_distance);
-    }
+    void tell_arrivals(Time end, Receivers& out) const;
     void look_from(NodeId from, Time t, const Legs& legs);
     void share_draws(const PairDraws& draws);
     template <class Use>
@@ -177,8 +178,7 @@ class Medium {
 
     // What is under work, kept for its memory.
     Vec3 origin_;
-    std::vector<Found> found_, sensors_;
-    double squared_heard_within_ = 0;  // [m^2] of those found
+    Sieve<Found> found_, sensors_;
     Candidates candidates_;
 };
 

@@ -2,7 +2,6 @@
 // Who is within reach: what every transmission asks.
 #include "models/friis.hpp"
 #include "models/medium.hpp"
-#include "models/rough_ranks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -70,7 +69,6 @@ void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use
 /// others.
 void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs) {
     found_.clear();
-    squared_heard_within_ = 0;
     sensors_.clear();
     kinds_.prepare(kind(from));
     switch (kinds_.decision(kind(from))) {
@@ -84,9 +82,7 @@ void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& l
     const Kind mine = kind(from);
     const bool alike = kinds_.size() == 1;
     if (alike && strength == Strength::decodable) {
-        const double range2 = kinds_.squared_range(mine, mine, strength);
-        return visit(from, range2, t, legs,
-                     [&](const Entry& e, Vec3, double d2) { take(e.node, d2, true); });
+        return find_alike(from, t, legs);
     }
     const auto in_range = [&](const Entry& e, Strength s, double d2) {
         return d2 <= kinds_.squared_range(mine, e.label, s);
@@ -94,8 +90,25 @@ void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& l
     visit(from, kinds_.squared_reach(mine, strength), t, legs,
           [&](const Entry& e, Vec3, double d2) {
               const bool decodes = in_range(e, Strength::decodable, d2);
-              if (decodes || in_range(e, strength, d2)) take(e.node, d2, decodes);
+              if (!decodes && !in_range(e, strength, d2)) return;
+              (decodes ? found_ : sensors_).put({e.node, d2}, true);
           });
+}
+
+/// As find_in_range(), of stations that are all of one kind, for those that decode.
+void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
+    look_from(from, t, legs);
+    const Kind mine = kind(from);
+    if (!kinds_.may_link(mine, mine)) return;
+    const double range2 = kinds_.squared_range(mine, mine, Strength::decodable);
+    const bool all_on = all_are_on();
+    const double height = kinds_.height(mine);
+    index_.visit(origin_, std::sqrt(std::max(range2, 0.0)), t, legs, [&](const Entry& e, Vec3 p) {
+        p.z += height;
+        const double d2 = squared_distance(origin_, p);
+        const bool on = all_on || stations_[e.node.index()].on;
+        found_.put({e.node, d2}, (d2 <= range2) & (e.node != from) & on);
+    });
 }
 
 void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& legs) {
@@ -110,7 +123,7 @@ void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& l
         // Who can decode it senses it, too.
         const bool decodes =
             strength == Strength::decodable || in_range(e, d2, Strength::decodable);
-        take(e.node, d2, decodes);
+        (decodes ? found_ : sensors_).put({e.node, d2}, true);
     };
     // Their draws rule out most before anything else about them is looked at.
     const PairDraws draws = shadowing_draws(settings_.seed, settings_.replication);
@@ -152,7 +165,7 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
         if (c.loss_db > c.budget_db) continue;
         const bool decodes = strength == Strength::decodable ||
                              c.loss_db <= link_budget(mine, kinds_.radio(kind(c.node))).value;
-        take(c.node, c.squared_distance, decodes);
+        (decodes ? found_ : sensors_).put({c.node, c.squared_distance}, true);
     }
 }
 
@@ -214,52 +227,37 @@ Duration Medium::delay(double distance) const {
     return settings_.propagation_delay ? flight_time(distance) : Duration{0};
 }
 
-void Medium::receivers(NodeId from, Time start, Time end, const Legs& legs,
-                       std::vector<Reception>& out) {
+void Medium::find_receivers(NodeId from, Time start, Time end, const Legs& legs, Receivers& out) {
     find(from, Strength::decodable, start, legs);
-    sort_receivers(end, out);
+    tell_arrivals(end, out);
 }
 
-std::span<const Medium::Found> Medium::sensors(NodeId from, Time start, Time end, const Legs& legs,
-                                               std::vector<Reception>& receivers) {
+std::span<const Medium::Found> Medium::find_sensors(NodeId from, Time start, Time end,
+                                                    const Legs& legs, Receivers& out) {
     find(from, Strength::detectable, start, legs);
-    sort_receivers(end, receivers);
-    return sensors_;
+    tell_arrivals(end, out);
+    return sensors_.kept();
 }
 
-/// Appends those found, in the order in which a frame that ends at `end` ends at them.
-void Medium::sort_receivers(Time end, std::vector<Reception>& out) {
-    const std::size_t first = out.size(), count = found_.size();
-    out.resize(first + count);
-    Reception* const sorted = out.data() + first;
-    const auto put = [&, end](std::size_t place, const Found& f) {
-        sorted[place].node = f.node;
-        sorted[place].time = end + delay(std::sqrt(f.squared_distance));
-    };
-    const auto sooner = [](const Reception& a, const Reception& b) {
-        return a.time != b.time ? a.time < b.time : a.node < b.node;
-    };
-    if (count > RoughRanks::most) {
-        for (std::size_t i = 0; i < count; ++i) put(i, found_[i]);
-        std::sort(sorted, sorted + count, sooner);
-        return;
+/// Tells when a frame that ends at `end` ends at those found.
+void Medium::tell_arrivals(Time end, Receivers& out) const {
+    const std::span<const Found> found = found_.kept();
+    out.all.resize(found.size());
+    Time first = Time::max(), last = Time::min();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const Time time = end + delay(std::sqrt(found[i].squared_distance));
+        out.all[i] = {.node = found[i].node, .time = time};
+        first = std::min(first, time);
+        last = std::max(last, time);
     }
-    // Among robots that are spread evenly, squared distances are.
-    constexpr double nowhere = 1e-9;  // [m^2]
-    const double farthest = std::max(squared_heard_within_, nowhere);
-    const double scale = (RoughRanks::seats - 1) / farthest;
-    std::array<std::uint32_t, RoughRanks::most> seats;
-    RoughRanks ranks;
-    for (std::size_t i = 0; i < count; ++i) {
-        seats[i] = ranks.take(static_cast<std::uint32_t>(found_[i].squared_distance * scale));
-    }
-    ranks.count();
-    for (std::size_t i = 0; i < count; ++i) put(ranks.rank(seats[i]), found_[i]);
-    for (std::size_t i = 1; i < count; ++i) {
-        for (std::size_t k = i; k > 0 && sooner(sorted[k], sorted[k - 1]); --k) {
-            std::swap(sorted[k], sorted[k - 1]);
-        }
-    }
+    out.first = first;
+    out.last = last;
+}
+
+double Medium::heard_within() {
+    double squared = 0;
+    for (const Found& f : found_.kept()) squared = std::max(squared, f.squared_distance);
+    return std::sqrt(squared);
 }
 
 std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
@@ -269,7 +267,7 @@ std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
     const std::size_t all = stations_.size() - off_ + (is_on(from) ? 0 : 1);
     for (std::size_t next = 0; next < frontier.size() && frontier.size() < all; ++next) {
         find(frontier[next], Strength::decodable, t, legs);
-        for (const auto [node, squared_distance] : found_) {
+        for (const auto [node, squared_distance] : found_.kept()) {
             if (seen[node.index()]) continue;
             seen[node.index()] = true;
             frontier.push_back(node);

@@ -53,7 +53,9 @@ void NeighbourIndex::moved(NodeId node, const Legs& legs) {
     binned_.put(place, node, label, leg);
 }
 
-std::span<std::uint32_t> NeighbourIndex::near(Vec3 centre, double reach) {
+/// Puts the entries of the cells within `reach` [m] of `centre` into near_, and how far they were
+/// binned into distance2_. @return their number
+std::size_t NeighbourIndex::look_around(Vec3 centre, double reach) {
     const auto columns = columns_.near(centre.x, reach);
     const auto rows = rows_.near(centre.y, reach);
     const auto x = static_cast<float>(centre.x), y = static_cast<float>(centre.y);
@@ -67,15 +69,7 @@ std::span<std::uint32_t> NeighbourIndex::near(Vec3 centre, double reach) {
         }
     });
     looked_at_ += count + 1;
-    // Without a branch: it would be mispredicted for many.
-    const double wide = reach + rounding(centre, reach);
-    const auto reach2 = static_cast<float>(wide * wide);
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        near_[found] = near_[i];
-        found += distance2_[i] <= reach2;
-    }
-    return {near_.data(), found};
+    return count;
 }
 
 /// Puts entries and their squared distances from (x, y) behind the `count` first of near_ and

@@ -80,18 +80,21 @@ class NeighbourIndex {
                   Visit visit) {
         visit_apart(t, legs, visit);
         const double reach = radius + slack(t);
-        const auto x = static_cast<float>(centre.x), y = static_cast<float>(centre.y);
         // So much nearer than where it was binned may it be.
-        const auto off = static_cast<float>((slack(t) + rounding(centre, reach)) * (1 + 1e-6));
-        const std::span<std::uint32_t> places = near(centre, reach);
+        const double most = (slack(t) + rounding(centre, reach)) * (1 + 1e-6);
+        const auto off = static_cast<float>(std::min<double>(most, far));
+        const std::span<std::uint32_t> places = near<true>(centre, reach);
+        float* const at_least = distance2_.data();
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const float nearer = (1 - 1e-6F) * std::sqrt(at_least[i]) - off;
+            const float nearest = (nearer + std::abs(nearer)) / 2;  // or 0
+            at_least[i] = (1 - 1e-6F) * nearest * nearest;
+        }
         std::size_t passed = 0;
-        for (const std::uint32_t i : places) {
-            const float dx = x_[i] - x, dy = y_[i] - y;
-            const float at = (1 - 1e-6F) * std::sqrt(dx * dx + dy * dy);
-            const float nearest = std::max(0.0F, at - off);
+        for (std::size_t i = 0; i < places.size(); ++i) {
             // Without a branch: it would be mispredicted for most that pass.
-            places[passed] = i;
-            passed += passes(i, (1 - 1e-6F) * nearest * nearest);
+            const std::uint32_t place = places[passed] = places[i];
+            passed += passes(place, at_least[i]);
         }
         for (const std::uint32_t i : places.first(passed)) {
             visit(binned_.entries[i], binned_.position(i, t, legs));
@@ -103,6 +106,7 @@ class NeighbourIndex {
     std::uint64_t bins() const { return bins_; }
 
   private:
+    static constexpr float far = 1e30F;                    // [m] from everything
     static constexpr std::uint32_t is_apart = 0x80000000;  // bit of a place in apart_
 
     /// Entries, and apart from them what only those that move take.
@@ -142,7 +146,22 @@ class NeighbourIndex {
         return 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
     }
     /// The entries that were binned within `reach` [m] of `centre`, and some others.
-    std::span<std::uint32_t> near(Vec3 centre, double reach);
+    template <bool distances_too = false>
+    std::span<std::uint32_t> near(Vec3 centre, double reach) {
+        const std::size_t count = look_around(centre, reach);
+        const double wide = reach + rounding(centre, reach);
+        const auto reach2 = static_cast<float>(wide * wide);
+        std::size_t found = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            // Without a branch: it would be mispredicted for many.
+            const float d2 = distance2_[i];
+            near_[found] = near_[i];
+            if constexpr (distances_too) distance2_[found] = d2;
+            found += d2 <= reach2;
+        }
+        return {near_.data(), found};
+    }
+    std::size_t look_around(Vec3 centre, double reach);
     std::size_t look_through(std::uint32_t begin, std::uint32_t end, float x, float y,
                              std::size_t count);
 
@@ -158,8 +177,8 @@ class NeighbourIndex {
     std::vector<std::uint32_t> labels_;  // by node
     Table binned_;                       // in the order of their cells
     std::vector<float> x_, y_;           // [m] where they were binned
-    std::vector<std::uint32_t> near_;    // begins with the result of near()
-    std::vector<float> distance2_;       // [m^2] of what near() looked at
+    std::vector<std::uint32_t> near_;    // begins with the result of near() ...
+    std::vector<float> distance2_;       // [m^2] ... and this with how far each was binned from it
     std::vector<std::uint32_t> first_;   // entry of a cell; one more than there are cells
     std::vector<std::uint32_t> place_;   // of a node in binned_, or in apart_
     Table apart_;

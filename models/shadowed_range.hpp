@@ -125,8 +125,9 @@ class FirstLook {
     /// False only if pairs of these bits of the draws are out of range at all squared distances
     /// [m^2] from `at_least` on, >= 0.
     bool passes(float at_least, std::uint64_t bits) const {
-        const auto cell = static_cast<std::uint32_t>(std::min<float>(cells, at_least * scale_));
-        return bits >> 33 < most_draws_[cell];
+        const float scaled = at_least * scale_;
+        const auto cell = static_cast<std::int32_t>(scaled < cells ? scaled : cells);
+        return bits >> 33 < most_draws_[static_cast<std::size_t>(cell)];
     }
 
   private:

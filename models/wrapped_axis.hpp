@@ -11,7 +11,8 @@ namespace rovernet {
 /// One axis of a grid whose cells wrap around: so many cells, each so wide, serve the whole line.
 class WrappedAxis {
   public:
-    explicit WrappedAxis(double width = 1, std::size_t cells = 1) : width_(width), cells_(cells) {}
+    explicit WrappedAxis(double width = 1, std::size_t cells = 1)
+        : width_(width), per_meter_(1 / width), cells_(cells) {}
 
     double width() const { return width_; }       ///< [m] of a cell
     std::size_t cells() const { return cells_; }  ///< of the axis
@@ -44,15 +45,17 @@ class WrappedAxis {
     static constexpr double far = 1e15;  // [cells] positions beyond it share the last cell
 
     std::int64_t unwrapped(double x) const {
-        return static_cast<std::int64_t>(std::floor(std::clamp(x / width_, -far, far)));
+        return static_cast<std::int64_t>(std::floor(std::clamp(x * per_meter_, -far, far)));
     }
     std::size_t wrapped(std::int64_t cell) const {
         const auto n = static_cast<std::int64_t>(cells_);
-        const std::int64_t rest = cell % n;
+        // Most are on the axis as they are: a division would take longer than all else here.
+        const std::int64_t rest = cell >= 0 && cell < n ? cell : cell % n;
         return static_cast<std::size_t>(rest < 0 ? rest + n : rest);
     }
 
     double width_;
+    double per_meter_;  // [cells]
     std::size_t cells_;
 };
 

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "routing/flood.hpp"
 
+#include <algorithm>
+
 namespace rovernet {
 
 Flood::operator Router() const { return FloodRouter{*this}; }
 
-FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) { check_fields(flood, "flood"); }
+FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) {
+    check_fields(flood, "flood");
+    if (flood.duplicates == Duplicates::forward) return;
+    settled_ = 1;
+    if (flood.upgrade) return;
+    first_settled_ = Knowledge::ended;
+    settled_ = ~std::uint32_t{0};
+}
 
 /// What every node knows of a message.
 std::vector<FloodRouter::Knowledge>& FloodRouter::knowledge(const LinkLayer& link,
@@ -27,45 +36,44 @@ void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
 }
 
 void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
-    auto& by_node = knowledge(link, frame.message);
+    Knowledge* const by_node = knowledge(link, frame.message).data();
     // Together, so that none waits for the one before.
     for (const auto& reception : receptions) __builtin_prefetch(&by_node[reception.node.index()]);
+    news_.clear();
     for (auto& reception : receptions) {
-        Knowledge& mine = by_node[reception.node.index()];
+        const Knowledge mine = by_node[reception.node.index()];
         reception.delivered = mine.is(Knowledge::unheard);
-        reception.fate = fate_of(link, frame, reception, mine);
+        reception.fate = Fate::duplicate;
+        news_.put(&reception, !mine.is_among(first_settled_, settled_));
+    }
+    const std::span<Reception*> news = news_.kept();
+    const auto end = std::remove_if(news.begin(), news.end(), [&](const Reception* r) {
+        return is_duplicate(frame, by_node[r->node.index()]);
+    });
+    // Timers of one time are served in the order in which they were set.
+    std::sort(news.begin(), end, [](const Reception* a, const Reception* b) { return *a < *b; });
+    for (auto each = news.begin(); each != end; ++each) {
+        (*each)->fate = take(link, frame, **each, by_node[(*each)->node.index()]);
     }
 }
 
-Fate FloodRouter::fate_of(LinkLayer& link, const Frame& frame, const Reception& reception,
-                          Knowledge& mine) {
-    const bool last_hop = frame.ttl <= 1;
-    if (flood_.duplicates == Duplicates::forward) {
-        if (mine.is(Knowledge::unheard)) mine = Knowledge::ended;
-        if (last_hop) return Fate::ttl;
-        wait(link, frame, reception);
-        return Fate::waiting;
-    }
-    if (!mine.is(Knowledge::unheard)) {
-        if (!flood_.upgrade || !lifts(frame, mine)) return Fate::duplicate;
-        if (mine.is(Knowledge::waiting)) {
-            copies_[mine.copy()] = frame;
-            return Fate::duplicate;
-        }
-    }
-    if (last_hop) {
-        mine = Knowledge::ended;
-        return Fate::ttl;
-    }
-    mine = {Knowledge::waiting, wait(link, frame, reception)};
+/// Of those that are not settled: the node forwards no copy of its own for this one, which may
+/// lift the one that it has not sent.
+bool FloodRouter::is_duplicate(const Frame& frame, Knowledge known) {
+    if (flood_.duplicates == Duplicates::forward || known.is(Knowledge::unheard)) return false;
+    if (!known.is(Knowledge::waiting)) return frame.ttl <= 1;
+    Frame& copy = copies_[known.copy()];
+    if (frame.ttl > copy.ttl) copy = frame;
+    return true;
+}
+
+Fate FloodRouter::take(LinkLayer& link, const Frame& frame, const Reception& reception,
+                       Knowledge& mine) {
+    if (mine.is(Knowledge::unheard)) mine = Knowledge::ended;
+    if (frame.ttl <= 1) return Fate::ttl;
+    const std::uint32_t copy = wait(link, frame, reception);
+    if (flood_.duplicates == Duplicates::suppress) mine = {Knowledge::waiting, copy};
     return Fate::waiting;
-}
-
-/// Whether a late copy has a higher TTL than the one that the node has not sent.
-bool FloodRouter::lifts(const Frame& frame, const Knowledge& known) const {
-    if (known.is(Knowledge::sent)) return false;
-    const int ttl = known.is(Knowledge::waiting) ? copies_[known.copy()].ttl : 1;
-    return frame.ttl > ttl;
 }
 
 /// Keeps a copy for its delay; returns where.

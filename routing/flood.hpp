@@ -3,6 +3,7 @@
 
 #include "sim/fields.hpp"
 #include "sim/ports.hpp"
+#include "sim/sieve.hpp"
 #include "sim/slots.hpp"
 
 #include <cstdint>
@@ -50,6 +51,8 @@ struct Flood {
 /// message is left.
 class FloodRouter {
   public:
+    static constexpr bool takes_any_order = true;
+
     /// @throws std::invalid_argument if a parameter is out of its range
     explicit FloodRouter(const Flood& flood);
 
@@ -71,19 +74,26 @@ class FloodRouter {
         }
         /// The one that waits, in the state `waiting`.
         std::uint32_t copy() const { return value_ - waiting; }
+        /// One comparison: it is one of the `count` states from `first` on.
+        bool is_among(std::uint32_t first, std::uint32_t count) const {
+            return value_ - first < count;
+        }
 
       private:
         std::uint32_t value_;  // from `waiting` on: and the copy's number
     };
 
     std::vector<Knowledge>& knowledge(const LinkLayer& link, MessageId message);
-    Fate fate_of(LinkLayer& link, const Frame& frame, const Reception& reception, Knowledge& mine);
-    bool lifts(const Frame& frame, const Knowledge& known) const;
+    bool is_duplicate(const Frame& frame, Knowledge known);
+    Fate take(LinkLayer& link, const Frame& frame, const Reception& reception, Knowledge& mine);
     std::uint32_t wait(LinkLayer& link, const Frame& frame, const Reception& reception);
 
     Flood flood_;
+    // The states in which another copy is a duplicate, whatever its TTL.
+    std::uint32_t first_settled_ = Knowledge::sent, settled_ = 0;
     std::vector<std::vector<Knowledge>> known_;  // by message, then by node
     Slots<Frame> copies_;                        // as received, waiting for their delay
+    Sieve<Reception*> news_;                     // under work, kept for its memory
 };
 
 }  // namespace rovernet

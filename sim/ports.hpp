@@ -60,7 +60,8 @@ concept RouterProtocol = requires(T router, LinkLayer& link, NodeId node, Messag
                                   std::uint64_t tag) {
     /// The node's application sends a message.
     {router.send(link, node, message)};
-    /// The frame arrives at some of its receivers; fills each reception's fate and delivery.
+    /// The frame arrives at some of its receivers, in order of time and then of node; fills each
+    /// reception's fate and delivery.
     {router.on_receive(link, frame, receptions)};
     {router.on_timer(link, node, tag)};
     /// A slot of the message table is free for another message.
@@ -75,12 +76,17 @@ concept TellsOfUnicasts = requires(T router, LinkLayer& link, const Frame& frame
     {router.on_sent(link, frame, received)};
 };
 
+/// A protocol that may be given receptions in any order: what it does depends on their times only.
+template <class T>
+concept TakesAnyOrder = T::takes_any_order;
+
 /// Any routing protocol, held by value.
 class Router {
   public:
     template <class T>
     requires(!std::same_as<T, Router> && RouterProtocol<T>) Router(T protocol)
-        : self_(std::make_unique<Holder<T>>(std::move(protocol))) {}
+        : takes_any_order_(TakesAnyOrder<T>),
+          self_(std::make_unique<Holder<T>>(std::move(protocol))) {}
 
     void send(LinkLayer& link, NodeId node, MessageId m) { self_->send(link, node, m); }
     void on_receive(LinkLayer& link, const Frame& f, std::span<Reception> r) {
@@ -94,6 +100,7 @@ class Router {
     }
     void forget(MessageId m) { self_->forget(m); }
     Hops initial_ttl() const { return self_->initial_ttl(); }
+    bool takes_any_order() const { return takes_any_order_; }
 
   private:
     struct Concept {
@@ -122,6 +129,7 @@ class Router {
         Hops initial_ttl() const override { return protocol.initial_ttl(); }
         T protocol;
     };
+    bool takes_any_order_;
     std::unique_ptr<Concept> self_;
 };
 

@@ -21,6 +21,11 @@ struct Reception {
     Time time;  ///< end of the frame at this receiver
     Fate fate = Fate::waiting;
     bool delivered = false;  ///< handed to the application: the node's first copy
+
+    /// The order in which a transmission arrives.
+    friend bool operator<(const Reception& a, const Reception& b) {
+        return a.time != b.time ? a.time < b.time : a.node < b.node;
+    }
 };
 
 /// An application hands a message to its router.
@@ -42,7 +47,8 @@ struct Transmitted {
     std::optional<NodeId> heard_from;  ///< who the frame came from, if the sender forwards it
 };
 
-/// A transmission (or a part of it) arrives: receptions in order of time, then of node.
+/// A transmission (or a part of it) arrives: receptions in order of time, then of node, unless no
+/// sink wants the order (see kind_any_order).
 struct Received {
     Frame frame;
     std::span<const Reception> receptions;
@@ -176,7 +182,9 @@ inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();
 
 /// Not a record: asks that Sent carries `reachable`, which costs a search of the network.
 inline constexpr KindMask kind_reachable = 1U << 31;
-inline constexpr KindMask kind_all = 0x7fffffff;
+/// Not a record: the receptions of a Received may come in any order, which saves sorting them.
+inline constexpr KindMask kind_any_order = 1U << 30;
+inline constexpr KindMask kind_all = 0x3fffffff;
 
 /// What a sink may look up while it handles a record.
 struct RecordContext {

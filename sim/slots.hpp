@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/chunks.hpp"
+
 #include <cstddef>
-#include <deque>
 #include <vector>
 
 namespace rovernet {
@@ -15,7 +16,7 @@ class Slots {
     /// Takes a place; it holds what its last user left there, whose memory may serve again.
     std::size_t take() {
         if (free_.empty()) {
-            values_.emplace_back();
+            values_.push_back({});
             return values_.size() - 1;
         }
         const std::size_t slot = free_.back();
@@ -28,7 +29,7 @@ class Slots {
     const T& operator[](std::size_t slot) const { return values_[slot]; }
 
   private:
-    std::deque<T> values_;
+    Chunks<T> values_;
     std::vector<std::size_t> free_;
 };
 

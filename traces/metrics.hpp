@@ -81,7 +81,7 @@ class Metrics {
 
     KindMask kinds() const {
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
-               kind_reachable;
+               kind_reachable | kind_any_order;
     }
     void on(const Record& record, const RecordContext& context);
 

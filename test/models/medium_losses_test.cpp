@@ -100,24 +100,24 @@ struct Twins {
             }
         }
     }
-    void compare(const std::vector<Reception>& kept, const std::vector<Reception>& computed) {
-        REQUIRE(kept.size() == computed.size());
-        for (std::size_t i = 0; i < kept.size(); ++i) {
-            CHECK(kept[i].node == computed[i].node);
-            CHECK(kept[i].time == computed[i].time);
+    void compare(const Medium::Receivers& kept, const Medium::Receivers& computed) {
+        REQUIRE(kept.all.size() == computed.all.size());
+        for (std::size_t i = 0; i < kept.all.size(); ++i) {
+            CHECK(kept.all[i].node == computed.all[i].node);
+            CHECK(kept.all[i].time == computed.all[i].time);
         }
-        links += kept.size();
+        links += kept.all.size();
     }
     void compare_receivers(NodeId from) {
-        std::vector<Reception> kept, computed;
-        keeping.receivers(from, now, now, legs, kept);
-        plain.receivers(from, now, now, legs, computed);
+        Medium::Receivers kept, computed;
+        keeping.find_receivers(from, now, now, legs, kept);
+        plain.find_receivers(from, now, now, legs, computed);
         compare(kept, computed);
     }
     void compare_sensors(NodeId from) {
-        std::vector<Reception> kept, computed;
-        const auto kept_sensors = keeping.sensors(from, now, now, legs, kept);
-        const auto computed_sensors = plain.sensors(from, now, now, legs, computed);
+        Medium::Receivers kept, computed;
+        const auto kept_sensors = keeping.find_sensors(from, now, now, legs, kept);
+        const auto computed_sensors = plain.find_sensors(from, now, now, legs, computed);
         compare(kept, computed);
         REQUIRE(kept_sensors.size() == computed_sensors.size());
         for (std::size_t i = 0; i < kept_sensors.size(); ++i) {
@@ -161,11 +161,11 @@ TEST_CASE("medium: resting robots trace each ray once, moving ones each time") {
             const NodeId node{static_cast<std::uint32_t>(i)};
             if (moving) twins.put(node, twins.trip(node));
         }
-        std::vector<Reception> heard;
+        Medium::Receivers heard;
         for (std::size_t round = 0; round < rounds; ++round) {
             twins.now += 100ms;
             for (std::uint32_t i = 0; i < robots; ++i) {
-                twins.keeping.receivers(NodeId{i}, twins.now, twins.now, twins.legs, heard);
+                twins.keeping.find_receivers(NodeId{i}, twins.now, twins.now, twins.legs, heard);
             }
         }
         CHECK(*counted.rays == robots * (robots - 1) * (moving ? rounds : 1));

@@ -15,6 +15,17 @@ namespace rovernet {
 template <class T>
 class Chunks {
   public:
+    Chunks() = default;
+    Chunks(Chunks&&) = default;
+    Chunks(const Chunks& other) : size_(other.size_) {
+        for (const auto& chunk : other.chunks_) chunks_.push_back(std::make_unique<Chunk>(*chunk));
+    }
+    Chunks& operator=(Chunks other) {
+        std::swap(chunks_, other.chunks_);
+        std::swap(size_, other.size_);
+        return *this;
+    }
+
     std::size_t size() const { return size_; }
     void push_back(T value) {
         if (size_ == chunks_.size() * chunk_size) chunks_.push_back(std::make_unique<Chunk>());

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace rovernet {
+
+/// Values of which some are kept, decided without a branch: where it cannot be foretold which, a
+/// branch would be mispredicted.
+template <class T>
+class Sieve {
+  public:
+    void clear() { next_ = values_.get(); }
+    /// Keeps `value` behind the others, or not.
+    void put(const T& value, bool keep) {
+        if (next_ == end_) [[unlikely]]
+            grow();
+        *next_ = value;
+        next_ += keep;
+    }
+    /// Good until the next put().
+    std::span<T> kept() const { return {values_.get(), next_}; }
+
+  private:
+    void grow() {
+        const std::span<T> old = kept();
+        const std::size_t size = 2 * old.size() + 16;
+        auto values = std::make_unique<T[]>(size);
+        next_ = std::copy(old.begin(), old.end(), values.get());
+        end_ = values.get() + size;
+        values_ = std::move(values);
+    }
+
+    std::unique_ptr<T[]> values_;
+    T* next_ = nullptr;  // behind those that are kept
+    T* end_ = nullptr;
+};
+
+}  // namespace rovernet

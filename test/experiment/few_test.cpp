@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/few.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace rovernet;
+
+TEST_CASE("few: an empty list is as large as a pointer, and grows like any other") {
+    CHECK(sizeof(Few<int>) == sizeof(void*));
+    Few<int> list;
+    CHECK(list.empty());
+    CHECK(list.size() == 0);
+    for (int i = 0; i < 10; ++i) list.push_back(i * i);
+    CHECK_FALSE(list.empty());
+    REQUIRE(list.size() == 10);
+    for (std::size_t i = 0; i < 10; ++i) CHECK(list[i] == static_cast<int>(i * i));
+}
