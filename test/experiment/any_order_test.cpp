@@ -98,23 +98,25 @@ struct Playground {
         test::Draw draw(seed);
         for (int i = 0; i < robots; ++i) {
             Vec3 at{draw.uniform(0, 500), draw.uniform(0, 500), 0};
-            if (i % 2 == 0) at = {60.0 * (i / 2 % 6), 60.0 * (i / 12), 0};
+            const int place = i / 2 * 7 % 30;  // so that their ids are not in order of place
+            if (i % 2 == 0) at = {60.0 * (place % 6), 60.0 * (place / 6), 0};
             Movement move = Fixed{};
-            if (i % 3 == 0) {
+            if (i % 3 == 1) {
                 move = RandomWaypoint{
                     .area = {{0, 0, 0}, {500, 500, 0}}, .min_speed = {1}, .max_speed = {300}};
             }
             net.add({.name = {}, .at = at, .radio = {.sensitivity = {-90}}, .move = move});
         }
     }
-    /// Floods of which some begin together, so that frames come in between the receptions of
-    /// others.
+    /// Floods from robots of the grid that stand still. Some begin together, so that frames come in
+    /// between the receptions of others.
     std::shared_ptr<Log> run(Router router, KindMask kinds) {
         auto log = std::make_shared<Log>(Log{kinds});
         net.add_sink(Sink{log});
         net.route(std::move(router));
         for (std::uint32_t i = 0; i < robots; i += 6) {
-            net.at(start_of_run + i / 12 * 10ms, [this, i] { net.broadcast({i}, "hello"); });
+            const auto begin = (i < robots / 2 ? i / 12 : i / 6) * 10ms;
+            net.at(start_of_run + begin, [this, i] { net.broadcast({i}, "hello"); });
         }
         net.run_for(1s);
         return log;
@@ -134,6 +136,7 @@ std::vector<Setting> settings() {
             {.flood = {.ttl = 2, .upgrade = false, .jitter = 0us}},
             {.flood = forward},
             {.propagation = shadowed, .flood = at_once},
+            {.propagation = Disc{.range = 450_m}, .flood = at_once},  // over 1 us of flight
             {.reception = Collision{}},
             {.propagation = shadowed, .reception = Collision{.capture_ratio = Db{3}}}};
 }
