@@ -75,8 +75,8 @@ void Engine::transmit_sensed(Flight& flight, Time end) {
 }
 
 void Engine::sort(Flight& flight) {
-    if (std::exchange(flight.in_order, true)) return;
     const std::span<Reception> all = flight.receivers.all;
+    if (std::exchange(flight.in_order, true) || all.empty()) return;
     constexpr Duration longest{std::numeric_limits<std::int32_t>::max()};
     if (all.size() > most_counted || flight.receivers.last - flight.receivers.first > longest) {
         std::sort(all.begin(), all.end());
