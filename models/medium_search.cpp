@@ -4,7 +4,6 @@
 #include "models/medium.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -95,11 +94,11 @@ void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& l
           });
 }
 
-/// As find_in_range(), of stations that are all of one kind, for those that decode.
+/// As find_in_range(), of stations that are all of one kind and so in one network, for those that
+/// decode.
 void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
     look_from(from, t, legs);
     const Kind mine = kind(from);
-    if (!kinds_.may_link(mine, mine)) return;
     const double range2 = kinds_.squared_range(mine, mine, Strength::decodable);
     const bool all_on = all_are_on();
     const double height = kinds_.height(mine);

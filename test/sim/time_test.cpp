@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -19,6 +20,14 @@ TEST_CASE("time: seconds become the nearest nanosecond") {
     CHECK(from_seconds(-1.6e-9) == -2ns);
     CHECK(from_seconds(0.3) == from_seconds(0.1) + from_seconds(0.2));  // not so in double
     CHECK(from_seconds(std::numeric_limits<double>::denorm_min()) == 0ns);
+}
+
+TEST_CASE("time: half a nanosecond is rounded away from zero, and just less to zero") {
+    constexpr double step = 0x1p-10;  // [s] 976,562.5 ns
+    for (int n = -9; n <= 9; n += 2) {
+        CHECK(from_seconds(n * step).count() == std::llround(n * 976'562.5));
+        CHECK(from_seconds(std::nextafter(n * step, 0)).count() == std::trunc(n * 976'562.5));
+    }
 }
 
 TEST_CASE("time: nanoseconds survive the way to seconds and back, for 13 days") {
