@@ -33,12 +33,12 @@ void EventQueue::file(EventKey key) {
     ++filed_;
 }
 
-// Keys below the base can only be spilled if the buckets follow them. That moves all that is filed
-// nearby, so it waits until as much has come in: till then the heap is allowed to grow.
+// Keys below the base can only be spilled if the buckets follow them. That moves what is filed
+// nearby; if that is much, it waits until as much has come in: till then the heap may grow.
 void EventQueue::spill() {
     const EventKey least = heap_.top();
     if (rank(least) < base_) {
-        if (filed_ > 4 * heap_.size()) {
+        if (filed_below(place(rank(least), base_).level) > 4 * heap_.size()) {
             heap_limit_ = 2 * heap_.size();
             return;
         }
@@ -51,6 +51,14 @@ void EventQueue::spill() {
         return false;
     });
     refill();
+}
+
+std::size_t EventQueue::filed_below(std::size_t level) const {
+    std::size_t keys = 0;
+    for (std::size_t below = 0; below < level; ++below) {
+        for (const Bucket& bucket : buckets_[below]) keys += bucket.size;
+    }
+    return keys;
 }
 
 // All that shares more digits with the old base than the new base does, now differs from it in the

@@ -98,6 +98,7 @@ class EventQueue {
     void spill();
     void refill();
     void deal_out(Place place);
+    std::size_t filed_below(std::size_t level) const;
     void lower_base(Rank base);
     Place nearest() const;
     Bucket take(Place place);
