@@ -12,7 +12,6 @@
 #include "sim/slots.hpp"
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -108,10 +107,9 @@ class Engine final : public LinkLayer, public Air {
     }
 
     void serve(const Scheduler<Occurrence>::Event& event);
-    void check_event_limit() const;
+    void count_events();
     void check_rate(BitRate rate) const;
-    template <class Key>
-    bool comes_next(Key key) {
+    bool comes_next(EventKey key) const {
         return key.time() <= end_of_run_ && queue_.runs_before_next(key);
     }
     BitRate rate_of(const AirFrame& frame) const;
@@ -131,6 +129,9 @@ class Engine final : public LinkLayer, public Air {
     SinrFrame sinr_frame(const Flight& flight) const;
     std::optional<Arrival> arrival(const Emission& frame, NodeId node);
     static Lock* lock_of(Flight& flight, NodeId node);
+    Time served_until(EventKey key) const;
+    std::size_t split(Flight& flight, std::span<Reception> rest, Time until);
+    std::span<Reception> next_of(Flight& flight, EventKey key);
     void arrive(const Scheduler<Occurrence>::Event& event);
     void receive(Flight& flight, std::span<Reception> receptions);
     void hand_up(const Flight& flight, std::span<Reception> receptions);
@@ -158,6 +159,7 @@ class Engine final : public LinkLayer, public Air {
 
     Time now_ = start_of_run;
     Time end_of_run_ = start_of_run;  // of the current run_until
+    std::uint64_t check_at_ = 0;      // scheduled events: no limit is reached before
     Scheduler<Occurrence> queue_;
     MessageTable messages_;
     std::uint64_t next_uid_ = 0;
@@ -166,6 +168,7 @@ class Engine final : public LinkLayer, public Air {
     KindMask wanted_ = 0;
     bool order_wanted_ = false;  // of receptions, by a sink or the router
     Slots<Flight> flights_;
+    Sieve<Reception> later_;            // those of a flight that are not served yet
     std::vector<Reception> heard_;      // those of a flight that are handed up ...
     std::vector<std::size_t> places_;   // ... and where they belong
     bool frames_meet_;                  // the rung is above threshold

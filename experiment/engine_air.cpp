@@ -51,7 +51,7 @@ Time Engine::transmit(const AirFrame& air) {
     const bool errors = medium_.radio(frame.sender).success_rate < 1;
     if (errors) garble(flight);
     flight.undisturbed = !errors && !frames_meet_;
-    if (flight.receivers.all.empty()) {
+    if (flight.receivers.all().empty()) {
         if (!frames_meet_) flights_.release(slot);
         return end;
     }
@@ -67,15 +67,17 @@ void Engine::transmit_sensed(Flight& flight, Time end) {
     const auto sensors = medium_.find_sensors(sender, now_, end, legs_, flight.receivers);
     sort(flight);
     const Duration airtime = end - now_;
-    for (const Reception& r : flight.receivers.all) dcf_->energy(r.node, r.time - airtime, r.time);
+    for (const Reception& r : flight.receivers.all())
+        dcf_->energy(r.node, r.time - airtime, r.time);
     for (const Medium::Found& s : sensors) {
         const Duration delay = medium_.delay(std::sqrt(s.squared_distance));
         dcf_->energy(s.node, now_ + delay, end + delay);
     }
 }
 
+/// Puts the receptions of a flight that are still to come in order.
 void Engine::sort(Flight& flight) {
-    const std::span<Reception> all = flight.receivers.all;
+    const auto all = std::span{flight.receivers.all()}.subspan(flight.arrived);
     if (std::exchange(flight.in_order, true) || all.empty()) return;
     constexpr Duration longest{std::numeric_limits<std::int32_t>::max()};
     if (all.size() > most_counted || flight.receivers.last - flight.receivers.first > longest) {
@@ -92,7 +94,7 @@ void Engine::put_on_air(std::size_t slot, Time end) {
     if (std::holds_alternative<Sinr>(settings_.reception)) {
         count_on_air(end);
         sort(flight);  // for good: its locks lie beside it
-        flight.locks.assign(flight.receivers.all.size(), Lock::open);
+        flight.locks.assign(flight.receivers.all().size(), Lock::open);
     }
     forget_frames();
     flight.emission = on_air_.add({.begin = now_,
@@ -134,7 +136,7 @@ void Engine::garble(Flight& flight) {
     if (flight.air.kind != AirFrame::data) return;
     const Frame& frame = flight.air.frame;
     const double success = medium_.radio(frame.sender).success_rate;
-    for (Reception& r : flight.receivers.all) {
+    for (Reception& r : flight.receivers.all()) {
         const Key draw{settings_.seed,
                        settings_.replication,
                        Purpose::link_success,
@@ -244,42 +246,79 @@ void Engine::judge_sinr(const SinrFrame& sent, const Emission& judged, Frames ot
 
 /// What `node` made of a frame; null if it could not decode it.
 Lock* Engine::lock_of(Flight& flight, NodeId node) {
-    const auto& all = flight.receivers.all;
+    const auto& all = flight.receivers.all();
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Reception& r) { return r.node == node; });
     if (found == all.end()) return nullptr;
     return &flight.locks[static_cast<std::size_t>(found - all.begin())];
 }
 
+/// Until when receptions can be served in a row, the first of which is now, by `key`: what it sets
+/// off happens no sooner than least_reaction after it, and whatever is queued takes its turn.
+Time Engine::served_until(EventKey key) const {
+    const Time most = std::min(key.time() + least_reaction, end_of_run_);
+    const auto next = queue_.next_time();
+    if (!next || *next > most) return most;
+    return queue_.runs_before_next(key.at(*next)) ? *next : *next - Duration{1};
+}
+
+/// Brings those of a flight's `rest` that end by `until` to its front, in no order. @return how
+/// many
+std::size_t Engine::split(Flight& flight, std::span<Reception> rest, Time until) {
+    // Without a branch: it would be mispredicted for many.
+    later_.clear();
+    Reception* later = later_.room(rest.size());
+    std::size_t count = 0;
+    Time latest = Time::min(), next = Time::max();
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        const Reception each = rest[i];
+        const bool now = each.time <= until;
+        rest[count] = *later = each;
+        count += now;
+        later += !now;
+        latest = std::max(latest, now ? each.time : Time::min());
+        next = std::min(next, now ? Time::max() : each.time);
+    }
+    later_.keep_to(later);
+    const std::span<Reception> others = later_.kept();
+    std::copy(others.begin(), others.end(), rest.subspan(count).begin());
+    now_ = latest;
+    flight.receivers.first = next;
+    return count;
+}
+
+/// The receptions that are served next, by `key`, and all by its time: now is when the last ends.
+std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
+    const auto rest = std::span{flight.receivers.all()}.subspan(flight.arrived);
+    const Time until = served_until(key);
+    std::size_t count = 1;
+    if (!settings_.reference && flight.receivers.last <= until) {
+        count = rest.size();
+        now_ = flight.receivers.last;
+    } else if (!flight.in_order) {
+        count = split(flight, rest, until);
+    } else {
+        while (!settings_.reference && count < rest.size() && rest[count].time <= until) ++count;
+        now_ = rest[count - 1].time;
+        if (count < rest.size()) flight.receivers.first = rest[count].time;
+    }
+    flight.arrived += count;
+    return rest.first(count);
+}
+
 /// Serves the receptions of a transmission by one event: all, if nothing else can happen in
-/// between. Otherwise as many as come before that, in order; then the event is queued again for the
-/// rest, in its old place among equal times.
+/// between. Otherwise as many as come before that; then the event is queued again for the rest, in
+/// its old place among equal times.
 void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
     Flight& flight = flights_[event.payload.data];
-    auto& all = flight.receivers.all;
-    // Nothing that a reception sets off happens sooner than least_reaction after it.
-    const auto comes_by = [&](Time time, Time horizon) {
-        return !settings_.reference && time <= horizon && comes_next(event.key.at(time));
-    };
-    if (order_wanted_ || has_reactions_ ||
-        !comes_by(flight.receivers.last, flight.receivers.first + least_reaction)) {
-        sort(flight);
-    }
+    if (order_wanted_ || has_reactions_ || settings_.reference) sort(flight);
     for (auto key = event.key;;) {
-        const std::size_t first = flight.arrived;
-        const Time horizon =
-            (first == 0 ? flight.receivers.first : all[first].time) + least_reaction;
-        std::size_t last = all.size();
-        if (!comes_by(flight.receivers.last, horizon)) {
-            for (last = first + 1; last < all.size() && comes_by(all[last].time, horizon);) ++last;
-        }
-        flight.arrived = last;
-        now_ = last == all.size() ? flight.receivers.last : all[last - 1].time;
-        const auto ended = std::span{all}.subspan(first, last - first);
+        const std::span<Reception> ended = next_of(flight, key);
         if (frames_meet_) judge(flight, ended);
         receive(flight, ended);
-        if (last == all.size()) break;
-        key = event.key.at(all[last].time);
+        if (dcf_) tell_stations(flight, ended);
+        if (flight.arrived == flight.receivers.all().size()) break;
+        key = event.key.at(flight.receivers.first);
         if (settings_.reference || !comes_next(key)) {
             queue_.requeue(key, event.payload);
             return;

@@ -64,7 +64,6 @@ void Engine::receive(Flight& flight, std::span<Reception> receptions) {
             receive_unicast(flight, receptions);
         }
     }
-    if (dcf_) tell_stations(flight, receptions);
 }
 
 /// Hands a broadcast to the router; without one it is for everybody, and goes no further.

@@ -99,7 +99,9 @@ void Engine::begin_movements() {
 }
 
 void Engine::next_leg(NodeId id) {
-    if (const auto leg = taken(after_turn_, id)) return take(id, *leg);
+    if (!after_turn_.empty()) {
+        if (const auto leg = taken(after_turn_, id)) return take(id, *leg);
+    }
     Mover asking = mover(id);
     const Step step = node(id).movement.next_leg(asking);
     const bool begins = !std::exchange(node(id).moving, true);
@@ -123,9 +125,10 @@ void Engine::next_leg(NodeId id) {
 /// Takes a leg of the movement model, after turning towards it if the robot turns in place.
 void Engine::begin_leg(NodeId id, const Leg& leg) {
     const auto& rate = body(id).turn_rate;
+    if (!rate || leg.velocity == Vec3{}) return take(id, leg);
     const double facing = wrapped(legs_.leg(id).heading_at(now_));
     const double turn = wrapped(leg.heading - facing);
-    if (!rate || leg.velocity == Vec3{} || turn == 0) return take(id, leg);
+    if (turn == 0) return take(id, leg);
     const Duration turning = std::max(from_seconds(std::abs(turn) / rate->value), Duration{1});
     Leg later = leg;
     later.start += turning;

@@ -19,15 +19,16 @@ void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propa
     propagation.check_frequency(radio.frequency);
     if (radios_.empty() || radios_.back() != radio) radios_.push_back(radio);
     const Kind kind = kinds_.add(radio, propagation);
-    stations_.push_back({key, static_cast<std::uint32_t>(radios_.size() - 1), kind});
+    stations_.push_back(
+        {key, static_cast<std::uint32_t>(radios_.size() - 1), kind & 0x7fffffff, true});
     index_.add(kind);
     cells_chosen_ = false;
 }
 
 void Medium::switch_radio(NodeId node, bool on) {
-    bool& was_on = stations_[node.index()].on;
-    off_ += static_cast<std::size_t>(was_on) - static_cast<std::size_t>(on);
-    was_on = on;
+    Station& station = stations_[node.index()];
+    off_ += static_cast<std::size_t>(station.on) - static_cast<std::size_t>(on);
+    station.on = on;
 }
 
 Vec3 Medium::antenna(NodeId node, Time t, const Legs& legs) const {

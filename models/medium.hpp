@@ -52,9 +52,9 @@ class Medium {
         stations_.reserve(nodes);
         index_.reserve(nodes);
     }
-    /// Fetches what sending takes into the caches; `node` is about to.
+    /// Fetches what sending takes into the caches; `node` is about to. It may be 0 where nobody is.
     void prefetch(NodeId node) const {
-        if (node.index() < stations_.size()) __builtin_prefetch(&stations_[node.index()]);
+        __builtin_prefetch(stations_.data() + node.index());
         index_.prefetch(node);
     }
     /// The node's leg has been replaced.
@@ -82,8 +82,9 @@ class Medium {
 
     /// Those whom a frame reaches.
     struct Receivers {
-        std::vector<Reception> all;  ///< in no order
-        Time first, last;            ///< ends of the frame at them, if there are any
+        Time first, last;         ///< ends of the frame at them, if there are any
+        Sieve<Reception> sieved;  ///< in no order
+        std::span<Reception> all() const { return sieved.kept(); }
     };
     /// Finds the nodes that hear `from` when it sends at `start`, which must not decrease from call
     /// to call.
@@ -142,8 +143,8 @@ class Medium {
     struct Station {
         std::uint64_t key;
         std::uint32_t radio;  // index into radios_
-        RadioKinds::Kind kind;
-        bool on = true;
+        std::uint32_t kind : 31;
+        std::uint32_t on : 1;
     };
     using Kind = RadioKinds::Kind;
 

@@ -71,7 +71,10 @@ void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs) {
     sensors_.clear();
     kinds_.prepare(kind(from));
     switch (kinds_.decision(kind(from))) {
-        case Decision::by_range: return find_in_range(from, strength, t, legs);
+        case Decision::by_range:
+            return kinds_.size() == 1 && strength == Strength::decodable
+                       ? find_alike(from, t, legs)
+                       : find_in_range(from, strength, t, legs);
         case Decision::by_table: return find_in_table(from, strength, t, legs);
         case Decision::by_loss: return find_in_reach(from, strength, t, legs);
     }
@@ -79,10 +82,6 @@ void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs) {
 
 void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& legs) {
     const Kind mine = kind(from);
-    const bool alike = kinds_.size() == 1;
-    if (alike && strength == Strength::decodable) {
-        return find_alike(from, t, legs);
-    }
     const auto in_range = [&](const Entry& e, Strength s, double d2) {
         return d2 <= kinds_.squared_range(mine, e.label, s);
     };
@@ -100,14 +99,18 @@ void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
     look_from(from, t, legs);
     const Kind mine = kind(from);
     const double range2 = kinds_.squared_range(mine, mine, Strength::decodable);
-    const bool all_on = all_are_on();
-    const double height = kinds_.height(mine);
-    index_.visit(origin_, std::sqrt(std::max(range2, 0.0)), t, legs, [&](const Entry& e, Vec3 p) {
+    const auto places = index_.near(origin_, std::sqrt(std::max(range2, 0.0)), t);
+    Found* next = found_.room(places.size() + index_.apart());
+    // Copies, which nothing that is written here can change.
+    const auto visit = [&next, from, range2, origin = origin_, height = kinds_.height(mine),
+                        off = all_are_on() ? nullptr : stations_.data()](const Entry& e, Vec3 p) {
         p.z += height;
-        const double d2 = squared_distance(origin_, p);
-        const bool on = all_on || stations_[e.node.index()].on;
-        found_.put({e.node, d2}, (d2 <= range2) & (e.node != from) & on);
-    });
+        const double d2 = squared_distance(origin, p);
+        *next = {e.node, d2};
+        next += (d2 <= range2) & (e.node != from) & (!off || off[e.node.index()].on);
+    };
+    index_.visit(places, t, legs, visit);
+    found_.keep_to(next);
 }
 
 void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& legs) {
@@ -241,16 +244,23 @@ std::span<const Medium::Found> Medium::find_sensors(NodeId from, Time start, Tim
 /// Tells when a frame that ends at `end` ends at those found.
 void Medium::tell_arrivals(Time end, Receivers& out) const {
     const std::span<const Found> found = found_.kept();
-    out.all.resize(found.size());
-    Time first = Time::max(), last = Time::min();
+    out.sieved.clear();
+    double nearest2 = std::numeric_limits<double>::infinity(), farthest2 = 0;
+    Reception* const receptions = out.sieved.room(found.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const Time time = end + delay(std::sqrt(found[i].squared_distance));
-        out.all[i] = {.node = found[i].node, .time = time};
-        first = std::min(first, time);
-        last = std::max(last, time);
+        const double d2 = found[i].squared_distance;
+        Reception& reception = receptions[i];
+        reception.node = found[i].node;
+        reception.time = end + delay(std::sqrt(d2));
+        reception.fate = Fate::waiting;
+        reception.delivered = false;
+        nearest2 = std::min(d2, nearest2);  // in this order it takes one instruction
+        farthest2 = std::max(d2, farthest2);
     }
-    out.first = first;
-    out.last = last;
+    out.sieved.keep_to(receptions + found.size());
+    if (found.empty()) return;
+    out.first = end + delay(std::sqrt(nearest2));
+    out.last = end + delay(std::sqrt(farthest2));
 }
 
 double Medium::heard_within() {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "models/neighbour_index.hpp"
 
-#include <array>
+#include "models/point_sieve.hpp"
+
 #include <limits>
 
 namespace rovernet {
@@ -17,9 +18,6 @@ struct Extent {
         high = std::max(high, x);
     }
 };
-
-/// Entries that are looked at together; so many more places have to be there to be read.
-constexpr std::uint32_t at_once = 4;
 
 /// Share of the nodes that may be kept apart, and a few always.
 std::size_t few(std::size_t nodes) { return nodes / 64 + 16; }
@@ -53,47 +51,44 @@ void NeighbourIndex::moved(NodeId node, const Legs& legs) {
     binned_.put(place, node, label, leg);
 }
 
-/// Puts the entries of the cells within `reach` [m] of `centre` into near_, and how far they were
-/// binned into distance2_. @return their number
-std::size_t NeighbourIndex::look_around(Vec3 centre, double reach) {
+template <bool distances_too>
+std::span<std::uint32_t> NeighbourIndex::look_around(Vec3 centre, double reach) {
     const auto columns = columns_.near(centre.x, reach);
     const auto rows = rows_.near(centre.y, reach);
-    const auto x = static_cast<float>(centre.x), y = static_cast<float>(centre.y);
-    std::size_t count = 0;
-    rows.each([&](std::size_t bottom, std::size_t top) {
-        for (std::size_t row = bottom; row < top; ++row) {
-            const std::uint32_t* const first = first_.data() + row * columns_.cells();
-            columns.each([&](std::size_t left, std::size_t right) {
-                count = look_through(first[left], first[right], x, y, count);
-            });
+    const double wide = reach + rounding(centre, reach);
+    const PointSieve<distances_too> sieve(x_.data(), y_.data(), static_cast<float>(centre.x),
+                                          static_cast<float>(centre.y),
+                                          static_cast<float>(wide * wide));
+    const std::uint32_t* const cells = first_.data();
+    const std::size_t cells_in_row = columns_.cells(), all_rows = rows_.cells();
+    std::size_t looked_at = 1, found = 0, room = near_.size();
+    std::size_t row = rows.begin;
+    for (std::size_t left = rows.count(); left > 0; --left, ++row) {
+        if (row == all_rows) row = 0;
+        const std::uint32_t* const first = cells + row * cells_in_row;
+        std::uint32_t begin = first[columns.begin], end = first[columns.end];
+        for (bool wraps = columns.wrapped_end > 0;; wraps = false) {
+            looked_at += end - begin;
+            const std::size_t most = found + (end - begin) + sieve.at_once;
+            if (most > room) [[unlikely]]
+                room = make_room(most);
+            found += sieve.sift(begin, end, near_.data() + found, distance2_.data() + found);
+            if (!wraps) break;
+            begin = first[0];
+            end = first[columns.wrapped_end];
         }
-    });
-    looked_at_ += count + 1;
-    return count;
+    }
+    looked_at_ += looked_at;
+    return {near_.data(), found};
 }
+template std::span<std::uint32_t> NeighbourIndex::look_around<false>(Vec3, double);
+template std::span<std::uint32_t> NeighbourIndex::look_around<true>(Vec3, double);
 
-/// Puts entries and their squared distances from (x, y) behind the `count` first of near_ and
-/// distance2_, several at once. @return their number then
-std::size_t NeighbourIndex::look_through(std::uint32_t begin, std::uint32_t end, float x, float y,
-                                         std::size_t count) {
-    const std::size_t most = count + (end - begin) + at_once;
-    if (near_.size() < most) {
-        near_.resize(2 * most);
-        distance2_.resize(2 * most);
-    }
-    const float *const xs = x_.data() + begin, *const ys = y_.data() + begin;
-    std::uint32_t* const places = near_.data() + count;
-    float* const distance2 = distance2_.data() + count;
-    for (std::uint32_t group = 0; group < end - begin; group += at_once) {
-        std::array<float, at_once> squares;
-        for (std::uint32_t k = 0; k < at_once; ++k) {
-            const float dx = xs[group + k] - x, dy = ys[group + k] - y;
-            squares[k] = dx * dx + dy * dy;
-        }
-        std::copy(squares.begin(), squares.end(), distance2 + group);
-        for (std::uint32_t k = 0; k < at_once; ++k) places[group + k] = begin + group + k;
-    }
-    return count + (end - begin);
+/// For what look_around() finds; returns for how much.
+std::size_t NeighbourIndex::make_room(std::size_t places) {
+    near_.resize(2 * places);
+    distance2_.resize(2 * places);
+    return near_.size();
 }
 
 /// Moves a node out of its cell, where an entry that is nowhere remains.
@@ -149,11 +144,11 @@ void NeighbourIndex::lay_grid(Time t, const Legs& legs) {
 void NeighbourIndex::bin(Time t, const Legs& legs) {
     lay_grid(t, legs);
     top_speed_ = choose_top_speed(legs);
+    top_speed_per_ns_ = top_speed_ * (1e-9 * (1 + 1e-12));
     binned_at_ = t;
     jumped_ = 0;
     looked_at_ = 0;
     apart_ = {};
-    place_.resize(legs.size());
     first_.assign(columns_.cells() * rows_.cells() + 1, 0);
     const auto is_slow = [&](const Leg& leg) { return speed(leg) <= top_speed_; };
     std::vector<std::uint32_t> cell(legs.size());
@@ -166,8 +161,8 @@ void NeighbourIndex::bin(Time t, const Legs& legs) {
     for (auto& first : first_) first = end += first;
     binned_.entries.resize(end);
     binned_.motions.clear();
-    x_.resize(end + at_once);
-    y_.resize(end + at_once);
+    x_.resize(end + PointSieve<false>::at_once);
+    y_.resize(end + PointSieve<false>::at_once);
     for (auto i = static_cast<std::uint32_t>(legs.size()); i-- > 0;) {
         const Leg& leg = legs.leg(NodeId{i});
         if (!is_slow(leg)) {

@@ -37,10 +37,14 @@ class NeighbourIndex {
     /// Adds the next node.
     void add(std::uint32_t label) {
         labels_.push_back(label);
+        place_.push_back(0);
         stale_ = true;
     }
     /// Room for `nodes` nodes.
-    void reserve(std::size_t nodes) { labels_.reserve(nodes); }
+    void reserve(std::size_t nodes) {
+        labels_.reserve(nodes);
+        place_.reserve(nodes);
+    }
     /// The node's leg has been replaced.
     void moved(NodeId node, const Legs& legs);
     /// Height of the cells [m] from now on; best about the radius of most queries.
@@ -60,17 +64,30 @@ class NeighbourIndex {
         return place & is_apart ? apart_.position(place & ~is_apart, t, legs)
                                 : binned_.position(place, t, legs);
     }
-    void prefetch(NodeId node) const {
-        if (node.index() < place_.size()) __builtin_prefetch(&place_[node.index()]);
+    void prefetch(NodeId node) const { __builtin_prefetch(place_.data() + node.index()); }
+    /// The places of the entries() that are within `radius` [m] of `centre` at `t`, and some
+    /// others; good until the next such call. `t` must not decrease from call to call.
+    std::span<const std::uint32_t> near(Vec3 centre, double radius, Time t) {
+        return look_around<false>(centre, radius + slack(t));
+    }
+    /// Those kept apart, which are near for all anyone knows.
+    std::size_t apart() const { return apart_.entries.size(); }
+    /// Calls visit(entry, position) for those kept apart and the entries at `places`.
+    template <class Visit>
+    void visit(std::span<const std::uint32_t> places, Time t, const Legs& legs, Visit visit) const {
+        visit_apart(t, legs, visit);
+        const Entry* const entries = binned_.entries.data();
+        if (binned_.motions.empty()) {
+            for (const std::uint32_t i : places) visit(entries[i], entries[i].from);
+        } else {
+            for (const std::uint32_t i : places) visit(entries[i], binned_.position(i, t, legs));
+        }
     }
     /// Calls visit(entry, position) for every node that is within `radius` [m] of `centre` at `t`,
     /// and for some others, in no order to rely on. `t` must not decrease from call to call.
     template <class Visit>
     void visit(Vec3 centre, double radius, Time t, const Legs& legs, Visit visit) {
-        visit_apart(t, legs, visit);
-        for (const std::uint32_t i : near(centre, radius + slack(t))) {
-            visit(binned_.entries[i], binned_.position(i, t, legs));
-        }
+        this->visit(near(centre, radius, t), t, legs, visit);
     }
 
     /// As above, but of the entries() only those for which passes(place, at_least) holds; the
@@ -78,12 +95,11 @@ class NeighbourIndex {
     template <class Passes, class Visit>
     void visit_if(Vec3 centre, double radius, Time t, const Legs& legs, Passes passes,
                   Visit visit) {
-        visit_apart(t, legs, visit);
         const double reach = radius + slack(t);
         // So much nearer than where it was binned may it be.
         const double most = (slack(t) + rounding(centre, reach)) * (1 + 1e-6);
         const auto off = static_cast<float>(std::min<double>(most, far));
-        const std::span<std::uint32_t> places = near<true>(centre, reach);
+        const std::span<std::uint32_t> places = look_around<true>(centre, reach);
         float* const at_least = distance2_.data();
         for (std::size_t i = 0; i < places.size(); ++i) {
             const float nearer = (1 - 1e-6F) * std::sqrt(at_least[i]) - off;
@@ -96,9 +112,7 @@ class NeighbourIndex {
             const std::uint32_t place = places[passed] = places[i];
             passed += passes(place, at_least[i]);
         }
-        for (const std::uint32_t i : places.first(passed)) {
-            visit(binned_.entries[i], binned_.position(i, t, legs));
-        }
+        this->visit(places.first(passed), t, legs, visit);
     }
     /// The nodes in the order of their cells, but for those kept apart; good until the next bin.
     std::span<const Entry> entries() const { return binned_.entries; }
@@ -130,40 +144,28 @@ class NeighbourIndex {
     };
 
     template <class Visit>
-    void visit_apart(Time t, const Legs& legs, Visit& visit) {
+    void visit_apart(Time t, const Legs& legs, Visit& visit) const {
         for (std::size_t i = 0; i < apart_.entries.size(); ++i) {
             visit(apart_.entries[i], apart_.position(i, t, legs));
         }
     }
     /// How far a node may be from where it was binned [m].
-    double slack(Time t) const { return top_speed_ * seconds(t - binned_at_) + jumped_; }
+    double slack(Time t) const {
+        return top_speed_per_ns_ * static_cast<double>((t - binned_at_).count()) + jumped_;
+    }
     bool is_stale(Time t) const {
         return stale_ || apart_.entries.size() > allowed_apart_ ||
-               (slack(t) > 0.1 * rows_.width() && looked_at_ > labels_.size());
+               (looked_at_ > labels_.size() && slack(t) > 0.1 * rows_.width());
     }
     /// [m] No more is lost of a coordinate around `centre` in single precision.
     static double rounding(Vec3 centre, double reach) {
         return 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
     }
-    /// The entries that were binned within `reach` [m] of `centre`, and some others.
-    template <bool distances_too = false>
-    std::span<std::uint32_t> near(Vec3 centre, double reach) {
-        const std::size_t count = look_around(centre, reach);
-        const double wide = reach + rounding(centre, reach);
-        const auto reach2 = static_cast<float>(wide * wide);
-        std::size_t found = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            // Without a branch: it would be mispredicted for many.
-            const float d2 = distance2_[i];
-            near_[found] = near_[i];
-            if constexpr (distances_too) distance2_[found] = d2;
-            found += d2 <= reach2;
-        }
-        return {near_.data(), found};
-    }
-    std::size_t look_around(Vec3 centre, double reach);
-    std::size_t look_through(std::uint32_t begin, std::uint32_t end, float x, float y,
-                             std::size_t count);
+    /// The entries that were binned within `reach` [m] of `centre`, and some others; how far off
+    /// into distance2_, if that is wanted.
+    template <bool distances_too>
+    std::span<std::uint32_t> look_around(Vec3 centre, double reach);
+    std::size_t make_room(std::size_t places);
 
     std::size_t cell_at(Vec3 p) const {
         return rows_.cell_at(p.y) * columns_.cells() + columns_.cell_at(p.x);
@@ -177,15 +179,16 @@ class NeighbourIndex {
     std::vector<std::uint32_t> labels_;  // by node
     Table binned_;                       // in the order of their cells
     std::vector<float> x_, y_;           // [m] where they were binned
-    std::vector<std::uint32_t> near_;    // begins with the result of near() ...
+    std::vector<std::uint32_t> near_;    // begins with what look_around() found ...
     std::vector<float> distance2_;       // [m^2] ... and this with how far each was binned from it
     std::vector<std::uint32_t> first_;   // entry of a cell; one more than there are cells
     std::vector<std::uint32_t> place_;   // of a node in binned_, or in apart_
     Table apart_;
     WrappedAxis columns_, rows_;
-    double wanted_cell_ = 1;  // [m]
-    double top_speed_ = 0;    // [m/s] of the entries
-    double jumped_ = 0;       // [m] sum of what legs did not continue exactly
+    double wanted_cell_ = 1;       // [m]
+    double top_speed_ = 0;         // [m/s] of the entries
+    double top_speed_per_ns_ = 0;  // [m/ns] and a little more
+    double jumped_ = 0;            // [m] sum of what legs did not continue exactly
     Time binned_at_ = start_of_run;
     std::size_t looked_at_ = 0;  // entries and cells since then
     std::size_t allowed_apart_ = 0;

@@ -24,6 +24,7 @@ class WrappedAxis {
     struct Cells {
         std::size_t begin, end, wrapped_end;
 
+        std::size_t count() const { return end - begin + wrapped_end; }
         /// Calls use(begin, end) for each row.
         template <class Use>
         void each(Use use) const {
@@ -45,7 +46,7 @@ class WrappedAxis {
     static constexpr double far = 1e15;  // [cells] positions beyond it share the last cell
 
     std::int64_t unwrapped(double x) const {
-        return static_cast<std::int64_t>(std::floor(std::clamp(x * per_meter_, -far, far)));
+        return static_cast<std::int64_t>(std::floor(std::min(far, std::max(-far, x * per_meter_))));
     }
     std::size_t wrapped(std::int64_t cell) const {
         const auto n = static_cast<std::int64_t>(cells_);

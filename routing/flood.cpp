@@ -16,13 +16,10 @@ FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) {
     settled_ = ~std::uint32_t{0};
 }
 
-/// What every node knows of a message.
-std::vector<FloodRouter::Knowledge>& FloodRouter::knowledge(const LinkLayer& link,
-                                                            MessageId message) {
-    if (known_.size() <= message.index()) known_.resize(message.index() + 1);
-    auto& by_node = known_[message.index()];
-    if (by_node.size() < link.size()) by_node.resize(link.size());
-    return by_node;
+/// For what every node knows of a message.
+void FloodRouter::make_room(std::size_t message, std::size_t nodes) {
+    if (known_.size() <= message) known_.resize(message + 1);
+    known_[message].resize(nodes);
 }
 
 void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
@@ -36,31 +33,43 @@ void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
 }
 
 void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
-    Knowledge* const by_node = knowledge(link, frame.message).data();
-    // Together, so that none waits for the one before.
-    for (const auto& reception : receptions) __builtin_prefetch(&by_node[reception.node.index()]);
+    const std::span<Knowledge> by_node = knowledge(link, frame.message);
+    // Together, so that none waits for the one before; what few nodes know is in a cache anyway.
+    constexpr std::size_t few = 4096;
+    if (by_node.size() > few) {
+        for (const auto& r : receptions) __builtin_prefetch(&by_node[r.node.index()]);
+    }
     news_.clear();
+    Reception** next = news_.room(receptions.size());
+    const std::uint32_t first_settled = first_settled_, settled = settled_;
     for (auto& reception : receptions) {
         const Knowledge mine = by_node[reception.node.index()];
         reception.delivered = mine.is(Knowledge::unheard);
         reception.fate = Fate::duplicate;
-        news_.put(&reception, !mine.is_among(first_settled_, settled_));
+        *next = &reception;
+        next += !mine.is_among(first_settled, settled);
     }
+    news_.keep_to(next);
     const std::span<Reception*> news = news_.kept();
-    const auto end = std::remove_if(news.begin(), news.end(), [&](const Reception* r) {
-        return is_duplicate(frame, by_node[r->node.index()]);
-    });
+    auto end = news.end();
+    if (flood_.duplicates == Duplicates::suppress && flood_.upgrade) {
+        end = std::remove_if(news.begin(), end, [&](const Reception* r) {
+            return is_duplicate(frame, by_node[r->node.index()]);
+        });
+    }
     // Timers of one time are served in the order in which they were set.
-    std::sort(news.begin(), end, [](const Reception* a, const Reception* b) { return *a < *b; });
+    if (end - news.begin() > 1) {
+        std::sort(news.begin(), end, [](const auto* a, const auto* b) { return *a < *b; });
+    }
     for (auto each = news.begin(); each != end; ++each) {
         (*each)->fate = take(link, frame, **each, by_node[(*each)->node.index()]);
     }
 }
 
-/// Of those that are not settled: the node forwards no copy of its own for this one, which may
-/// lift the one that it has not sent.
+/// Of those that are not settled, under "suppress" with `upgrade`: the node forwards no copy of its
+/// own for this one, which may lift the one that it has not sent.
 bool FloodRouter::is_duplicate(const Frame& frame, Knowledge known) {
-    if (flood_.duplicates == Duplicates::forward || known.is(Knowledge::unheard)) return false;
+    if (known.is(Knowledge::unheard)) return false;
     if (!known.is(Knowledge::waiting)) return frame.ttl <= 1;
     Frame& copy = copies_[known.copy()];
     if (frame.ttl > copy.ttl) copy = frame;
@@ -92,7 +101,7 @@ std::uint32_t FloodRouter::wait(LinkLayer& link, const Frame& frame, const Recep
 void FloodRouter::on_timer(LinkLayer& link, NodeId node, std::uint64_t copy) {
     const Frame heard = copies_[copy];
     copies_.release(copy);
-    knowledge(link, heard.message)[node.index()] = Knowledge::sent;
+    known_[heard.message.index()][node.index()] = Knowledge::sent;
     if (link.is_on(node)) {
         link.broadcast({.message = heard.message,
                         .sender = node,

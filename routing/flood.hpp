@@ -83,7 +83,13 @@ class FloodRouter {
         std::uint32_t value_;  // from `waiting` on: and the copy's number
     };
 
-    std::vector<Knowledge>& knowledge(const LinkLayer& link, MessageId message);
+    std::span<Knowledge> knowledge(const LinkLayer& link, MessageId message) {
+        const std::size_t i = message.index(), nodes = link.size();
+        if (i >= known_.size() || known_[i].size() < nodes) [[unlikely]]
+            make_room(i, nodes);
+        return known_[i];
+    }
+    void make_room(std::size_t message, std::size_t nodes);
     bool is_duplicate(const Frame& frame, Knowledge known);
     Fate take(LinkLayer& link, const Frame& frame, const Reception& reception, Knowledge& mine);
     std::uint32_t wait(LinkLayer& link, const Frame& frame, const Reception& reception);

@@ -2,40 +2,44 @@
 #include "sim/event_heap.hpp"
 
 namespace rovernet {
+namespace {
+
+/// Which of four keys is the least. Arithmetic, not ?:, which gcc turns into jumps that a random
+/// heap mispredicts.
+std::size_t least_of_four(const EventKey* keys) {
+    const std::size_t low = keys[1] < keys[0];
+    const std::size_t high = std::size_t{2} + (keys[3] < keys[2]);
+    return low + (high - low) * (keys[high] < keys[low]);
+}
+
+}  // namespace
 
 void EventHeap::push(EventKey key) {
-    if (end_ == 4 * lines_.size()) lines_.emplace_back();
+    if (end_ == keys_.size()) keys_.resize(end_ + line);
     sift_up(end_++, key);
 }
 
 void EventHeap::sift_up(std::size_t hole, EventKey key) {
+    EventKey* const keys = keys_.data();
     while (hole != root) {
         const std::size_t parent = hole / 4 + 2;
-        if (!(key < at(parent))) break;
-        at(hole) = at(parent);
+        if (!(key < keys[parent])) break;
+        keys[hole] = keys[parent];
         hole = parent;
     }
-    at(hole) = key;
-}
-
-// Arithmetic, not ?:, which gcc turns into jumps that a random heap mispredicts.
-std::size_t EventHeap::least_in_line(std::size_t line) const {
-    const auto& keys = lines_[line].keys;
-    const std::size_t low = keys[1] < keys[0];
-    const std::size_t high = std::size_t{2} + (keys[3] < keys[2]);
-    return 4 * line + low + (high - low) * (keys[high] < keys[low]);
+    keys[hole] = key;
 }
 
 // The hole goes down to a leaf and the last key up from there: it came from the bottom and seldom
 // rises, so that the loop's length is the only branch to predict.
 void EventHeap::pop() {
-    const EventKey last = std::exchange(at(--end_), EventKey{});
+    EventKey* const keys = keys_.data();
+    const EventKey last = std::exchange(keys[--end_], EventKey{});
     if (end_ == root) return;
-    const std::size_t lines = (end_ + 3) / 4;
     std::size_t hole = root;
-    while (hole - 2 < lines) {
-        const std::size_t child = least_in_line(hole - 2);
-        at(hole) = at(child);
+    for (std::size_t first = line; first < end_; first = line * (hole - 2)) {
+        const std::size_t child = first + least_of_four(keys + first);
+        keys[hole] = keys[child];
         hole = child;
     }
     sift_up(hole, last);

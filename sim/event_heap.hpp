@@ -3,10 +3,10 @@
 
 #include "sim/time.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -45,13 +45,27 @@ class EventKey {
     std::uint64_t word_ = ~std::uint64_t{0};
 };
 
+/// Allocates what begins with a cache line.
+template <class T>
+struct LineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t line{64};
+
+    LineAllocator() = default;
+    template <class U>
+    LineAllocator(const LineAllocator<U>&) {}
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+    void deallocate(T* values, std::size_t) { ::operator delete(values, line); }
+    friend bool operator==(LineAllocator, LineAllocator) { return true; }
+};
+
 /// A 4-ary heap of keys: siblings share a cache line, and the least is chosen without a branch.
 class EventHeap {
   public:
     bool empty() const { return end_ == root; }
     std::size_t size() const { return end_ - root; }
     /// The least key; if there is none, the default key.
-    EventKey top() const { return lines_[0].keys[root]; }
+    EventKey top() const { return keys_[root]; }
 
     void push(EventKey key);
     /// Removes top(); there must be one.
@@ -61,24 +75,21 @@ class EventHeap {
     void filter(Keep keep) {
         const std::size_t old_end = std::exchange(end_, root);
         for (std::size_t i = root; i < old_end; ++i) {
-            const EventKey key = std::exchange(at(i), EventKey{});
+            const EventKey key = std::exchange(keys_[i], EventKey{});
             if (keep(key)) push(key);
         }
     }
 
   private:
-    // Index i is place i % 4 of line i / 4. The root is 3; the children of i fill line i - 2.
-    // Places from end_ on hold the default key, so that a line can always be searched whole.
-    struct alignas(64) Line {
-        std::array<EventKey, 4> keys;
-    };
+    // The root is 3; the children of i fill the line of four that begins at 4 (i - 2). Places from
+    // end_ on hold the default key, so that a line can always be searched whole.
     static constexpr std::size_t root = 3;
+    static constexpr std::size_t line = 4;
+    using Keys = std::vector<EventKey, LineAllocator<EventKey>>;
 
-    EventKey& at(std::size_t i) { return lines_[i / 4].keys[i % 4]; }
     void sift_up(std::size_t hole, EventKey key);
-    std::size_t least_in_line(std::size_t line) const;
 
-    std::vector<Line> lines_ = std::vector<Line>(1);
+    Keys keys_ = Keys(line);
     std::size_t end_ = root;
 };
 

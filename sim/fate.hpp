@@ -19,7 +19,12 @@ enum class Fate : std::uint8_t {
 };
 
 /// The receiver has the frame, whatever it does with it.
-constexpr bool is_decoded(Fate fate) { return fate <= Fate::duplicate || fate == Fate::arrived; }
+constexpr bool is_decoded(Fate fate) {
+    constexpr auto bit = [](Fate f) { return 1U << static_cast<unsigned>(f); };
+    constexpr unsigned decoded =
+        bit(Fate::waiting) | bit(Fate::ttl) | bit(Fate::duplicate) | bit(Fate::arrived);
+    return (decoded & bit(fate)) != 0;
+}
 /// Why a frame was lost at a receiver, as in an ns-2 trace; nothing for a decoded one.
 constexpr std::string_view reason_of_loss(Fate fate) {
     switch (fate) {

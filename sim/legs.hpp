@@ -35,7 +35,10 @@ struct Leg {
 };
 
 /// The same heading [rad] within -pi ... pi.
-inline double wrapped(double heading) { return std::remainder(heading, 6.283185307179586); }
+inline double wrapped(double heading) {
+    return std::abs(heading) < 3.141592653589793 ? heading
+                                                 : std::remainder(heading, 6.283185307179586);
+}
 
 /// Where everybody is, as data: one current leg per node. Movement models write legs; the medium,
 /// the scene and the pictures only read them.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sim/message.hpp"
 
-#include <cassert>
 #include <utility>
 
 namespace rovernet {
@@ -16,14 +15,6 @@ MessageId MessageTable::add(Message message) {
     }
     slots_[id.index()] = {std::move(message), 1};
     return id;
-}
-
-bool MessageTable::release(MessageId id) {
-    auto& slot = slots_[id.index()];
-    assert(slot.holders > 0);
-    if (--slot.holders > 0) return false;
-    free_.push_back(id);
-    return true;
 }
 
 }  // namespace rovernet

@@ -56,7 +56,11 @@ class MessageTable {
     /// One more frame or waiting copy refers to the message.
     void hold(MessageId id) { ++slots_[id.index()].holders; }
     /// One fewer; the last one frees the slot. True if the message is gone.
-    bool release(MessageId id);
+    bool release(MessageId id) {
+        if (--slots_[id.index()].holders > 0) return false;
+        free_.push_back(id);
+        return true;
+    }
 
     const Message& operator[](MessageId id) const { return slots_[id.index()].message; }
     /// Messages still held.

@@ -92,10 +92,6 @@ std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> counter,
     return counter;
 }
 
-std::uint64_t combine(std::uint64_t first, std::uint64_t second) {
-    return mix(mix(first + 0x9e3779b97f4a7c15) + second);
-}
-
 std::uint64_t bits(const Key& key) {
     const std::uint64_t cipher = mix(stream(key.seed, key.replication, key.purpose) + key.index);
     const auto words = philox4x32_10({low(key.a), high(key.a), low(key.b), high(key.b)},

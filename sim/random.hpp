@@ -61,20 +61,20 @@ double normal_quantile(double p);
 /// A name as a key: XXH64 with seed 0 of its bytes.
 std::uint64_t name_key(std::string_view name);
 
-/// Two keys as one, order-dependent: mix(mix(first + 2^64 / golden ratio) + second), with the
-/// finaliser of splitmix64. One-to-one in either argument while the other stays.
+/// The finaliser of splitmix64: one-to-one, and each bit of x moves half of the result's.
 ///
 /// Source: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, OOPSLA
 /// 2014; constants of D. Stafford's variant 13.
-std::uint64_t combine(std::uint64_t first, std::uint64_t second);
-
-/// The finaliser of splitmix64: one-to-one, and each bit of x moves half of the result's.
-///
-/// Source: as combine().
 constexpr std::uint64_t mix(std::uint64_t x) {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
     x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
     return x ^ (x >> 31);
+}
+
+/// Two keys as one, order-dependent: mix(mix(first + 2^64 / golden ratio) + second), with the
+/// finaliser of splitmix64. One-to-one in either argument while the other stays.
+constexpr std::uint64_t combine(std::uint64_t first, std::uint64_t second) {
+    return mix(mix(first + 0x9e3779b97f4a7c15) + second);
 }
 
 /// One draw for each unordered pair of keys, for when a run asks for more of them than Philox can

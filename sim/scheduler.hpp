@@ -126,12 +126,15 @@ class Scheduler {
     }
 
     std::uint32_t take_slot() {
-        if (first_free_ == no_slot) {
-            if (slots_.size() == limits_.pending) throw_too_many_events("pending", limits_.pending);
-            slots_.push_back({released, Payload{}});
-            return static_cast<std::uint32_t>(slots_.size() - 1);
-        }
+        if (first_free_ == no_slot) [[unlikely]]
+            add_slot();
         return std::exchange(first_free_, static_cast<std::uint32_t>(slots_[first_free_].tag));
+    }
+
+    [[gnu::noinline]] void add_slot() {
+        if (slots_.size() == limits_.pending) throw_too_many_events("pending", limits_.pending);
+        slots_.push_back({released | first_free_, Payload{}});
+        first_free_ = static_cast<std::uint32_t>(slots_.size() - 1);
     }
 
     void release(std::uint32_t slot) {

@@ -101,12 +101,12 @@ struct Twins {
         }
     }
     void compare(const Medium::Receivers& kept, const Medium::Receivers& computed) {
-        REQUIRE(kept.all.size() == computed.all.size());
-        for (std::size_t i = 0; i < kept.all.size(); ++i) {
-            CHECK(kept.all[i].node == computed.all[i].node);
-            CHECK(kept.all[i].time == computed.all[i].time);
+        REQUIRE(kept.all().size() == computed.all().size());
+        for (std::size_t i = 0; i < kept.all().size(); ++i) {
+            CHECK(kept.all()[i].node == computed.all()[i].node);
+            CHECK(kept.all()[i].time == computed.all()[i].time);
         }
-        links += kept.all.size();
+        links += kept.all().size();
     }
     void compare_receivers(NodeId from) {
         Medium::Receivers kept, computed;

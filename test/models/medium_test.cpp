@@ -29,12 +29,13 @@ std::vector<Reception> receivers(Medium& medium, NodeId from, Time start, Time e
                                  const Legs& legs) {
     Medium::Receivers found;
     medium.find_receivers(from, start, end, legs, found);
-    std::sort(found.all.begin(), found.all.end());
-    if (!found.all.empty()) {
-        CHECK(found.first == found.all.front().time);
-        CHECK(found.last == found.all.back().time);
+    std::vector<Reception> all(found.all().begin(), found.all().end());
+    std::sort(all.begin(), all.end());
+    if (!all.empty()) {
+        CHECK(found.first == all.front().time);
+        CHECK(found.last == all.back().time);
     }
-    return found.all;
+    return all;
 }
 
 template <class Model>
@@ -326,8 +327,8 @@ TEST_CASE("medium: ns-2's default radio decodes to 250 m and senses to 550 m ove
     for (const auto& s : medium.find_sensors(NodeId{0}, start_of_run, start_of_run, legs, heard)) {
         sensors.push_back(s.node);
     }
-    REQUIRE(heard.all.size() == 1);
-    CHECK(heard.all[0].node == NodeId{1});
+    REQUIRE(heard.all().size() == 1);
+    CHECK(heard.all()[0].node == NodeId{1});
     CHECK(medium.heard_within() == 249.9);
     std::sort(sensors.begin(), sensors.end());
     CHECK(sensors == std::vector{NodeId{2}, NodeId{3}});

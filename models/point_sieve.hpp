@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#ifdef __SSSE3__
+#include <tmmintrin.h>
+#endif
+
+namespace rovernet {
+
+/// Picks, of points in a plane, those within reach of one: four at a time where the processor can,
+/// and without a branch, which would be mispredicted for many.
+///
+/// @tparam squares_too  their squared distances are wanted
+template <bool squares_too>
+class PointSieve {
+  public:
+    /// So many points are read at once: behind the last one there must be as many to read, and
+    /// behind the last one kept as many places to write.
+    static constexpr std::uint32_t at_once = 4;
+
+    /// Of the points at `xs` and `ys` [m] those within the root of `squared_reach` [m^2] of (x, y).
+    PointSieve(const float* xs, const float* ys, float x, float y, float squared_reach)
+        : xs_(xs), ys_(ys), x_(all(x)), y_(all(y)), squared_reach_(all(squared_reach)) {}
+
+    /// Writes the numbers of those from `begin` to `end` that are kept to `kept`, in order, and
+    /// their squared distances [m^2], if they are wanted, to `squares`. @return how many
+    std::size_t sift(std::uint32_t begin, std::uint32_t end, std::uint32_t* kept,
+                     float* squares) const {
+        std::size_t count = 0;
+#ifdef __SSSE3__
+        for (; end - begin >= at_once; begin += at_once) {
+            count += sift_four(begin, ~0U, kept + count, squares + count);
+        }
+        count += sift_four(begin, (1U << (end - begin)) - 1, kept + count, squares + count);
+#else
+        for (; begin < end; ++begin) {
+            const float dx = xs_[begin] - x_, dy = ys_[begin] - y_;
+            const float square = dx * dx + dy * dy;
+            kept[count] = begin;
+            if constexpr (squares_too) squares[count] = square;
+            count += square <= squared_reach_;
+        }
+#endif
+        return count;
+    }
+
+  private:
+#ifdef __SSSE3__
+    using Floats = __m128;
+    static Floats all(float x) { return _mm_set1_ps(x); }
+
+    /// Where the bytes of four values go of which those that bits tell are packed to the front.
+    using Packing = std::array<std::array<std::uint8_t, 16>, 16>;
+    alignas(16) static constexpr Packing packing = [] {
+        Packing each{};
+        for (std::size_t bits = 0; bits < each.size(); ++bits) {
+            std::size_t to = 0;
+            for (std::size_t byte = 0; byte < 16; ++byte) {
+                if (bits >> byte / 4 & 1) each[bits][to++] = static_cast<std::uint8_t>(byte);
+            }
+        }
+        return each;
+    }();
+
+    /// Of points `i` to `i` + 3 those among `wanted`, a bit for each.
+    std::size_t sift_four(std::uint32_t i, std::uint32_t wanted, std::uint32_t* kept,
+                          float* squares) const {
+        const __m128 dx = _mm_sub_ps(_mm_loadu_ps(xs_ + i), x_);
+        const __m128 dy = _mm_sub_ps(_mm_loadu_ps(ys_ + i), y_);
+        const __m128 square = _mm_add_ps(_mm_mul_ps(dx, dx), _mm_mul_ps(dy, dy));
+        const int near = _mm_movemask_ps(_mm_cmple_ps(square, squared_reach_));
+        const std::uint32_t keep = static_cast<std::uint32_t>(near) & wanted;
+        const auto pack = _mm_load_si128(reinterpret_cast<const __m128i*>(packing[keep].data()));
+        const __m128i numbers =
+            _mm_add_epi32(_mm_set1_epi32(static_cast<int>(i)), _mm_set_epi32(3, 2, 1, 0));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(kept), _mm_shuffle_epi8(numbers, pack));
+        if constexpr (squares_too) {
+            const __m128i packed = _mm_shuffle_epi8(_mm_castps_si128(square), pack);
+            _mm_storeu_ps(squares, _mm_castsi128_ps(packed));
+        }
+        return static_cast<std::size_t>(std::popcount(keep));
+    }
+#else
+    using Floats = float;
+    static Floats all(float x) { return x; }
+#endif
+
+    const float *xs_, *ys_;
+    Floats x_, y_, squared_reach_;
+};
+
+}  // namespace rovernet
