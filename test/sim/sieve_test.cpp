@@ -27,3 +27,18 @@ TEST_CASE("sieve: what is to be kept is, in order, however much there is and how
         REQUIRE(std::equal(kept.begin(), kept.end(), expected.begin(), expected.end()));
     }
 }
+
+TEST_CASE("sieve: what is written into its room stays up to where it is told to") {
+    Sieve<int> sieve;
+    for (const std::size_t room : {0UL, 1UL, 5UL, 100UL, 3UL, 1000UL}) {
+        sieve.put(-1, true);
+        const std::size_t before = sieve.kept().size();
+        int* next = sieve.room(room);
+        for (std::size_t i = 0; i < room; ++i) *next++ = static_cast<int>(i);
+        sieve.keep_to(next);
+        const auto kept = sieve.kept();
+        REQUIRE(kept.size() == before + room);
+        CHECK(kept[before - 1] == -1);
+        for (std::size_t i = 0; i < room; ++i) REQUIRE(kept[before + i] == static_cast<int>(i));
+    }
+}
