@@ -36,6 +36,7 @@ struct Log {
     std::vector<Entry> receptions{};
     std::vector<std::pair<Time, NodeId>> sendings{};
     bool always_in_order = true;
+    Time end_of_run = never;
 
     KindMask kinds() const { return kinds_wanted; }
     void on(const Record& record, const RecordContext& context) {
@@ -45,8 +46,10 @@ struct Log {
         }
         const auto& received = std::get<Received>(record);
         always_in_order = always_in_order && in_order(received.receptions);
+        REQUIRE(!received.receptions.empty());
         const std::uint64_t uid = context.messages[received.frame.message].uid;
         for (const Reception& r : received.receptions) {
+            REQUIRE(r.time <= end_of_run);
             receptions.emplace_back(uid, received.frame.path, r.time, r.node, r.fate, r.delivered);
         }
     }
@@ -72,6 +75,19 @@ struct OrderedFlood {
         flood.on_timer(link, node, tag);
     }
     void forget(MessageId message) { flood.forget(message); }
+};
+
+/// A flood that takes any order, and looks at the clock: it is when the last of them came.
+struct TimedFlood : OrderedFlood {
+    static constexpr bool takes_any_order = true;
+
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+        REQUIRE(!receptions.empty());
+        Time last = Time::min();
+        for (const Reception& r : receptions) last = std::max(last, r.time);
+        REQUIRE(link.now() == last);
+        OrderedFlood::on_receive(link, frame, receptions);
+    }
 };
 
 struct Setting {
@@ -110,7 +126,7 @@ struct Playground {
     }
     /// Floods from robots of the grid that stand still. Some begin together, so that frames come in
     /// between the receptions of others.
-    std::shared_ptr<Log> run(Router router, KindMask kinds) {
+    std::shared_ptr<Log> run(Router router, KindMask kinds, Duration step = 1s) {
         auto log = std::make_shared<Log>(Log{kinds});
         net.add_sink(Sink{log});
         net.route(std::move(router));
@@ -118,7 +134,10 @@ struct Playground {
             const auto begin = (i < robots / 2 ? i / 12 : i / 6) * 10ms;
             net.at(start_of_run + begin, [this, i] { net.broadcast({i}, "hello"); });
         }
-        net.run_for(1s);
+        while (net.now() < start_of_run + 1s) {
+            log->end_of_run = net.now() + step;
+            net.run_for(step);
+        }
         return log;
     }
 };
@@ -170,6 +189,34 @@ TEST_CASE("any order: a router that does not say that it takes any gets receptio
     Playground ground({}, 1);
     ground.run(OrderedFlood{.always_in_order = always_in_order}, any_order);
     CHECK(*always_in_order);
+}
+
+TEST_CASE("any order: the clock shows when the last of those that are served together came") {
+    const auto always_in_order = std::make_shared<bool>(true);
+    Playground ground({}, 1);
+    TimedFlood flood;
+    flood.always_in_order = always_in_order;
+    ground.run(std::move(flood), any_order);
+    CHECK(!*always_in_order);
+}
+
+TEST_CASE("any order: a run that stops between receptions and goes on is the same run") {
+    for (const KindMask kinds : {ordered, any_order}) {
+        const auto whole = Playground({}, 1).run(Flood{.jitter = 100us}, kinds);
+        const auto in_steps = Playground({}, 1).run(Flood{.jitter = 100us}, kinds, 1'777ns);
+        CHECK(in_steps->sorted() == whole->sorted());
+        CHECK(in_steps->sendings == whole->sendings);
+        CHECK(in_steps->always_in_order == (kinds == ordered));
+    }
+}
+
+TEST_CASE("any order: in reference mode each reception is an event, those of one time too") {
+    Network net({.propagation = Disc{.range = {150}}, .reference = true, .metrics = false});
+    net.route(Flood{.ttl = 1});
+    for (int i = 0; i < 4; ++i) net.add({.name = {}, .at = {i == 0 ? 0.0 : 10.0, 0, 0}});
+    net.broadcast({0}, "hello");
+    net.run_for(1s);
+    CHECK(net.events() == 3);
 }
 
 TEST_CASE("any order: one sink that wants the order gets it beside others that do not") {

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <malloc.h>
 #include <memory>
 #include <string>
@@ -409,6 +410,14 @@ TEST_CASE("load: a message storm ends at the event limit, and says what it is an
         CHECK_THROWS_AS(storm.world.net.run_for(1h), RunError);  // and not one event more
         CHECK(storm.world.net.events() == served);
     }
+}
+
+TEST_CASE("load: as many events are served as the limit allows, and no more") {
+    Network net({.event_limit = 100});
+    const std::function<void()> again = [&] { net.at(net.now() + 1s, again); };
+    again();
+    CHECK_THROWS_AS(net.run_for(1h), RunError);
+    CHECK(net.events() == 100);
 }
 
 TEST_CASE("load: what happened before a storm reached the event limit is not lost") {

@@ -334,6 +334,26 @@ TEST_CASE("medium: ns-2's default radio decodes to 250 m and senses to 550 m ove
     CHECK(sensors == std::vector{NodeId{2}, NodeId{3}});
 }
 
+TEST_CASE("medium: a lone sender hears of all that jump to it, more than were near") {
+    const Scene field;
+    Medium medium{{.scene = &field}};
+    Legs legs;
+    constexpr std::uint32_t nodes = 2000, jumping = 40;
+    const auto at = [](double x) { return Leg{.from = {x, 0, 0}, .to = {x, 0, 0}}; };
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+        legs.add(at(i == 0 ? 0 : 1e4 + 300.0 * i));
+        medium.add({}, i, Disc{.range = {250}});
+    }
+    CHECK(receivers(medium, {0}, start_of_run, start_of_run, legs).empty());
+    for (std::uint32_t i = 1; i <= jumping; ++i) {
+        legs.replace({i}, at(1 + i));
+        medium.moved({i}, legs);
+    }
+    const auto heard = receivers(medium, {0}, start_of_run, start_of_run, legs);
+    REQUIRE(heard.size() == jumping);
+    for (std::uint32_t i = 1; i <= jumping; ++i) CHECK(heard[i - 1].node == NodeId{i});
+}
+
 TEST_CASE("medium: which of two frames is stronger is what their levels say, however it is found") {
     const Scene field;
     test::Draw draw(23);
