@@ -106,8 +106,9 @@ void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
                         off = all_are_on() ? nullptr : stations_.data()](const Entry& e, Vec3 p) {
         p.z += height;
         const double d2 = squared_distance(origin, p);
+        const bool on = !off || off[e.node.index()].on;
         *next = {e.node, d2};
-        next += (d2 <= range2) & (e.node != from) & (!off || off[e.node.index()].on);
+        next += (d2 <= range2) & (e.node != from) & on;
     };
     index_.visit(places, t, legs, visit);
     found_.keep_to(next);
