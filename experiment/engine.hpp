@@ -109,9 +109,6 @@ class Engine final : public LinkLayer, public Air {
     void serve(const Scheduler<Occurrence>::Event& event);
     void count_events();
     void check_rate(BitRate rate) const;
-    bool comes_next(EventKey key) const {
-        return key.time() <= end_of_run_ && queue_.runs_before_next(key);
-    }
     BitRate rate_of(const AirFrame& frame) const;
     void transmit_sensed(Flight& flight, Time end);
     static void sort(Flight& flight);

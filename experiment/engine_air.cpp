@@ -67,8 +67,9 @@ void Engine::transmit_sensed(Flight& flight, Time end) {
     const auto sensors = medium_.find_sensors(sender, now_, end, legs_, flight.receivers);
     sort(flight);
     const Duration airtime = end - now_;
-    for (const Reception& r : flight.receivers.all())
+    for (const Reception& r : flight.receivers.all()) {
         dcf_->energy(r.node, r.time - airtime, r.time);
+    }
     for (const Medium::Found& s : sensors) {
         const Duration delay = medium_.delay(std::sqrt(s.squared_distance));
         dcf_->energy(s.node, now_ + delay, end + delay);
@@ -77,7 +78,7 @@ void Engine::transmit_sensed(Flight& flight, Time end) {
 
 /// Puts the receptions of a flight that are still to come in order.
 void Engine::sort(Flight& flight) {
-    const auto all = std::span{flight.receivers.all()}.subspan(flight.arrived);
+    const auto all = flight.receivers.all().subspan(flight.arrived);
     if (std::exchange(flight.in_order, true) || all.empty()) return;
     constexpr Duration longest{std::numeric_limits<std::int32_t>::max()};
     if (all.size() > most_counted || flight.receivers.last - flight.receivers.first > longest) {
@@ -246,7 +247,7 @@ void Engine::judge_sinr(const SinrFrame& sent, const Emission& judged, Frames ot
 
 /// What `node` made of a frame; null if it could not decode it.
 Lock* Engine::lock_of(Flight& flight, NodeId node) {
-    const auto& all = flight.receivers.all();
+    const auto all = flight.receivers.all();
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Reception& r) { return r.node == node; });
     if (found == all.end()) return nullptr;
@@ -289,7 +290,7 @@ std::size_t Engine::split(Flight& flight, std::span<Reception> rest, Time until)
 
 /// The receptions that are served next, by `key`, and all by its time: now is when the last ends.
 std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
-    const auto rest = std::span{flight.receivers.all()}.subspan(flight.arrived);
+    const auto rest = flight.receivers.all().subspan(flight.arrived);
     const Time until = served_until(key);
     std::size_t count = 1;
     if (!settings_.reference && flight.receivers.last <= until) {
@@ -319,7 +320,8 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
         if (dcf_) tell_stations(flight, ended);
         if (flight.arrived == flight.receivers.all().size()) break;
         key = event.key.at(flight.receivers.first);
-        if (settings_.reference || !comes_next(key)) {
+        const bool is_next = key.time() <= end_of_run_ && queue_.runs_before_next(key);
+        if (settings_.reference || !is_next) {
             queue_.requeue(key, event.payload);
             return;
         }

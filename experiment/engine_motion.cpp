@@ -21,6 +21,7 @@ void check_place(Vec3 at) {
 
 /// The leg that waits for the node, if one does; it waits no more.
 std::optional<Leg> taken(std::map<NodeId, Leg>& waiting, NodeId id) {
+    if (waiting.empty()) return std::nullopt;
     const auto found = waiting.extract(id);
     return found ? std::optional(found.mapped()) : std::nullopt;
 }
@@ -99,9 +100,7 @@ void Engine::begin_movements() {
 }
 
 void Engine::next_leg(NodeId id) {
-    if (!after_turn_.empty()) {
-        if (const auto leg = taken(after_turn_, id)) return take(id, *leg);
-    }
+    if (const auto leg = taken(after_turn_, id)) return take(id, *leg);
     Mover asking = mover(id);
     const Step step = node(id).movement.next_leg(asking);
     const bool begins = !std::exchange(node(id).moving, true);

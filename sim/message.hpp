@@ -4,6 +4,7 @@
 #include "sim/ids.hpp"
 #include "sim/time.hpp"
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -57,6 +58,7 @@ class MessageTable {
     void hold(MessageId id) { ++slots_[id.index()].holders; }
     /// One fewer; the last one frees the slot. True if the message is gone.
     bool release(MessageId id) {
+        assert(slots_[id.index()].holders > 0);
         if (--slots_[id.index()].holders > 0) return false;
         free_.push_back(id);
         return true;

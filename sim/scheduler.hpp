@@ -131,6 +131,7 @@ class Scheduler {
         return std::exchange(first_free_, static_cast<std::uint32_t>(slots_[first_free_].tag));
     }
 
+    // Out of line, as it is rare: schedule() takes fewer registers.
     [[gnu::noinline]] void add_slot() {
         if (slots_.size() == limits_.pending) throw_too_many_events("pending", limits_.pending);
         slots_.push_back({released | first_free_, Payload{}});

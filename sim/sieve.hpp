@@ -33,6 +33,7 @@ class Sieve {
     std::span<T> kept() const { return {values_.get(), next_}; }
 
   private:
+    // Out of line, as it is rare: put() and room() take fewer registers.
     [[gnu::noinline]] void grow(std::size_t more) {
         const std::span<T> old = kept();
         const std::size_t size = 2 * (old.size() + more) + 16;
