@@ -79,11 +79,12 @@ class ByDistance {
 
 class ByRange {
   public:
-    explicit ByRange(const Links& of) : of_(of), range_(of.loss(), budget, shadowing_draws(1, 0)) {}
+    explicit ByRange(const Links& of) : of_(of), range_(of.loss(), budget) {}
     std::size_t count() const {
         std::size_t up = 0;
         for (std::size_t i = 0; i < links; ++i) {
-            up += range_.in_range(of_.squared[i], of_.from_key, of_.keys[i]) ? 1 : 0;
+            const std::uint64_t bits = draws_.bits(of_.from_key, of_.keys[i]);
+            up += range_.in_range(of_.squared[i], bits) ? 1 : 0;
         }
         return up;
     }
@@ -91,6 +92,7 @@ class ByRange {
   private:
     const Links& of_;
     ShadowedRange range_;
+    PairDraws draws_ = shadowing_draws(1, 0);
 };
 
 class ByLoss {
@@ -153,7 +155,7 @@ double share_up(const Links& of) {
 
 /// Mean probability that ShadowedRange has to compute the loss.
 double computed_share(const Links& of) {
-    const ShadowedRange range(of.loss(), budget, shadowing_draws(1, 0));
+    const ShadowedRange range(of.loss(), budget);
     double sum = 0;
     for (const double d2 : of.squared) sum += range.computed_share(d2);
     return sum / links;

@@ -157,6 +157,10 @@ void Engine::judge(const Flight& flight, std::span<Reception> receptions) {
     const Time since = judged.begin - longest_delay() - (locks ? on_air_.longest() : Duration{0});
     const Time until = judged.end + longest_delay();
     const Frames nearby = settings_.reference ? Frames{} : on_air_.near(judged, since, until, now_);
+    // Together, so that none waits for the one before.
+    for (const Reception& r : nearby.empty() ? std::span<Reception>{} : receptions) {
+        medium_.prefetch_position(r.node);
+    }
     all_.clear();
     const SinrFrame sent = locks ? sinr_frame(flight) : SinrFrame{};
     for (Reception& r : receptions) {
@@ -186,7 +190,7 @@ std::optional<Arrival> Engine::arrival(const Emission& frame, NodeId node) {
             return medium_.arrival(frame, node, before->leg.position(frame.begin));
         }
     }
-    return medium_.arrival(frame, node, legs_.position(node, frame.begin));
+    return medium_.arrival(frame, node, medium_.position(node, frame.begin, legs_));
 }
 
 void Engine::judge_collision(const Emission& judged, Frames others, Reception& reception) {

@@ -41,7 +41,8 @@ class Medium {
 
     explicit Medium(const Settings& settings)
         : settings_(settings),
-          kinds_(settings.interference_cut, shadowing_draws(settings.seed, settings.replication)) {}
+          draws_(shadowing_draws(settings.seed, settings.replication)),
+          kinds_(settings.interference_cut) {}
 
     /// Adds the next node. `key`: the robot's, for random draws.
     /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot
@@ -57,6 +58,8 @@ class Medium {
         __builtin_prefetch(stations_.data() + node.index());
         index_.prefetch(node);
     }
+    /// The same for what position() takes.
+    void prefetch_position(NodeId node) const { index_.prefetch(node); }
     /// The node's leg has been replaced.
     void moved(NodeId node, const Legs& legs) {
         index_.moved(node, legs);
@@ -103,6 +106,10 @@ class Medium {
     double squared_reach(NodeId node) {
         return kinds_.squared_reach(kind(node), Strength::disturbing);
     }
+    /// Where a node is [m]: as `legs` have it, and near in memory if its neighbours sent lately.
+    Vec3 position(NodeId node, Time t, const Legs& legs) const {
+        return index_.position_of(node, t, legs);
+    }
     /// A frame as it arrives at `to`, which is `at` [m] when it begins; nothing if it is too weak
     /// to disturb, or if the two may have no link. The level is left open where the distance and
     /// the pair decide it.
@@ -148,7 +155,9 @@ class Medium {
     };
     using Kind = RadioKinds::Kind;
 
-    Kind kind(NodeId node) const { return stations_[node.index()].kind; }
+    Kind kind(NodeId node) const {
+        return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
+    }
     void choose_cells();
     void find(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
@@ -157,7 +166,7 @@ class Medium {
     void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs);
     void tell_arrivals(Time end, Receivers& out) const;
     void look_from(NodeId from, Time t, const Legs& legs);
-    void share_draws(const PairDraws& draws);
+    void share_draws();
     template <class Use>
     auto within(NodeId from, double reach2, Use use) const;
     template <class Use>
@@ -170,9 +179,10 @@ class Medium {
     std::vector<Station> stations_;
     std::vector<Radio> radios_;  // those that differ
     std::size_t off_ = 0;        // stations that are switched off
+    PairDraws draws_;            // of links, where tables decide
     RadioKinds kinds_;
     NeighbourIndex index_;
-    std::vector<std::uint64_t> shares_;  // of draws, by place in the index, if tables decide
+    std::vector<std::uint64_t> shares_;  // of draws_, by place in the index, if tables decide
     std::uint64_t shares_of_bin_ = 0;    // those of the index's so many-th bin
     PairCache pairs_;
     bool cells_chosen_ = false;

@@ -45,16 +45,16 @@ void Medium::look_from(NodeId from, Time t, const Legs& legs) {
     origin_.z += kinds_.height(kind(from));
 }
 
-/// For the index: calls use(entry, antenna, squared distance) for those within reach that are on
-/// and may link.
+/// For the index: calls use(entry, antenna, squared distance and, if the index tells it, place) for
+/// those within reach that are on and may link.
 template <class Use>
 auto Medium::within(NodeId from, double reach2, Use use) const {
-    return [=, this, mine = kind(from)](const Entry& e, Vec3 p) {
+    return [=, this, mine = kind(from)](const Entry& e, Vec3 p, auto... place) {
         p.z += kinds_.height(e.label);
         const double d2 = squared_distance(origin_, p);
         if (d2 > reach2 || e.node == from || !is_on(e.node)) return;
         if (!kinds_.may_link(mine, e.label)) return;
-        use(e, p, d2);
+        use(e, p, d2, place...);
     };
 }
 
@@ -117,21 +117,21 @@ void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
 void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& legs) {
     look_from(from, t, legs);
     const Kind mine = kind(from);
-    const std::uint64_t key = stations_[from.index()].key;
-    const auto in_range = [&](const Entry& e, double d2, Strength s) {
-        return kinds_.table(mine, e.label, s).in_range(d2, key, stations_[e.node.index()].key);
-    };
-    const auto use = [&](const Entry& e, Vec3, double d2) {
-        if (!in_range(e, d2, strength)) return;
+    const std::uint64_t share = draws_.share(key(from));
+    const auto use = [&](const Entry& e, Vec3, double d2, std::uint32_t place) {
+        const std::uint64_t theirs =
+            place == NeighbourIndex::nowhere ? draws_.share(key(e.node)) : shares_[place];
+        const std::uint64_t bits = PairDraws::bits_of_shares(share, theirs);
+        const auto in_range = [&](Strength s) {
+            return kinds_.table(mine, e.label, s).in_range(d2, bits);
+        };
+        if (!in_range(strength)) return;
         // Who can decode it senses it, too.
-        const bool decodes =
-            strength == Strength::decodable || in_range(e, d2, Strength::decodable);
+        const bool decodes = strength == Strength::decodable || in_range(Strength::decodable);
         (decodes ? found_ : sensors_).put({e.node, d2}, true);
     };
     // Their draws rule out most before anything else about them is looked at.
-    const PairDraws draws = shadowing_draws(settings_.seed, settings_.replication);
-    const std::uint64_t share = draws.share(key);
-    if (std::exchange(shares_of_bin_, index_.bins()) != index_.bins()) share_draws(draws);
+    if (std::exchange(shares_of_bin_, index_.bins()) != index_.bins()) share_draws();
     const FirstLook& look = kinds_.first_look(mine, strength);
     const auto passes = [share, &look, shares = shares_.data()](std::uint32_t place,
                                                                 float at_least) {
@@ -142,11 +142,9 @@ void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& l
 }
 
 /// Fills shares_.
-void Medium::share_draws(const PairDraws& draws) {
+void Medium::share_draws() {
     shares_.clear();
-    for (const Entry& e : index_.entries()) {
-        shares_.push_back(draws.share(stations_[e.node.index()].key));
-    }
+    for (const Entry& e : index_.entries()) shares_.push_back(draws_.share(key(e.node)));
 }
 
 void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs) {
@@ -185,8 +183,7 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
             break;
         case Decision::by_table: {
             const auto& table = kinds_.table(mine, theirs, Strength::disturbing);
-            const std::uint64_t key = stations_[frame.from.index()].key;
-            if (!table.in_range(d2, key, stations_[to.index()].key)) return std::nullopt;
+            if (!table.in_range(d2, draws_.bits(key(frame.from), key(to)))) return std::nullopt;
             break;
         }
         case Decision::by_loss: {

@@ -84,6 +84,20 @@ std::span<std::uint32_t> NeighbourIndex::look_around(Vec3 centre, double reach) 
 template std::span<std::uint32_t> NeighbourIndex::look_around<false>(Vec3, double);
 template std::span<std::uint32_t> NeighbourIndex::look_around<true>(Vec3, double);
 
+/// Makes the first `count` of distance2_ the least that they may be now, wherever the nodes went
+/// since they were binned.
+float* NeighbourIndex::distances_at_least(std::size_t count, Vec3 centre, double radius, Time t) {
+    const double most = (slack(t) + rounding(centre, radius + slack(t))) * (1 + 1e-6);
+    const auto off = static_cast<float>(std::min<double>(most, far));
+    float* const at_least = distance2_.data();
+    for (std::size_t i = 0; i < count; ++i) {
+        const float nearer = (1 - 1e-6F) * std::sqrt(at_least[i]) - off;
+        const float nearest = (nearer + std::abs(nearer)) / 2;  // or 0
+        at_least[i] = (1 - 1e-6F) * nearest * nearest;
+    }
+    return at_least;
+}
+
 /// For what look_around() finds; returns for how much.
 std::size_t NeighbourIndex::make_room(std::size_t places) {
     near_.resize(2 * places);

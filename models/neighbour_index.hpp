@@ -34,6 +34,8 @@ class NeighbourIndex {
         std::uint32_t moves : 1;   ///< ever, on its leg
     };
 
+    static constexpr std::uint32_t nowhere = 0xffffffff;  ///< no place of the entries()
+
     /// Adds the next node.
     void add(std::uint32_t label) {
         labels_.push_back(label);
@@ -60,6 +62,8 @@ class NeighbourIndex {
     /// Where the node is [m]: as `legs` have it, and near in memory if its neighbours were looked
     /// at.
     Vec3 position_of(NodeId node, Time t, const Legs& legs) const {
+        if (stale_) [[unlikely]]
+            return legs.position(node, t);
         const std::uint32_t place = place_[node.index()];
         return place & is_apart ? apart_.position(place & ~is_apart, t, legs)
                                 : binned_.position(place, t, legs);
@@ -90,29 +94,24 @@ class NeighbourIndex {
         this->visit(near(centre, radius, t), t, legs, visit);
     }
 
-    /// As above, but of the entries() only those for which passes(place, at_least) holds; the
-    /// squared distance [m^2] between entry and centre, heights aside, is no less than that.
+    /// Calls visit(entry, position, place) as above, but of the entries() only for those for which
+    /// passes(place, at_least) holds; the squared distance [m^2] between entry and centre, heights
+    /// aside, is no less than that. The place of those kept apart is `nowhere`.
     template <class Passes, class Visit>
     void visit_if(Vec3 centre, double radius, Time t, const Legs& legs, Passes passes,
                   Visit visit) {
-        const double reach = radius + slack(t);
-        // So much nearer than where it was binned may it be.
-        const double most = (slack(t) + rounding(centre, reach)) * (1 + 1e-6);
-        const auto off = static_cast<float>(std::min<double>(most, far));
-        const std::span<std::uint32_t> places = look_around<true>(centre, reach);
-        float* const at_least = distance2_.data();
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const float nearer = (1 - 1e-6F) * std::sqrt(at_least[i]) - off;
-            const float nearest = (nearer + std::abs(nearer)) / 2;  // or 0
-            at_least[i] = (1 - 1e-6F) * nearest * nearest;
-        }
+        const std::span<std::uint32_t> places = look_around<true>(centre, radius + slack(t));
+        const float* const at_least = distances_at_least(places.size(), centre, radius, t);
         std::size_t passed = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             // Without a branch: it would be mispredicted for most that pass.
             const std::uint32_t place = places[passed] = places[i];
             passed += passes(place, at_least[i]);
         }
-        this->visit(places.first(passed), t, legs, visit);
+        visit_apart(t, legs, [&](const Entry& e, Vec3 p) { visit(e, p, nowhere); });
+        for (const std::uint32_t i : places.first(passed)) {
+            visit(binned_.entries[i], binned_.position(i, t, legs), i);
+        }
     }
     /// The nodes in the order of their cells, but for those kept apart; good until the next bin.
     std::span<const Entry> entries() const { return binned_.entries; }
@@ -144,7 +143,7 @@ class NeighbourIndex {
     };
 
     template <class Visit>
-    void visit_apart(Time t, const Legs& legs, Visit& visit) const {
+    void visit_apart(Time t, const Legs& legs, Visit&& visit) const {
         for (std::size_t i = 0; i < apart_.entries.size(); ++i) {
             visit(apart_.entries[i], apart_.position(i, t, legs));
         }
@@ -165,6 +164,7 @@ class NeighbourIndex {
     /// into distance2_, if that is wanted.
     template <bool distances_too>
     std::span<std::uint32_t> look_around(Vec3 centre, double reach);
+    float* distances_at_least(std::size_t count, Vec3 centre, double radius, Time t);
     std::size_t make_room(std::size_t places);
 
     std::size_t cell_at(Vec3 p) const {

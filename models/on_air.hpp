@@ -63,7 +63,9 @@ class OnAir {
         std::uint64_t previous;  // change of the same node
     };
     /// The node's leg or radio has changed since a frame began that is kept.
-    bool has_changed(NodeId node) const { return last_change(node) >= first_change_; }
+    bool has_changed(NodeId node) const {
+        return !changes_.empty() && last_change(node) >= first_change_;
+    }
     /// What the node was when the frame began; null if it has not changed since.
     const Before* before(NodeId node, const Emission& frame) const;
 

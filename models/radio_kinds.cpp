@@ -118,8 +118,7 @@ double RadioKinds::compute_range(Kind from, Kind to, Strength strength) {
 
 ShadowedRange RadioKinds::make_table(Kind from, Kind to, Strength strength) const {
     const Radio& sender = radio(from);
-    return {*model(from).shadowed_loss(sender.frequency), budget(strength, sender, radio(to)),
-            draws_};
+    return {*model(from).shadowed_loss(sender.frequency), budget(strength, sender, radio(to))};
 }
 
 FirstLook RadioKinds::make_look(Kind from, Strength strength) {

@@ -39,9 +39,7 @@ class RadioKinds {
     using Kind = std::uint32_t;
 
     /// @param interference_cut  see Medium::Settings
-    /// @param draws             for ShadowedRange
-    RadioKinds(std::optional<Db> interference_cut, const PairDraws& draws)
-        : interference_cut_(interference_cut), draws_(draws) {}
+    explicit RadioKinds(std::optional<Db> interference_cut) : interference_cut_(interference_cut) {}
 
     /// Counts one station; @return its kind.
     Kind add(const Radio& radio, const Propagation& model);
@@ -137,7 +135,6 @@ class RadioKinds {
     FirstLook make_look(Kind from, Strength strength);
 
     std::optional<Db> interference_cut_;
-    PairDraws draws_;
     std::vector<Alike> kinds_;
     std::vector<double> heights_;  // [m] of their antennas
     std::vector<Propagation> models_;

@@ -38,8 +38,8 @@ std::uint32_t draws_up_to(double z) {
 
 }  // namespace
 
-ShadowedRange::ShadowedRange(const ShadowedLoss& loss, Db budget, const PairDraws& draws)
-    : loss_(loss), budget_(budget.value), draws_(draws) {
+ShadowedRange::ShadowedRange(const ShadowedLoss& loss, Db budget)
+    : loss_(loss), budget_(budget.value) {
     choose_cells();
     double nearest = 0;
     for (std::uint64_t number = first_; number < last_; ++number) {
@@ -79,8 +79,8 @@ ShadowedRange::Cell ShadowedRange::fill(double nearest, double farthest) const {
     return {.sure = sure, .open = draws_up_to(margin(nearest, +1)) - sure};
 }
 
-bool ShadowedRange::computed(double squared_distance, std::uint64_t a, std::uint64_t b) const {
-    return loss_(std::sqrt(squared_distance), draws_.normal(a, b)) <= budget_;
+bool ShadowedRange::computed(double squared_distance, std::uint64_t bits) const {
+    return loss_(std::sqrt(squared_distance), PairDraws::normal_of(bits)) <= budget_;
 }
 
 }  // namespace rovernet

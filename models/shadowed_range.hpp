@@ -53,16 +53,16 @@ inline PairDraws shadowing_draws(std::uint64_t seed, std::uint32_t replication) 
 class ShadowedRange {
   public:
     /// @param budget  greatest loss with which a link is up
-    /// @param draws   shadowing_draws() of the run
-    ShadowedRange(const ShadowedLoss& loss, Db budget, const PairDraws& draws);
+    ShadowedRange(const ShadowedLoss& loss, Db budget);
 
-    /// The loss of the robots of these keys, in either order, is within the budget.
-    /// @param squared_distance  of their antennas [m^2], >= 0
-    bool in_range(double squared_distance, std::uint64_t a, std::uint64_t b) const {
+    /// The loss is within the budget.
+    /// @param squared_distance  of the antennas [m^2], >= 0
+    /// @param bits              of the pair's draw, by shadowing_draws() of the run
+    bool in_range(double squared_distance, std::uint64_t bits) const {
         const Cell& here = cell(squared_distance);
-        const auto draw = static_cast<std::uint32_t>(draws_.bits(a, b) >> 33);
+        const auto draw = static_cast<std::uint32_t>(bits >> 33);
         if (draw - here.sure < here.open) [[unlikely]]
-            return computed(squared_distance, a, b);
+            return computed(squared_distance, bits);
         return draw < here.sure;
     }
 
@@ -72,7 +72,6 @@ class ShadowedRange {
         const Cell& nearest = cell(at_least);
         return nearest.sure + nearest.open;
     }
-    const PairDraws& draws() const { return draws_; }
 
     /// Probability [-] that a link of this squared distance [m^2] has to be computed.
     double computed_share(double squared_distance) const {
@@ -91,7 +90,7 @@ class ShadowedRange {
 
     void choose_cells();
     Cell fill(double nearest, double farthest) const;
-    bool computed(double squared_distance, std::uint64_t a, std::uint64_t b) const;
+    bool computed(double squared_distance, std::uint64_t bits) const;
     const Cell& cell(double squared_distance) const {
         // Non-negative numbers are in the order of their bits.
         const std::uint64_t number = std::bit_cast<std::uint64_t>(squared_distance) >> shift_;
@@ -100,7 +99,6 @@ class ShadowedRange {
 
     ShadowedLoss loss_;
     double budget_;
-    PairDraws draws_;
     int shift_ = 0;            // bits of a squared distance that its cell's number leaves out
     std::uint64_t first_ = 0;  // number of the first cell, which begins at 0
     std::uint64_t last_ = 0;   // number of the last cell, which has no end

@@ -7,23 +7,21 @@ namespace rovernet {
 
 Flood::operator Router() const { return FloodRouter{*this}; }
 
-FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) {
-    check_fields(flood, "flood");
-    if (flood.duplicates == Duplicates::forward) return;
-    settled_ = 1;
-    if (flood.upgrade) return;
-    first_settled_ = Knowledge::ended;
-    settled_ = ~std::uint32_t{0};
-}
+FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) { check_fields(flood, "flood"); }
 
 /// For what every node knows of a message.
 void FloodRouter::make_room(std::size_t message, std::size_t nodes) {
     if (known_.size() <= message) known_.resize(message + 1);
-    known_[message].resize(nodes);
+    known_[message].resize(nodes, later_copies_matter());
 }
 
 void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
-    knowledge(link, message)[node.index()] = Knowledge::sent;
+    Known& known = this->known(link, message);
+    if (forwards_all()) {
+        known[node] = Knowledge::ended;
+    } else {
+        known.settle(node);
+    }
     link.broadcast({.message = message,
                     .sender = node,
                     .path = link.key(node),
@@ -33,56 +31,53 @@ void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
 }
 
 void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
-    const std::span<Knowledge> by_node = knowledge(link, frame.message);
-    // Together, so that none waits for the one before; what few nodes know is in a cache anyway.
-    constexpr std::size_t few = 4096;
-    if (by_node.size() > few) {
-        for (const auto& r : receptions) __builtin_prefetch(&by_node[r.node.index()]);
-    }
+    Known& known = this->known(link, frame.message);
     news_.clear();
     Reception** next = news_.room(receptions.size());
-    const std::uint32_t first_settled = first_settled_, settled = settled_;
     for (auto& reception : receptions) {
-        const Knowledge mine = by_node[reception.node.index()];
-        reception.delivered = mine.is(Knowledge::unheard);
+        reception.delivered = false;
         reception.fate = Fate::duplicate;
         *next = &reception;
-        next += !mine.is_among(first_settled, settled);
+        next += !known.is_settled(reception.node);
     }
     news_.keep_to(next);
     const std::span<Reception*> news = news_.kept();
     auto end = news.end();
-    if (flood_.duplicates == Duplicates::suppress && flood_.upgrade) {
+    if (!forwards_all() && flood_.upgrade) {
         end = std::remove_if(news.begin(), end, [&](const Reception* r) {
-            return is_duplicate(frame, by_node[r->node.index()]);
+            return is_duplicate(frame, known[r->node]);
         });
     }
     // Timers of one time are served in the order in which they were set.
     if (end - news.begin() > 1) {
         std::sort(news.begin(), end, [](const auto* a, const auto* b) { return *a < *b; });
     }
-    for (auto each = news.begin(); each != end; ++each) {
-        (*each)->fate = take(link, frame, **each, by_node[(*each)->node.index()]);
-    }
+    for (auto each = news.begin(); each != end; ++each) take(link, frame, known, **each);
 }
 
 /// Of those that are not settled, under "suppress" with `upgrade`: the node forwards no copy of its
 /// own for this one, which may lift the one that it has not sent.
-bool FloodRouter::is_duplicate(const Frame& frame, Knowledge known) {
-    if (known.is(Knowledge::unheard)) return false;
-    if (!known.is(Knowledge::waiting)) return frame.ttl <= 1;
-    Frame& copy = copies_[known.copy()];
+bool FloodRouter::is_duplicate(const Frame& frame, Knowledge mine) {
+    if (mine.is(Knowledge::unheard)) return false;
+    if (!mine.is(Knowledge::waiting)) return frame.ttl <= 1;
+    Frame& copy = copies_[mine.copy()];
     if (frame.ttl > copy.ttl) copy = frame;
     return true;
 }
 
-Fate FloodRouter::take(LinkLayer& link, const Frame& frame, const Reception& reception,
-                       Knowledge& mine) {
-    if (mine.is(Knowledge::unheard)) mine = Knowledge::ended;
-    if (frame.ttl <= 1) return Fate::ttl;
-    const std::uint32_t copy = wait(link, frame, reception);
-    if (flood_.duplicates == Duplicates::suppress) mine = {Knowledge::waiting, copy};
-    return Fate::waiting;
+void FloodRouter::take(LinkLayer& link, const Frame& frame, Known& known, Reception& reception) {
+    const NodeId node = reception.node;
+    const bool forwards = frame.ttl > 1;
+    reception.fate = forwards ? Fate::waiting : Fate::ttl;
+    const std::uint32_t copy = forwards ? wait(link, frame, reception) : 0;
+    if (!later_copies_matter()) {
+        reception.delivered = true;
+        known.settle(node);
+        return;
+    }
+    Knowledge& mine = known[node];
+    reception.delivered = mine.is(Knowledge::unheard);
+    mine = forwards && !forwards_all() ? Knowledge{Knowledge::waiting, copy} : Knowledge::ended;
 }
 
 /// Keeps a copy for its delay; returns where.
@@ -91,7 +86,7 @@ std::uint32_t FloodRouter::wait(LinkLayer& link, const Frame& frame, const Recep
     copies_[copy] = frame;
     link.hold(frame.message);
     // A node sends one message once under "suppress"; copies of one message differ by their path.
-    const std::uint64_t which = flood_.duplicates == Duplicates::forward ? frame.path : 0;
+    const std::uint64_t which = forwards_all() ? frame.path : 0;
     const double u = link.draw(Purpose::flood_jitter, reception.node, frame.message, which);
     const Duration jitter = from_seconds(u * seconds(flood_.jitter));
     link.timer(reception.node, reception.time + least_reaction + jitter, copy);
@@ -101,7 +96,7 @@ std::uint32_t FloodRouter::wait(LinkLayer& link, const Frame& frame, const Recep
 void FloodRouter::on_timer(LinkLayer& link, NodeId node, std::uint64_t copy) {
     const Frame heard = copies_[copy];
     copies_.release(copy);
-    known_[heard.message.index()][node.index()] = Knowledge::sent;
+    if (!forwards_all()) known_[heard.message.index()].settle(node);
     if (link.is_on(node)) {
         link.broadcast({.message = heard.message,
                         .sender = node,

@@ -47,8 +47,8 @@ struct Flood {
     operator Router() const;
 };
 
-/// The protocol that runs a Flood. Keeps four bytes per message and node while a copy of the
-/// message is left.
+/// The protocol that runs a Flood. While a copy of a message is left it keeps a bit per node for
+/// it, and four bytes more if a copy after the first may matter.
 class FloodRouter {
   public:
     static constexpr bool takes_any_order = true;
@@ -63,10 +63,10 @@ class FloodRouter {
     void forget(MessageId message);
 
   private:
-    /// What a node knows of a message.
+    /// What a node made of the copies that it heard so far.
     class Knowledge {
       public:
-        enum State : std::uint32_t { unheard, ended, sent, waiting };
+        enum State : std::uint32_t { unheard, ended, waiting };
         Knowledge(State state = unheard, std::uint32_t copy = 0) : value_(state + copy) {}
 
         bool is(State state) const {
@@ -74,32 +74,53 @@ class FloodRouter {
         }
         /// The one that waits, in the state `waiting`.
         std::uint32_t copy() const { return value_ - waiting; }
-        /// One comparison: it is one of the `count` states from `first` on.
-        bool is_among(std::uint32_t first, std::uint32_t count) const {
-            return value_ - first < count;
-        }
 
       private:
         std::uint32_t value_;  // from `waiting` on: and the copy's number
     };
 
-    std::span<Knowledge> knowledge(const LinkLayer& link, MessageId message) {
+    /// What the nodes know of a message.
+    class Known {
+      public:
+        std::size_t size() const { return 64 * settled_.size(); }
+        void resize(std::size_t nodes, bool later_copies_matter) {
+            settled_.resize((nodes + 63) / 64);
+            if (later_copies_matter) of_nodes_.resize(size());
+        }
+        /// Another copy is a duplicate for the node, whatever its TTL.
+        bool is_settled(NodeId node) const {
+            return settled_[node.index() / 64] >> node.index() % 64 & 1;
+        }
+        void settle(NodeId node) {
+            settled_[node.index() / 64] |= std::uint64_t{1} << node.index() % 64;
+        }
+        /// If later copies matter.
+        Knowledge& operator[](NodeId node) { return of_nodes_[node.index()]; }
+
+      private:
+        // By bits: those of a million nodes stay in a cache.
+        std::vector<std::uint64_t> settled_;
+        std::vector<Knowledge> of_nodes_;
+    };
+
+    Known& known(const LinkLayer& link, MessageId message) {
         const std::size_t i = message.index(), nodes = link.size();
         if (i >= known_.size() || known_[i].size() < nodes) [[unlikely]]
             make_room(i, nodes);
         return known_[i];
     }
     void make_room(std::size_t message, std::size_t nodes);
-    bool is_duplicate(const Frame& frame, Knowledge known);
-    Fate take(LinkLayer& link, const Frame& frame, const Reception& reception, Knowledge& mine);
+    bool forwards_all() const { return flood_.duplicates == Duplicates::forward; }
+    /// Also those that are not the first of its message.
+    bool later_copies_matter() const { return forwards_all() || flood_.upgrade; }
+    bool is_duplicate(const Frame& frame, Knowledge mine);
+    void take(LinkLayer& link, const Frame& frame, Known& known, Reception& reception);
     std::uint32_t wait(LinkLayer& link, const Frame& frame, const Reception& reception);
 
     Flood flood_;
-    // The states in which another copy is a duplicate, whatever its TTL.
-    std::uint32_t first_settled_ = Knowledge::sent, settled_ = 0;
-    std::vector<std::vector<Knowledge>> known_;  // by message, then by node
-    Slots<Frame> copies_;                        // as received, waiting for their delay
-    Sieve<Reception*> news_;                     // under work, kept for its memory
+    std::vector<Known> known_;  // by message
+    Slots<Frame> copies_;       // as received, waiting for their delay
+    Sieve<Reception*> news_;    // under work, kept for its memory
 };
 
 }  // namespace rovernet

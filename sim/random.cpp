@@ -115,9 +115,7 @@ PairDraws::PairDraws(std::uint64_t seed, std::uint32_t replication, Purpose purp
 
 double PairDraws::uniform(std::uint64_t a, std::uint64_t b) const { return midpoint(bits(a, b)); }
 
-double PairDraws::normal(std::uint64_t a, std::uint64_t b) const {
-    return normal_quantile(uniform(a, b));
-}
+double PairDraws::normal_of(std::uint64_t bits) { return normal_quantile(midpoint(bits)); }
 
 double normal_quantile(double p) {
     const double q = p - 0.5;

@@ -93,7 +93,8 @@ class PairDraws {
         return bits_of_shares(share(a), share(b));
     }
     double uniform(std::uint64_t a, std::uint64_t b) const;  ///< as uniform() of these bits
-    double normal(std::uint64_t a, std::uint64_t b) const;   ///< as normal() of these bits
+    double normal(std::uint64_t a, std::uint64_t b) const { return normal_of(bits(a, b)); }
+    static double normal_of(std::uint64_t bits);  ///< as normal() of these bits
 
   private:
     std::uint64_t stream_;

@@ -75,9 +75,11 @@ struct Swarm {
             return node.value % 3 != 0;
         };
         index.visit_if(centre, radius, now, legs, passes,
-                       [&](const NeighbourIndex::Entry& e, Vec3 p) {
+                       [&](const NeighbourIndex::Entry& e, Vec3 p, std::uint32_t place) {
                            ++visited[e.node.index()];
                            CHECK(p == legs.position(e.node, now));
+                           const bool binned = place != NeighbourIndex::nowhere;
+                           if (binned) CHECK(&index.entries()[place] == &e);
                        });
         for (std::size_t i = 0; i < seen.size(); ++i) REQUIRE(visited[i] + stopped[i] == seen[i]);
     }
@@ -132,8 +134,9 @@ TEST_CASE("neighbour index: of nodes at rest the first look is told nearly the s
             ++looked_at;
             return false;
         };
-        swarm.index.visit_if(centre, 500, swarm.now, swarm.legs, passes,
-                             [](const NeighbourIndex::Entry&, Vec3) { FAIL("passed"); });
+        swarm.index.visit_if(
+            centre, 500, swarm.now, swarm.legs, passes,
+            [](const NeighbourIndex::Entry&, Vec3, std::uint32_t) { FAIL("passed"); });
     }
     CHECK(looked_at > 300);
 }

@@ -54,6 +54,17 @@ class Numbers {
     std::uint64_t drawn_ = 0;
 };
 
+/// The links of one run.
+struct Links {
+    ShadowedRange range;
+    PairDraws draws;
+
+    /// Of the robots with these keys.
+    bool in_range(double squared_distance, std::uint64_t a, std::uint64_t b) const {
+        return range.in_range(squared_distance, draws.bits(a, b));
+    }
+};
+
 /// A network of one kind of radio.
 struct Setting {
     LogDistance model{};
@@ -62,8 +73,9 @@ struct Setting {
     std::uint64_t seed = 1;
     std::uint32_t replication = 0;
 
-    ShadowedRange range() const {
-        return {model.shadowed_loss(frequency), budget, shadowing_draws(seed, replication)};
+    Links links() const {
+        return {ShadowedRange(model.shadowed_loss(frequency), budget),
+                shadowing_draws(seed, replication)};
     }
     /// What the model says at distance `d` [m].
     bool in_budget(double d, std::uint64_t a, std::uint64_t b) const {
@@ -138,12 +150,12 @@ double cell_edge(double d, int steps) {
 }
 
 /// Disagreements of range and model at `d` [m] and a few steps of it around.
-int disagreements_around(double d, const Setting& setting, const ShadowedRange& range,
-                         std::uint64_t a, std::uint64_t b) {
+int disagreements_around(double d, const Setting& setting, const Links& links, std::uint64_t a,
+                         std::uint64_t b) {
     int wrong = 0;
     for (int steps = d > 0 ? -3 : 0; steps <= 3; ++steps) {
         const double near = up(d, steps);
-        wrong += range.in_range(near * near, a, b) != setting.in_budget(near, a, b);
+        wrong += links.in_range(near * near, a, b) != setting.in_budget(near, a, b);
     }
     return wrong;
 }
@@ -155,13 +167,13 @@ TEST_CASE("shadowed range: decides a million links of a thousand networks as the
     int wrong = 0, in_range = 0;
     for (int network = 0; network < 1000; ++network) {
         const Setting setting = any_setting(draw);
-        const ShadowedRange range = setting.range();
+        const Links links = setting.links();
         for (int link = 0; link < 1000; ++link) {
             const double d = any_distance(draw, setting);
             const std::uint64_t a = draw.bits(), b = draw.bits();
             const bool up = setting.in_budget(d, a, b);
             in_range += up;
-            wrong += range.in_range(d * d, a, b) != up;
+            wrong += links.in_range(d * d, a, b) != up;
         }
     }
     CHECK(wrong == 0);
@@ -174,7 +186,7 @@ TEST_CASE("shadowed range: agrees with the loss to the last bit of the distance"
     int wrong = 0;
     for (int network = 0; network < 500; ++network) {
         const Setting setting = any_setting(draw);
-        const ShadowedRange range = setting.range();
+        const Links links = setting.links();
         for (const std::uint64_t bits : {std::uint64_t{0}, all_bits, draw.bits(), draw.bits(),
                                          draw.bits() >> 20, ~(draw.bits() >> 20)}) {
             const std::uint64_t a = draw.bits(), b = setting.partner(a, bits);
@@ -183,10 +195,10 @@ TEST_CASE("shadowed range: agrees with the loss to the last bit of the distance"
             };
             constexpr double far = 1e150;  // [m]
             const auto border = first_that(std::bit_cast<std::uint64_t>(far), beyond);
-            wrong += disagreements_around(std::bit_cast<double>(border), setting, range, a, b);
+            wrong += disagreements_around(std::bit_cast<double>(border), setting, links, a, b);
         }
-        wrong += disagreements_around(0, setting, range, 1, 2);
-        wrong += disagreements_around(setting.model.reference_distance.value, setting, range, 1, 2);
+        wrong += disagreements_around(0, setting, links, 1, 2);
+        wrong += disagreements_around(setting.model.reference_distance.value, setting, links, 1, 2);
     }
     CHECK(wrong == 0);
 }
@@ -196,7 +208,7 @@ TEST_CASE("shadowed range: agrees with the loss to the last bit of the draw") {
     int wrong = 0;
     for (int network = 0; network < 500; ++network) {
         const Setting setting = any_setting(draw);
-        const ShadowedRange range = setting.range();
+        const Links links = setting.links();
         for (int look = 0; look < 10; ++look) {
             const double anywhere = any_distance(draw, setting);
             const double d = look % 2 == 0 ? anywhere : cell_edge(anywhere, look % 3 - 1);
@@ -209,7 +221,7 @@ TEST_CASE("shadowed range: agrees with the loss to the last bit of the draw") {
                 const std::uint64_t step = static_cast<std::uint64_t>(cells) << 12;
                 for (const std::uint64_t bits : {border - std::min(border, step),
                                                  border + std::min(all_bits - border, step)}) {
-                    wrong += range.in_range(d * d, a, setting.partner(a, bits)) == out(bits);
+                    wrong += links.in_range(d * d, a, setting.partner(a, bits)) == out(bits);
                 }
             }
         }
@@ -221,12 +233,12 @@ TEST_CASE("shadowed range: without sigma, the largest distance of the model and 
     for (const double budget : {-1.0, 0.0, 40.0, 80.0, 120.0}) {
         CAPTURE(budget);
         const Setting setting{.model = {.sigma = 0_dB}, .budget = {budget}};
-        const ShadowedRange range = setting.range();
+        const Links links = setting.links();
         const double last =
             largest_squared_distance(setting.model, setting.frequency, setting.budget);
         for (std::uint64_t key = 0; key < 50; ++key) {
-            CHECK(range.in_range(std::max(last, 0.0), 0, key) == (last >= 0));
-            CHECK_FALSE(range.in_range(up(std::max(last, 0.0), 5), 0, key));
+            CHECK(links.in_range(std::max(last, 0.0), 0, key) == (last >= 0));
+            CHECK_FALSE(links.in_range(up(std::max(last, 0.0), 5), 0, key));
         }
     }
 }
@@ -235,27 +247,27 @@ TEST_CASE("shadowed range: budgets that no link or every link meets") {
     for (const double d2 : {0.0, 1e-300, 1.0, 1e4, 1e300, infinity}) {
         CAPTURE(d2);
         for (std::uint64_t key = 0; key < 50; ++key) {
-            CHECK_FALSE(Setting{.budget = {-0.001}}.range().in_range(d2, 0, key));
-            CHECK_FALSE(Setting{.budget = {-infinity}}.range().in_range(d2, 0, key));
-            CHECK(Setting{.budget = {infinity}}.range().in_range(d2, 0, key));
+            CHECK_FALSE(Setting{.budget = {-0.001}}.links().in_range(d2, 0, key));
+            CHECK_FALSE(Setting{.budget = {-infinity}}.links().in_range(d2, 0, key));
+            CHECK(Setting{.budget = {infinity}}.links().in_range(d2, 0, key));
         }
     }
-    const ShadowedRange wide = Setting{.budget = {1e5}}.range();
+    const Links wide = Setting{.budget = {1e5}}.links();
     CHECK(wide.in_range(std::numeric_limits<double>::max(), 1, 2));
     CHECK_FALSE(wide.in_range(infinity, 1, 2));
 }
 
 TEST_CASE("shadowed range: a link is up as often as the normal distribution says") {
-    constexpr int links = 20'000;
+    constexpr int pairs = 20'000;
     constexpr double k = 4;  // standard errors
     const Setting setting{.model = {.exponent = 3, .sigma = 8_dB}};
-    const ShadowedRange range = setting.range();
+    const Links links = setting.links();
     for (const double margin : {-2.0, -1.0, 0.0, 0.5, 2.0}) {  // [sigma]
         const double d = setting.median_range() * std::pow(10, -margin * 8 / 30);
         int up = 0;
-        for (std::uint64_t key = 0; key < links; ++key) up += range.in_range(d * d, 7, 100 + key);
+        for (std::uint64_t key = 0; key < pairs; ++key) up += links.in_range(d * d, 7, 100 + key);
         const double p = cdf(boost::math::normal(), margin);
-        CHECK(test::near(up, links * p, k * std::sqrt(links * p * (1 - p))));
+        CHECK(test::near(up, pairs * p, k * std::sqrt(pairs * p * (1 - p))));
     }
 }
 
@@ -267,10 +279,10 @@ TEST_CASE("shadowed range: less than one link in a hundred is computed, wherever
         Setting setting = any_setting(draw);
         setting.model.sigma.value = std::max(setting.model.sigma.value, 0.01);
         setting.budget.value = std::max(setting.budget.value, 0.0);
-        const ShadowedRange range = setting.range();
+        const Links links = setting.links();
         for (int look = 0; look < 1000; ++look, ++looks) {
             const double d = any_distance(draw, setting);
-            const double share = range.computed_share(d * d);
+            const double share = links.range.computed_share(d * d);
             REQUIRE(share < 0.01);
             sum += share;
         }
@@ -287,7 +299,7 @@ TEST_CASE("first look: lets all pass that are in range of somebody, and few othe
                                 .sigma = draw.uniform(0, 12)};
         const PairDraws draws = shadowing_draws(draw.bits(), 0);
         const double budget = draw.uniform(60, 110), less = draw.uniform(0, 15);
-        const ShadowedRange keen(loss, Db{budget}, draws), dull(loss, Db{budget - less}, draws);
+        const ShadowedRange keen(loss, Db{budget}), dull(loss, Db{budget - less});
         const double reach = loss.distance(budget + ShadowedLoss::cut_sigmas * loss.sigma);
         FirstLook look(reach * reach), of_the_dull(reach * reach);
         look.let_pass(network % 2 ? dull : keen);
@@ -298,12 +310,13 @@ TEST_CASE("first look: lets all pass that are in range of somebody, and few othe
             const double d2 = draw.uniform(0, reach * reach);
             const auto at_least =
                 static_cast<float>(d2 * (draw.uniform(0, 1) < 0.5 ? 1 - 1e-6 : 0.5));
-            const bool passes = look.passes(at_least, draws.bits(7, i));
-            if (keen.in_range(d2, 7, i)) REQUIRE(passes);
-            if (dull.in_range(d2, 7, i)) REQUIRE(of_the_dull.passes(at_least, draws.bits(7, i)));
+            const std::uint64_t bits = draws.bits(7, i);
+            const bool passes = look.passes(at_least, bits);
+            if (keen.in_range(d2, bits)) REQUIRE(passes);
+            if (dull.in_range(d2, bits)) REQUIRE(of_the_dull.passes(at_least, bits));
             const bool nearly_exact = static_cast<double>(at_least) > 0.9 * d2;
             passed += passes && nearly_exact;
-            in_range += keen.in_range(d2, 7, i) && nearly_exact;
+            in_range += keen.in_range(d2, bits) && nearly_exact;
         }
         CHECK(passed <= in_range + 100);
     }
@@ -312,15 +325,13 @@ TEST_CASE("first look: lets all pass that are in range of somebody, and few othe
 TEST_CASE("first look: of no reach and of one without end") {
     const ShadowedLoss loss{
         .at_reference = 40, .per_decade = 30, .reference_distance = 1, .sigma = 4};
-    const PairDraws draws = shadowing_draws(3, 1);
+    const std::uint64_t bits = shadowing_draws(3, 1).bits(1, 2);
     for (const double reach2 : {0.0, 1e-300, 1e300, infinity}) {
-        const ShadowedRange range(loss, Db{reach2 > 1 ? 1e5 : 100}, draws);
+        const ShadowedRange range(loss, Db{reach2 > 1 ? 1e5 : 100});
         FirstLook look(reach2);
         look.let_pass(range);
         for (const double d2 : {0.0, 1.0, 1e4, 1e30}) {
-            if (range.in_range(d2, 1, 2)) {
-                CHECK(look.passes(static_cast<float>(d2), draws.bits(1, 2)));
-            }
+            if (range.in_range(d2, bits)) CHECK(look.passes(static_cast<float>(d2), bits));
         }
     }
 }
@@ -336,14 +347,14 @@ TEST_CASE("shadowed range: a model that offers it is decided by it, and says so 
         const auto offered = model.shadowed_loss(2450_MHz);
         CHECK(offered.has_value() == std::same_as<Model, LogDistance>);
         if (!offered) return;
-        const ShadowedRange range(*offered, 80_dB, shadowing_draws(5, 6));
+        const Links links{ShadowedRange(*offered, 80_dB), shadowing_draws(5, 6)};
         for (std::uint64_t key = 0; key < 1000; ++key) {
             const test::OneLink link{.to = {static_cast<double>(key) / 5, 0, 1},
                                      .from_key = 77,
                                      .to_key = key,
                                      .seed = 5,
                                      .replication = 6};
-            CHECK(range.in_range(squared_distance(link.from, link.to), key, 77) ==
+            CHECK(links.in_range(squared_distance(link.from, link.to), key, 77) ==
                   (link.loss(model) <= 80));
         }
     });
