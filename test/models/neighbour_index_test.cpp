@@ -44,6 +44,12 @@ struct Swarm {
         legs.replace(node, leg);
         index.moved(node, legs);
     }
+    /// Where everybody is, also between an add() and the next refresh().
+    void check_positions() {
+        for (std::uint32_t i = 0; i < legs.size(); ++i) {
+            CHECK(index.position_of(NodeId{i}, now, legs) == legs.position(NodeId{i}, now));
+        }
+    }
     /// Those within `radius` of `centre`, each once, as the index and as a look at everybody has
     /// it.
     void check_query(Vec3 centre, double radius) {
@@ -111,6 +117,7 @@ TEST_CASE("neighbour index: finds whom a look at everybody finds, while all move
                 swarm.replace(node, swarm.leg(at, top_speed));
             }
             if (step == 30) swarm.add(place(), top_speed);
+            swarm.check_positions();
             swarm.check_query(place(), size * swarm.draw.uniform(0, 1));
         }
     }

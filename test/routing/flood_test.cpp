@@ -385,6 +385,31 @@ TEST_CASE("flood: many messages of many robots, each is handed to every other ro
     CHECK(ledger->transmissions == 16 * 3 * 16);
 }
 
+TEST_CASE("flood: robots that join while a message is under way hear it and forward it, too") {
+    for (const int robots : {3, 63, 64, 65, 130}) {
+        CAPTURE(robots);
+        const auto delivered = [&](const Flood& flood) {
+            Network net({.propagation = Disc{.range = 1.1_m}});
+            for (int i = 0; i < robots; ++i) net.add({.name = {}, .at = {1.0 * i, 0, 0}});
+            net.route(flood);
+            const auto ledger = std::make_shared<Ledger>();
+            net.add_sink(ledger);
+            net.broadcast({0}, "F");
+            net.at(start_of_run + 1ms, [&] {
+                for (int i = robots; i < robots + 70; ++i)
+                    net.add({.name = {}, .at = {1.0 * i, 0, 0}});
+            });
+            net.run_until(end_of_flood);
+            ledger->balances(flood);
+            return ledger->delivered;
+        };
+        const auto all = static_cast<std::uint64_t>(robots + 69);
+        CHECK(delivered({.ttl = 300, .upgrade = false}) == all);
+        CHECK(delivered({.ttl = 300}) == all);
+        CHECK(delivered({.ttl = 5, .duplicates = Duplicates::forward}) == 5);
+    }
+}
+
 TEST_CASE("flood: the books balance when robots go off and on in the middle of floods") {
     for (const auto duplicates : {Duplicates::suppress, Duplicates::forward}) {
         const Flood flood{.ttl = 4, .duplicates = duplicates};
