@@ -46,7 +46,6 @@ Time Engine::transmit(const AirFrame& air) {
     } else {
         medium_.find_receivers(frame.sender, now_, end, legs_, flight.receivers);
     }
-    if (dcf_ || frames_meet_) flight.number = node(frame.sender).transmissions++;
     if (frames_meet_) put_on_air(slot, end);
     const bool errors = medium_.radio(frame.sender).success_rate < 1;
     if (errors) garble(flight);
@@ -96,6 +95,7 @@ void Engine::put_on_air(std::size_t slot, Time end) {
         count_on_air(end);
         sort(flight);  // for good: its locks lie beside it
         flight.locks.assign(flight.receivers.all().size(), Lock::open);
+        flight.number = node(sender).transmissions++;
     }
     forget_frames();
     flight.emission = on_air_.add({.begin = now_,

@@ -31,7 +31,7 @@ struct Occurrence {
 /// A frame on its way to its receivers, some of which it may have reached already.
 struct Flight {
     AirFrame air;
-    std::uint32_t number = 0;    // among those of its sender, at rungs above threshold
+    std::uint32_t number = 0;    // among those of its sender, at the rung "sinr"
     std::uint64_t emission = 0;  // its serial on air, at rungs above threshold
     Medium::Receivers receivers;
     bool in_order = false;    // they are sorted
@@ -65,7 +65,7 @@ struct Node {
     Movement movement = {};
     Few<Callback<const Message&, const Heard&>> on_receive = {};
     std::uint32_t messages_sent = 0;
-    std::uint32_t transmissions = 0;  // at rungs above threshold
+    std::uint32_t transmissions = 0;  // at the rung "sinr"
     bool moving = false;              // its movement has begun
 };
 
