@@ -77,7 +77,7 @@ void FloodRouter::take(LinkLayer& link, const Frame& frame, Known& known, Recept
     }
     Knowledge& mine = known[node];
     reception.delivered = mine.is(Knowledge::unheard);
-    mine = forwards && !forwards_all() ? Knowledge{Knowledge::waiting, copy} : Knowledge::ended;
+    mine = forwards ? Knowledge{Knowledge::waiting, copy} : Knowledge::ended;
 }
 
 /// Keeps a copy for its delay; returns where.

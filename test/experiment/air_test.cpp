@@ -354,3 +354,18 @@ TEST_CASE("air: at sinr a frame that was missed for an earlier one does not hold
     space.net.run_for(10ms);
     CHECK(fates_at(*space.log, robot) == std::vector{Fate::waiting, Fate::waiting, Fate::collided});
 }
+
+TEST_CASE("air: at sinr bit errors are drawn anew for each frame of a sender") {
+    OpenField space{Sinr{}};
+    const Radio radio{.power = {0}, .sensitivity = Dbm{-95}, .rate = BitRate{11e6}};
+    const NodeId sender = space.net.add({.name = {}, .at = {0, 0}, .radio = radio});
+    // 6 dB above the noise, where bit errors spoil about half of the frames.
+    const NodeId robot = space.net.add({.name = {}, .at = {235, 0}, .radio = radio});
+    for (int frame = 1; frame <= 100; ++frame) space.send(sender, frame * 5ms, 1000);
+    space.net.run_for(1s);
+    const auto fates = fates_at(*space.log, robot);
+    REQUIRE(fates.size() == 100);
+    const auto decoded = std::count(fates.begin(), fates.end(), Fate::waiting);
+    CHECK(decoded > 20);
+    CHECK(decoded < 80);
+}
