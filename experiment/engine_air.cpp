@@ -157,9 +157,8 @@ void Engine::judge(const Flight& flight, std::span<Reception> receptions) {
     const Time since = judged.begin - longest_delay() - (locks ? on_air_.longest() : Duration{0});
     const Time until = judged.end + longest_delay();
     const Frames nearby = settings_.reference ? Frames{} : on_air_.near(judged, since, until, now_);
-    // Together, so that none waits for the one before.
-    for (const Reception& r : nearby.empty() ? std::span<Reception>{} : receptions) {
-        medium_.prefetch_position(r.node);
+    if (!nearby.empty()) {  // together, so that none waits for the one before
+        for (const Reception& r : receptions) medium_.prefetch_position(r.node);
     }
     all_.clear();
     const SinrFrame sent = locks ? sinr_frame(flight) : SinrFrame{};

@@ -155,7 +155,7 @@ class Medium {
     };
     using Kind = RadioKinds::Kind;
 
-    Kind kind(NodeId node) const {
+    Kind kind(NodeId node) const {  // where all are alike, without a look at the station
         return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
     }
     void choose_cells();
