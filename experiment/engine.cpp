@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace rovernet {
@@ -134,7 +135,11 @@ bool Engine::advance(Time end, std::uint64_t most_events) {
     end_of_run_ = end;
     begin_movements();
     if (links_wanted_ && !watch_) start_watch();
-    for (auto next = queue_.next_time(); next && *next <= end; next = queue_.next_time()) {
+    in_steps_ = most_events != std::numeric_limits<std::uint64_t>::max();
+    for (;;) {
+        queue_timers(queue_.next_key());
+        const auto next = queue_.next_time();
+        if (!next || *next > end) break;
         if (most_events-- == 0) return false;
         if (queue_.scheduled() > check_at_) [[unlikely]]
             count_events();

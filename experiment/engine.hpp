@@ -5,6 +5,7 @@
 #include "experiment/link_watch.hpp"
 #include "experiment/name_table.hpp"
 #include "experiment/network.hpp"
+#include "experiment/overtaking.hpp"
 #include "mobility/planners.hpp"
 #include "models/on_air.hpp"
 #include "sim/chunks.hpp"
@@ -52,13 +53,8 @@ class Engine final : public LinkLayer, public Air {
     Time transmit(const AirFrame& frame) override;
     Duration airtime(const AirFrame& frame) const override;
     std::uint32_t bytes(const AirFrame& frame) const override;
-    void access_timer(NodeId node, Time at, std::uint32_t tag) override {
-        queue_.schedule(at, Priority::timer, {Occurrence::Kind::access_timer, node, tag});
-    }
-    double access_draw(NodeId node, std::uint64_t index) const override {
-        return uniform(
-            {settings_.seed, settings_.replication, Purpose::backoff, key(node), 0, index});
-    }
+    void access_timer(NodeId node, Time at, std::uint32_t tag) override;
+    double access_draw(NodeId node, std::uint64_t index) const override;
     void sent(const QueuedFrame& frame) override;
     void lost(const QueuedFrame& frame, DropReason reason) override;
 
@@ -127,6 +123,9 @@ class Engine final : public LinkLayer, public Air {
     std::optional<Arrival> arrival(const Emission& frame, NodeId node);
     static Lock* lock_of(Flight& flight, NodeId node);
     Time served_until(EventKey key) const;
+    bool leaves_alone(const Occurrence& other, const Flight& flight) const;
+    bool overtake(const Flight& flight, std::span<const Reception> rest, EventKey key);
+    void queue_timers(EventKey key);
     std::size_t split(Flight& flight, std::span<Reception> rest, Time until);
     std::span<Reception> next_of(Flight& flight, EventKey key);
     void arrive(const Scheduler<Occurrence>::Event& event);
@@ -166,6 +165,7 @@ class Engine final : public LinkLayer, public Air {
     bool order_wanted_ = false;  // of receptions, by a sink or the router
     Slots<Flight> flights_;
     Sieve<Reception> later_;            // those of a flight that are not served yet
+    Overtaking overtaking_;             // of a flight that does not wait for its turn
     std::vector<Reception> heard_;      // those of a flight that are handed up ...
     std::vector<std::size_t> places_;   // ... and where they belong
     bool frames_meet_;                  // the rung is above threshold
@@ -192,6 +192,7 @@ class Engine final : public LinkLayer, public Air {
     std::optional<LinkWatch> watch_;  // once links are wanted and the run has begun
     Time link_event_ = never;         // the next one queued
     bool running_ = false;
+    bool in_steps_ = false;  // the run may stop after any event
     bool receiving_ = false;
 };
 

@@ -27,6 +27,14 @@ Duration Engine::airtime(const AirFrame& frame) const {
     return wifi_airtime(dcf_->settings().standard, radio.preamble, rate_of(frame), bytes(frame));
 }
 
+void Engine::access_timer(NodeId node, Time at, std::uint32_t tag) {
+    queue_.schedule(at, Priority::timer, {Occurrence::Kind::access_timer, node, tag});
+}
+
+double Engine::access_draw(NodeId node, std::uint64_t index) const {
+    return uniform({settings_.seed, settings_.replication, Purpose::backoff, key(node), 0, index});
+}
+
 void Engine::on_access_timer(NodeId node, std::uint32_t tag) {
     if (aloha_) return aloha_->on_timer(*this, node);
     dcf_->on_timer(*this, node, tag);

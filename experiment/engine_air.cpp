@@ -29,6 +29,10 @@ void sort_by_counting(std::span<Reception> all, Time first) {
     }
 }
 
+bool is_broadcast(const AirFrame& air) {
+    return air.kind == AirFrame::data && air.frame.next_hop == everyone;
+}
+
 }  // namespace
 
 Time Engine::transmit(const AirFrame& air) {
@@ -291,12 +295,45 @@ std::size_t Engine::split(Flight& flight, std::span<Reception> rest, Time until)
     return count;
 }
 
+/// What happens before the last of a flight's receptions has nothing to do with them: with none of
+/// their nodes, nor can what it sends meet the frame.
+bool Engine::leaves_alone(const Occurrence& other, const Flight& flight) const {
+    const auto concerned = [this](NodeId node) { return overtaking_.concerns(node); };
+    if (other.kind == Occurrence::Kind::router_timer) {
+        if (concerned(other.node)) return false;
+        return !frames_meet_ || !on_air_.may_meet(on_air_[flight.emission],
+                                                  medium_.position(other.node, now_, legs_), now_,
+                                                  flight.receivers.last);
+    }
+    if (other.kind != Occurrence::Kind::frame) return false;
+    const Flight& others = flights_[other.data];
+    const auto theirs = others.receivers.all().subspan(others.arrived);
+    return is_broadcast(others.air) &&
+           std::none_of(theirs.begin(), theirs.end(),
+                        [&](const Reception& r) { return concerned(r.node); });
+}
+
+/// Begins to serve the `rest` of a flight's receptions at once, although other events come before
+/// the last of them, if nobody can tell: the order is not looked at, and those leave them alone.
+bool Engine::overtake(const Flight& flight, std::span<const Reception> rest, EventKey key) {
+    const bool watched = order_wanted_ || has_reactions_ || settings_.reference || in_steps_;
+    if (watched || dcf_ || !is_broadcast(flight.air)) return false;
+    const Time last = flight.receivers.last;
+    if (last > std::min(now_ + least_reaction, end_of_run_)) return false;
+    overtaking_.begin(key, rest);
+    const bool alone = queue_.all_before(
+        key.at(last), [&](const Occurrence& other) { return leaves_alone(other, flight); });
+    if (!alone) overtaking_.end();
+    return alone;
+}
+
 /// The receptions that are served next, by `key`, and all by its time: now is when the last ends.
 std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
     const auto rest = flight.receivers.all().subspan(flight.arrived);
     const Time until = served_until(key);
     std::size_t count = 1;
-    if (!settings_.reference && flight.receivers.last <= until) {
+    now_ = key.time();
+    if ((!settings_.reference && flight.receivers.last <= until) || overtake(flight, rest, key)) {
         count = rest.size();
         now_ = flight.receivers.last;
     } else if (!flight.in_order) {
@@ -307,6 +344,8 @@ std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
         if (count < rest.size()) flight.receivers.first = rest[count].time;
     }
     flight.arrived += count;
+    // Timers that wait for their turn may come between those that these set.
+    if (overtaking_.has_timers() && !overtaking_.active()) overtaking_.begin(key, rest.first(count));
     return rest.first(count);
 }
 
@@ -320,6 +359,7 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
         const std::span<Reception> ended = next_of(flight, key);
         if (frames_meet_) judge(flight, ended);
         receive(flight, ended);
+        overtaking_.end();
         if (dcf_) tell_stations(flight, ended);
         if (flight.arrived == flight.receivers.all().size()) break;
         key = event.key.at(flight.receivers.first);
@@ -328,6 +368,7 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
             queue_.requeue(key, event.payload);
             return;
         }
+        queue_timers(key);
     }
     const AirFrame air = flight.air;
     if (!frames_meet_) flights_.release(event.payload.data);  // else once it is off the air

@@ -40,7 +40,17 @@ void Engine::send(NodeId id, std::string payload, std::uint32_t bytes) {
 
 void Engine::timer(NodeId id, Time at, std::uint64_t tag) {
     if (at < now_) throw std::invalid_argument("a router set a timer in the past");
+    if (overtaking_.active()) return overtaking_.set_timer(id, at, tag);
     queue_.schedule(at, Priority::timer, {Occurrence::Kind::router_timer, id, tag});
+}
+
+/// Queues the timers of receptions that overtook others, if their turn comes before that of `key`.
+void Engine::queue_timers(EventKey key) {
+    if (!overtaking_.has_timers()) return;
+    overtaking_.take_timers(key, [this](const Overtaking::Timer& timer) {
+        queue_.schedule(timer.at, Priority::timer,
+                        {Occurrence::Kind::router_timer, timer.node, timer.tag});
+    });
 }
 
 void Engine::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {

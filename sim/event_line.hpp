@@ -35,6 +35,15 @@ class EventLine {
         keys_.erase(keys_.begin(), keys_.begin() + static_cast<std::ptrdiff_t>(front_));
         front_ = 0;
     }
+    /// Calls visit(key) for the keys before `end`, in order, as long as it returns true. @return
+    /// whether it did for all
+    template <class Visit>
+    bool visit_before(EventKey end, Visit visit) const {
+        for (std::size_t i = front_; keys_[i] < end; ++i) {
+            if (!visit(keys_[i])) return false;
+        }
+        return true;
+    }
     /// Removes every key that `keep` refuses.
     template <class Keep>
     void filter(Keep keep) {

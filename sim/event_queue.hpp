@@ -53,6 +53,13 @@ class EventQueue {
         top_ = std::min(line_.front(), heap_.top());
     }
 
+    /// Calls visit(key) for the keys before `end`, in no order, as long as it returns true. @return
+    /// whether it did for all; not if they are many, or some may lie in buckets
+    template <class Visit>
+    bool visit_before(EventKey end, Visit visit) const {
+        return rank(end) <= heap_end_ && line_.visit_before(end, visit) &&
+               heap_.visit_before(end, visit);
+    }
     /// Removes every key that `keep` refuses.
     template <class Keep>
     void filter(Keep keep) {
