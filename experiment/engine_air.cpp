@@ -29,10 +29,6 @@ void sort_by_counting(std::span<Reception> all, Time first) {
     }
 }
 
-bool is_broadcast(const AirFrame& air) {
-    return air.kind == AirFrame::data && air.frame.next_hop == everyone;
-}
-
 }  // namespace
 
 Time Engine::transmit(const AirFrame& air) {
@@ -298,33 +294,29 @@ std::size_t Engine::split(Flight& flight, std::span<Reception> rest, Time until)
 /// What happens before the last of a flight's receptions has nothing to do with them: with none of
 /// their nodes, nor can what it sends meet the frame.
 bool Engine::leaves_alone(const Occurrence& other, const Flight& flight) const {
-    const auto concerned = [this](NodeId node) { return overtaking_.concerns(node); };
     if (other.kind == Occurrence::Kind::router_timer) {
-        if (concerned(other.node)) return false;
-        return !frames_meet_ || !on_air_.may_meet(on_air_[flight.emission],
-                                                  medium_.position(other.node, now_, legs_), now_,
-                                                  flight.receivers.last);
+        if (overtaking_.concerns(other.node)) return false;
+        if (!frames_meet_) return true;
+        const Vec3 place = medium_.position(other.node, now_, legs_);
+        return !on_air_.may_meet(on_air_[flight.emission], place, now_, flight.receivers.last);
     }
     if (other.kind != Occurrence::Kind::frame) return false;
     const Flight& others = flights_[other.data];
     const auto theirs = others.receivers.all().subspan(others.arrived);
-    return is_broadcast(others.air) &&
-           std::none_of(theirs.begin(), theirs.end(),
-                        [&](const Reception& r) { return concerned(r.node); });
+    return std::none_of(theirs.begin(), theirs.end(),
+                        [this](const Reception& r) { return overtaking_.concerns(r.node); });
 }
 
-/// Begins to serve the `rest` of a flight's receptions at once, although other events come before
+/// Lets the `rest` of a flight's receptions be served at once, although other events come before
 /// the last of them, if nobody can tell: the order is not looked at, and those leave them alone.
 bool Engine::overtake(const Flight& flight, std::span<const Reception> rest, EventKey key) {
     const bool watched = order_wanted_ || has_reactions_ || settings_.reference || in_steps_;
-    if (watched || dcf_ || !is_broadcast(flight.air)) return false;
+    if (watched || dcf_) return false;
     const Time last = flight.receivers.last;
-    if (last > std::min(now_ + least_reaction, end_of_run_)) return false;
+    if (last > std::min(key.time() + least_reaction, end_of_run_)) return false;
     overtaking_.begin(key, rest);
-    const bool alone = queue_.all_before(
-        key.at(last), [&](const Occurrence& other) { return leaves_alone(other, flight); });
-    if (!alone) overtaking_.end();
-    return alone;
+    return queue_.all_before(key.at(last),
+                             [&](const Occurrence& other) { return leaves_alone(other, flight); });
 }
 
 /// The receptions that are served next, by `key`, and all by its time: now is when the last ends.
@@ -332,7 +324,6 @@ std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
     const auto rest = flight.receivers.all().subspan(flight.arrived);
     const Time until = served_until(key);
     std::size_t count = 1;
-    now_ = key.time();
     if ((!settings_.reference && flight.receivers.last <= until) || overtake(flight, rest, key)) {
         count = rest.size();
         now_ = flight.receivers.last;
@@ -345,7 +336,8 @@ std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
     }
     flight.arrived += count;
     // Timers that wait for their turn may come between those that these set.
-    if (overtaking_.has_timers() && !overtaking_.active()) overtaking_.begin(key, rest.first(count));
+    if (overtaking_.has_timers() && !overtaking_.active())
+        overtaking_.begin(key, rest.first(count));
     return rest.first(count);
 }
 
@@ -368,7 +360,6 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
             queue_.requeue(key, event.payload);
             return;
         }
-        queue_timers(key);
     }
     const AirFrame air = flight.air;
     if (!frames_meet_) flights_.release(event.payload.data);  // else once it is off the air

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/network.hpp"
+#include "models/list.hpp"
+#include "routing/flood.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace rovernet::test {
+
+inline bool in_order(std::span<const Reception> receptions) {
+    return std::is_sorted(receptions.begin(), receptions.end());
+}
+
+/// Every reception there is, how they came, and what was sent after what.
+struct ReceptionLog {
+    using Entry = std::tuple<std::uint64_t, std::uint64_t, Time, NodeId, Fate, bool>;
+
+    KindMask kinds_wanted;
+    std::vector<Entry> receptions{};
+    std::vector<std::pair<Time, NodeId>> sendings{};
+    bool always_in_order = true;
+    Time latest = start_of_run;  // of the receptions so far
+    std::size_t overtaken = 0;   // frames that were sent before it
+    Time end_of_run = never;
+
+    KindMask kinds() const { return kinds_wanted; }
+    void on(const Record& record, const RecordContext& context) {
+        if (const auto* sent = std::get_if<Transmitted>(&record)) {
+            sendings.emplace_back(sent->time, sent->frame.sender);
+            overtaken += sent->time < latest;
+            return;
+        }
+        const auto& received = std::get<Received>(record);
+        always_in_order = always_in_order && in_order(received.receptions);
+        REQUIRE(!received.receptions.empty());
+        const std::uint64_t uid = context.messages[received.frame.message].uid;
+        for (const Reception& r : received.receptions) {
+            REQUIRE(r.time <= end_of_run);
+            latest = std::max(latest, r.time);
+            receptions.emplace_back(uid, received.frame.path, r.time, r.node, r.fate, r.delivered);
+        }
+    }
+    std::vector<Entry> sorted() const {
+        auto all = receptions;
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+};
+
+/// What a network runs on.
+struct Setting {
+    Propagation propagation = Disc{.range = {150}};
+    ReceptionRung reception = Threshold{};
+    Flood flood = {.jitter = std::chrono::microseconds{100}};
+    AccessRung access = NoAccess{};
+    bool reference = false;
+};
+
+inline constexpr KindMask ordered = kind_of<Transmitted>() | kind_of<Received>();
+inline constexpr KindMask any_order = ordered | kind_any_order;
+
+/// Every rung and every way to flood.
+inline std::vector<Setting> settings() {
+    using namespace std::chrono_literals;
+    const LogDistance shadowed{.exponent = 3, .sigma = 4_dB};
+    const Flood at_once{.jitter = 0us};
+    const Flood forward{.ttl = 2, .duplicates = Duplicates::forward, .jitter = 0us};
+    return {{},
+            {.flood = at_once},
+            {.flood = {.ttl = 2, .upgrade = false, .jitter = 0us}},
+            {.flood = forward},
+            {.propagation = shadowed, .flood = at_once},
+            {.propagation = Disc{.range = 320_m}, .flood = at_once},  // over 1 us of flight
+            {.reception = Collision{}},
+            {.propagation = shadowed, .reception = Collision{.capture_ratio = Db{3}}},
+            {.propagation = LogDistance{.exponent = 3}, .reception = Sinr{}},
+            {.reception = Collision{}, .access = Csma{}}};
+}
+
+}  // namespace rovernet::test
