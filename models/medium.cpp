@@ -19,8 +19,8 @@ void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propa
     propagation.check_frequency(radio.frequency);
     if (radios_.empty() || radios_.back() != radio) radios_.push_back(radio);
     const Kind kind = kinds_.add(radio, propagation);
-    stations_.push_back(
-        {key, static_cast<std::uint32_t>(radios_.size() - 1), kind & 0x7fffffff, true});
+    keys_.push_back(key);
+    stations_.push_back({static_cast<std::uint32_t>(radios_.size() - 1), kind & 0x7fffffff, true});
     index_.add(kind);
     cells_chosen_ = false;
 }
@@ -41,7 +41,7 @@ LinkBatch Medium::batch(NodeId from, Vec3 origin) const {
     return {.frequency = radio(from).frequency,
             .from = origin,
             .to = {},
-            .from_key = stations_[from.index()].key,
+            .from_key = key(from),
             .to_keys = {},
             .scene = settings_.scene,
             .floor_height = settings_.floor_height,
@@ -73,7 +73,7 @@ Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
 double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Db give_up) const {
     LinkBatch link = batch(from, here);
     link.to = {&there, 1};
-    link.to_keys = {&stations_[to.index()].key, 1};
+    link.to_keys = {&keys_[to.index()], 1};
     double db = 0;
     model(from).loss(link, give_up, {&db, 1});
     return db;

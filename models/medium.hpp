@@ -50,12 +50,13 @@ class Medium {
     void add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
     /// Room for `nodes` nodes.
     void reserve(std::size_t nodes) {
+        keys_.reserve(nodes);
         stations_.reserve(nodes);
         index_.reserve(nodes);
     }
     /// Fetches what sending takes into the caches; `node` is about to. It may be 0 where nobody is.
     void prefetch(NodeId node) const {
-        __builtin_prefetch(stations_.data() + node.index());
+        __builtin_prefetch(keys_.data() + node.index());
         index_.prefetch(node);
     }
     /// The same for what position() takes.
@@ -70,8 +71,10 @@ class Medium {
     bool all_are_on() const { return off_ == 0; }
     bool is_on(NodeId node) const { return all_are_on() || stations_[node.index()].on; }
     /// What add() was given.
-    std::uint64_t key(NodeId node) const { return stations_[node.index()].key; }
-    const Radio& radio(NodeId node) const { return radios_[stations_[node.index()].radio]; }
+    std::uint64_t key(NodeId node) const { return keys_[node.index()]; }
+    const Radio& radio(NodeId node) const {
+        return radios_.size() == 1 ? radios_.front() : radios_[stations_[node.index()].radio];
+    }
     /// The gates of both let them have a link: one of them is open, or they share a network.
     bool may_link(NodeId a, NodeId b) const { return kinds_.may_link(kind(a), kind(b)); }
     Dbm noise(NodeId node) const { return kinds_.noise(kind(node)); }
@@ -148,7 +151,6 @@ class Medium {
   private:
     using Entry = NeighbourIndex::Entry;
     struct Station {
-        std::uint64_t key;
         std::uint32_t radio;  // index into radios_
         std::uint32_t kind : 31;
         std::uint32_t on : 1;
@@ -176,10 +178,11 @@ class Medium {
     double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Db give_up) const;
 
     Settings settings_;
-    std::vector<Station> stations_;
-    std::vector<Radio> radios_;  // those that differ
-    std::size_t off_ = 0;        // stations that are switched off
-    PairDraws draws_;            // of links, where tables decide
+    std::vector<std::uint64_t> keys_;  // by node, as stations_: where all are alike, only they ...
+    std::vector<Station> stations_;    // ... are looked at
+    std::vector<Radio> radios_;        // those that differ
+    std::size_t off_ = 0;              // stations that are switched off
+    PairDraws draws_;                  // of links, where tables decide
     RadioKinds kinds_;
     NeighbourIndex index_;
     std::vector<std::uint64_t> shares_;  // of draws_, by place in the index, if tables decide

@@ -156,7 +156,7 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
               const Db budget = kinds_.budget(strength, mine, kinds_.radio(e.label));
               candidates_.add({.node = e.node,
                                .rests = fixed && !e.moves,
-                               .key = stations_[e.node.index()].key,
+                               .key = key(e.node),
                                .antenna = p,
                                .squared_distance = d2,
                                .budget_db = budget.value});

@@ -4,11 +4,12 @@
 #include "models/point_sieve.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace rovernet {
 namespace {
 
-double speed(const Leg& leg) { return std::sqrt(dot(leg.velocity, leg.velocity)); }
+double length(Vec3 v) { return std::sqrt(dot(v, v)); }
 
 /// The extent of a set of coordinates.
 struct Extent {
@@ -22,17 +23,31 @@ struct Extent {
 /// Share of the nodes that may be kept apart, and a few always.
 std::size_t few(std::size_t nodes) { return nodes / 64 + 16; }
 
+/// The speed [m/s] above which a node is kept apart: that of the fastest, unless only a few are
+/// more than four times as fast as all others.
+double choose_top_speed(std::vector<double> speeds) {
+    if (speeds.empty()) return 0;
+    const double fastest = *std::max_element(speeds.begin(), speeds.end());
+    const std::size_t some = few(speeds.size()) / 2;
+    if (some >= speeds.size()) return fastest;
+    const auto others = speeds.end() - 1 - static_cast<std::ptrdiff_t>(some);
+    std::nth_element(speeds.begin(), others, speeds.end());
+    return fastest > 4 * *others ? *others : fastest;
+}
+
 }  // namespace
 
 void NeighbourIndex::Table::put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg) {
     const bool moves = leg.velocity != Vec3{};
-    entries[i] = {leg.from, node, label & 0x7fffffff, moves};
-    if (!moves) {
-        entries[i].from = leg.from + Vec3{};  // adds 0, as a leg does
-        return;
-    }
+    const Vec3 from = moves ? leg.from : leg.from + Vec3{};  // adds 0, as a leg does
+    put(i, {from, node, label & 0x7fffffff, moves}, {leg.velocity, leg.start, leg.end});
+}
+
+void NeighbourIndex::Table::put(std::size_t i, const Entry& entry, const Motion& motion) {
+    entries[i] = entry;
+    if (!entry.moves) return;
     if (motions.size() < entries.size()) motions.resize(entries.size());
-    motions[i] = {leg.velocity, leg.start, leg.end};
+    motions[i] = motion;
 }
 
 void NeighbourIndex::moved(NodeId node, const Legs& legs) {
@@ -46,7 +61,8 @@ void NeighbourIndex::moved(NodeId node, const Legs& legs) {
         was = was + seconds(std::min(leg.start, end) - start) * velocity;
     }
     const double jump = distance(was, leg.from);
-    if (speed(leg) > top_speed_ || jump > 1e-3 * rows_.width()) return keep_apart(node, leg);
+    if (length(leg.velocity) > top_speed_ || jump > 1e-3 * rows_.width())
+        return keep_apart(node, leg);
     jumped_ += jump;
     binned_.put(place, node, label, leg);
 }
@@ -108,36 +124,44 @@ std::size_t NeighbourIndex::make_room(std::size_t places) {
 /// Moves a node out of its cell, where an entry that is nowhere remains.
 void NeighbourIndex::keep_apart(NodeId node, const Leg& leg) {
     x_[place_[node.index()]] = std::numeric_limits<float>::quiet_NaN();
-    add_apart(node, leg);
+    apart_.put(add_apart(node), node, labels_[node.index()], leg);
 }
 
-void NeighbourIndex::add_apart(NodeId node, const Leg& leg) {
+/// Returns the place in apart_ that it makes for the node.
+std::size_t NeighbourIndex::add_apart(NodeId node) {
     const std::size_t place = apart_.entries.size();
     place_[node.index()] = is_apart | static_cast<std::uint32_t>(place);
     apart_.entries.emplace_back();
-    apart_.put(place, node, labels_[node.index()], leg);
+    return place;
 }
 
-/// The speed [m/s] above which a node is kept apart: that of the fastest, unless only a few are
-/// more than four times as fast as all others.
-double NeighbourIndex::choose_top_speed(const Legs& legs) const {
-    std::vector<double> speeds;
-    speeds.reserve(legs.size());
-    for (std::uint32_t i = 0; i < legs.size(); ++i) speeds.push_back(speed(legs.leg(NodeId{i})));
-    if (speeds.empty()) return 0;
-    const double fastest = *std::max_element(speeds.begin(), speeds.end());
-    const std::size_t some = few(speeds.size()) / 2;
-    if (some >= speeds.size()) return fastest;
-    const auto others = speeds.end() - 1 - static_cast<std::ptrdiff_t>(some);
-    std::nth_element(speeds.begin(), others, speeds.end());
-    return fastest > 4 * *others ? *others : fastest;
+/// All nodes, from now on in this table only: in the order of the cells that they were in, so that
+/// sorting them anew moves them little. Nodes of unknown places come as they were added.
+NeighbourIndex::Table NeighbourIndex::take_all(const Legs& legs) {
+    Table all = std::exchange(binned_, {});
+    if (stale_) {
+        all.entries.resize(legs.size());
+        for (std::uint32_t i = 0; i < legs.size(); ++i) {
+            all.put(i, NodeId{i}, labels_[i], legs.leg(NodeId{i}));
+        }
+        return all;
+    }
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < all.entries.size(); ++i) {
+        if (!std::isnan(x_[i])) all.put(count++, all.entries[i], all.motion(i));
+    }
+    all.entries.resize(count + apart_.entries.size());
+    for (std::size_t i = 0; i < apart_.entries.size(); ++i) {
+        all.put(count++, apart_.entries[i], apart_.motion(i));
+    }
+    return all;
 }
 
 /// At most two cells a node: columns and rows as the nodes need them, or fewer, which wrap around.
-void NeighbourIndex::lay_grid(Time t, const Legs& legs) {
+void NeighbourIndex::lay_grid(const Table& all, Time t, const Legs& legs) {
     Extent x, y;
-    for (std::uint32_t i = 0; i < legs.size(); ++i) {
-        const Vec3 p = legs.position(NodeId{i}, t);
+    for (std::size_t i = 0; i < all.entries.size(); ++i) {
+        const Vec3 p = all.position(i, t, legs);
         if (i == 0) x = {p.x, p.x}, y = {p.y, p.y};
         x.take(p.x);
         y.take(p.y);
@@ -156,40 +180,42 @@ void NeighbourIndex::lay_grid(Time t, const Legs& legs) {
 
 /// Sorts all nodes into cells by counting.
 void NeighbourIndex::bin(Time t, const Legs& legs) {
-    lay_grid(t, legs);
-    top_speed_ = choose_top_speed(legs);
+    const Table all = take_all(legs);
+    const auto nodes = static_cast<std::uint32_t>(all.entries.size());
+    lay_grid(all, t, legs);
+    std::vector<double> speeds(nodes);
+    for (std::uint32_t i = 0; i < nodes; ++i) speeds[i] = length(all.motion(i).velocity);
+    top_speed_ = choose_top_speed(speeds);
     top_speed_per_ns_ = top_speed_ * (1e-9 * (1 + 1e-12));
     binned_at_ = t;
     jumped_ = 0;
     looked_at_ = 0;
     apart_ = {};
     first_.assign(columns_.cells() * rows_.cells() + 1, 0);
-    const auto is_slow = [&](const Leg& leg) { return speed(leg) <= top_speed_; };
-    std::vector<std::uint32_t> cell(legs.size());
-    for (std::uint32_t i = 0; i < legs.size(); ++i) {
-        if (!is_slow(legs.leg(NodeId{i}))) continue;
-        cell[i] = static_cast<std::uint32_t>(cell_at(legs.position(NodeId{i}, t)));
+    std::vector<std::uint32_t> cell(nodes);
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+        if (speeds[i] > top_speed_) continue;
+        cell[i] = static_cast<std::uint32_t>(cell_at(all.position(i, t, legs)));
         ++first_[cell[i]];
     }
     std::uint32_t end = 0;
     for (auto& first : first_) first = end += first;
     binned_.entries.resize(end);
-    binned_.motions.clear();
     x_.resize(end + PointSieve<false>::at_once);
     y_.resize(end + PointSieve<false>::at_once);
-    for (auto i = static_cast<std::uint32_t>(legs.size()); i-- > 0;) {
-        const Leg& leg = legs.leg(NodeId{i});
-        if (!is_slow(leg)) {
-            add_apart(NodeId{i}, leg);
+    for (std::uint32_t i = nodes; i-- > 0;) {
+        const Entry& entry = all.entries[i];
+        if (speeds[i] > top_speed_) {
+            apart_.put(add_apart(entry.node), entry, all.motion(i));
             continue;
         }
-        const std::uint32_t place = place_[i] = --first_[cell[i]];
-        binned_.put(place, NodeId{i}, labels_[i], leg);
-        const Vec3 p = leg.position(t);
+        const std::uint32_t place = place_[entry.node.index()] = --first_[cell[i]];
+        binned_.put(place, entry, all.motion(i));
+        const Vec3 p = all.position(i, t, legs);
         x_[place] = static_cast<float>(p.x);
         y_[place] = static_cast<float>(p.y);
     }
-    allowed_apart_ = apart_.entries.size() + few(legs.size());
+    allowed_apart_ = apart_.entries.size() + few(nodes);
     stale_ = false;
     ++bins_;
 }

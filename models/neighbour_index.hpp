@@ -121,7 +121,6 @@ class NeighbourIndex {
   private:
     static constexpr float far = 1e30F;                    // [m] from everything
     static constexpr std::uint32_t is_apart = 0x80000000;  // bit of a place in apart_
-
     /// Entries, and apart from them what only those that move take.
     struct Table {
         struct Motion {
@@ -132,6 +131,8 @@ class NeighbourIndex {
         std::vector<Motion> motions;  // none as long as nobody moves
 
         void put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg);
+        void put(std::size_t i, const Entry& entry, const Motion& motion);
+        Motion motion(std::size_t i) const { return entries[i].moves ? motions[i] : Motion{}; }
         Vec3 position(std::size_t i, Time t, const Legs& legs) const {
             const Entry& e = entries[i];
             if (!e.moves) return e.from;
@@ -171,10 +172,10 @@ class NeighbourIndex {
         return rows_.cell_at(p.y) * columns_.cells() + columns_.cell_at(p.x);
     }
     void keep_apart(NodeId node, const Leg& leg);
-    void add_apart(NodeId node, const Leg& leg);
+    std::size_t add_apart(NodeId node);
     void bin(Time t, const Legs& legs);
-    void lay_grid(Time t, const Legs& legs);
-    double choose_top_speed(const Legs& legs) const;
+    Table take_all(const Legs& legs);
+    void lay_grid(const Table& all, Time t, const Legs& legs);
 
     std::vector<std::uint32_t> labels_;  // by node
     Table binned_;                       // in the order of their cells

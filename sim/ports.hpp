@@ -76,7 +76,10 @@ concept TellsOfUnicasts = requires(T router, LinkLayer& link, const Frame& frame
     {router.on_sent(link, frame, received)};
 };
 
-/// A protocol that may be given receptions in any order: what it does depends on their times only.
+/// A protocol each of whose nodes acts on its own timers and receptions and on their times only. It
+/// may be given a transmission's receptions in any order and, where that makes no difference to a
+/// node, before timers and receptions of other nodes that come earlier. In answer to a reception it
+/// sets timers of that node only.
 template <class T>
 concept TakesAnyOrder = T::takes_any_order;
 

@@ -17,8 +17,8 @@ namespace rovernet {
 
 /// One receiver of one transmission.
 struct Reception {
-    NodeId node;
     Time time;  ///< end of the frame at this receiver
+    NodeId node;
     Fate fate = Fate::waiting;
     bool delivered = false;  ///< handed to the application: the node's first copy
 
@@ -47,8 +47,8 @@ struct Transmitted {
     std::optional<NodeId> heard_from;  ///< who the frame came from, if the sender forwards it
 };
 
-/// A transmission (or a part of it) arrives: receptions in order of time, then of node, unless no
-/// sink wants the order (see kind_any_order).
+/// A transmission (or a part of it) arrives: receptions in order of time, then of node, and none
+/// before an earlier record, unless no sink wants the order (see kind_any_order).
 struct Received {
     Frame frame;
     std::span<const Reception> receptions;
@@ -182,7 +182,8 @@ inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();
 
 /// Not a record: asks that Sent carries `reachable`, which costs a search of the network.
 inline constexpr KindMask kind_reachable = 1U << 31;
-/// Not a record: the receptions of a Received may come in any order, which saves sorting them.
+/// Not a record: the receptions of a Received may come in any order, and up to 1 us before records
+/// of that time that are about other nodes, which saves sorting them.
 inline constexpr KindMask kind_any_order = 1U << 30;
 inline constexpr KindMask kind_all = 0x3fffffff;
 

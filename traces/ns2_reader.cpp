@@ -249,7 +249,7 @@ void Replay::on(const Ns2Packet& p) {
         emit(Dropped{p.time, p.node, frame, p.drop});
     } else {
         const Fate fate = p.event == Event::lost ? p.loss : Fate::waiting;
-        open_ = Copy{frame, {p.node, p.time, fate, false}, p.uid};
+        open_ = Copy{frame, {p.time, p.node, fate, false}, p.uid};
     }
 }
 

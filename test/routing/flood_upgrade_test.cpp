@@ -39,7 +39,7 @@ struct Hearer {
 
     explicit Hearer(bool upgrade) : router(Flood{.ttl = 9, .upgrade = upgrade}) {}
     Fate hear(Hops ttl) {
-        std::array heard{Reception{NodeId{1}, start_of_run}};
+        std::array heard{Reception{start_of_run, NodeId{1}}};
         const Frame frame{.message = {}, .sender = NodeId{0}, .path = 0, .ttl = ttl, .hops = 1};
         router.on_receive(bench, frame, heard);
         return heard[0].fate;

@@ -179,11 +179,11 @@ void play_exchange(Stream& s) {
     AirFrame data{.frame = frame(m, a, 1, 1), .reserved = 314us};
     data.frame.next_hop = c;
     s.emit(AirSent{at(1), rts, 20});
-    s.emit(ControlReceived{rts, {c, at(2)}, 20});
+    s.emit(ControlReceived{rts, {at(2), c}, 20});
     s.emit(AirSent{at(3), cts, 14});
-    s.emit(ControlReceived{cts, {a, at(4), Fate::garbled}, 14});
+    s.emit(ControlReceived{cts, {at(4), a, Fate::garbled}, 14});
     s.emit(AirSent{at(5), data, 92});
-    s.emit(Received{data.frame, std::vector{Reception{c, at(6), Fate::arrived, true}}, 314us});
+    s.emit(Received{data.frame, std::vector{Reception{at(6), c, Fate::arrived, true}}, 314us});
 }
 
 }  // namespace
