@@ -90,7 +90,7 @@ struct Crowd {
             if (j == i || !medium.is_on(node(j)) || !link(i, j, start)) continue;
             const double d = distance(medium.antenna(node(i), start, legs),
                                       medium.antenna(node(j), start, legs));
-            all.push_back({node(j), end + from_seconds(d / speed_of_light)});
+            all.push_back({end + from_seconds(d / speed_of_light), node(j)});
         }
         std::stable_sort(all.begin(), all.end(),
                          [](const auto& a, const auto& b) { return a.time < b.time; });

@@ -26,8 +26,8 @@ struct Run {
     Frame frame{.message = {0}, .sender = {6}, .path = 7, .ttl = 3, .hops = 2};
     Sent sent{at(10'000'000'000), {2}, {0}, 4, 9, 8};
     Transmitted transmitted{at(-2), frame, NodeId{11}};
-    std::vector<Reception> receptions{{{12}, at(13), Fate::waiting, true},
-                                      {{14}, at(15), Fate::duplicate, false}};
+    std::vector<Reception> receptions{{at(13), {12}, Fate::waiting, true},
+                                      {at(15), {14}, Fate::duplicate, false}};
     Dropped dropped{at(16), {17}, frame, DropReason::off};
     Moved moved{at(18), {19}, {at(20), at(21), {1.5, -2, 3}, {9, 9, 9}, {4, 5, 6.0000005}}};
 

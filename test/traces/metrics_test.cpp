@@ -26,10 +26,10 @@ struct LineOfFour : Measured {
         for (int i = 0; i < 4; ++i) place(Vec3{10.0 * i, 0, 0});
         const auto m = send(at(1'000), a, 2, 64, 3);
         transmit(at(1'000), frame(m, a, 2, 1));
-        receive(frame(m, a, 2, 1), {{b, at(1'500), Fate::waiting, true}});
+        receive(frame(m, a, 2, 1), {{at(1'500), b, Fate::waiting, true}});
         transmit(at(2'500), frame(m, b, 1, 2), a);
         receive(frame(m, b, 1, 2),
-                {{a, at(3'000), Fate::duplicate, false}, {c, at(3'100), Fate::ttl, true}});
+                {{at(3'000), a, Fate::duplicate, false}, {at(3'100), c, Fate::ttl, true}});
     }
 };
 
@@ -80,7 +80,7 @@ TEST_CASE("metrics: a new message in the slot of an old one has relays of its ow
     REQUIRE(run.messages.release(MessageId{0}));
     const auto m = run.send(at(9'000), a, 2);
     REQUIRE(m == MessageId{0});
-    run.receive(frame(m, a, 2, 1), {{b, at(9'500), Fate::waiting, true}});
+    run.receive(frame(m, a, 2, 1), {{at(9'500), b, Fate::waiting, true}});
     run.transmit(at(9'900), frame(m, b, 1, 2), a);
     const auto v = run.values();
     CHECK(v.saved_rebroadcasts == 1.0 / 3);  // (3 - 2) / 3
@@ -91,7 +91,7 @@ TEST_CASE("metrics: a new message in the slot of an old one has relays of its ow
 TEST_CASE("metrics: a radio that is off decodes nothing, and loses the copy that waits") {
     LineOfFour run;
     const MessageId m{0};
-    run.receive(frame(m, b, 1, 2), {{d, at(4'000), Fate::off, false}});
+    run.receive(frame(m, b, 1, 2), {{at(4'000), d, Fate::off, false}});
     run.emit(Dropped{at(5'000), c, frame(m, b, 1, 2), DropReason::off});
     const auto v = run.values();
     CHECK(v.receptions == 3);
@@ -119,7 +119,7 @@ TEST_CASE("metrics: percentiles of 1 ... 20 ns by nearest rank, in whatever orde
     for (int i = 0; i < 21; ++i) run.place(Vec3{});
     const auto m = run.send(at(0), a, 1);
     for (std::uint32_t i = 1; i <= 20; ++i) {
-        run.receive(frame(m, a, 1, 1), {{{i}, at((i * 8) % 21), Fate::ttl, true}});
+        run.receive(frame(m, a, 1, 1), {{at((i * 8) % 21), {i}, Fate::ttl, true}});
     }
     const auto latency = *run.values().latency;
     CHECK(latency.p50 == 10e-9);

@@ -27,13 +27,13 @@ void play(Stream& s) {
              .to = {6, 0, 1}});
     const auto m = s.send(at(10'000'000'000), a, 3, 64, 2);
     s.transmit(at(10'000'000'000), frame(m, a, 3, 1));
-    s.receive(frame(m, a, 3, 1), {{b, at(10'000'520'067), Fate::waiting, true},
-                                  {c, at(10'000'520'100), Fate::off, false}});
+    s.receive(frame(m, a, 3, 1), {{at(10'000'520'067), b, Fate::waiting, true},
+                                  {at(10'000'520'100), c, Fate::off, false}});
     s.transmit(at(10'002'000'001), frame(m, b, 2, 2), a);
-    s.receive(frame(m, b, 2, 2), {{a, at(10'002'520'068), Fate::duplicate, false},
-                                  {c, at(10'002'520'101), Fate::waiting, true}});
+    s.receive(frame(m, b, 2, 2), {{at(10'002'520'068), a, Fate::duplicate, false},
+                                  {at(10'002'520'101), c, Fate::waiting, true}});
     s.transmit(at(10'003'000'000), frame(m, a, 1, 3), b);
-    s.receive(frame(m, c, 1, 3), {{b, at(10'003'520'067), Fate::ttl, false}});
+    s.receive(frame(m, c, 1, 3), {{at(10'003'520'067), b, Fate::ttl, false}});
     s.emit(Dropped{at(10'004'000'000), c, frame(m, b, 2, 2), DropReason::off});
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("ns-2 trace: a repeated unicast is dropped by the MAC") {
         const auto m = s.send(at(1'000'000'000), a, 1, 64, 2);
         Frame again = frame(m, a, 1, 1);
         again.next_hop = b;
-        s.receive(again, {{b, at(1'500'000'000), Fate::duplicate, false}});
+        s.receive(again, {{at(1'500'000'000), b, Fate::duplicate, false}});
     };
     const std::string last =
         "D 1.500000000 _1_ MAC  DUP 0 message 64 [0 1 0 800] ------- [0:0 -1:0 1 0] \n";

@@ -89,7 +89,7 @@ class Stream {
         air.frame.sender = from;
         air.frame.next_hop = to;
         emit(AirSent{t, air, 20});
-        emit(ControlReceived{air, {to, t, fate}, 20});
+        emit(ControlReceived{air, {t, to, fate}, 20});
     }
     void receive(const Frame& frame, const std::vector<Reception>& receptions) {
         emit(Received{frame, receptions});
@@ -146,7 +146,8 @@ class RandomRecords {
     Reception reception() {
         const Fate fates[] = {Fate::waiting, Fate::ttl,      Fate::duplicate, Fate::off,
                               Fate::garbled, Fate::collided, Fate::busy};
-        Reception rx{robot(), now_ + Duration{below(1000)}, fates[below(7)], false};
+        const NodeId node = robot();
+        Reception rx{now_ + Duration{below(1000)}, node, fates[below(7)], false};
         rx.delivered = (rx.fate == Fate::waiting || rx.fate == Fate::ttl) && below(2) == 0;
         return rx;
     }
