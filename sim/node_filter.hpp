@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// Which nodes may be in a small set: those that are, and a few that are not. Two kilobytes,
+/// Which nodes may be in a small set: those that are, and a few that are not. Eight kilobytes,
 /// whatever the number of nodes (a Bloom filter with one hash function: the id).
 class NodeFilter {
   public:
@@ -19,7 +19,7 @@ class NodeFilter {
     bool may_have(NodeId node) const { return words_[place(node)] >> node.index() % 64 & 1; }
 
   private:
-    static constexpr std::size_t words = 256;
+    static constexpr std::size_t words = 1024;
 
     static std::size_t place(NodeId node) { return node.index() / 64 % words; }
 
