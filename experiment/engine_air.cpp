@@ -261,9 +261,9 @@ Lock* Engine::lock_of(Flight& flight, NodeId node) {
 /// off happens no sooner than least_reaction after it, and whatever is queued takes its turn.
 Time Engine::served_until(EventKey key) const {
     const Time most = std::min(key.time() + least_reaction, end_of_run_);
-    const auto next = queue_.next_time();
-    if (!next || *next > most) return most;
-    return queue_.runs_before_next(key.at(*next)) ? *next : *next - Duration{1};
+    const EventKey next = std::min(queue_.next_key(), overtaking_.next_turn());
+    if (next.time() > most) return most;
+    return key.at(next.time()) < next ? next.time() : next.time() - Duration{1};
 }
 
 /// Brings those of a flight's `rest` that end by `until` to its front, in no order. @return how
@@ -311,12 +311,14 @@ bool Engine::leaves_alone(const Occurrence& other, const Flight& flight) const {
 /// the last of them, if nobody can tell: the order is not looked at, and those leave them alone.
 bool Engine::overtake(const Flight& flight, std::span<const Reception> rest, EventKey key) {
     const bool watched = order_wanted_ || has_reactions_ || settings_.reference || in_steps_;
-    if (watched || dcf_) return false;
+    if (watched || dcf_ || rest.size() > Overtaking::most) return false;
     const Time last = flight.receivers.last;
     if (last > std::min(key.time() + least_reaction, end_of_run_)) return false;
     overtaking_.begin(key, rest);
-    return queue_.all_before(key.at(last),
-                             [&](const Occurrence& other) { return leaves_alone(other, flight); });
+    const bool alone = queue_.all_before(
+        key.at(last), [&](const Occurrence& other) { return leaves_alone(other, flight); });
+    if (!alone) overtaking_.end();
+    return alone;
 }
 
 /// The receptions that are served next, by `key`, and all by its time: now is when the last ends.
@@ -335,9 +337,6 @@ std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
         if (count < rest.size()) flight.receivers.first = rest[count].time;
     }
     flight.arrived += count;
-    // Timers that wait for their turn may come between those that these set.
-    if (overtaking_.has_timers() && !overtaking_.active())
-        overtaking_.begin(key, rest.first(count));
     return rest.first(count);
 }
 
@@ -360,6 +359,7 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
             queue_.requeue(key, event.payload);
             return;
         }
+        queue_timers(key);
     }
     const AirFrame air = flight.air;
     if (!frames_meet_) flights_.release(event.payload.data);  // else once it is off the air

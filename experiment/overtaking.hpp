@@ -27,6 +27,8 @@ class Overtaking {
         std::uint64_t tag;
     };
 
+    static constexpr std::size_t most = 64;  ///< receptions at a time: they are searched one by one
+
     /// From now until end() it is about `receptions`, which the event with this key serves.
     void begin(EventKey event, std::span<const Reception> receptions) {
         event_ = event;
@@ -41,17 +43,20 @@ class Overtaking {
     /// One of them is the node's, or it looks so.
     bool concerns(NodeId node) const { return nodes_.may_have(node); }
 
-    /// A timer that the reception at `node` sets, which is one of those that are served.
+    /// A timer that the reception at `node` sets; it should be one of those that are served.
     void set_timer(NodeId node, Time at, std::uint64_t tag) {
         const auto heard = std::find_if(receptions_.begin(), receptions_.end(),
                                         [&](const Reception& r) { return r.node == node; });
-        const Timer timer{event_.at(heard->time), at, node, tag};
+        const EventKey cause = heard == receptions_.end() ? event_ : event_.at(heard->time);
+        const Timer timer{cause, at, node, tag};
         const auto later =
             std::upper_bound(timers_.begin(), timers_.end(), timer,
                              [](const Timer& a, const Timer& b) { return a.cause < b.cause; });
         timers_.insert(later, timer);
     }
     bool has_timers() const { return !timers_.empty(); }
+    /// The next turn at which timers are queued; if there is none, after every event.
+    EventKey next_turn() const { return timers_.empty() ? EventKey{} : timers_.front().cause; }
     /// Hands over, in order, the timers whose turn comes before that of `event`.
     template <class Use>
     void take_timers(EventKey event, Use use) {
