@@ -47,8 +47,8 @@ struct Transmitted {
     std::optional<NodeId> heard_from;  ///< who the frame came from, if the sender forwards it
 };
 
-/// A transmission (or a part of it) arrives: receptions in order of time, then of node, and none
-/// before an earlier record, unless no sink wants the order (see kind_any_order).
+/// A transmission (or a part of it) arrives: receptions in order of time, then of node, after all
+/// earlier records, unless no sink wants the order (see kind_any_order).
 struct Received {
     Frame frame;
     std::span<const Reception> receptions;
