@@ -296,6 +296,8 @@ std::size_t Engine::split(Flight& flight, std::span<Reception> rest, Time until)
 bool Engine::leaves_alone(const Occurrence& other, const Flight& flight) const {
     if (other.kind == Occurrence::Kind::router_timer) {
         if (overtaking_.concerns(other.node)) return false;
+        // What it sends may be over before the last of them, unless that takes longer than they do.
+        if (medium_.radio(other.node).preamble <= least_reaction) return false;
         if (!frames_meet_) return true;
         const Vec3 place = medium_.position(other.node, now_, legs_);
         return !on_air_.may_meet(on_air_[flight.emission], place, now_, flight.receivers.last);

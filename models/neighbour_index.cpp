@@ -20,6 +20,8 @@ struct Extent {
     }
 };
 
+constexpr double far = 1e30;  // [m] from everything, and a number in single precision
+
 /// Share of the nodes that may be kept apart, and a few always.
 std::size_t few(std::size_t nodes) { return nodes / 64 + 16; }
 
@@ -104,7 +106,7 @@ template std::span<std::uint32_t> NeighbourIndex::look_around<true>(Vec3, double
 /// since they were binned.
 float* NeighbourIndex::distances_at_least(std::size_t count, Vec3 centre, double radius, Time t) {
     const double most = (slack(t) + rounding(centre, radius + slack(t))) * (1 + 1e-6);
-    const auto off = static_cast<float>(std::min<double>(most, far));
+    const auto off = static_cast<float>(std::min(most, far));
     float* const at_least = distance2_.data();
     for (std::size_t i = 0; i < count; ++i) {
         const float nearer = (1 - 1e-6F) * std::sqrt(at_least[i]) - off;

@@ -119,8 +119,8 @@ class NeighbourIndex {
     std::uint64_t bins() const { return bins_; }
 
   private:
-    static constexpr float far = 1e30F;                    // [m] from everything
     static constexpr std::uint32_t is_apart = 0x80000000;  // bit of a place in apart_
+
     /// Entries, and apart from them what only those that move take.
     struct Table {
         struct Motion {

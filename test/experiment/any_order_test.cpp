@@ -13,7 +13,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <span>
 #include <tuple>
@@ -80,7 +79,7 @@ struct Playground {
                 move = RandomWaypoint{
                     .area = {{0, 0, 0}, {500, 500, 0}}, .min_speed = {1}, .max_speed = {300}};
             }
-            net.add({.name = {}, .at = at, .radio = {.sensitivity = {-90}}, .move = move});
+            net.add({.name = {}, .at = at, .radio = setting.radio, .move = move});
         }
     }
     /// Floods from robots of the grid that stand still. Some begin together, so that frames come in

@@ -56,16 +56,15 @@ struct Crowd {
     Network net;
     std::shared_ptr<ReceptionLog> log;
 
-    Crowd(const Setting& setting, std::uint32_t seed, KindMask kinds = any_order)
-        : Crowd(setting, seed, setting.flood, kinds) {}
-    Crowd(const Setting& setting, std::uint32_t seed, Router router, KindMask kinds = any_order)
+    Crowd(const Setting& setting, std::uint32_t seed) : Crowd(setting, seed, setting.flood) {}
+    Crowd(const Setting& setting, std::uint32_t seed, Router router)
         : net({.seed = seed,
                .propagation = setting.propagation,
                .reception = setting.reception,
                .access = setting.access,
                .reference = setting.reference,
                .metrics = false}),
-          log(std::make_shared<ReceptionLog>(ReceptionLog{kinds})) {
+          log(std::make_shared<ReceptionLog>(ReceptionLog{any_order})) {
         test::Draw draw(seed);
         for (int i = 0; i < robots; ++i) {
             Vec3 at{draw.uniform(0, 3400), draw.uniform(0, 3400), 0};
@@ -76,7 +75,7 @@ struct Crowd {
                 move = RandomWaypoint{
                     .area = {{0, 0, 0}, {3400, 3400, 0}}, .min_speed = {1}, .max_speed = {300}};
             }
-            Radio radio{.sensitivity = {-90}};
+            Radio radio = setting.radio;
             if (i % 7 == 0) radio.success_rate = 0.8;
             net.add({.name = {}, .at = at, .radio = radio, .move = move});
         }
@@ -112,6 +111,7 @@ TEST_CASE("overtaking: receptions overtake what does not concern them, and nothi
             REQUIRE(crowd.log->sendings == expected.log->sendings);
             CHECK(expected.log->overtaken == 0);
             if (std::holds_alternative<Csma>(setting.access)) continue;
+            if (setting.radio.preamble == 0ns) continue;              // no timer may be overtaken
             CHECK(crowd.log->overtaken > (seed % 2 == 0 ? 100 : 0));  // or this tests nothing
         }
     }

@@ -65,6 +65,7 @@ struct Setting {
     ReceptionRung reception = Threshold{};
     Flood flood = {.jitter = std::chrono::microseconds{100}};
     AccessRung access = NoAccess{};
+    Radio radio = {.sensitivity = {-90}};
     bool reference = false;
 };
 
@@ -86,7 +87,9 @@ inline std::vector<Setting> settings() {
             {.reception = Collision{}},
             {.propagation = shadowed, .reception = Collision{.capture_ratio = Db{3}}},
             {.propagation = LogDistance{.exponent = 3}, .reception = Sinr{}},
-            {.reception = Collision{}, .access = Csma{}}};
+            {.reception = Collision{}, .access = Csma{}},
+            // Frames that are over before those that they come between have arrived.
+            {.radio = {.sensitivity = {-90}, .rate = {1e12}, .preamble = 0ns}}};
 }
 
 }  // namespace rovernet::test
