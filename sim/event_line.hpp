@@ -4,14 +4,18 @@
 #include "sim/event_heap.hpp"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace rovernet {
 
-/// Keys that come nearly in order: each steps in from the back, past a few later ones at most.
+/// Keys in order. They come nearly in order, each stepping in from the back past a few later ones
+/// at most, or in groups, each later than all before.
 class EventLine {
   public:
-    bool empty() const { return size() == 0; }
+    static constexpr std::size_t most_at_once = 48;  ///< keys of a group
+
+    bool empty() const { return front() == EventKey{}; }
     std::size_t size() const { return keys_.size() - 1 - front_; }
     /// The least key; if there is none, the default key.
     EventKey front() const { return keys_[front_]; }
@@ -25,16 +29,15 @@ class EventLine {
         keys_.push_back({});
         for (std::size_t i = keys_.size() - 1; i > place; --i) keys_[i] = keys_[i - 1];
         keys_[place] = key;
+        if (front_ >= most_gone && 2 * front_ >= keys_.size()) [[unlikely]]
+            forget_gone();
         return true;
     }
-    /// Removes front(); there must be one.
-    void pop() {
-        ++front_;
-        if (front_ < most_gone || 2 * front_ < keys_.size()) [[likely]]
-            return;
-        keys_.erase(keys_.begin(), keys_.begin() + static_cast<std::ptrdiff_t>(front_));
-        front_ = 0;
-    }
+    /// Adds keys that come after all others. @param first not after their times, which differ from
+    /// it by less than 2^bits ns
+    void append(std::span<const EventKey> group, Time first, int bits);
+    /// Removes front(), if `remove`; there must be one then.
+    void pop_if(bool remove) { front_ += remove; }
     /// Calls visit(key) for the keys before `end`, in order, as long as it returns true. @return
     /// whether it did for all
     template <class Visit>
@@ -47,14 +50,18 @@ class EventLine {
     /// Removes every key that `keep` refuses.
     template <class Keep>
     void filter(Keep keep) {
-        keys_.erase(keys_.begin(), keys_.begin() + static_cast<std::ptrdiff_t>(front_));
-        front_ = 0;
+        forget_gone();
         std::erase_if(keys_, [&](EventKey key) { return key != EventKey{} && !keep(key); });
     }
 
   private:
     static constexpr std::size_t few = 8;
     static constexpr std::size_t most_gone = 64;  // places that may always be left unused
+
+    void forget_gone() {
+        keys_.erase(keys_.begin(), keys_.begin() + static_cast<std::ptrdiff_t>(front_));
+        front_ = 0;
+    }
 
     // In order, from front_ on, and the default key behind them.
     std::vector<EventKey> keys_ = std::vector<EventKey>(1);

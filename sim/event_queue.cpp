@@ -14,7 +14,7 @@ EventQueue::Place EventQueue::place(Rank rank, Rank base) {
         const auto level = static_cast<std::size_t>(63 - std::countl_zero(high)) / 4;
         return {16 + level, static_cast<std::uint64_t>(rank >> 64) >> 4 * level & 15};
     }
-    const auto low = static_cast<std::uint64_t>(differing);
+    const auto low = static_cast<std::uint64_t>(differing) | 1;
     const auto level = static_cast<std::size_t>(63 - std::countl_zero(low)) / 4;
     return {level, static_cast<std::uint64_t>(rank) >> 4 * level & 15};
 }
@@ -36,17 +36,17 @@ void EventQueue::file(EventKey key) {
 // Keys below the base can only be spilled if the buckets follow them. That moves what is filed
 // nearby; if that is much, it waits until as much has come in: till then the heap may grow.
 void EventQueue::spill() {
-    const EventKey least = heap_.top();
-    if (rank(least) < base_) {
-        if (filed_below(place(rank(least), base_).level) > 4 * heap_.size()) {
+    for (; !near_.empty(); near_.pop_if(true)) heap_.push(near_.front());
+    const Rank least = rank(heap_.top());
+    if (least < base_) {
+        if (filed_below(place(least, base_).level) > 4 * heap_.size()) {
             heap_limit_ = 2 * heap_.size();
             return;
         }
-        lower_base(rank(least));
+        lower_base(least);
     }
-    base_ = heap_end_ = rank(least);
-    heap_.filter([&](EventKey key) {
-        if (key == least) return true;
+    base_ = least;
+    heap_.filter([this](EventKey key) {
         file(key);
         return false;
     });
@@ -76,35 +76,35 @@ void EventQueue::refill() {
     while (filed_ > 0) {
         const Place next = nearest();
         const std::size_t size = buckets_[next.level][next.digit].size;
-        if (heap_.size() + size > refill_most) {
-            if (!heap_.empty()) return;
+        if (near_.size() + size > EventLine::most_at_once) {
+            if (!near_.empty()) return;
             deal_out(next);
             continue;
         }
-        empty_bucket(next, [this](EventKey key) { heap_.push(key); });
+        static_assert(EventLine::most_at_once <= chunk_size);
+        const std::uint32_t chunk = take(next).chunk;
         const Rank unit = Rank{1} << 4 * next.level;
-        heap_end_ = (base_ & ~(15 * unit)) | next.digit * unit | (unit - 1);
+        const int bits = std::max(4 * static_cast<int>(next.level) - 64, 0);  // of times
+        const Rank first = above(next.level, base_) | next.digit * unit;
+        near_.append({chunks_[chunk].keys.data(), size}, time(first), bits);
+        free_chunk(chunk);
+        near_end_ = first | (unit - 1);
     }
-    heap_end_ = ~Rank{0};
+    near_end_ = ~Rank{0};
 }
 
-// With the least key as the base, keys fall by all the digits that they share with it at once.
+// With all digits that these keys share as the base, they fall by that many levels at once.
 void EventQueue::deal_out(Place from) {
     const Bucket& bucket = buckets_[from.level][from.digit];
-    EventKey least;
+    const Rank any = rank(chunks_[bucket.chunk].keys[0]);
+    Rank differing = 0;
     std::size_t n = (bucket.size - 1) % chunk_size + 1;
     for (std::uint32_t i = bucket.chunk; i != none; i = chunks_[i].next, n = chunk_size) {
         const auto& keys = chunks_[i].keys;
-        for (std::size_t k = 0; k < n; ++k) least = std::min(least, keys[k]);
+        for (std::size_t k = 0; k < n; ++k) differing |= rank(keys[k]) ^ any;
     }
-    base_ = heap_end_ = rank(least);
-    empty_bucket(from, [&](EventKey key) {
-        if (key == least) {
-            heap_.push(key);
-        } else {
-            file(key);
-        }
-    });
+    base_ = above(place(differing, 0).level, any);
+    empty_bucket(from, [this](EventKey key) { file(key); });
 }
 
 EventQueue::Place EventQueue::nearest() const {

@@ -14,11 +14,12 @@ namespace rovernet {
 
 /// A queue of keys whose cost per event hardly grows with their number: a lazy radix-16 queue.
 ///
-/// The nearest keys lie in an EventHeap, the others unsorted in buckets: a key's level is that of
+/// The nearest keys stand in a line, the others lie unsorted in buckets: a key's level is that of
 /// the highest of its 32 hexadecimal digits (16 of the time, 16 of what decides among equal times)
-/// in which it differs from a base, and its bucket there is the digit. When the heap runs empty
-/// the nearest bucket fills it; one that holds too much is first dealt out to lower levels. So a
-/// key moves a few times, always to the end of a bucket. A small queue is the heap alone.
+/// in which it differs from a base, and its bucket there is the digit. When the line is used up,
+/// the nearest buckets fill it; one that holds too much is first dealt out to lower levels. So a
+/// key moves a few times, always to the end of a bucket, and is sorted among a few. A heap takes
+/// what comes later, but before the last of the line. A small queue is the heap alone.
 ///
 /// Frames last about equally long, so that their ends come nearly in order: they stand in a line of
 /// their own, but for those that come before many.
@@ -29,49 +30,50 @@ namespace rovernet {
 /// Source: R. K. Ahuja et al., J. ACM 37(2), 1990 (the radix heap; here lazy, and not monotone).
 class EventQueue {
   public:
-    bool empty() const { return heap_.empty() && line_.empty(); }
-    std::size_t size() const { return heap_.size() + filed_ + line_.size(); }
+    bool empty() const { return top_ == EventKey{}; }
+    std::size_t size() const { return near_.size() + heap_.size() + filed_ + ends_.size(); }
     /// The least key; if there is none, the default key.
     EventKey top() const { return top_; }
 
     void push(EventKey key) {
-        top_ = std::min(top_, key);
-        if (key.priority() == Priority::frame_end && line_.push(key)) return;
-        if (rank(key) > heap_end_) return file(key);
+        top_ = earlier(top_, key);
+        if (key.priority() == Priority::frame_end && ends_.push(key)) return;
+        if (rank(key) > near_end_) return file(key);
         heap_.push(key);
         if (heap_.size() > heap_limit_) spill();
     }
 
     /// Removes top(); there must be one.
     void pop() {
-        if (line_.front() == top_) {
-            line_.pop();
-        } else {
+        if (heap_.top() == top_) {
             heap_.pop();
-            if (heap_.empty()) refill();
+        } else {
+            // Whichever it is, without a branch that would be hard to predict.
+            near_.pop_if(near_.front() == top_);
+            ends_.pop_if(ends_.front() == top_);
         }
-        top_ = std::min(line_.front(), heap_.top());
+        find_top();
     }
 
     /// Calls visit(key) for the keys before `end`, in no order, as long as it returns true. @return
     /// whether it did for all; not if they are many, or some may lie in buckets
     template <class Visit>
     bool visit_before(EventKey end, Visit visit) const {
-        return rank(end) <= heap_end_ && line_.visit_before(end, visit) &&
-               heap_.visit_before(end, visit);
+        return rank(end) <= near_end_ && near_.visit_before(end, visit) &&
+               ends_.visit_before(end, visit) && heap_.visit_before(end, visit);
     }
     /// Removes every key that `keep` refuses.
     template <class Keep>
     void filter(Keep keep) {
-        line_.filter(keep);
+        near_.filter(keep);
+        ends_.filter(keep);
         heap_.filter(keep);
         for (std::size_t level = 0; level < levels; ++level) {
             refile(level, [&](EventKey key) {
                 if (keep(key)) file(key);
             });
         }
-        if (heap_.empty()) refill();
-        top_ = std::min(line_.front(), heap_.top());
+        find_top();
     }
 
   private:
@@ -80,8 +82,7 @@ class EventQueue {
     static constexpr std::size_t levels = 32;
     static constexpr std::uint32_t none = 0xffffffff;
     static constexpr std::size_t chunk_size = 64;
-    static constexpr std::size_t refill_most = 96;  // keys that refill() puts into the heap
-    static constexpr std::size_t small = 1024;      // keys that need no buckets
+    static constexpr std::size_t small = 64;  // keys that need no buckets
 
     // The keys of a bucket are a chain of chunks: full ones, and at its head one that may not be.
     struct Chunk {
@@ -99,8 +100,19 @@ class EventQueue {
 
     // As unsigned: flipping the sign bit keeps the order.
     static Rank rank(EventKey key) { return static_cast<Rank>(key.rank()) ^ sign_bit; }
+    static Time time(Rank rank) {
+        return Time{Duration{static_cast<std::int64_t>((rank ^ sign_bit) >> 64)}};
+    }
+    // The digits above a level, and zeros.
+    static Rank above(std::size_t level, Rank rank) {
+        return rank & ~((Rank{16} << 4 * level) - 1);
+    }
     static Place place(Rank rank, Rank base);
 
+    void find_top() {
+        if (near_.empty() && heap_.empty()) refill();
+        top_ = earlier(earlier(near_.front(), ends_.front()), heap_.top());
+    }
     void file(EventKey key);
     void spill();
     void refill();
@@ -117,11 +129,11 @@ class EventQueue {
     void empty_bucket(Place place, Use use) {
         Bucket bucket = take(place);
         while (bucket.size > 0) {
-            const Chunk chunk = chunks_[bucket.chunk];
-            free_chunk(bucket.chunk);
             const std::uint32_t n = (bucket.size - 1) % chunk_size + 1;
-            for (std::uint32_t i = 0; i < n; ++i) use(chunk.keys[i]);
-            bucket = {chunk.next, bucket.size - n};
+            for (std::uint32_t i = 0; i < n; ++i) use(chunks_[bucket.chunk].keys[i]);
+            const std::uint32_t next = chunks_[bucket.chunk].next;
+            free_chunk(bucket.chunk);
+            bucket = {next, bucket.size - n};
         }
     }
 
@@ -135,11 +147,12 @@ class EventQueue {
     }
 
     EventKey top_;
-    EventLine line_;
-    // Of the other keys, all up to heap_end_ are in the heap, the rest in the buckets that place()
-    // tells. The heap is empty only if these are.
+    EventLine ends_;  // of frames
+    // Of the other keys, all up to near_end_ are in near_ or the heap, the rest in the buckets that
+    // place() tells. If both are empty, so are the buckets.
+    EventLine near_;
     EventHeap heap_;
-    Rank heap_end_ = ~Rank{0};
+    Rank near_end_ = ~Rank{0};
     Rank base_ = 0;
     std::size_t heap_limit_ = small;
     std::size_t filed_ = 0;  // keys in buckets

@@ -310,7 +310,8 @@ TEST_CASE("event line: takes keys that come nearly in order, and serves them in 
         if (!taken.empty() && dice(100) < (step / 500 % 2 == 0 ? 40 : 55)) {
             last = *taken.begin();
             taken.erase(taken.begin());
-            line.pop();
+            line.pop_if(false);
+            line.pop_if(true);
             continue;
         }
         const EventKey key = key_at(step + dice(step % 7 == 0 ? 200 : 10), sequence++);
@@ -328,4 +329,42 @@ TEST_CASE("event line: takes keys that come nearly in order, and serves them in 
     }
     CHECK(refused > 100);
     CHECK(before_the_last > 100);
+}
+
+TEST_CASE("event line: takes groups whose keys come in any order, and serves them in order") {
+    Dice dice(10);
+    EventLine line;
+    std::uint64_t sequence = 0;
+    for (const int bits : {0, 1, 3, 8, 25, 26, 27, 40, 60}) {
+        for (int round = 0; round < 300; ++round) {
+            std::set<EventKey> expected;
+            for (std::int64_t first = -(std::int64_t{1} << bits), group = 0; group < 3; ++group) {
+                const auto room =
+                    static_cast<std::int64_t>(EventLine::most_at_once - expected.size());
+                std::vector<EventKey> keys;
+                for (auto n = dice(room + 1); n > 0; --n) {
+                    const auto priority = static_cast<Priority>(dice(4));
+                    keys.push_back(
+                        key_at(first + dice(std::int64_t{1} << bits), sequence++, priority));
+                }
+                if (dice(2) == 0) std::reverse(keys.begin(), keys.end());
+                line.append(keys, Time{Duration{first}}, bits);
+                expected.insert(keys.begin(), keys.end());
+                first += std::int64_t{1} << bits;
+            }
+            if (round % 4 == 0) {
+                const auto keep = [](EventKey key) { return key.sequence() % 3 != 0; };
+                line.filter(keep);
+                std::erase_if(expected, [&](EventKey key) { return !keep(key); });
+            }
+            for (; !expected.empty(); expected.erase(expected.begin())) {
+                REQUIRE(line.size() == expected.size());
+                REQUIRE(line.front() == *expected.begin());
+                line.pop_if(false);
+                line.pop_if(true);
+            }
+            REQUIRE(line.empty());
+            REQUIRE(line.front() == EventKey{});
+        }
+    }
 }

@@ -299,9 +299,28 @@ TEST_CASE("scheduler: nothing is allocated once warm, however many are cancelled
             while (queue.size() > 300) now = queue.pop().key.time();
         }
     };
-    churn(10'000);
+    churn(100'000);
     const std::size_t before = allocations;
     churn(100'000);
+    CHECK(allocations == before);
+}
+
+TEST_CASE("scheduler: nothing is allocated once warm, however many are served") {
+    Scheduler<int> queue;
+    Dice dice(2);
+    const auto serve = [&](int events) {
+        for (int i = 0; i < events; ++i) {
+            const auto event = queue.pop();
+            if (event.key.priority() == Priority::frame_end) continue;
+            const Duration delay{static_cast<std::int64_t>(dice(1'000'000))};
+            queue.schedule(event.key.time() + delay, Priority::timer, 0);
+            queue.schedule(event.key.time() + 50us, Priority::frame_end, 0);
+        }
+    };
+    for (int i = 0; i < 1'000; ++i) queue.schedule(at(i), Priority::timer, 0);
+    serve(100'000);
+    const std::size_t before = allocations;
+    serve(1'000'000);
     CHECK(allocations == before);
 }
 
