@@ -212,6 +212,8 @@ void add_bench(CLI::App& app, int& exit) {
     flood->add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
+    flood->add_flag("--in-order", a.bench.in_order,
+                    "look at all receptions in their order, as a trace does");
     flood->add_option("--cpu", a.bench.cpu_s, "seconds of CPU for each size, at least")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
