@@ -30,12 +30,12 @@ TEST_CASE(
     "many robots: a flood bench counts the same, whether somebody looks at the order or not") {
     for (const auto reception : {ReceptionModel::threshold, ReceptionModel::collision}) {
         FloodBench bench{.reception = reception, .cpu_s = 1e-9};
-        const auto any = flood_bench(bench, 3000);
+        const auto unordered = flood_bench(bench, 3000);
         bench.in_order = true;
         const auto in_order = flood_bench(bench, 3000);
-        CHECK(in_order.transmissions == any.transmissions);
-        CHECK(in_order.receptions == any.receptions);
-        CHECK(in_order.attempts == any.attempts);
+        CHECK(in_order.transmissions == unordered.transmissions);
+        CHECK(in_order.receptions == unordered.receptions);
+        CHECK(in_order.attempts == unordered.attempts);
     }
 }
 
