@@ -137,7 +137,7 @@ TEST_CASE("csma: hidden senders ruin each other, and an RTS keeps them apart") {
     for (const bool asks : {false, true}) {
         // A and C hear B, not each other.
         Room cell(3, Csma{.rts_threshold = asks ? 0U : 3000U}, {.rate = {1e6}}, 80);
-        for (const std::size_t from : {0, 2}) {
+        for (const std::size_t from : {0U, 2U}) {
             cell.net.at(start_of_run, [&cell, from] {
                 cell.net.saturate(cell.nodes[from], cell.nodes[1], 1500);
             });

@@ -28,7 +28,7 @@ std::uint64_t roll(std::uint64_t index, std::uint64_t n) {
 
 TEST_CASE("visit before: each key before another once, or the answer is that some may be missing") {
     std::size_t whole = 0, with_keys = 0, refused = 0;
-    for (const std::uint64_t spread : {300, 30'000, 3'000'000}) {
+    for (const std::uint64_t spread : {300U, 30'000U, 3'000'000U}) {
         EventQueue queue;
         std::set<EventKey> queued;
         for (std::uint64_t step = 0; step < 20'000; ++step) {
