@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
-#include "experiment/run.hpp"
 #include "experiment/version.hpp"
 #include "sim/error.hpp"
 #include "study/command_words.hpp"
@@ -10,61 +9,63 @@
 #include <fmt/format.h>
 
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace {
 
 using namespace rovernet;
+using cli::ok, cli::usage;
 
-using cli::bad_input, cli::failed, cli::interrupted, cli::ok, cli::usage;
-
-/// Says what went wrong; a mistake in an input begins with its place, anything else with our name.
-int fail(cli::ExitCode code, const std::string& message) {
-    cli::error(code == bad_input ? message : "rovernet: " + message);
-    return code;
+/// The command that the words of the command line name, as far as they do.
+const CLI::App& named_command(const CLI::App& app) {
+    const auto named = app.get_subcommands();
+    return named.empty() ? app : named_command(*named.front());
 }
 
-/// Runs a command and turns what it throws into a message and an exit code.
-int guarded(const std::function<void()>& command) {
-    try {
-        command();
-        return std::fflush(stdout) == 0 ? ok : failed;
-    } catch (const InputError& error) {
-        return fail(error.where().is_option ? usage : bad_input, error.what());
-    } catch (const cli::CommandEnd& end) {
-        std::fflush(stdout);
-        return fail(end.code(), end.what());
-    } catch (const Interrupted&) {
-        return fail(interrupted, "interrupted; no results were written");
-    } catch (const std::invalid_argument& error) {
-        return fail(usage, error.what());
-    } catch (const std::bad_alloc&) {
-        return fail(failed, "out of memory");
-    } catch (const std::exception& error) {
-        return fail(failed, error.what());
-    }
-}
-
-/// Says so if the first word is no command of ours.
-bool is_unknown_command(const CLI::App& app, const std::string& word) {
-    if (word.empty() || word.front() == '-') return false;
+std::vector<std::string> options_of(const CLI::App& command) {
     std::vector<std::string> names;
-    for (const auto* command : app.get_subcommands(nullptr)) {
-        if (command->get_name() == word) return false;
-        names.push_back(command->get_name());
+    for (const CLI::Option* option : command.get_options()) {
+        for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+        for (const auto& name : option->get_snames()) names.push_back("-" + name);
     }
-    const std::string near = did_you_mean(word, names);
-    fail(usage, fmt::format("unknown command \"{}\"; expected one of {}{}{}", word,
-                            fmt::join(names, ", "), near.empty() ? "" : "; ", near));
-    return true;
+    return names;
+}
+
+std::vector<std::string> commands_of(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::App* sub : command.get_subcommands(nullptr)) names.push_back(sub->get_name());
+    return names;
+}
+
+/// What is wrong with the words of the command line, and what was probably meant.
+std::string usage_error(const CLI::App* app, const CLI::Error& error) {
+    std::string what = error.what();
+    const std::vector<std::string> unexpected = app->remaining(true);
+    if (!unexpected.empty()) {
+        const std::string word = unexpected.front().substr(0, unexpected.front().find('='));
+        const CLI::App& command = named_command(*app);
+        const std::vector<std::string> commands = commands_of(command);
+        const bool is_option = word.starts_with('-');
+        if (is_option) {
+            what = fmt::format("unknown option \"{}\"", word);
+        } else if (!commands.empty()) {
+            what = fmt::format("unknown command \"{}\"; expected one of {}", word,
+                               fmt::join(commands, ", "));
+        } else {
+            what = fmt::format("unexpected \"{}\"", word);
+        }
+        const std::string near = did_you_mean(word, is_option ? options_of(command) : commands);
+        if (!near.empty()) what += "; " + near;
+    }
+    return fmt::format("rovernet: {}; run with --help for more\n", what);
 }
 
 CLI::App* add_command(CLI::App& app, const char* name, const char* what, int& exit,
                       std::function<void()> command) {
     CLI::App* sub = app.add_subcommand(name, what);
-    sub->callback([&exit, command = std::move(command)] { exit = guarded(command); });
+    sub->callback([&exit, command = std::move(command)] { exit = cli::guarded(command); });
     return sub;
 }
 
@@ -375,9 +376,7 @@ int main(int argc, char** argv) {
     CLI::App app{"rovernet: wireless networks of moving robots, event by event", "rovernet"};
     app.set_version_flag("--version", std::string(version()));
     app.require_subcommand(1);
-    app.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return fmt::format("rovernet: {}; run with --help for more\n", error.what());
-    });
+    app.failure_message(usage_error);
     int exit = ok;
     add_run(app, exit);
     add_loss(app, exit);
@@ -392,7 +391,6 @@ int main(int argc, char** argv) {
     add_compare(app, exit, command_line(argc, argv));
     add_results(app, exit);
     add_others(app, exit);
-    if (argc > 1 && is_unknown_command(app, argv[1])) return usage;
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -161,14 +161,18 @@ TableReader::TableReader(const Value& value, std::string name)
     }
 }
 
+bool TableReader::is_known(std::string_view key) const {
+    return std::find(known_.begin(), known_.end(), key) != known_.end();
+}
+
 const Value* TableReader::take(std::string_view key) {
-    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+    if (!is_known(key)) known_.emplace_back(key);
     return table_->find(key);
 }
 
 void TableReader::reject_unknown() const {
     for (const auto& entry : table_->entries) {
-        if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+        if (is_known(entry.key)) continue;
         const std::string near = did_you_mean(entry.key, known_);
         throw InputError(
             entry.key_where,
@@ -178,6 +182,13 @@ void TableReader::reject_unknown() const {
 }
 
 void TableReader::missing(std::string_view key, std::string_view example) const {
+    for (const auto& entry : table_->entries) {
+        if (is_known(entry.key)) continue;
+        const std::string near = did_you_mean(entry.key, {std::string(key)});
+        if (near.empty()) continue;
+        throw InputError(entry.key_where,
+                         fmt::format("unknown key \"{}\" in {}; {}", entry.key, name_, near));
+    }
     throw InputError(
         where_, fmt::format("{}: the key \"{}\" is missing; for example {}", name_, key, example));
 }

@@ -126,7 +126,8 @@ class TableReader {
     }
     /// @throws InputError for the first key that was never asked for, with a suggestion
     void reject_unknown() const;
-    /// @throws InputError at the table: `key` is missing; `example` shows one
+    /// @throws InputError at the table: `key` is missing; `example` shows one. If a key that
+    /// nobody asked for yet looks like it: at that key, which is misspelt
     [[noreturn]] void missing(std::string_view key, std::string_view example) const;
 
     /// @throws InputError at `other`: only one of the two keys may be given
@@ -136,6 +137,7 @@ class TableReader {
     const Location& where() const { return where_; }
 
   private:
+    bool is_known(std::string_view key) const;
     template <class T>
     void check(const Value& value, std::string_view key, const T& out, const Range& range) {
         const auto number = number_in(out);

@@ -53,7 +53,6 @@ TrafficTable read_traffic(const Value& value) {
     traffic.from_where = table.take("from")->where;
     if (table.read("to", traffic.to)) traffic.to_where = table.take("to")->where;
     const bool to_one = traffic.kind == TrafficKind::unicast;
-    if (to_one && !traffic.to) table.missing("to", "to = \"B\": whom a unicast is for");
     if (!to_one && traffic.to) {
         throw InputError(traffic.to_where,
                          "to: a broadcast is for everybody; expected kind = "
@@ -67,6 +66,7 @@ TrafficTable read_traffic(const Value& value) {
     table.read("every", traffic.every, positive);
     table.read("stop", traffic.stop, non_negative);
     table.read("count", traffic.count, Range{.low = 1, .text = ">= 1"});
+    if (to_one && !traffic.to) table.missing("to", "to = \"B\": whom a unicast is for");
     table.reject_unknown();
     if (traffic.saturate && traffic.every) {
         throw InputError(
@@ -211,9 +211,10 @@ void read_propagation(const Value& value, PropagationTable& out) {
         out.model = read_choice(*model, "propagation model", model_names());
     }
     // Keys of any listed model may stand here, so that a sweep can swap the model.
+    for_each_parameters(out.parameters, [&](auto& model) { table.read_fields(model); });
+    table.reject_unknown();
     std::size_t index = 0;
-    for_each_parameters(out.parameters, [&]<class M>(M& model) {
-        table.read_fields(model);
+    for_each_parameters(out.parameters, [&]<class M>(const M& model) {
         const bool chosen = index++ == out.model;
         for_each_field<M>([&](const auto& f) {
             const auto number = number_in(model.*f.member);
@@ -225,7 +226,6 @@ void read_propagation(const Value& value, PropagationTable& out) {
             }
         });
     });
-    table.reject_unknown();
 }
 
 ReceptionRung ReceptionTable::make() const {

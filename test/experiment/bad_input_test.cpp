@@ -178,6 +178,9 @@ const std::vector<Mistake> mistakes = {
      "5:9",
      {"unknown propagation model \"log_distnace\"", "did you mean \"log_distance\"?"}},
     {robot_a + "[propagation]\nmodel = \"disc\"", "4:1", {"\"disc\"", "\"range\"", "50 m"}},
+    {robot_a + "[propagation]\nmodel = \"disc\"\nrnage = \"9 m\"",
+     "6:1",
+     {"unknown key \"rnage\"", "did you mean \"range\"?"}},
     {robot_a + "[propagation]\nrange = \"-3 m\"", "5:9", {">= 0"}},
     {robot_a + "[propagation]\nmodel = \"itu_indoor\"\nenvironment = \"offce\"",
      "6:15",
@@ -213,6 +216,7 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "[routing]\nprotocol = \"fload\"", "5:12", {"did you mean \"flood\"?"}},
     // Robots.
     {"[[robot]]\nat = [\"2 m\", \"3 m\"]", "1:1", {"\"name\" is missing"}},
+    {"[[robot]]\nnmae = \"A\"", "2:1", {"unknown key \"nmae\"", "did you mean \"name\"?"}},
     {"[[robot]]\nname = \"A\"", "1:1", {"\"at\" is missing"}},
     {robot_a + "place = { area = [[\"0 m\", \"0 m\"], [\"1 m\", \"1 m\"]] }",
      "4:9",
@@ -250,7 +254,10 @@ const std::vector<Mistake> mistakes = {
      "6:8",
      {"r0 to r2"}},
     {robot_a + "[[traffic]]\npayload = \"F\"", "4:1", {"\"from\" is missing"}},
+    {robot_a + "[[traffic]]\nform = \"A\"\npayload = \"F\"", "5:1", {"did you mean \"from\"?"}},
     {traffic(""), "4:1", {"\"payload\" is missing"}},
+    {traffic("palyoad = \"F\""), "6:1", {"did you mean \"payload\"?"}},
+    {traffic("kind = \"unicast\"\npayload = \"F\"\nstop = \"3 s\""), "4:1", {"\"to\" is missing"}},
     {traffic("size = 64"), "6:8", {"did you mean \"64 B\"?"}},
     {traffic("size = \"1.5 B\""), "6:8", {"whole number of bytes"}},
     {traffic("payload = \"F\"\nstart = \"arival\""), "7:9", {"a time"}},
@@ -401,16 +408,36 @@ TEST_CASE("bad input: unknown commands and options exit with 2") {
     const TemporaryFolder folder;
     folder.write("s.toml", robot_a);
     for (const char* arguments :
-         {"", "walk", "run", "run s.toml --sped 2", "run s.toml --speed 0", "run s.toml --seed -1",
-          "run s.toml --seed x", "loss frii --distance 1", "loss friis", "loss friis --distance x",
-          "loss friis --distance -1", "loss friis a=1 --distance 1", "link s.toml A",
-          "link s.toml A Z", "link s.toml A A", "trace", "version x"}) {
+         {"", "\"\"", "=x", "walk", "run", "run s.toml --sped 2", "run s.toml --speed 0",
+          "run s.toml --seed -1", "run s.toml --seed x", "loss frii --distance 1", "loss friis",
+          "loss friis --distance x", "loss friis --distance -1", "loss friis a=1 --distance 1",
+          "link s.toml A", "link s.toml A Z", "link s.toml A A", "trace", "version x"}) {
         const Ended ended = command(folder, arguments);
         CAPTURE(arguments);
         CAPTURE(ended.err);
         CHECK(ended.exit == 2);
         CHECK(ended.out.empty());
         CHECK_FALSE(ended.err.empty());
+    }
+}
+
+TEST_CASE("bad input: a slip on the command line is told with what was probably meant") {
+    const TemporaryFolder folder;
+    for (const auto& [arguments, expected] :
+         {std::pair{"rnu s.toml", "rovernet: unknown command \"rnu\"; expected one of run, loss, "},
+          std::pair{"rnu --seed 3", "; did you mean \"run\"?; run with --help for more\n"},
+          std::pair{"bench flod", "expected one of flood; did you mean \"flood\"?"},
+          std::pair{"bench flood --in-ordr=1 x",
+                    "option \"--in-ordr\"; did you mean \"--in-order\"?"},
+          std::pair{"run s.toml --sede 3", "option \"--sede\"; did you mean \"--seed\"?"},
+          std::pair{"--verison", "option \"--verison\"; did you mean \"--version\"?"},
+          std::pair{"run s.toml --xyz", "unknown option \"--xyz\"; run with --help for more"},
+          std::pair{"models extra", "rovernet: unexpected \"extra\"; run with"}}) {
+        const Ended ended = command(folder, arguments);
+        CAPTURE(ended.err);
+        CHECK(ended.exit == 2);
+        CHECK(ended.out.empty());
+        CHECK(ended.err.find(expected) != std::string::npos);
     }
 }
 

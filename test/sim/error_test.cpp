@@ -41,6 +41,9 @@ TEST_CASE("did you mean: a slip of the finger finds its word") {
     CHECK(did_you_mean("a", {"B", "A"}) == "did you mean \"A\"?");
     CHECK(did_you_mean("X", {"B", "A"}).empty());
     CHECK(did_you_mean("disk", models) == "did you mean \"disc\"?");
+    CHECK(did_you_mean("rnu", {"runs", "run"}) == "did you mean \"run\"?");
+    CHECK(did_you_mean("ta", {"at"}) == "did you mean \"at\"?");
+    CHECK(did_you_mean("from", {"form", "front"}) == "did you mean \"form\"?");
     CHECK(did_you_mean("distance", models) == "did you mean \"log_distance\"?");
 }
 
