@@ -190,6 +190,7 @@ FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
             .transmissions = count->transmissions,
             .receptions = count->decoded,
             .attempts = count->attempts,
+            .events = network.events(),
             .ns_per_reception = costs[2],
             .bfs_ns_per_edge = search_cost(network, nodes),
             .bytes_per_node = bytes};

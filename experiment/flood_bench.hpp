@@ -36,6 +36,7 @@ struct FloodBenchRow {
     std::uint64_t transmissions;  ///< of all floods
     std::uint64_t receptions;     ///< decoded, duplicates included
     std::uint64_t attempts;       ///< robots within the decode range of a transmission
+    std::uint64_t events;         ///< served
     double ns_per_reception;      ///< [ns] CPU per attempt: the median of five parts of the time
     double bfs_ns_per_edge;       ///< [ns] of a plain breadth-first search of the same graph
     double bytes_per_node;        ///< [bytes] the network's memory after the floods

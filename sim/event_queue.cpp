@@ -14,6 +14,7 @@ EventQueue::Place EventQueue::place(Rank rank, Rank base) {
         const auto level = static_cast<std::size_t>(63 - std::countl_zero(high)) / 4;
         return {16 + level, static_cast<std::uint64_t>(rank >> 64) >> 4 * level & 15};
     }
+    // The base itself belongs to the lowest level.
     const auto low = static_cast<std::uint64_t>(differing) | 1;
     const auto level = static_cast<std::size_t>(63 - std::countl_zero(low)) / 4;
     return {level, static_cast<std::uint64_t>(rank) >> 4 * level & 15};

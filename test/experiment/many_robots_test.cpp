@@ -36,6 +36,7 @@ TEST_CASE(
         CHECK(in_order.transmissions == unordered.transmissions);
         CHECK(in_order.receptions == unordered.receptions);
         CHECK(in_order.attempts == unordered.attempts);
+        CHECK(in_order.events > unordered.events);  // receptions do not overtake
     }
 }
 
