@@ -43,6 +43,7 @@ TEST_CASE("did you mean: a slip of the finger finds its word") {
     CHECK(did_you_mean("disk", models) == "did you mean \"disc\"?");
     CHECK(did_you_mean("rnu", {"runs", "run"}) == "did you mean \"run\"?");
     CHECK(did_you_mean("ta", {"at"}) == "did you mean \"at\"?");
+    CHECK(did_you_mean("form", {"forum", "from"}) == "did you mean \"forum\"?");  // equally near
     CHECK(did_you_mean("from", {"form", "front"}) == "did you mean \"form\"?");
     CHECK(did_you_mean("distance", models) == "did you mean \"log_distance\"?");
 }
@@ -52,4 +53,6 @@ TEST_CASE("did you mean: nothing near, nothing said") {
     CHECK(did_you_mean("", models).empty());
     CHECK(did_you_mean("disc", {}).empty());
     CHECK(did_you_mean(std::string(100'000, 'x'), models).empty());
+    CHECK(did_you_mean("xa", {"ay"}).empty());  // no swap
+    CHECK(did_you_mean("ax", {"ya"}).empty());
 }
