@@ -53,17 +53,18 @@ void print_row(const FloodBenchRow& r) {
 
 }  // namespace
 
-void bench_flood(BenchArguments a) {
-    a.bench.reception = choice<ReceptionModel>("reception", a.reception);
-    a.bench.access = choice<AccessModel>("access", a.access);
-    a.bench.mobility = choice<BenchMobility>("mobility", a.mobility);
+void bench_flood(const BenchArguments& a) {
+    FloodBench bench = a.bench;
+    bench.reception = choice<ReceptionModel>("reception", a.reception);
+    bench.access = choice<AccessModel>("access", a.access);
+    bench.mobility = choice<BenchMobility>("mobility", a.mobility);
     Array rows;
     if (!a.json) {
         fmt::print("{:>9} {:>13} {:>12} {:>16} {:>15} {:>14}\n", "nodes", "transmissions",
                    "receptions", "ns/reception", "bfs ns/edge", "bytes/node");
     }
-    for (const std::uint32_t nodes : a.bench.nodes) {
-        const FloodBenchRow row = flood_bench(a.bench, nodes);
+    for (const std::uint32_t nodes : bench.nodes) {
+        const FloodBenchRow row = flood_bench(bench, nodes);
         if (a.json)
             rows.emplace_back(as_table(row));
         else

@@ -95,7 +95,7 @@ struct BenchArguments {
     std::string reception = "threshold", access = "none", mobility = "static";
     bool json = false;
 };
-void bench_flood(BenchArguments arguments);
+void bench_flood(const BenchArguments& arguments);
 
 struct WhereArguments : FileArguments {
     std::vector<std::string> at;
@@ -170,8 +170,17 @@ struct ExplainArguments {
 };
 void explain(const ExplainArguments& arguments);
 
-void models(bool json);
-void trace_stats(const std::string& file, bool json);
-void print_version(bool json);
+struct TraceArguments {
+    std::string file;
+    bool json = false;
+};
+void trace_stats(const TraceArguments& arguments);
+
+/// Of a command that takes nothing else.
+struct PrintArguments {
+    bool json = false;
+};
+void models(const PrintArguments& arguments);
+void print_version(const PrintArguments& arguments);
 
 }  // namespace rovernet::cli

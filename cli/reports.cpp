@@ -106,9 +106,9 @@ void link(const LinkArguments& a) {
     }
 }
 
-void models(bool json) {
+void models(const PrintArguments& a) {
     const Array list = list_models();
-    if (json) {
+    if (a.json) {
         Table table;
         table.set("models", list);
         fmt::print("{}", to_json(table));
@@ -125,14 +125,14 @@ void models(bool json) {
     }
 }
 
-void trace_stats(const std::string& file, bool json) {
-    const MetricValues metrics = trace_metrics(file);
+void trace_stats(const TraceArguments& a) {
+    const MetricValues metrics = trace_metrics(a.file);
     if (metrics.messages == 0) {
-        notice(file + ": no message is sent in it; stats reads the traces that rovernet writes");
+        notice(a.file + ": no message is sent in it; stats reads the traces that rovernet writes");
     }
     Table table;
     append_metrics(table, metrics);
-    if (json) {
+    if (a.json) {
         fmt::print("{}", to_json(table));
         return;
     }
@@ -147,9 +147,9 @@ void trace_stats(const std::string& file, bool json) {
     }
 }
 
-void print_version(bool json) {
+void print_version(const PrintArguments& a) {
     const Table built = build_provenance();
-    if (json) {
+    if (a.json) {
         fmt::print("{}", to_json(built));
         return;
     }

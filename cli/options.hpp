@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/commands.hpp"
+#include "cli/diagnostics.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+/// The commands' options, one file for each family of commands: what a command is called, takes and
+/// tells in its --help. What it does stands in commands.hpp.
+namespace rovernet::cli {
+
+/// Adds a command below `parent`. Its arguments live as long as it does; `run` gets them once the
+/// command line is read. CLI::RuntimeError then carries an exit code other than 0.
+/// @return the command and its arguments, for its options
+template <class Arguments>
+std::pair<CLI::App&, Arguments&> add_command(CLI::App& parent, const char* name, const char* what,
+                                             void (*run)(const Arguments&)) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = parent.add_subcommand(name, what);
+    command->callback([arguments, run] {
+        const int code = guarded([&] { run(*arguments); });
+        if (code != ok) throw CLI::RuntimeError(code);
+    });
+    return {*command, *arguments};
+}
+
+/// FILE and the options that go over it, but for those of one run.
+void add_study_file(CLI::App& command, FileArguments& arguments, const char* what);
+/// FILE and the options that go over it.
+void add_file(CLI::App& command, FileArguments& arguments, const char* what);
+void add_json(CLI::App& command, bool& json);
+
+constexpr const char* any_file = "scenario (.toml), Stage world (.world) or movement file";
+
+/// run, sweep, compare. @param typed  the command line as it was typed
+void add_run_commands(CLI::App& app, const std::string& typed);
+/// link, links, scene, where, draw, move.
+void add_scene_commands(CLI::App& app);
+/// results, plot, explain.
+void add_result_commands(CLI::App& app);
+/// models, loss, trace, bench, version.
+void add_tool_commands(CLI::App& app);
+
+}  // namespace rovernet::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "cli/options.hpp"
+
+namespace rovernet::cli {
+namespace {
+
+constexpr const char* only_points = "only points with KEY=VALUE, such as ttl=6";
+
+void add_results(CLI::App& app) {
+    const auto [results, a] = add_command(app, "results", "What a study came to", cli::results);
+    results.add_option("STUDY", a.store, "store of a study, as sweep makes it")->required();
+    results.add_option("--metric", a.metrics, "which, such as delivery_ratio,latency_mean_s")
+        ->delimiter(',');
+    results.add_option("--group-by", a.group_by, "keys that vary; the others are averaged over")
+        ->delimiter(',');
+    results.add_option("--where", a.where, only_points)->allow_extra_args(false);
+    results.add_option("--confidence", a.confidence, "of the intervals, such as 0.95")
+        ->check(CLI::Range(0.5, 0.9999));
+    results.add_option("--quantile", a.quantile, "this quantile in place of the mean, such as 0.9")
+        ->check(CLI::Range(0.0001, 0.9999));
+    results.add_flag("--csv", a.csv, "a row per run and metric, for pandas and R");
+    results.add_flag("--provenance", a.provenance, "with --csv: a row per run, its times and host");
+    results.add_flag("--failures", a.failures, "the runs that failed, and why");
+    results.add_option("--sql", a.sql, "answer this question, such as 'SELECT * FROM result'");
+    add_json(results, a.json);
+}
+
+void add_plot(CLI::App& app) {
+    const auto [plot, p] = add_command(app, "plot", "Draw what a study came to", cli::plot);
+    plot.add_option("STUDY", p.store, "store of a study, as sweep makes it")->required();
+    plot.add_option("-x", p.x, "key that varies, such as robots or radio.power");
+    plot.add_option("-y", p.y, "metric, such as delivery_ratio")->required();
+    plot.add_option("--by", p.by, "key of the lines, or of the rows of a heat map");
+    plot.add_option("--where", p.where, only_points)->allow_extra_args(false);
+    plot.add_option("--kind", p.kind,
+                    "lines, bars, cdf or heat_map (default: lines over numbers, "
+                    "bars over words)");
+    plot.add_option("--confidence", p.confidence, "of the intervals, such as 0.95")
+        ->check(CLI::Range(0.5, 0.9999));
+    plot.add_option("--quantile", p.quantile, "this quantile in place of the mean, such as 0.9")
+        ->check(CLI::Range(0.0001, 0.9999));
+    plot.add_flag("--log-x", p.log_x, "a logarithmic axis");
+    plot.add_flag("--log-y", p.log_y, "a logarithmic axis");
+    plot.add_option("--width", p.width, "of the picture, in pixels")
+        ->check(CLI::Range(200, 10000))
+        ->capture_default_str();
+    plot.add_option("-o,--output", p.out,
+                    "NAME.svg, or to restyle it NAME.gp (gnuplot) or NAME.vl.json (Vega-Lite)")
+        ->required();
+}
+
+void add_explain(CLI::App& app) {
+    const auto [explain, e] =
+        add_command(app, "explain", "How one run of a study came about", cli::explain);
+    explain.add_option("STUDY", e.store, "store of a study, as sweep makes it")->required();
+    explain.add_option("RUN", e.run, "POINT/REPLICATION, or the beginning of its id")->required();
+    add_json(explain, e.json);
+}
+
+}  // namespace
+
+void add_result_commands(CLI::App& app) {
+    add_results(app);
+    add_plot(app);
+    add_explain(app);
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "cli/options.hpp"
+
+namespace rovernet::cli {
+namespace {
+
+void add_run(CLI::App& app) {
+    const auto [run, a] = add_command(app, "run", "Run a scenario", cli::run);
+    add_file(run, a, any_file);
+    run.add_option("--out", a.out, "folder for the results (default: runs/NAME-sSEED)");
+    run.add_option("--speed", a.speed, "pace the run: 1 is real time, 2 (or x2) twice as fast")
+        ->transform(
+            [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })
+        ->check(CLI::PositiveNumber);
+    add_json(run, a.json);
+    run.add_flag("--print-scenario", a.print_scenario,
+                 "print the scenario with every default, and do not run it");
+}
+
+/// How a study is run.
+void add_study_run(CLI::App& command, StudyArguments& a) {
+    command
+        .add_option("--workers", a.workers, "processes at once (default: as many as processors)")
+        ->check(CLI::Range(1, 1024));
+    command.add_option("--replications", a.replications, "of each point; or [study] replications")
+        ->check(CLI::Range(1, 1'000'000));
+    command
+        .add_option("--precision", a.precision,
+                    "repeat until the interval of the first metric has this half-width")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--max-replications", a.max_replications, "for --precision, at most")
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_option("--timeout", a.timeout, "of one run, in real time, such as 60s");
+    command.add_option("--memory", a.memory, "of one run, such as 2GB");
+    command.add_flag("--fail-fast", a.fail_fast, "begin nothing new once a run has failed");
+    add_json(command, a.json);
+}
+
+void add_sweep(CLI::App& app, const std::string& typed) {
+    const auto [sweep, a] =
+        add_command(app, "sweep", "Run a study: every point, every replication", cli::sweep);
+    a.command = typed;
+    add_study_file(sweep, a, any_file);
+    sweep.add_flag("--dry-run", a.dry_run, "list the points and runs, and run nothing");
+    sweep.add_option("--store", a.store, "file for the results (default: FILE with .db)");
+    add_study_run(sweep, a);
+    CLI::Option* resume = sweep.add_flag("--resume", a.resume, "go on where the store ends: usual");
+    sweep.add_flag("--fresh", a.fresh, "throw away the runs that the store has; asks")
+        ->excludes(resume);
+    sweep.add_flag("--yes", a.yes, "do not ask");
+    sweep.add_option("--shard", a.shard, "make only the runs of this chunk, from 0");
+    sweep.add_option("--chunk", a.chunk, "runs of a chunk")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    sweep.add_option("--except", a.except, "make no run that this store has finished");
+    sweep.add_option("--merge", a.merge, "move the runs of these stores into the study's")
+        ->excludes("--shard");
+    sweep.add_option("--executor", a.executor, "local (default), or slurm: a job array")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->excludes("--shard")
+        ->excludes("--merge");
+    sweep.add_option("--sbatch", a.sbatch, "more options for sbatch, such as \"--time=1:00\"");
+}
+
+void add_compare(CLI::App& app, const std::string& typed) {
+    const auto [compare, a] = add_command(
+        app, "compare", "Propagation models beside each other on one scenario", cli::compare);
+    a.command = typed;
+    add_study_file(compare, a, any_file);
+    compare.add_option("--models", a.models, "which (default: those of [study] vary)")
+        ->delimiter(',');
+    compare.add_option("--metric", a.metric, "compared (default: the study's first)");
+    compare.add_option("--baseline", a.baseline, "to differ from (default: the dearest)");
+    compare.add_option("--store", a.store, "keep the runs in this file, and go on from there");
+    compare.add_option("-o,--output", a.picture, "picture to write: NAME.svg");
+    add_study_run(compare, a);
+}
+
+}  // namespace
+
+void add_run_commands(CLI::App& app, const std::string& typed) {
+    add_run(app);
+    add_sweep(app, typed);
+    add_compare(app, typed);
+}
+
+}  // namespace rovernet::cli

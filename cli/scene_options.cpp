@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "cli/options.hpp"
+
+namespace rovernet::cli {
+namespace {
+
+void add_link(CLI::App& app) {
+    const auto [link, a] =
+        add_command(app, "link", "The budget of the link from robot A to robot B", cli::link);
+    add_file(link, a, any_file);
+    link.add_option("A", a.from, "transmitting robot")->required();
+    link.add_option("B", a.to, "receiving robot")->required();
+    link.add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
+    add_json(link, a.json);
+}
+
+void add_links(CLI::App& app) {
+    const auto [links, a] = add_command(app, "links", "What every robot's radio hears", cli::links);
+    add_file(links, a, any_file);
+    links.add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
+    links.add_option("--robot", a.robot, "of this robot only");
+    CLI::Option* history =
+        links.add_flag("--history", a.history, "every link change of the run, as CSV");
+    links.add_flag("--json", a.json, "print one JSON document")->excludes(history);
+}
+
+void add_scene(CLI::App& app) {
+    const auto [scene, a] =
+        add_command(app, "scene", "The map, the robots and how links join them", cli::scene);
+    add_file(scene, a, "as for run; or a map alone: map.yaml, or a picture with --size");
+    scene.add_option("--size", a.size, "of a picture, in metres: 16x16");
+    scene.add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
+    scene.add_flag("--json", a.json, "print one JSON document, with every wall");
+}
+
+void add_where(CLI::App& app) {
+    const auto [where, a] = add_command(app, "where", "Where every robot is", cli::where);
+    add_file(where, a, any_file);
+    where.add_option("--at", a.at, "times of the run, such as 10s,31.25s")
+        ->delimiter(',')
+        ->required();
+    add_json(where, a.json);
+}
+
+void add_draw(CLI::App& app) {
+    const auto [draw, a] = add_command(app, "draw", "Draw map, robots and radio", cli::draw);
+    add_file(draw, a, any_file);
+    draw.add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
+    draw.add_option("--coverage", a.coverage, "robot whose received power is shown");
+    draw.add_flag("--links", a.links, "show who hears whom");
+    draw.add_flag("--trails", a.trails, "show where the robots have been");
+    draw.add_option("--width", a.width, "of the picture, in pixels")
+        ->check(CLI::Range(100, 10000))
+        ->capture_default_str();
+    draw.add_option("-o,--output", a.out, "picture to write: NAME.svg or NAME.png")->required();
+}
+
+void add_move(CLI::App& app) {
+    CLI::App* move = app.add_subcommand("move", "Work with movement files");
+    move->require_subcommand(1);
+    const auto [convert, a] =
+        add_command(*move, "convert", "Write the motion of a scenario or movement file for others",
+                    cli::convert_movements);
+    add_file(convert, a, any_file);
+    convert.add_option("OUT", a.out, "NAME.tcl (ns-2) or NAME.movements (BonnMotion)")->required();
+}
+
+}  // namespace
+
+void add_scene_commands(CLI::App& app) {
+    add_link(app);
+    add_links(app);
+    add_scene(app);
+    add_where(app);
+    add_draw(app);
+    add_move(app);
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "cli/options.hpp"
+
+namespace rovernet::cli {
+namespace {
+
+void add_models(CLI::App& app) {
+    const auto [models, a] =
+        add_command(app, "models", "List the propagation models and their parameters", cli::models);
+    add_json(models, a.json);
+}
+
+void add_loss(CLI::App& app) {
+    const auto [loss, a] = add_command(
+        app, "loss", "Median path loss of a propagation model over distance", cli::loss);
+    loss.add_option("MODEL", a.model, "its name; see rovernet models")->required();
+    loss.add_option("PARAMETERS", a.parameters, "param=value ...");
+    loss.add_option("--frequency", a.frequency, "such as \"2450 MHz\"")->capture_default_str();
+    loss.add_option("--distance", a.distances, "such as 1,10,100 or \"1 km\"")
+        ->delimiter(',')
+        ->required();
+    loss.add_option("--wall", a.wall, "length of wall on the way, such as 0.5");
+    add_json(loss, a.json);
+}
+
+void add_bench(CLI::App& app) {
+    CLI::App* bench = app.add_subcommand("bench", "Measure the speed of this build here");
+    bench->require_subcommand(1);
+    const auto [flood, a] =
+        add_command(*bench, "flood", "CPU time of floods, per reception", cli::bench_flood);
+    flood.add_option("--nodes", a.bench.nodes, "sizes of network, such as 1000,10000")
+        ->delimiter(',')
+        ->check(CLI::Range(2, 10'000'000))
+        ->capture_default_str();
+    flood.add_option("--reception", a.reception, "threshold, collision or sinr")
+        ->capture_default_str();
+    flood.add_option("--access", a.access, "none, aloha or csma")->capture_default_str();
+    flood.add_option("--mobility", a.mobility, "static or random_waypoint")->capture_default_str();
+    flood.add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    flood.add_flag("--in-order", a.bench.in_order,
+                   "look at all receptions in their order, as a trace does");
+    flood.add_option("--cpu", a.bench.cpu_s, "seconds of CPU for each size, at least")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    flood.add_option("--seed", a.bench.seed, "of every random draw")->capture_default_str();
+    add_json(flood, a.json);
+}
+
+void add_trace(CLI::App& app) {
+    CLI::App* trace = app.add_subcommand("trace", "Work with trace files");
+    trace->require_subcommand(1);
+    const auto [stats, a] = add_command(
+        *trace, "stats", "The metrics of an ns-2 trace written by rovernet", cli::trace_stats);
+    stats.add_option("FILE", a.file, "trace file (.tr)")->required();
+    add_json(stats, a.json);
+}
+
+void add_version(CLI::App& app) {
+    const auto [version, a] =
+        add_command(app, "version", "Print the version and how it was built", cli::print_version);
+    add_json(version, a.json);
+}
+
+}  // namespace
+
+void add_tool_commands(CLI::App& app) {
+    add_models(app);
+    add_loss(app);
+    add_trace(app);
+    add_bench(app);
+    add_version(app);
+}
+
+}  // namespace rovernet::cli
