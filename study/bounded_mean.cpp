@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "study/bounded_mean.hpp"
+
+#include "sim/math.hpp"
+#include "study/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace rovernet {
+namespace {
+
+constexpr std::size_t gamblers = 16;
+using Gamblers = std::array<double, gamblers>;
+
+constexpr int bisections = 40;  // of [0, 1]: to 1e-12
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Gamblers chebyshev_shares() {
+    Gamblers shares{};
+    for (std::size_t k = 0; k < gamblers; ++k) {
+        const double angle = static_cast<double>(2 * k + 1) * std::numbers::pi / (2 * gamblers);
+        shares[k] = (1 - math::sincos(angle).cos) / 2;
+    }
+    return shares;
+}
+
+/// What each gambler stakes in every round, of his money [-].
+const Gamblers& shares() {
+    static const Gamblers values = chebyshev_shares();
+    return values;
+}
+
+/// Whether the gamblers who bet on "above m" have together had `enough` at some time.
+bool ever_rich(std::span<const double> values, double m, double enough) {
+    constexpr double ruined = 1e-250;  // less is dropped: subnormal numbers are slow
+    const Gamblers& share = shares();
+    Gamblers wealth;
+    wealth.fill(1.0 / gamblers);
+    for (const double x : values) {
+        const double gain = x / m - 1;
+        double sum = 0;
+        for (std::size_t k = 0; k < gamblers; ++k) {
+            const double w = wealth[k] * (1 + share[k] * gain);
+            wealth[k] = w < ruined ? 0 : w;
+            sum += wealth[k];
+        }
+        if (sum >= enough) return true;
+    }
+    return false;
+}
+
+/// The lower end for values in [0, 1]: every m below it has been refuted.
+double lower_end(std::span<const double> values, double enough) {
+    double low = 0, high = 1;
+    for (int i = 0; i < bisections; ++i) {
+        const double m = (low + high) / 2;
+        (ever_rich(values, m, enough) ? low : high) = m;
+    }
+    return low;
+}
+
+/// The values as shares of the range, and as what is left of it.
+struct Scaled {
+    std::vector<double> values, mirrored;
+};
+
+Scaled scaled(std::span<const double> values, const Bounds& bounds) {
+    const double width = *bounds.high - *bounds.low;
+    Scaled result;
+    for (const double v : values) {
+        const double x = std::clamp((v - *bounds.low) / width, 0.0, 1.0);
+        result.values.push_back(x);
+        result.mirrored.push_back(1 - x);
+    }
+    return result;
+}
+
+double mean_of(std::span<const double> values) {
+    double sum = 0;
+    for (const double v : values) sum += v;
+    return sum / static_cast<double>(values.size());
+}
+
+/// The wealth at which m is refuted, one of two sides.
+double enough_for(double confidence) { return 2 / (1 - confidence); }
+
+void check(std::span<const double> values, const Bounds& bounds, double confidence) {
+    constexpr std::string_view owner = "bounded_mean";
+    check_finite(values, owner);
+    check_open_unit(confidence, "confidence", owner);
+    if (values.empty()) throw std::invalid_argument("bounded_mean: needs a value");
+    if (!bounds.closed() || !(*bounds.low < *bounds.high)) {
+        throw std::invalid_argument("bounded_mean: needs a lower and an upper bound");
+    }
+    if (bounds.hold(values)) return;
+    throw std::invalid_argument(
+        fmt::format("bounded_mean: a value is not from {} to {}", *bounds.low, *bounds.high));
+}
+
+/// How fast each gambler's wealth grows by value, its logarithm, when he bets on "above m".
+Gamblers growth(std::span<const double> values, double m) {
+    Gamblers result{};
+    for (std::size_t k = 0; k < gamblers; ++k) {
+        double product = 1, sum = 0;
+        for (const double x : values) {
+            product *= 1 + shares()[k] * (x / m - 1);
+            if (product > 1e-100 && product < 1e100) continue;
+            sum += math::log(product);
+            product = 1;
+        }
+        result[k] = (sum + math::log(product)) / static_cast<double>(values.size());
+    }
+    return result;
+}
+
+/// After how many values like these m is refuted; infinitely many if their mean is not above it.
+double values_to_refute(std::span<const double> values, double m, double enough) {
+    if (m <= 0) return 0;
+    const Gamblers rate = growth(values, m);
+    const auto rich_after = [&](double n) {
+        double sum = 0;
+        for (const double each : rate) sum += math::exp(std::min(n * each, 700.0)) / gamblers;
+        return sum >= enough;
+    };
+    constexpr double most = 1e12;
+    if (!rich_after(most)) return infinity;
+    double few = 0, many = most;
+    while (many - few > 0.5) {
+        const double middle = (few + many) / 2;
+        (rich_after(middle) ? many : few) = middle;
+    }
+    return many;
+}
+
+}  // namespace
+
+BoundedMean bounded_mean(std::span<const double> values, const Bounds& bounds, double confidence) {
+    check(values, bounds, confidence);
+    const Scaled x = scaled(values, bounds);
+    const double enough = enough_for(confidence);
+    double low = lower_end(x.values, enough);
+    double high = 1 - lower_end(x.mirrored, enough);
+    if (low > high) std::swap(low, high);  // no m is left: the values have drifted
+    const double mean = mean_of(x.values);
+    const double width = *bounds.high - *bounds.low;
+    return {*bounds.low + width * std::min(low, mean), *bounds.low + width * std::max(high, mean)};
+}
+
+std::optional<std::size_t> bounded_mean_replications(std::span<const double> values,
+                                                     const Bounds& bounds, double wanted,
+                                                     double confidence) {
+    check(values, bounds, confidence);
+    if (!(wanted > 0)) {
+        throw std::invalid_argument(
+            fmt::format("bounded_mean_replications: the half-width must be > 0, got {}", wanted));
+    }
+    const Scaled x = scaled(values, bounds);
+    const double enough = enough_for(confidence);
+    const double mean = mean_of(x.values);
+    // The ends mean - below and mean + above, below + above = width, that take as many values.
+    const double width = 2 * wanted / (*bounds.high - *bounds.low);
+    double low = 0, high = width, needed = infinity;
+    for (int i = 0; i < bisections && needed > 0; ++i) {
+        const double below = (low + high) / 2;
+        const double down = values_to_refute(x.values, mean - below, enough);
+        const double up = values_to_refute(x.mirrored, 1 - mean - (width - below), enough);
+        needed = std::min(needed, std::max(down, up));
+        (down > up ? low : high) = below;
+    }
+    constexpr double most = 1e9;
+    if (needed > most) return std::nullopt;
+    return std::max(values.size(), static_cast<std::size_t>(std::ceil(needed)));
+}
+
+}  // namespace rovernet
