@@ -16,8 +16,8 @@ std::string coordinates(Vec3 p) { return fmt::format("({}, {})", p.x, p.y); }
 
 }  // namespace
 
-MotionBuilder::MotionBuilder(const Network& network, const Scenario& scenario)
-    : network_(network), scenario_(scenario), planners_(network.scene()) {
+MotionBuilder::MotionBuilder(Network& network, const Scenario& scenario)
+    : network_(network), scenario_(scenario) {
     std::uint32_t next = 0;
     for (const RobotTable& table : scenario.robots) {
         for (int i = 0; i < table.count.value_or(1); ++i) {
@@ -95,7 +95,7 @@ Step MotionBuilder::first_step(Movement movement, const RobotTable& robot, const
     Mover mover{.now = start_of_run,
                 .position = from,
                 .radius = robot.radius,
-                .planners = planners_,
+                .planners = network_.planners(),
                 .legs = network_.legs(),
                 .heading = robot.heading.value,
                 .top_speed = robot.top_speed.value_or(Mover::any_speed),
@@ -164,7 +164,7 @@ Movement MotionBuilder::make(Model model, const MoveTable& move, const RobotTabl
 
 void MotionBuilder::check_way(Vec3 from, Vec3 to, const RobotTable& robot, const Location& where) {
     if (network_.scene().open_field()) return;
-    if (planners_.of_radius(robot.radius).shortest_path(from, to)) return;
+    if (network_.planners().of_radius(robot.radius).has_way(from, to)) return;
     const bool fits_there = network_.scene().inside_map(to) && fits(to, robot.radius);
     throw InputError(where, fmt::format("move: no way from {} m to {} m for a robot of radius {} "
                                         "m: {}; expected a place that can be reached",

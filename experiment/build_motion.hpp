@@ -3,7 +3,6 @@
 
 #include "experiment/network.hpp"
 #include "experiment/scenario.hpp"
-#include "mobility/planners.hpp"
 
 #include <map>
 #include <string>
@@ -18,7 +17,7 @@ class MotionBuilder {
     static constexpr Plan from_the_start = 0;
 
     /// Both must outlive it.
-    MotionBuilder(const Network& network, const Scenario& scenario);
+    MotionBuilder(Network& network, const Scenario& scenario);
 
     /// Where the robot starts. @throws InputError if there is no room for it
     Vec3 start(const RobotTable& table, const std::string& name);
@@ -33,8 +32,6 @@ class MotionBuilder {
     Vec3 drawn_place(const RobotTable& table, const std::string& name) const;
     Vec3 place_of_model(const RobotTable& table, const std::string& name);
     Step first_step(Movement movement, const RobotTable& robot, const std::string& name, Vec3 from);
-    void try_out(const Movement& movement, const MoveTable& move, const RobotTable& robot,
-                 const std::string& name, Vec3 from);
     void check_way(Vec3 from, Vec3 to, const RobotTable& robot, const Location& where);
 
     Movement make(const FixedTable&, const MoveTable&, const RobotTable&, const std::string&, Vec3,
@@ -49,9 +46,8 @@ class MotionBuilder {
     Movement make(Model model, const MoveTable& move, const RobotTable& robot,
                   const std::string& name, Vec3 from, Plan plan);
 
-    const Network& network_;
+    Network& network_;
     const Scenario& scenario_;
-    Planners planners_;
     std::map<std::string, NodeId, std::less<>> ids_;  // of all robots, built or to be
 };
 

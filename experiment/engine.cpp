@@ -28,7 +28,7 @@ std::optional<Db> interference_cut(const ReceptionRung& rung) {
 Engine::Engine(NetworkSettings settings)
     : settings_(std::move(settings)),
       scene_(settings_.scene ? settings_.scene.get() : &open_field()),
-      planners_(*scene_),
+      planners_(settings_.planners ? settings_.planners : std::make_shared<Planners>(*scene_)),
       medium_({.scene = scene_,
                .floor_height = settings_.floor_height,
                .propagation_delay = settings_.propagation_delay,
@@ -39,6 +39,9 @@ Engine::Engine(NetworkSettings settings)
       frames_meet_(!std::holds_alternative<Threshold>(settings_.reception)) {
     if (!positive.contains(settings_.floor_height.value)) {
         throw_out_of_range("network", "floor_height", positive.text, settings_.floor_height.value);
+    }
+    if (&planners_->scene() != scene_) {
+        throw std::invalid_argument("network: planners must be those of its scene");
     }
     for (const Duration d : {settings_.links.tolerance, settings_.links.min_dwell}) {
         if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));

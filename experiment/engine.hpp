@@ -82,7 +82,7 @@ class Engine final : public LinkLayer, public Air {
     // What the public class shows.
     NetworkSettings settings_;
     const Scene* scene_;
-    Planners planners_;
+    std::shared_ptr<Planners> planners_;
     Medium medium_;
     Legs legs_;
     Chunks<Node> nodes_;  // stable: a reaction may add robots

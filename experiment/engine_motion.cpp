@@ -78,7 +78,7 @@ Mover Engine::mover(NodeId id) {
     return {.now = now_,
             .position = legs_.position(id, now_),
             .radius = body(id).radius,
-            .planners = planners_,
+            .planners = *planners_,
             .legs = legs_,
             .heading = wrapped(legs_.leg(id).heading_at(now_)),
             .top_speed = body(id).top_speed,

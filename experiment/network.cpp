@@ -112,6 +112,7 @@ void Network::find_hearers(NodeId node, std::vector<NodeId>& out) {
 const Legs& Network::legs() const { return engine_->legs_; }
 const Medium& Network::medium() const { return engine_->medium_; }
 const Scene& Network::scene() const { return *engine_->scene_; }
+Planners& Network::planners() { return *engine_->planners_; }
 
 MetricValues Network::metrics() const {
     if (!engine_->metrics_) throw std::invalid_argument("this network was made without metrics");

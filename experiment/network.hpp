@@ -55,12 +55,14 @@ struct NetworkSettings {
     std::uint32_t replication = 0;
     Propagation propagation = Friis{};             ///< of robots that do not have their own
     std::shared_ptr<const Scene> scene = nullptr;  ///< null: an open field
-    Meters floor_height{3};                        ///< [m] of one storey
-    LinkSearch links = {};                         ///< how link changes are looked for
-    ReceptionRung reception = Threshold{};         ///< what becomes of frames at a receiver
-    AccessRung access = NoAccess{};                ///< how robots get access to the medium
-    bool propagation_delay = true;                 ///< frames travel at the speed of light
-    std::uint64_t event_limit = 100'000'000;       ///< a run that needs more events fails
+    /// Planners of the scene, if some are kept from an earlier run in it; see KeptPlanners.
+    std::shared_ptr<Planners> planners = nullptr;
+    Meters floor_height{3};                   ///< [m] of one storey
+    LinkSearch links = {};                    ///< how link changes are looked for
+    ReceptionRung reception = Threshold{};    ///< what becomes of frames at a receiver
+    AccessRung access = NoAccess{};           ///< how robots get access to the medium
+    bool propagation_delay = true;            ///< frames travel at the speed of light
+    std::uint64_t event_limit = 100'000'000;  ///< a run that needs more events fails
     /// For tests: looks at every pair of robots and serves every reception by an event of its own.
     /// Slow, and the same to the last record.
     bool reference = false;
@@ -152,6 +154,7 @@ class Network {
     const Legs& legs() const;
     const Medium& medium() const;
     const Scene& scene() const;
+    Planners& planners();  ///< ways around the scene's walls
     /// What happened so far. @throws std::invalid_argument if settings.metrics is off
     MetricValues metrics() const;
 

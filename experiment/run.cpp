@@ -100,7 +100,7 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     result.started = utc_now();
     const auto started = WallClock::now();
     NetworkSettings settings = network_settings(scenario);
-    settings.warmup = warmup_of(scenario);
+    settings.warmup = warmup_of(scenario, settings);
     Network network(settings);
     populate(network, scenario);
 

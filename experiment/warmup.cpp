@@ -5,13 +5,14 @@
 #include "experiment/mser5.hpp"
 #include "traces/delivery_series.hpp"
 
+#include <utility>
+
 namespace rovernet {
 
-Duration warmup_of(const Scenario& scenario) {
+Duration warmup_of(const Scenario& scenario, NetworkSettings settings) {
     if (!scenario.study.warmup.mser5) return scenario.study.warmup.given;
-    NetworkSettings settings = network_settings(scenario);
     settings.metrics = false;
-    Network network(settings);
+    Network network(std::move(settings));
     populate(network, scenario);
     const auto series = std::make_shared<DeliverySeries>();
     network.add_sink(series);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/network.hpp"
 #include "experiment/scenario.hpp"
 
 namespace rovernet {
 
 /// How long after the start of a scenario's run its metrics begin, as [study] warmup says. With
 /// "mser5" it makes a first run and applies mser5() to the series of each message's delivery ratio.
-Duration warmup_of(const Scenario& scenario);
+/// @param settings  network_settings(scenario), and planners that are kept
+Duration warmup_of(const Scenario& scenario, NetworkSettings settings);
 
 }  // namespace rovernet

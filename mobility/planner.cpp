@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -112,6 +113,11 @@ Path pulled_tight(const Scene& scene, Meters radius, const Path& cells) {
     return better ? both : forward;
 }
 
+/// The numbers as they are in memory: -0 is another than 0.
+std::array<std::uint64_t, 6> bits_of(const std::array<double, 6>& numbers) {
+    return std::bit_cast<std::array<std::uint64_t, 6>>(numbers);
+}
+
 Meters checked(Meters radius) {
     if (radius.value >= 0 && std::isfinite(radius.value)) return radius;
     throw std::invalid_argument(
@@ -126,22 +132,38 @@ Planner::Planner(const Scene& scene, Meters radius)
       space_(scene, radius),
       search_(scene.frame(), scene.grid().columns) {}
 
-std::optional<std::vector<Vec3>> Planner::shortest_path(Vec3 from, Vec3 to) {
-    const Scene& scene = *scene_;
-    if (!scene.inside_map(from) || !scene.inside_map(to)) return std::nullopt;
-    if (scene.passable(from, to, radius_)) return Path{from, to};
-    const PathEnd start = joined_to_cells(scene, radius_, space_.free, from);
-    const PathEnd goal = joined_to_cells(scene, radius_, space_.free, to);
-    if (!joined(start, goal, space_.part)) return std::nullopt;
+/// The ends of a way around obstacles; none if there is none.
+std::optional<Planner::Ends> Planner::ends(Vec3 from, Vec3 to) const {
+    Ends ends{joined_to_cells(*scene_, radius_, space_.free, from),
+              joined_to_cells(*scene_, radius_, space_.free, to)};
+    if (!joined(ends.start, ends.goal, space_.part)) return std::nullopt;
+    return ends;
+}
 
-    const std::vector<int> cells = search_.shortest_way(space_.steps, start, goal);
-    if (cells.empty()) return std::nullopt;
-    const int columns = scene.grid().columns;
+bool Planner::has_way(Vec3 from, Vec3 to) const {
+    return scene_->inside_map(from) && scene_->inside_map(to) &&
+           (scene_->passable(from, to, radius_) || ends(from, to));
+}
+
+std::optional<std::vector<Vec3>> Planner::shortest_path(Vec3 from, Vec3 to) {
+    if (!scene_->inside_map(from) || !scene_->inside_map(to)) return std::nullopt;
+    if (scene_->passable(from, to, radius_)) return Path{from, to};
+    constexpr std::size_t most_known = 4096;
+    const Question question = bits_of({from.x, from.y, from.z, to.x, to.y, to.z});
+    if (const auto found = known_.find(question); found != known_.end()) return found->second;
+    if (known_.size() == most_known) known_.clear();
+    return known_.emplace(question, path_around(from, to)).first->second;
+}
+
+std::optional<std::vector<Vec3>> Planner::path_around(Vec3 from, Vec3 to) {
+    const auto found = ends(from, to);
+    if (!found) return std::nullopt;
+    const int columns = scene_->grid().columns;
     Path path{from};
-    for (const int cell : cells)
-        path.push_back(scene.frame().to_world(centre(cell % columns, cell / columns), from.z));
+    for (const int cell : search_.shortest_way(space_.steps, found->start, found->goal))
+        path.push_back(scene_->frame().to_world(centre(cell % columns, cell / columns), from.z));
     path.push_back(to);
-    return pulled_tight(scene, radius_, path);
+    return pulled_tight(*scene_, radius_, path);
 }
 
 std::optional<std::vector<Vec3>> shortest_path(const Scene& scene, Vec3 from, Vec3 to,

@@ -10,6 +10,9 @@
 namespace rovernet {
 
 /// The planners of one scene, one for each radius of robot, made when first asked for.
+///
+/// A planner's answers do not depend on what it was asked before: runs in one scene may share its
+/// planners, one run after the other.
 class Planners {
   public:
     /// The scene must outlive the planners.

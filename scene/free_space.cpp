@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -10,89 +12,170 @@ namespace {
 /// Half of what Scene::passable allows [m], so that every step found here is passable there.
 constexpr double touching = 0.5e-9;
 
-/// Squared distance along one axis from a cell's centre to the cells low to high - 1 [m^2].
-double squared_gap(int cell, int low, int high, double side) {
-    const double gap = std::max({0.0, low - (cell + 0.5), cell + 0.5 - high}) * side;
+/// Squared distance along one axis from the centre of the cell that lies `beyond` cells beyond a
+/// rectangle's side [m^2]; 0: within the rectangle's rows or columns.
+double squared_gap(int beyond, double side) {
+    const double gap = std::max(0.0, beyond - 0.5) * side;
     return gap * gap;
 }
 
-/// Marks the cells whose centre is inside a rectangle or nearer to it than `reach` [m].
-void take_away(std::vector<std::uint8_t>& free, const OccupancyGrid& grid, const CellRectangle& r,
-               double reach) {
-    const auto cells = [&](double side, int most) {
-        return static_cast<int>(std::min(reach / side, most + 0.0)) + 1;
-    };
-    const int aside = cells(grid.cell_width, grid.columns);
-    const int above = cells(grid.cell_height, grid.rows);
-    const int left = std::max(r.column0 - aside, 0);
-    const int right = std::min(r.column1 + aside, grid.columns);
-    const int top = std::min(r.row1 + above, grid.rows);
-    std::vector<double> across;
-    for (int column = left; column < right; ++column)
-        across.push_back(squared_gap(column, r.column0, r.column1, grid.cell_width));
-    for (int row = std::max(r.row0 - above, 0); row < top; ++row) {
-        const double up = squared_gap(row, r.row0, r.row1, grid.cell_height);
-        std::uint8_t* cell = free.data() + std::ptrdiff_t{row} * grid.columns + left;
-        for (const double gap : across) {
-            const double squared = gap + up;
-            *cell++ &= squared > 0 && squared >= reach * reach;
+/// Cells beside a rectangle whose centres lie nearer to it than `reach` [m], row by row.
+///
+/// They depend on the row's distance from the rectangle only, so all rectangles share them.
+class Margin {
+  public:
+    Margin(const OccupancyGrid& grid, double reach) {
+        const auto cells = [&](double side, int most) {
+            return static_cast<int>(std::min(reach / side, most + 0.0)) + 1;
+        };
+        int columns = cells(grid.cell_width, grid.columns);
+        for (int row = 0; row <= cells(grid.cell_height, grid.rows); ++row) {
+            const double up = squared_gap(row, grid.cell_height);
+            const auto too_near = [&](int column) {
+                const double squared = squared_gap(column, grid.cell_width) + up;
+                return !(squared > 0 && squared >= reach * reach);
+            };
+            while (columns >= 0 && !too_near(columns)) --columns;
+            if (columns < 0) break;
+            columns_.push_back(columns);
         }
+    }
+
+    /// Rows above the rectangle, and below it, that have such cells.
+    int rows() const { return static_cast<int>(columns_.size()) - 1; }
+    /// Such columns on each side, in the row that lies `beyond` rows beyond the rectangle's side.
+    int columns(int beyond) const { return columns_[static_cast<std::size_t>(beyond)]; }
+
+  private:
+    std::vector<int> columns_;  // by `beyond`; never none: a rectangle's own cells are too near
+};
+
+/// Marks the cells whose centre is inside a rectangle or in the margin around it.
+void take_away(std::vector<std::uint8_t>& free, const OccupancyGrid& grid, const CellRectangle& r,
+               const Margin& margin) {
+    const int top = std::min(r.row1 + margin.rows(), grid.rows);
+    for (int row = std::max(r.row0 - margin.rows(), 0); row < top; ++row) {
+        const int aside = margin.columns(std::max({0, r.row0 - row, row + 1 - r.row1}));
+        const int left = std::max(r.column0 - aside, 0);
+        const int right = std::min(r.column1 + aside, grid.columns);
+        const auto cells = free.begin() + std::ptrdiff_t{row} * grid.columns;
+        std::fill(cells + left, cells + right, std::uint8_t{0});
     }
 }
 
-/// Fills space.part, one part after the other, from its first cell on.
-void number_parts(FreeSpace& space, int columns) {
-    std::int32_t number = 0;
-    std::vector<std::size_t> open;
-    for (std::size_t first = 0; first < space.free.size(); ++first) {
-        if (!space.free[first] || space.part[first] >= 0) continue;
-        space.part[first] = number;
-        open.assign(1, first);
-        while (!open.empty()) {
-            const std::size_t cell = open.back();
-            open.pop_back();
-            for (std::size_t d = 0; d < cell_steps.size(); ++d) {
-                if (!(space.steps[cell] >> d & 1)) continue;
-                const std::size_t next =
-                    cell + static_cast<std::size_t>(
-                               std::ptrdiff_t{cell_steps[d].row * columns + cell_steps[d].column});
-                if (space.part[next] >= 0) continue;
-                space.part[next] = number;
-                open.push_back(next);
-            }
+/// The steps from each cell, where `free` tells the free cells.
+std::vector<std::uint8_t> steps_between(const std::vector<std::uint8_t>& free,
+                                        const OccupancyGrid& grid) {
+    const auto columns = static_cast<std::size_t>(grid.columns);
+    const auto rows = static_cast<std::size_t>(grid.rows);
+    const std::size_t stride = columns + 2;
+    // All bits of a byte are set for a free cell; a border of cells around them is not free.
+    std::vector<std::uint8_t> bits(stride * (rows + 2), 0);
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t i = 0; i < columns; ++i)
+            bits[(row + 1) * stride + i + 1] = free[row * columns + i] ? 0xff : 0;
+    std::vector<std::uint8_t> steps(free.size());
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::uint8_t* const here = bits.data() + (row + 1) * stride + 1;
+        const std::uint8_t *const above = here + stride, *const below = here - stride;
+        std::uint8_t* const out = steps.data() + row * columns;
+        // Seen from a rectangle of whole cells, the nearest point of the square between four
+        // centres is one of the centres. So where they are free, every way inside the square is
+        // passable.
+        for (std::size_t i = 0; i < columns; ++i) {
+            const int east = here[i + 1], north = above[i], west = here[i - 1], south = below[i];
+            out[i] = static_cast<std::uint8_t>(
+                here[i] & ((east & 0x01) | (east & north & above[i + 1] & 0x02) | (north & 0x04) |
+                           (north & west & above[i - 1] & 0x08) | (west & 0x10) |
+                           (west & south & below[i - 1] & 0x20) | (south & 0x40) |
+                           (south & east & below[i + 1] & 0x80)));
         }
-        ++number;
     }
+    return steps;
 }
+
+/// Free cells side by side in one row.
+struct FreeRun {
+    std::size_t begin, end;  // cells
+    std::size_t first;       // the run of the same part that was found first, as far as known
+};
+
+/// The free cells as runs, in order; those of each row, that of below, are joined where they touch.
+///
+/// Diagonal steps join nothing that straight steps do not.
+class FreeRuns {
+  public:
+    FreeRuns(const std::vector<std::uint8_t>& free, std::size_t columns) {
+        std::size_t below = 0, row_begin = 0;  // first runs of the row below and of the row
+        for (std::size_t row = 0; row < free.size(); row += columns) {
+            add_row(free, row, row + columns);
+            join_rows(below, row_begin, columns);
+            below = std::exchange(row_begin, runs_.size());
+        }
+    }
+
+    /// Numbers the parts in the order of their first cells.
+    void number_parts(std::vector<std::int32_t>& part) const {
+        std::vector<std::int32_t> numbers(runs_.size());
+        std::int32_t next = 0;
+        for (std::size_t i = 0; i < runs_.size(); ++i) {
+            const FreeRun& run = runs_[i];
+            numbers[i] = run.first == i ? next++ : numbers[run.first];
+            const auto cells = part.begin();
+            std::fill(cells + static_cast<std::ptrdiff_t>(run.begin),
+                      cells + static_cast<std::ptrdiff_t>(run.end), numbers[i]);
+        }
+    }
+
+  private:
+    void add_row(const std::vector<std::uint8_t>& free, std::size_t cell, std::size_t end) {
+        const auto find = [&](std::uint8_t what) {
+            const void* found = std::memchr(free.data() + cell, what, end - cell);
+            cell = found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) -
+                                                    free.data())
+                         : end;
+            return cell;
+        };
+        while (find(1) < end) {
+            const std::size_t begin = cell;
+            runs_.push_back({begin, find(0), runs_.size()});
+        }
+    }
+
+    /// Joins the runs from `row` on with those of the row below, which are from `below` on.
+    void join_rows(std::size_t below, std::size_t row, std::size_t columns) {
+        for (std::size_t low = below, high = row; low < row && high < runs_.size();) {
+            const std::size_t begin = runs_[low].begin + columns, end = runs_[low].end + columns;
+            if (begin < runs_[high].end && runs_[high].begin < end) join(low, high);
+            end < runs_[high].end ? ++low : ++high;
+        }
+    }
+
+    std::size_t root(std::size_t run) {
+        while (runs_[run].first != run) {
+            run = runs_[run].first = runs_[runs_[run].first].first;
+        }
+        return run;
+    }
+    void join(std::size_t a, std::size_t b) {
+        const auto [first, later] = std::minmax({root(a), root(b)});
+        runs_[later].first = first;
+    }
+
+    std::vector<FreeRun> runs_;
+};
 
 }  // namespace
 
 FreeSpace::FreeSpace(const Scene& scene, Meters radius)
-    : free(scene.grid().cells.size(), 1),
-      steps(scene.grid().cells.size(), 0),
-      part(scene.grid().cells.size(), -1) {
+    : free(scene.grid().cells.size(), 1), part(scene.grid().cells.size(), -1) {
     const OccupancyGrid& grid = scene.grid();
-    const double reach = std::max(radius.value - touching, 0.0);
-    for (const CellRectangle& r : scene.obstacles()) take_away(free, grid, r, reach);
-
-    const auto index = [&](int column, int row) {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
-               static_cast<std::size_t>(column);
-    };
-    const auto is_free = [&](int column, int row) {
-        return column >= 0 && column < grid.columns && row >= 0 && row < grid.rows &&
-               free[index(column, row)];
-    };
-    // Seen from a rectangle of whole cells, the nearest point of the square between four centres is
-    // one of the centres. So where they are free, every way inside the square is passable.
-    for (int row = 0; row < grid.rows; ++row)
-        for (int column = 0; column < grid.columns; ++column)
-            for (std::size_t d = 0; d < cell_steps.size() && is_free(column, row); ++d) {
-                const int i = column + cell_steps[d].column, j = row + cell_steps[d].row;
-                if (is_free(i, j) && is_free(column, j) && is_free(i, row))
-                    steps[index(column, row)] |= static_cast<std::uint8_t>(1 << d);
-            }
-    number_parts(*this, grid.columns);
+    const Margin margin(grid, std::max(radius.value - touching, 0.0));
+    for (const CellRectangle& r : scene.obstacles()) take_away(free, grid, r, margin);
+    steps = steps_between(free, grid);
+    if (!free.empty()) {
+        FreeRuns(free, static_cast<std::size_t>(grid.columns)).number_parts(part);
+    }
 }
 
 }  // namespace rovernet

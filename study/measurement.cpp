@@ -68,14 +68,15 @@ const std::vector<std::string>& metric_names() {
     return names;
 }
 
-Measurement measure(const Scenario& scenario) {
+Measurement measure(const Scenario& scenario, KeptPlanners& kept) {
     Measurement result;
     result.started = utc_now();
     result.host = host_name();
     const auto started = std::chrono::steady_clock::now();
     const double cpu = cpu_seconds();
     NetworkSettings settings = network_settings(scenario);
-    settings.warmup = warmup_of(scenario);
+    settings.planners = kept.of(settings.scene);
+    settings.warmup = warmup_of(scenario, settings);
     Network network(settings);
     populate(network, scenario);
     const auto fingerprint = std::make_shared<Fingerprint>();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/scenario.hpp"
+#include "mobility/kept_planners.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -32,8 +33,10 @@ struct Measurement {
 /// and the time [s] from which on it is measured.
 const std::vector<std::string>& metric_names();
 
-/// Runs a scenario, without writing anything. @throws InputError, RunError
-Measurement measure(const Scenario& scenario);
+/// Runs a scenario, without writing anything.
+/// @param kept  what does not change from run to run in one scene; the result is the same without
+/// @throws InputError, RunError
+Measurement measure(const Scenario& scenario, KeptPlanners& kept);
 
 /// The measurement as a text, and back; for pipes between processes.
 std::string to_text(const Measurement& measurement);

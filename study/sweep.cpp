@@ -100,6 +100,7 @@ class Sweep {
     Store& store_;
     const SweepOptions& options_;
     const std::string version_ = code_version();
+    KeptPlanners kept_;  // each worker has its own: it is a copy of this process
     Workers workers_;
     std::set<std::string> finished_;  // ids of runs here or elsewhere
     std::deque<Task> waiting_;
@@ -117,9 +118,9 @@ Sweep::Sweep(Study& study, Store& store, const SweepOptions& options)
       options_(options),
       workers_(
           options.workers,
-          [&study](std::uint64_t number) {
+          [this](std::uint64_t number) {
               const Task task = Task::of(number);
-              return to_text(measure(study.scenario(task.point, task.replication)));
+              return to_text(measure(study_.scenario(task.point, task.replication), kept_));
           },
           options.limits),
       planned_(study.points().size()),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/warmup.hpp"
 
+#include "experiment/build.hpp"
+
 #include "experiment/network.hpp"
 #include "experiment/toml.hpp"
 #include "models/disc.hpp"
@@ -73,8 +75,11 @@ TEST_CASE("warm-up: a message sent at its end counts") {
 }
 
 TEST_CASE("warm-up: it is what the study says, or what MSER-5 finds") {
-    CHECK(warmup_of(deaf_until("20", "7 s")) == Duration{7s});
+    const auto warmup = [](const Scenario& scenario) {
+        return warmup_of(scenario, network_settings(scenario));
+    };
+    CHECK(warmup(deaf_until("20", "7 s")) == Duration{7s});
     // Messages 1 ... 100 s; those up to 20 s reach nobody: the message of 21 s is the first.
-    CHECK(warmup_of(deaf_until("20.5", "mser5")) == Duration{21s});
-    CHECK(warmup_of(deaf_until("0.5", "mser5")) == Duration{0});
+    CHECK(warmup(deaf_until("20.5", "mser5")) == Duration{21s});
+    CHECK(warmup(deaf_until("0.5", "mser5")) == Duration{0});
 }

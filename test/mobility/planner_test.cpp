@@ -209,3 +209,37 @@ TEST_CASE("planner: a radius that is negative or no number is refused") {
     CHECK_THROWS_AS(Planner(field, Meters{std::numeric_limits<double>::quiet_NaN()}),
                     std::invalid_argument);
 }
+
+TEST_CASE("planner: it says that there is a way exactly where it finds one") {
+    test::Draw draw(32);
+    for (const double radius : {0.0, 0.3, 0.7, 1.2}) {
+        const Scene scene(test::random_map(draw, 30, 20, 12));
+        Planner planner(scene, Meters{radius});
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 from{draw.below(320) / 10.0 - 1, draw.below(220) / 10.0 - 1};
+            const Vec3 to{draw.below(320) / 10.0 - 1, draw.below(220) / 10.0 - 1};
+            REQUIRE(planner.has_way(from, to) == planner.shortest_path(from, to).has_value());
+        }
+    }
+}
+
+TEST_CASE("planner: an answer is the same when asked for again, and after many others") {
+    test::Draw draw(33);
+    const Scene scene(test::random_map(draw, 40, 30, 9));
+    Planner planner(scene, 0.3_m);
+    const auto place = [&] { return Vec3{draw.below(400) / 10.0, draw.below(300) / 10.0}; };
+    std::vector<std::pair<Vec3, Vec3>> questions;
+    for (int i = 0; i < 5000; ++i) questions.emplace_back(place(), place());  // more than are kept
+    for (int round = 0; round < 2; ++round)
+        for (const auto& [from, to] : questions) planner.shortest_path(from, to);
+    for (std::size_t i = 0; i < questions.size(); i += 250) {
+        const auto& [from, to] = questions[i];
+        REQUIRE(planner.shortest_path(from, to) == shortest_path(scene, from, to, 0.3_m));
+        REQUIRE(planner.shortest_path(from, to) == shortest_path(scene, from, to, 0.3_m));
+    }
+    Planner other(scene, 0.3_m);
+    for (const double zero : {0.0, -0.0}) {  // a way begins with the very bits of the question
+        const auto path = other.shortest_path({zero, 0.5}, {39.5, 29.5});
+        if (path) CHECK(std::signbit(path->front().x) == std::signbit(zero));
+    }
+}

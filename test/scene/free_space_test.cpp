@@ -71,3 +71,40 @@ TEST_CASE("free space: a corridor as wide as the robot is wide enough in any dec
             CHECK(FreeSpace(scene, Meters{radius + 1e-8}).free[middle] == 0);
         }
 }
+
+TEST_CASE("free space: parts are what steps join, numbered by their first cells") {
+    test::Draw draw(23);
+    for (int trial = 0; trial < 30; ++trial) {
+        const int columns = 1 + draw.below(40), rows = 1 + draw.below(30);
+        const Scene scene(test::random_map(draw, columns, rows, draw.below(60)));
+        const FreeSpace space(scene, Meters{0.1 * draw.below(9)});
+        std::vector<std::int32_t> part(space.part.size(), -1);  // by flooding along the steps
+        std::int32_t number = 0;
+        for (std::size_t first = 0; first < part.size(); ++first) {
+            if (!space.free[first] || part[first] >= 0) continue;
+            std::vector<std::size_t> open{first};
+            while (!open.empty()) {
+                const std::size_t cell = open.back();
+                open.pop_back();
+                part[cell] = number;
+                for (std::size_t d = 0; d < cell_steps.size(); ++d) {
+                    const auto next = static_cast<std::size_t>(
+                        static_cast<std::ptrdiff_t>(cell) +
+                        std::ptrdiff_t{cell_steps[d].row} * columns + cell_steps[d].column);
+                    if ((space.steps[cell] >> d & 1) && part[next] < 0) open.push_back(next);
+                }
+            }
+            ++number;
+        }
+        REQUIRE(space.part == part);
+    }
+}
+
+TEST_CASE("free space: a robot larger than the map, or than any map, fits nowhere beside a wall") {
+    const Scene scene(test::drawn_map({"....", ".#..", "...."}, 0.5));
+    for (const double radius : {10.0, 1e9, 1e300}) {
+        const FreeSpace space(scene, Meters{radius});
+        CHECK(space.free == std::vector<std::uint8_t>(12, 0));
+        CHECK(space.part == std::vector<std::int32_t>(12, -1));
+    }
+}

@@ -93,7 +93,8 @@ TEST_CASE("sweep: a run is what a network of its own gives") {
     const Store store = Store::open(bench.store());
     for (const StoredRun& run : store.runs()) {
         Study study = bench.study();
-        const Measurement alone = measure(study.scenario(run.point, run.replication));
+        KeptPlanners kept;
+        const Measurement alone = measure(study.scenario(run.point, run.replication), kept);
         CHECK(alone.fingerprint == run.measurement.fingerprint);
         const FoundRun found = find_run(store, run.id);
         CHECK(found.run.measurement.metrics == alone.metrics);
@@ -102,8 +103,9 @@ TEST_CASE("sweep: a run is what a network of its own gives") {
 
 TEST_CASE("sweep: a run leaves out its warm-up, and says how long that was") {
     const Bench bench(scattered + "every = \"500 ms\"\n");
+    KeptPlanners kept;
     const auto value = [&](const std::vector<std::string>& set, const std::string& name) {
-        const Measurement m = measure(bench.study(set).scenario(0, 0));
+        const Measurement m = measure(bench.study(set).scenario(0, 0), kept);
         const auto found = std::find_if(m.metrics.begin(), m.metrics.end(),
                                         [&](const MetricValue& v) { return v.name == name; });
         return *found->value;

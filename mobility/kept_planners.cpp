@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "mobility/kept_planners.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rovernet {
+
+std::shared_ptr<Planners> KeptPlanners::of(const std::shared_ptr<const Scene>& scene) {
+    if (!scene) return nullptr;
+    const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                    [&](const Kept& each) { return each.scene == scene; });
+    if (found != kept_.end()) {
+        std::rotate(kept_.begin(), found, found + 1);
+        return kept_.front().planners;
+    }
+    kept_.push_front({scene, std::make_shared<Planners>(*scene)});
+    std::size_t cells = scene->grid().cells.size();
+    const auto too_many = std::find_if(kept_.begin() + 1, kept_.end(), [&](const Kept& each) {
+        return (cells += each.scene->grid().cells.size()) > most_cells_;
+    });
+    kept_.erase(too_many, kept_.end());
+    return kept_.front().planners;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "study/measurement.hpp"
+
+#include "experiment/toml.hpp"
+#include "study/study.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+/// A map of 16 m x 8 m as a picture, one pixel a metre: a wall with one door at row `door`.
+std::string map_with_door(int door) {
+    std::string pixels;
+    for (int row = 0; row < 8; ++row)
+        for (int column = 0; column < 16; ++column)
+            pixels += column == 8 && row != door ? '\0' : '\xff';
+    return "P5\n16 8\n255\n" + pixels;
+}
+
+constexpr const char* walkers = R"([scenario]
+name = "walkers"
+duration = "60 s"
+[scene]
+map = "one.pgm"
+size = ["16 m", "8 m"]
+[propagation]
+model = "raytrace_2007"
+[[robot]]
+name = "A"
+at = ["2 m", "4 m"]
+radius = "0.3 m"
+move = { model = "waypoints", path = [["14 m", "4 m"], ["2 m", "4 m"], ["14 m", "4 m"]], speed = "1 m/s" }
+[[robot]]
+name = "w"
+count = 3
+move = { model = "random_waypoint" }
+[[traffic]]
+from = "A"
+every = "1 s"
+[study]
+replications = 2
+vary.scene.map = ["one.pgm", "two.pgm"]
+vary.robot.A.radius = ["0.3 m", "0.4 m"]
+)";
+
+}  // namespace
+
+TEST_CASE("measurement: runs of several scenes in turn are as each by itself") {
+    test::TemporaryFolder folder;
+    folder.write("one.pgm", map_with_door(1));
+    folder.write("two.pgm", map_with_door(6));
+    folder.write("s.toml", walkers);
+    Study study(folder.path("s.toml"), {});
+    REQUIRE(study.points().size() == 4);
+    KeptPlanners shared;
+    std::vector<std::string> fingerprints;
+    for (std::uint32_t replication = 0; replication < 2; ++replication)
+        for (std::size_t point = 0; point < 4; ++point) {
+            const Scenario scenario = study.scenario(point, replication);
+            KeptPlanners fresh;
+            const Measurement alone = measure(scenario, fresh);
+            const Measurement after_others = measure(scenario, shared);
+            CHECK(after_others.fingerprint == alone.fingerprint);
+            CHECK(after_others.metrics == alone.metrics);
+            fingerprints.push_back(alone.fingerprint);
+        }
+    CHECK(fingerprints[0] != fingerprints[2]);  // the doors lie elsewhere
+}
+
+TEST_CASE("measurement: a map that has changed is read again") {
+    test::TemporaryFolder folder;
+    folder.write("one.pgm", map_with_door(1));
+    folder.write("s.toml", std::string(walkers).substr(0, std::string(walkers).find("[study]")));
+    KeptPlanners kept;
+    const auto fingerprint = [&] {
+        const Scenario scenario = ScenarioFile(folder.path("s.toml"), {}).scenario();
+        KeptPlanners fresh;
+        const Measurement m = measure(scenario, kept);
+        CHECK(m.fingerprint == measure(scenario, fresh).fingerprint);
+        return m.fingerprint;
+    };
+    const std::string before = fingerprint();
+    folder.write("one.pgm", map_with_door(6));
+    CHECK(fingerprint() != before);
+    folder.write("one.pgm", map_with_door(1));
+    CHECK(fingerprint() == before);
+}
