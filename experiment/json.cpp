@@ -60,7 +60,11 @@ std::string to_json_line(const Value& value) { return dump(value, -1); }
 
 Value parse_json(std::string_view text) {
     try {
-        return value_of(Json::parse(text));
+        return value_of(Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
+            constexpr int deepest = 100;  // what we write has a few levels
+            if (depth > deepest) throw InputError({}, "JSON with more than 100 levels");
+            return true;
+        }));
     } catch (const Json::exception& error) {
         throw InputError({}, std::string("not JSON: ") + error.what());
     }

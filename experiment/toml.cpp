@@ -127,7 +127,8 @@ void append_entries(std::string& text, const Table& table) {
 
 bool is_list_of_tables(const Value& value) {
     const Array* list = value.array();
-    return list && !list->empty() && list->front().table();
+    return list && !list->empty() &&
+           std::all_of(list->begin(), list->end(), [](const Value& v) { return v.table(); });
 }
 
 /// The value under `step` of a path, made if it is not there: a key, or in a list an index or name.

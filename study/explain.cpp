@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "study/explain.hpp"
 
-#include "experiment/json.hpp"
 #include "experiment/toml.hpp"
 #include "study/command_words.hpp"
+#include "study/stored_row.hpp"
 
 #include <fmt/format.h>
 
@@ -18,10 +18,19 @@ namespace fs = std::filesystem;
 /// Words that the sweep was given behind its file, such as --set and --seed with theirs.
 std::vector<std::string> options_of(const Store& store) {
     std::vector<std::string> words;
-    const std::string text = store.property("options");
-    if (text.empty()) return words;
-    const Value list = parse_json(text);
-    for (const Value& word : *list.array()) words.push_back(*word.string());
+    const Value options = store.document("options");
+    if (std::holds_alternative<std::monostate>(options.data)) return words;
+    const auto refuse = [&](const Value& found, const char* expected) {
+        throw damaged_store(store.path(),
+                            fmt::format("table study at key options, column value: found {}, "
+                                        "expected {}",
+                                        found.description(), expected));
+    };
+    if (!options.array()) refuse(options, "a list");
+    for (const Value& word : *options.array()) {
+        if (!word.string()) refuse(word, "texts in the list");
+        words.push_back(*word.string());
+    }
     return words;
 }
 

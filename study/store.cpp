@@ -3,26 +3,25 @@
 
 #include "experiment/json.hpp"
 #include "sim/error.hpp"
+#include "study/stored_row.hpp"
+#include "study/write_lock.hpp"
 
 #include <fmt/format.h>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
-#include <chrono>
-#include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <map>
 #include <sqlite3.h>
-#include <sys/file.h>
-#include <thread>
-#include <unistd.h>
 
 namespace rovernet {
 namespace {
 
 constexpr int application = 0x726f766e;  // "rovn"
 constexpr int format = 1;
+
+constexpr const char* property_query =
+    "SELECT key AS \"study.key\", value AS \"study.value\" FROM study WHERE key = ?";
 
 constexpr const char* schema = R"(
 CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -44,37 +43,6 @@ CREATE VIEW result AS
          JOIN metric_name ON metric_name.key = metric.name;
 )";
 
-/// The right to write, held until the file is closed.
-class WriteLock {
-  public:
-    explicit WriteLock(const std::string& path)
-        : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-        if (file_ < 0) {
-            throw RunError(
-                fmt::format("{}: cannot be written ({}); check the folder and its "
-                            "permissions, or give another with --store",
-                            path, std::strerror(errno)));
-        }
-        using namespace std::chrono_literals;
-        // The workers of a sweep that was killed may hold it for a moment longer.
-        for (int i = 0; flock(file_, LOCK_EX | LOCK_NB) != 0; ++i) {
-            if (i == 100) {
-                close(file_);
-                throw RunError(path +
-                               ": another sweep is writing to this store; wait for its end, "
-                               "or give another with --store");
-            }
-            std::this_thread::sleep_for(10ms);
-        }
-    }
-    ~WriteLock() { close(file_); }
-    WriteLock(const WriteLock&) = delete;
-    WriteLock& operator=(const WriteLock&) = delete;
-
-  private:
-    int file_;
-};
-
 /// Runs `act`; what SQLite throws becomes an error that a user can mend.
 auto told(const std::string& path, auto&& act) {
     try {
@@ -83,6 +51,8 @@ auto told(const std::string& path, auto&& act) {
         switch (error.getErrorCode()) {
             case SQLITE_NOTADB:
             case SQLITE_CORRUPT: throw InputError({path}, "no store of a study, or a damaged one");
+            case SQLITE_ERROR:  // a statement of ours does not fit the tables that there are
+            case SQLITE_MISMATCH: throw damaged_store(path, error.what());
             case SQLITE_FULL:
                 throw RunError(path +
                                ": the disk is full; what was finished is kept: make room "
@@ -108,8 +78,26 @@ void bind_value(SQLite::Statement& statement, int index, const std::optional<dou
     }
 }
 
-std::optional<double> value_in(const SQLite::Column& column) {
-    return column.isNull() ? std::nullopt : std::optional(column.getDouble());
+/// Checks that points are numbered from 0 on and have the same keys, each with a value.
+StoredPoint point_in(const StoredRow& row, const std::vector<StoredPoint>& before) {
+    StoredPoint point{row.number(1), row.text(2), {}};
+    if (point.number != before.size()) {
+        row.refuse(1, fmt::format("the number {}", point.number),
+                   fmt::format("{}: points are numbered from 0 on", before.size()));
+    }
+    const Value settings = row.document(3);
+    if (!settings.table()) row.refuse(3, settings.description(), "an object");
+    point.settings = *settings.table();
+    const Table& first = before.empty() ? point.settings : before.front().settings;
+    const bool alike = std::equal(first.entries.begin(), first.entries.end(),
+                                  point.settings.entries.begin(), point.settings.entries.end(),
+                                  [](const Entry& a, const Entry& b) { return a.key == b.key; });
+    if (!alike) row.refuse(3, "other keys", "those of the first point, in the same order");
+    for (const Entry& entry : point.settings.entries) {
+        if (!std::holds_alternative<std::monostate>(entry.value.data)) continue;
+        row.refuse(3, fmt::format("null for {}", entry.key), "a value");
+    }
+    return point;
 }
 
 }  // namespace
@@ -204,9 +192,19 @@ Store& Store::operator=(Store&&) noexcept = default;
 
 std::string Store::property(const std::string& key) const {
     return told(path_, [&] {
-        SQLite::Statement select(database_->sqlite, "SELECT value FROM study WHERE key = ?");
+        SQLite::Statement select(database_->sqlite, property_query);
         select.bind(1, key);
-        return select.executeStep() ? select.getColumn(0).getString() : std::string();
+        return select.executeStep() ? StoredRow(path_, select, 1).text(1) : std::string();
+    });
+}
+
+Value Store::document(const std::string& key) const {
+    return told(path_, [&] {
+        SQLite::Statement select(database_->sqlite, property_query);
+        select.bind(1, key);
+        if (!select.executeStep()) return Value();
+        const StoredRow row(path_, select, 1);
+        return row.text(1).empty() ? Value() : row.document(1);
     });
 }
 
@@ -222,13 +220,12 @@ void Store::set_property(const std::string& key, const std::string& value) {
 std::vector<StoredPoint> Store::points() const {
     return told(path_, [&] {
         std::vector<StoredPoint> points;
-        SQLite::Statement select(database_->sqlite,
-                                 "SELECT number, id, settings FROM point ORDER BY number");
-        while (select.executeStep()) {
-            const Value settings = parse_json(select.getColumn(2).getString());
-            points.push_back({select.getColumn(0).getUInt(), select.getColumn(1).getString(),
-                              settings.table() ? *settings.table() : Table{}});
-        }
+        SQLite::Statement select(
+            database_->sqlite,
+            R"(SELECT key AS "point.key", number AS "point.number", id AS "point.id",
+               settings AS "point.settings" FROM point ORDER BY number, key)");
+        const StoredRow row(path_, select, 1);
+        while (select.executeStep()) points.push_back(point_in(row, points));
         return points;
     });
 }
@@ -260,19 +257,24 @@ std::vector<StoredRun> Store::runs() const {
         std::vector<StoredRun> runs;
         SQLite::Statement select(
             database_->sqlite,
-            "SELECT run.id, point.number, replication, error, fingerprint, cpu_s, wall_s, started, "
-            "host FROM run JOIN point ON point.key = run.point ORDER BY point.number, replication");
+            R"(SELECT run.key AS "run.key", run.id AS "run.id", point.number AS "run.point",
+               replication AS "run.replication", error AS "run.error",
+               fingerprint AS "run.fingerprint", cpu_s AS "run.cpu_s", wall_s AS "run.wall_s",
+               started AS "run.started", host AS "run.host"
+               FROM run LEFT JOIN point ON point.key = run.point
+               ORDER BY point.number, replication)");
+        const StoredRow row(path_, select, 1);
         while (select.executeStep()) {
-            runs.push_back({.id = select.getColumn(0).getString(),
-                            .point = select.getColumn(1).getUInt(),
-                            .replication = select.getColumn(2).getUInt(),
-                            .error = select.getColumn(3).getString(),
+            runs.push_back({.id = row.text(1),
+                            .point = row.number(2),
+                            .replication = row.number(3),
+                            .error = row.text(4),
                             .measurement = {.metrics = {},
-                                            .fingerprint = select.getColumn(4).getString(),
-                                            .cpu_s = select.getColumn(5).getDouble(),
-                                            .wall_s = select.getColumn(6).getDouble(),
-                                            .started = select.getColumn(7).getString(),
-                                            .host = select.getColumn(8).getString()}});
+                                            .fingerprint = row.text(5),
+                                            .cpu_s = row.real(6),
+                                            .wall_s = row.real(7),
+                                            .started = row.text(8),
+                                            .host = row.text(9)}});
         }
         return runs;
     });
@@ -314,18 +316,21 @@ std::vector<StoredValue> Store::values(const std::string& metric,
                                        std::optional<std::uint32_t> point) const {
     return told(path_, [&] {
         std::vector<StoredValue> values;
-        SQLite::Statement select(
-            database_->sqlite,
-            "SELECT point.number, replication, value FROM run JOIN point ON point.key = run.point "
-            "JOIN metric ON metric.run = run.key AND metric.name = (SELECT key FROM metric_name "
-            "WHERE name = ?) WHERE error = '' AND point.number BETWEEN ? AND ? "
-            "ORDER BY point.number, replication");
+        SQLite::Statement select(database_->sqlite,
+                                 R"(SELECT metric.run AS "metric.run", metric.name AS "metric.name",
+               point.number AS "point.number", replication AS "run.replication",
+               value AS "metric.value"
+               FROM run JOIN point ON point.key = run.point
+               JOIN metric ON metric.run = run.key
+               AND metric.name = (SELECT key FROM metric_name WHERE name = ?)
+               WHERE error = '' AND point.number BETWEEN ? AND ?
+               ORDER BY point.number, replication)");
         select.bind(1, metric);
         select.bind(2, point.value_or(0));
         select.bind(3, point.value_or(UINT32_MAX));
+        const StoredRow row(path_, select, 2);
         while (select.executeStep()) {
-            values.push_back({select.getColumn(0).getUInt(), select.getColumn(1).getUInt(),
-                              value_in(select.getColumn(2))});
+            values.push_back({row.number(2), row.number(3), row.optional_real(4)});
         }
         return values;
     });
@@ -334,16 +339,16 @@ std::vector<StoredValue> Store::values(const std::string& metric,
 void Store::for_each_value(
     const std::function<void(const StoredValue&, const std::string& metric)>& visit) const {
     told(path_, [&] {
-        SQLite::Statement select(
-            database_->sqlite,
-            "SELECT point.number, replication, metric_name.name, value FROM run "
-            "JOIN point ON point.key = run.point JOIN metric ON metric.run = run.key "
-            "JOIN metric_name ON metric_name.key = metric.name WHERE error = '' "
-            "ORDER BY point.number, replication, metric_name.name");
+        SQLite::Statement select(database_->sqlite,
+                                 R"(SELECT metric.run AS "metric.run", metric.name AS "metric.name",
+               point.number AS "point.number", replication AS "run.replication",
+               value AS "metric.value", metric_name.name AS "metric_name.name"
+               FROM run JOIN point ON point.key = run.point JOIN metric ON metric.run = run.key
+               JOIN metric_name ON metric_name.key = metric.name WHERE error = ''
+               ORDER BY point.number, replication, metric_name.name)");
+        const StoredRow row(path_, select, 2);
         while (select.executeStep()) {
-            visit({select.getColumn(0).getUInt(), select.getColumn(1).getUInt(),
-                   value_in(select.getColumn(3))},
-                  select.getColumn(2).getString());
+            visit({row.number(2), row.number(3), row.optional_real(4)}, row.text(5));
         }
     });
 }

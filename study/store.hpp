@@ -41,6 +41,9 @@ struct StoredValue {
 /// `metric` (a value per run and metric); the view `result` joins them. A run enters in one
 /// transaction: it is there whole or not at all, whatever happens to this process. One process
 /// writes at a time; others may read meanwhile. Not for files shared between machines.
+///
+/// What is read is checked, column by column: a damaged store is an InputError that names table and
+/// row, from every function.
 class Store {
   public:
     /// Opens a store for reading. @throws InputError if there is none, or of a newer format
@@ -54,6 +57,8 @@ class Store {
 
     /// What the study says of itself: "version", "scenario", "created"; empty if it says nothing.
     std::string property(const std::string& key) const;
+    /// One of them that is written in JSON; an empty Value if the study does not say it.
+    Value document(const std::string& key) const;
     void set_property(const std::string& key, const std::string& value);
 
     /// In the order of their numbers.

@@ -56,9 +56,9 @@ void flatten(const Value& value, const std::string& path, std::map<std::string, 
 }
 
 /// What differs between the scenario that a store was made for and that of now, in words.
-std::string difference(const std::string& then, const Table& now) {
+std::string difference(const Value& then, const Table& now) {
     std::map<std::string, std::string> old_keys, new_keys;
-    if (!then.empty()) flatten(parse_json(then), "", old_keys);
+    if (then.table()) flatten(then, "", old_keys);
     flatten(now, "", new_keys);
     for (const auto& [path, text] : old_keys) {
         const auto found = new_keys.find(path);
@@ -239,7 +239,7 @@ Store open_store(const std::string& path, Study& study) {
                                              "expected --fresh, which throws its runs away, or "
                                              "another --store",
                                              settings_text(point.settings),
-                                             difference(store.property("scenario"), scenario)));
+                                             difference(store.document("scenario"), scenario)));
     }
     store.set_points(points);
     store.set_property("version", code_version());
