@@ -42,6 +42,7 @@ count = 3
 move = { model = "random_waypoint" }
 [[traffic]]
 from = "A"
+payload = "F"
 every = "1 s"
 [study]
 replications = 2
