@@ -4,6 +4,7 @@
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "experiment/json.hpp"
+#include "experiment/run_folder.hpp"
 #include "experiment/toml.hpp"
 
 #include <fmt/format.h>
@@ -113,11 +114,13 @@ void run(const RunArguments& a) {
     RunResult result;
     {
         ProgressBar bar;
-        result = run_scenario(scenario,
-                              {.folder = a.out, .speed = a.speed, .progress = [&](double share) {
-                                   bar.show(share);
-                                   return stop_requested == 0;
-                               }});
+        result =
+            run_scenario(scenario, {.folder = a.out ? *a.out : run_folder(scenario, a.options.set),
+                                    .speed = a.speed,
+                                    .progress = [&](double share) {
+                                        bar.show(share);
+                                        return stop_requested == 0;
+                                    }});
     }
     if (a.json) {
         fmt::print("{}", to_json(run_summary(scenario, result)));

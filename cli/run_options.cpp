@@ -7,7 +7,9 @@ namespace {
 void add_run(CLI::App& app) {
     const auto [run, a] = add_command(app, "run", "Run a scenario", cli::run);
     add_file(run, a, any_file);
-    run.add_option("--out", a.out, "folder for the results (default: runs/NAME-sSEED)");
+    run.add_option(
+        "--out", a.out,
+        "folder for the results (default: runs/NAME-sSEED, with --set runs/NAME-sSEED-KEY=VALUE)");
     run.add_option("--speed", a.speed, "pace the run: 1 is real time, 2 (or x2) twice as fast")
         ->transform(
             [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })

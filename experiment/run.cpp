@@ -4,6 +4,7 @@
 #include "experiment/build.hpp"
 #include "experiment/json.hpp"
 #include "experiment/output.hpp"
+#include "experiment/run_folder.hpp"
 #include "experiment/toml.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
@@ -41,12 +42,6 @@ std::string host_name() {
 }
 
 namespace {
-
-std::string usual_folder(const Scenario& scenario) {
-    const auto& s = scenario.scenario;
-    const std::string run = fmt::format("runs/{}-s{}", s.name, s.seed);
-    return s.replication == 0 ? run : fmt::format("{}-r{}", run, s.replication);
-}
 
 /// Runs to the scenario's end in slices, so that progress is told and a stop is heard soon.
 void run_in_slices(Network& network, const Scenario& scenario, const RunOptions& options) {
@@ -104,7 +99,7 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     Network network(settings);
     populate(network, scenario);
 
-    result.folder = options.folder.value_or(usual_folder(scenario));
+    result.folder = options.folder.value_or(run_folder(scenario, {}));
     make_folder(result.folder);
     const auto fingerprint = std::make_shared<Fingerprint>();
     const auto timeline = std::make_shared<Timeline>(network);

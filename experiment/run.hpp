@@ -16,7 +16,7 @@
 namespace rovernet {
 
 struct RunOptions {
-    std::optional<std::string> folder;  ///< for the results; runs/<name>-s<seed> if not given
+    std::optional<std::string> folder;  ///< for the results; run_folder() if not given
     std::optional<double> speed;        ///< simulated per real seconds; unpaced if not given
     /// Told the share that is done, 0 ... 1, now and then; false stops the run.
     std::function<bool(double)> progress = {};

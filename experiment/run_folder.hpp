@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/scenario.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// Folder for the results of a run, below the current one: "runs/rescue-s1", with a replication
+/// other than 0 "runs/rescue-s1-r3", with settings "runs/rescue-s1-radio.power=20dBm".
+///
+/// Runs with other settings have another folder. Settings come in the order of their keys, each
+/// once; "20 dBm" loses its blank. Characters that do not belong into a file's name become "_";
+/// they, or more than 80 characters, make the folder's name end in a digest of the settings.
+/// @param set  as in ScenarioOptions
+std::string run_folder(const Scenario& scenario, const std::vector<std::string>& set);
+
+}  // namespace rovernet
