@@ -2,7 +2,6 @@
 #include "experiment/warmup.hpp"
 
 #include "experiment/build.hpp"
-
 #include "experiment/network.hpp"
 #include "experiment/toml.hpp"
 #include "models/disc.hpp"
