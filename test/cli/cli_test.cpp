@@ -111,6 +111,22 @@ TEST_CASE("run: a folder that is there keeps its other files, and ours are repla
     CHECK(names_in(out).size() == 4);
 }
 
+TEST_CASE("run: with another --set the results go into a folder of their own, named by it") {
+    const TemporaryFolder folder;
+    folder.write("s.toml", relay);
+    for (const std::string set : {"", "--set 'radio.power=20 dBm'", "--set routing.ttl=1"}) {
+        const std::string line =
+            "cd '" + folder.path("") + "' && exec '" ROVERNET_COMMAND "' run s.toml " + set;
+        CHECK(Process(folder, {"-c", line}, "/bin/sh").wait().exit == 0);
+    }
+    CHECK(names_in(folder.path("runs")) == std::vector<std::string>{"relay-s5",
+                                                                    "relay-s5-radio.power=20dBm",
+                                                                    "relay-s5-routing.ttl=1"});
+    for (const std::string& run : names_in(folder.path("runs"))) {
+        CHECK(names_in(folder.path("runs/" + run)) == result_files);
+    }
+}
+
 TEST_CASE("run: the printed scenario and the one in the folder run to the same fingerprint") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
