@@ -22,16 +22,28 @@ std::string store_path(const SweepArguments& a) {
     return std::filesystem::path(a.file).replace_extension(".db").string();
 }
 
+/// What of a store is thrown away: "its 12 runs"; empty if it has none.
+std::string runs_in(const std::string& path) {
+    if (!std::filesystem::exists(path)) return "";
+    const Store store = Store::open(path);  // throws for a file that is something else
+    try {
+        const std::size_t runs = store.runs().size();
+        return runs == 0 ? "" : fmt::format("its {} runs", runs);
+    } catch (const InputError&) {
+        return "its runs, damaged as it is";
+    }
+}
+
 /// Throws away the store and its shards, if that is what the person wants.
 void begin_afresh(const SweepArguments& a, const std::string& path) {
     const std::string shards = path + ".slurm/shards";
     const bool has_shards =
         std::filesystem::is_directory(shards) && !std::filesystem::is_empty(shards);
-    const std::size_t runs =
-        std::filesystem::exists(path) ? Store::open(path).runs().size() : std::size_t{0};
-    if ((runs > 0 || has_shards) && !a.yes) {
-        const std::string question = fmt::format("{}: throw away its {} runs{}?", path, runs,
-                                                 has_shards ? " and its shards on Slurm" : "");
+    const std::string runs = runs_in(path);
+    if ((!runs.empty() || has_shards) && !a.yes) {
+        const std::string question =
+            fmt::format("{}: throw away {}{}?", path, runs.empty() ? "its 0 runs" : runs,
+                        has_shards ? " and its shards on Slurm" : "");
         if (isatty(STDIN_FILENO) == 0) {
             throw std::invalid_argument("--fresh: " + question + " Say so with --yes");
         }

@@ -33,8 +33,8 @@ std::pair<std::string, std::string> table_and_column(const std::string& name) {
 }  // namespace
 
 InputError damaged_store(const std::string& path, const std::string& what) {
-    return InputError({path}, fmt::format("a damaged store: {}; take a copy of it, or sweep again "
-                                          "with --fresh, which throws its runs away",
+    return InputError({path}, fmt::format("a damaged store: {}; go back to a copy of it, or sweep "
+                                          "again with --fresh, which throws its runs away",
                                           what));
 }
 
