@@ -65,8 +65,8 @@ class Medium {
     void moved(NodeId node, const Legs& legs) {
         index_.moved(node, legs);
         pairs_.moved(node);
+        if (node.index() < measured_) measure(node.index(), node.index() + 1, legs);
     }
-
     void switch_radio(NodeId node, bool on);
     bool all_are_on() const { return off_ == 0; }
     bool is_on(NodeId node) const { return all_are_on() || stations_[node.index()].on; }
@@ -161,6 +161,7 @@ class Medium {
         return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
     }
     void choose_cells();
+    void measure(std::size_t begin, std::size_t end, const Legs& legs);
     void find(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_alike(NodeId from, Time t, const Legs& legs);
@@ -189,9 +190,9 @@ class Medium {
     std::uint64_t shares_of_bin_ = 0;    // those of the index's so many-th bin
     PairCache pairs_;
     bool cells_chosen_ = false;
+    std::size_t measured_ = 0;  // nodes whose heights the kinds know, if heights matter
 
-    // What is under work, kept for its memory.
-    Vec3 origin_;
+    Vec3 origin_;  // from here on what is under work, kept for its memory
     Sieve<Found> found_, sensors_;
     Candidates candidates_;
 };

@@ -21,6 +21,21 @@ bool rests(const Leg& leg, Time t) { return leg.velocity == Vec3{} && t < leg.en
 
 }  // namespace
 
+/// Takes note of how high the antennas of nodes `begin` to `end` get on their legs, if heights
+/// matter.
+void Medium::measure(std::size_t begin, std::size_t end, const Legs& legs) {
+    if (!kinds_.heights_matter()) return;
+    for (std::size_t i = begin; i < end; ++i) {
+        const NodeId node{static_cast<std::uint32_t>(i)};
+        const Leg leg = legs.leg(node);
+        const bool climbs_on = leg.end == never && leg.velocity.z > 0;
+        const double top = climbs_on ? std::numeric_limits<double>::infinity()
+                                     : std::max(leg.from.z, leg.to.z) + kinds_.height(kind(node));
+        if (top > kinds_.highest().value) kinds_.set_highest({top});
+    }
+    measured_ = std::max(measured_, end);
+}
+
 /// Cells as wide as the reach of the median station: most queries then look at nine of them.
 void Medium::choose_cells() {
     std::vector<std::pair<double, std::size_t>> reaches;
@@ -39,7 +54,10 @@ void Medium::choose_cells() {
 
 /// Makes the index about `from` at `t`.
 void Medium::look_from(NodeId from, Time t, const Legs& legs) {
-    if (!cells_chosen_) choose_cells();
+    if (!cells_chosen_) {
+        measure(measured_, stations_.size(), legs);
+        choose_cells();
+    }
     index_.refresh(t, legs);
     origin_ = index_.position_of(from, t, legs);
     origin_.z += kinds_.height(kind(from));
@@ -148,6 +166,7 @@ void Medium::share_draws() {
 }
 
 void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs) {
+    measure(measured_, stations_.size(), legs);  // the reach depends on it
     const Radio& mine = kinds_.radio(kind(from));
     const bool fixed = settings_.keep_losses && !settings_.all_pairs && rests(legs.leg(from), t);
     candidates_.clear();

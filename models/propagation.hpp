@@ -54,6 +54,13 @@ concept BoundedModel = requires(const T& model, Db loss, Hertz frequency) {
     { model.reach(loss, frequency) } -> std::same_as<Meters>;
 };
 
+/// A model that bounds its range by the heights of the antennas: beyond that no loss between two
+/// whose z is at most `highest` [m] is as little as `loss`.
+template <class T>
+concept BoundedByHeight = requires(const T& model, Db loss, Hertz frequency, Meters highest) {
+    { model.reach(loss, frequency, highest) } -> std::same_as<Meters>;
+};
+
 /// What a link's loss may do while its ends move; tells how links are decided, and where to look
 /// for their changes.
 enum class LossShape {
@@ -91,6 +98,8 @@ concept FrequencyCheckedModel = requires(const T& model, Hertz frequency) {
 /// Any propagation model, held by value and shared between its copies (models do not change).
 class Propagation {
   public:
+    static constexpr Meters anything{std::numeric_limits<double>::infinity()};
+
     /// @throws std::invalid_argument if a parameter is out of its range
     template <class T>
     requires(!std::same_as<T, Propagation> && PropagationModel<T>) Propagation(T model)
@@ -100,7 +109,10 @@ class Propagation {
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
         self_->loss(links, give_up, out_db);
     }
-    Meters reach(Db loss, Hertz frequency) const { return self_->reach(loss, frequency); }
+    /// Infinite if the model does not bound it. @param highest  [m] no antenna's z is more
+    Meters reach(Db loss, Hertz frequency, Meters highest = anything) const {
+        return self_->reach(loss, frequency, highest);
+    }
     void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
     LossShape shape() const { return self_->shape(); }
     /// What to build a ShadowedRange of; nothing if the model is not a ShadowedModel.
@@ -115,7 +127,7 @@ class Propagation {
         virtual ~Concept() = default;
         virtual std::string_view name() const = 0;
         virtual void loss(const LinkBatch&, Db, std::span<double>) const = 0;
-        virtual Meters reach(Db, Hertz) const = 0;
+        virtual Meters reach(Db, Hertz, Meters) const = 0;
         virtual void check_frequency(Hertz) const = 0;
         virtual LossShape shape() const = 0;
         virtual std::optional<ShadowedLoss> shadowed_loss(Hertz) const = 0;
@@ -129,9 +141,10 @@ class Propagation {
         void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const override {
             model.loss(links, give_up, out_db);
         }
-        Meters reach(Db loss, Hertz frequency) const override {
+        Meters reach(Db loss, Hertz frequency, [[maybe_unused]] Meters highest) const override {
+            if constexpr (BoundedByHeight<T>) return model.reach(loss, frequency, highest);
             if constexpr (BoundedModel<T>) return model.reach(loss, frequency);
-            return {std::numeric_limits<double>::infinity()};
+            return anything;
         }
         void check_frequency(Hertz frequency) const override {
             if constexpr (FrequencyCheckedModel<T>) model.check_frequency(frequency);

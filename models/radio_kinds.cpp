@@ -57,6 +57,7 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
                       .cheapest = cheapest_decision(propagation, plain.frequency),
                       .noise = noise_floor(plain)});
     heights_.push_back(plain.antenna_height.value);
+    heights_matter_ = heights_matter_ || propagation.shape() == LossShape::by_heights;
     // All match as long as all have the same network, or none is gated.
     const bool gated = kinds_.back().membership.gated;
     gated_ = gated_ || (gated && (essids_.size() > 2 || channels_.size() > 1));
@@ -92,7 +93,7 @@ double RadioKinds::squared_reach(Kind from, Strength strength) {
         const Radio& sender = radio(from);
         const Db most = best_budget_[static_cast<std::size_t>(strength)] + Db{sender.power.value} +
                         sender.antenna_gain - sender.cable_loss;
-        const double reach = model(from).reach(most, sender.frequency).value * slack;
+        const double reach = model(from).reach(most, sender.frequency, highest_).value * slack;
         reach2 = reach * reach;
     }
     return reach2;

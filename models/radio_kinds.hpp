@@ -60,6 +60,15 @@ class RadioKinds {
     Db budget(Strength strength, const Radio& from, const Radio& to) const;
     /// The weakest signal [dBm] that disturbs `to`; there must be a cut.
     Dbm weakest_disturbing(const Radio& to) const;
+    /// No antenna of any station has been or is higher [m] than this; must not decrease.
+    void set_highest(Meters z) {
+        if (z == highest_) return;
+        highest_ = z;
+        for (Alike& each : kinds_) each.reach2 = {};
+    }
+    Meters highest() const { return highest_; }
+    /// Some model's loss depends on the heights of the antennas.
+    bool heights_matter() const { return heights_matter_; }
     /// [m^2] A signal is strong enough for nobody farther away; may be infinite.
     double squared_reach(Kind from, Strength strength);
 
@@ -141,6 +150,8 @@ class RadioKinds {
     std::vector<std::string> essids_ = {"any"};
     std::vector<std::pair<int, Hertz>> channels_;
     bool gated_ = false;  // some two kinds may have no link
+    bool heights_matter_ = false;
+    Meters highest_{-std::numeric_limits<double>::infinity()};
     // By Strength: the largest budget that any kind allows a sender of 0 dBm.
     std::array<Db, strengths.size()> best_budget_ = {Db{-1e300}, Db{-1e300}, Db{-1e300}};
 };

@@ -8,7 +8,10 @@
 
 namespace rovernet {
 
-Meters TwoRay::reach(Db loss, Hertz f) const { return Friis{}.reach(loss, f); }
+Meters TwoRay::reach(Db loss, Hertz f, Meters highest) const {
+    const double height = std::max(highest.value, lowest_antenna.value);
+    return {std::min(Friis{}.reach(loss, f).value, height * math::exp10(loss.value / 40))};
+}
 
 void TwoRay::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
     const Hertz f = links.frequency;
@@ -17,8 +20,7 @@ void TwoRay::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_
     for (std::size_t i = 0; i < out_db.size(); ++i) {
         const double d = links.distance(i);
         const double crossover = 4 * pi / speed_of_light * f.value * (ht * height(links.to[i]));
-        const double beyond = d > crossover ? 20 * math::log10(d / crossover) : 0;
-        out_db[i] = std::max(0.0, free_space_db(d, f) + beyond);
+        out_db[i] = std::max(0.0, free_space_db(d * std::max(1.0, d / crossover), f));
     }
 }
 

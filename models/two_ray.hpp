@@ -29,8 +29,9 @@ struct TwoRay {
 
     LossShape shape() const { return LossShape::by_heights; }
 
-    /// That of free space, since heights are not known here and the loss is never less.
-    Meters reach(Db loss, Hertz f) const;
+    /// No antenna is higher than `highest`: the loss is never less than that of free space, nor
+    /// than that between two antennas of that height beyond their crossover, 40 log10(d / h).
+    Meters reach(Db loss, Hertz f, Meters highest) const;
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
 };
 

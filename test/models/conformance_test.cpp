@@ -188,12 +188,15 @@ TEST_CASE("every model: beyond its reach for a budget the loss is more than the 
         for (int i = 0; i < 300; ++i) {
             const double budget = draw.uniform(-20, 160);
             const Hertz f{draw.uniform(1700e6, 2700e6)};
-            const double reach = model.reach({budget}, f).value;
+            const double highest = draw.uniform(-2, 20);
+            const double from = highest - draw.uniform(0, 3), to = highest - draw.uniform(0, 3);
+            const double reach = Propagation(model).reach({budget}, f, {highest}).value;
             CHECK(reach >= 0);
             // A billionth beyond, which is what the medium allows for rounding, and farther.
             for (const double beyond : {1 + 1e-9, 1 + 1e-6, 1.5, 100.0}) {
                 const test::OneLink link{.frequency = f,
-                                         .to = {reach * beyond + 1e-12, 0, 0},
+                                         .from = {0, 0, from},
+                                         .to = {reach * beyond + 1e-12, 0, to},
                                          .from_key = static_cast<std::uint64_t>(i)};
                 CHECK(link.loss(model) > budget);
             }

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -139,6 +140,22 @@ TEST_CASE("two-ray: a climbing antenna draws away and hears better, so that heig
     CHECK(Propagation(TwoRay{}).shape() == LossShape::by_heights);
 }
 
-TEST_CASE("two-ray: the reach is that of free space") {
-    CHECK(TwoRay{}.reach(80_dB, 2450_MHz) == Friis{}.reach(80_dB, 2450_MHz));
+TEST_CASE("two-ray: the highest antennas reach exactly as far as the bound says") {
+    for (const double highest : {-2.0, 0.5, 1.5, 30.0}) {
+        const double h = std::max(highest, 0.1);
+        for (const double budget : {40.0, 80.0, 95.0, 140.0}) {
+            const double reach = TwoRay{}.reach({budget}, 914_MHz, {highest}).value;
+            CHECK(loss_over_ground(h, h, reach * (1 - 1e-9), 914_MHz) <= budget);
+            CHECK(loss_over_ground(h, h, reach * (1 + 1e-9), 914_MHz) > budget);
+            CHECK(reach <= Friis{}.reach({budget}, 914_MHz).value);
+        }
+    }
+    // ns-2's radio of 24.5 dBm with thresholds of -64.37 and -78.07 dBm.
+    CHECK(TwoRay{}.reach(88.87437_dB, 914_MHz, 1.5_m).value == doctest::Approx(250).epsilon(1e-4));
+    CHECK(TwoRay{}.reach(102.57078_dB, 914_MHz, 1.5_m).value == doctest::Approx(550).epsilon(1e-4));
+}
+
+TEST_CASE("two-ray: without a bound of the heights the reach is that of free space") {
+    const Propagation model = TwoRay{};
+    CHECK(model.reach(80_dB, 2450_MHz) == Friis{}.reach(80_dB, 2450_MHz));
 }
