@@ -2,22 +2,24 @@
 // The flood of bench/peers in rovernet, for bench/peers/run: prints one line of JSON.
 //   --movement=FILE --rung=threshold|csma|csma_collision --header=36 --messages=20 --interval=3
 //   --ttl=100 --jitter=0.05
-//   --payload=64 --seed=1 --cca_us=13 --turnaround_us=5
+//   --loss=two_ray --payload=64 --seed=1 --cca_us=13 --turnaround_us=5
+// The loss is log-distance from the crossover on, of the same levels, unless it is two_ray.
 // threshold: a disc of 250 m. csma: 802.11b at 1 Mb/s over flat ground as ns-2 has it by default
 // (250 m decoded, 550 m sensed), with noise, interference and bit errors; csma_collision: with
-// ns-2's rule of reception instead. The header is that of 802.11 and LLC (ns-2: 58).
+// ns-2's rule of reception instead. The header is that of 802.11 and LLC (ns-2: 34).
 
+#include "bench/peers/peer.hpp"
 #include "bench/peers/usage.hpp"
 #include "experiment/movement_play.hpp"
 #include "experiment/network.hpp"
 #include "mobility/movement_file.hpp"
 #include "models/disc.hpp"
 #include "models/log_distance.hpp"
+#include "models/two_ray.hpp"
 #include "routing/flood.hpp"
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <string>
@@ -50,39 +52,6 @@ struct Count {
     }
 };
 
-class Options {
-  public:
-    Options(int argc, char** argv) {
-        for (int i = 1; i < argc; ++i) {
-            const std::string text = argv[i];
-            const std::size_t equals = text.find('=');
-            if (!text.starts_with("--") || equals == text.npos) {
-                fmt::print(stderr, "flood_peer: expected --name=value, got {}\n", text);
-                std::exit(2);
-            }
-            values_[text.substr(2, equals - 2)] = text.substr(equals + 1);
-        }
-    }
-    std::string text(const std::string& name, const std::string& otherwise) const {
-        const auto found = values_.find(name);
-        return found == values_.end() ? otherwise : found->second;
-    }
-    double number(const std::string& name, double otherwise) const {
-        const auto found = values_.find(name);
-        return found == values_.end() ? otherwise : std::atof(found->second.c_str());
-    }
-
-  private:
-    std::map<std::string, std::string> values_;
-};
-
-/// ns-2.35's default radio: 914 MHz, 0.28183815 W, antennas 1.5 m over flat ground.
-Radio ns2_radio() {
-    Radio radio{.power = Dbm{24.49999779}, .sensitivity = Dbm{-64.37439}, .frequency = {914e6}};
-    radio.carrier_sense_threshold = Dbm{-78.07078};
-    radio.rate = {1e6};
-    return radio;
-}
 /// The two-ray model beyond its crossover at 4 pi h^2 / wavelength; nobody cares below.
 constexpr Meters crossover{86.20219};
 
@@ -92,6 +61,7 @@ NetworkSettings settings(const Options& options, bool listens) {
     if (listens) {
         out.propagation =
             LogDistance{.exponent = 4, .sigma = Db{0}, .reference_distance = crossover};
+        if (options.text("loss", "") == "two_ray") out.propagation = TwoRay{};
         if (options.text("rung", "") == "csma") {
             out.reception = Sinr{};
         } else {
@@ -121,7 +91,8 @@ int main(int argc, char** argv) {
     std::vector<NodeId> nodes;
     net.reserve(file.robots().size());
     for (const FileRobot& robot : file.robots()) {
-        const Radio radio = listens ? ns2_radio() : Radio{.rate = {1e6}};
+        Radio radio = listens ? ns2_radio() : Radio{.rate = {1e6}};
+        radio.antenna_height = {1.5};
         nodes.push_back(net.add({.name = robot.name, .at = robot.start, .radio = radio}));
     }
     const auto count = nodes.size();

@@ -8,7 +8,6 @@
 ///                   more; --loss=two_ray: decoded to 250 m, sensed and disturbing to 550 m
 #include "ns3.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -32,7 +31,6 @@ using namespace ns3;
 namespace {
 
 constexpr double decode_range = 250;  // [m]
-constexpr double sense_range = 550;   // [m]
 constexpr double first_message = 1;   // [s]
 
 struct Options : PeerOptions {
@@ -114,28 +112,12 @@ NetDeviceContainer install_lean(const NodeContainer& nodes) {
     return devices;
 }
 
-/// Received power [dBm] over flat ground, 24.5 dBm sent, both antennas 1.5 m high, beyond 86 m.
-double two_ray_dbm(double distance) {
-    return 24.5 + 40 * std::log10(1.5) - 40 * std::log10(distance);
-}
-
-void set_two_ray(YansWifiChannelHelper& channel, YansWifiPhyHelper& phy) {
-    channel.AddPropagationLoss("ns3::TwoRayGroundPropagationLossModel", "Frequency",
-                               DoubleValue(914e6), "HeightAboveZ", DoubleValue(1.5));
-    phy.Set("TxPowerStart", DoubleValue(24.5));
-    phy.Set("TxPowerEnd", DoubleValue(24.5));
-    phy.Set("RxSensitivity", DoubleValue(two_ray_dbm(sense_range)));
-    phy.Set("CcaEdThreshold", DoubleValue(two_ray_dbm(sense_range)));
-    phy.SetPreambleDetectionModel("ns3::ThresholdPreambleDetectionModel", "MinimumRssi",
-                                  DoubleValue(two_ray_dbm(decode_range)));
-}
-
 NetDeviceContainer install_wifi(const NodeContainer& nodes, const std::string& loss) {
     YansWifiChannelHelper channel;
     YansWifiPhyHelper phy;
     channel.SetPropagationDelay("ns3::ConstantSpeedPropagationDelayModel");
     if (loss == "two_ray")
-        set_two_ray(channel, phy);
+        set_two_ray(channel, phy, decode_range, 550);
     else
         channel.AddPropagationLoss("ns3::RangePropagationLossModel", "MaxRange",
                                    DoubleValue(decode_range));

@@ -3,10 +3,12 @@
 
 #include "usage.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <ns3/command-line.h>
+#include <ns3/double.h>
 #include <ns3/net-device-container.h>
 #include <ns3/node-container.h>
 #include <ns3/rng-seed-manager.h>
@@ -57,6 +59,27 @@ inline ns3::NetDeviceContainer install_ad_hoc(const ns3::YansWifiPhyHelper& phy,
     ns3::WifiMacHelper mac;
     mac.SetType("ns3::AdhocWifiMac");
     return wifi.Install(phy, mac, nodes);
+}
+
+/// Received power [dBm] over flat ground, 24.5 dBm sent, both antennas 1.5 m high, beyond 86 m.
+inline double two_ray_dbm(double distance) {
+    return 24.5 + 40 * std::log10(1.5) - 40 * std::log10(distance);
+}
+
+/// Frames are decoded over `decode` [m] of flat ground, and sensed over `sense` [m].
+inline void set_two_ray(ns3::YansWifiChannelHelper& channel, ns3::YansWifiPhyHelper& phy,
+                        double decode, double sense) {
+    using ns3::DoubleValue;
+    // ns-3 compares the sensitivity with 20 MHz, of which a channel of 802.11b has 22.
+    const double of_20_mhz = two_ray_dbm(sense) - 10 * std::log10(22.0 / 20);
+    channel.AddPropagationLoss("ns3::TwoRayGroundPropagationLossModel", "Frequency",
+                               DoubleValue(914e6), "HeightAboveZ", DoubleValue(1.5));
+    phy.Set("TxPowerStart", DoubleValue(24.5));
+    phy.Set("TxPowerEnd", DoubleValue(24.5));
+    phy.Set("RxSensitivity", DoubleValue(of_20_mhz));
+    phy.Set("CcaEdThreshold", DoubleValue(two_ray_dbm(sense)));
+    phy.SetPreambleDetectionModel("ns3::ThresholdPreambleDetectionModel", "MinimumRssi",
+                                  DoubleValue(two_ray_dbm(decode)));
 }
 
 /// Runs for `length` [s] and prints what `bench` counted. The program is over then: ns-3 spends
