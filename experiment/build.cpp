@@ -4,9 +4,11 @@
 #include "experiment/build_motion.hpp"
 #include "experiment/located.hpp"
 #include "experiment/movement_play.hpp"
+#include "sim/random.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -24,6 +26,7 @@ class Builder {
 
     void add_robots();
     void add_reactions();
+    void schedule();
     void add_traffic();
 
   private:
@@ -41,9 +44,20 @@ class Builder {
     std::function<void()> answer(const Built& robot, const ReactionTable& reaction,
                                  MotionBuilder::Plan plan);
 
+    /// What a robot does at a time that the scenario tells.
+    struct Due {
+        std::uint64_t key;  // the robot's
+        Time time;
+        std::function<void()> action;
+    };
+    void expect(const std::string& name, Duration t, std::function<void()> action) {
+        due_.push_back({name_key(name), start_of_run + t, std::move(action)});
+    }
+
     Network& network_;
     const Scenario& scenario_;
     MotionBuilder motion_;
+    std::vector<Due> due_;
     std::map<std::string_view, const FileRobot*> in_file_;  // where the movement file has it first
     std::vector<Built> built_;
 };
@@ -93,11 +107,18 @@ void Builder::add_robot(const RobotTable& table, const std::string& name,
     });
     built_.push_back({node, &table, at});
     for (const Duration t : table.off) {
-        network_.at(start_of_run + t, [this_ = &network_, node] { this_->switch_off(node); });
+        expect(name, t, [this_ = &network_, node] { this_->switch_off(node); });
     }
     for (const Duration t : table.on) {
-        network_.at(start_of_run + t, [this_ = &network_, node] { this_->switch_on(node); });
+        expect(name, t, [this_ = &network_, node] { this_->switch_on(node); });
     }
+}
+
+/// What is due at one time is done in the order of the robots' keys: that of the file says nothing.
+void Builder::schedule() {
+    std::stable_sort(due_.begin(), due_.end(),
+                     [](const Due& a, const Due& b) { return a.key < b.key; });
+    for (Due& each : std::exchange(due_, {})) network_.at(each.time, std::move(each.action));
 }
 
 void Builder::add_reactions() {
@@ -144,7 +165,8 @@ void Builder::react(const Built& robot, const ReactionTable& reaction, MotionBui
             return network_.on_link_lost(robot.node, [act, from](NodeId lost) mutable {
                 if (!from || lost == *from) act();
             });
-        case Trigger::on_time: return network_.at(start_of_run + reaction.time, std::move(act));
+        case Trigger::on_time:
+            return expect(network_.name(robot.node), reaction.time, std::move(act));
     }
 }
 
@@ -173,7 +195,7 @@ void Builder::add_traffic() {
         const NodeId from = *network_.find(table.from);
         auto begin = [this_ = &network_, from, table] { send_and_repeat(*this_, from, table, 0); };
         if (table.start) {
-            network_.at(start_of_run + *table.start, std::move(begin));
+            expect(table.from, *table.start, std::move(begin));
         } else {
             network_.on_arrival(from, [begin, done = false]() mutable {
                 if (!std::exchange(done, true)) begin();
@@ -220,9 +242,12 @@ void populate(Network& network, const Scenario& scenario) {
     network.route(scenario.routing.flood);
     Builder builder(network, scenario);
     builder.add_robots();
+    builder.schedule();
     play_file(network, scenario);
     builder.add_reactions();
+    builder.schedule();
     builder.add_traffic();
+    builder.schedule();
 }
 
 }  // namespace rovernet

@@ -52,7 +52,9 @@ Engine::Engine(NetworkSettings settings)
     if (const auto* aloha = std::get_if<Aloha>(&settings_.access)) aloha_.emplace(*aloha);
     if (const auto* csma = std::get_if<Csma>(&settings_.access)) {
         dcf_.emplace(*csma);
-        if (std::holds_alternative<Sinr>(settings_.reception)) check_rate(csma->timing.basic_rate);
+        if (std::holds_alternative<Sinr>(settings_.reception)) {
+            for (const BitRate rate : csma->basic_rates) check_rate(rate);
+        }
     }
     if (settings_.metrics) {
         metrics_ = std::make_shared<Metrics>(start_of_run + settings_.warmup);

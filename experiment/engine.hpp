@@ -73,7 +73,6 @@ class Engine final : public LinkLayer, public Air {
     bool advance(Time end, std::uint64_t most_events);
     /// Link changes are wanted from now on.
     void watch_links() { links_wanted_ = true; }
-    /// See Network.
     std::optional<Db> interference_left_out() const;
     Node& node(NodeId id) { return nodes_.at(id.index()); }
     /// The same id. @throws std::out_of_range if there is no such node
@@ -106,6 +105,7 @@ class Engine final : public LinkLayer, public Air {
     void count_events();
     void check_rate(BitRate rate) const;
     BitRate rate_of(const AirFrame& frame) const;
+    std::uint32_t header() const { return dcf_ ? dcf_->settings().header : 0; }  // [bytes]
     void transmit_sensed(Flight& flight, Time end);
     static void sort(Flight& flight);
     void put_on_air(std::size_t slot, Time end);
@@ -117,6 +117,7 @@ class Engine final : public LinkLayer, public Air {
     Duration longest_delay() const { return medium_.delay(on_air_.reach()); }
     void judge(const Flight& flight, std::span<Reception> receptions);
     void judge_collision(const Emission& judged, Frames others, Reception& reception);
+    bool was_let_pass(const Emission& frame, Arrival& arrives, Frames others, NodeId node);
     void judge_sinr(const SinrFrame& sent, const Emission& judged, Frames others,
                     Reception& reception);
     SinrFrame sinr_frame(const Flight& flight) const;
@@ -142,11 +143,14 @@ class Engine final : public LinkLayer, public Air {
     void react(NodeId node, std::uint64_t handed_over);
     void act(std::size_t slot);
     void begin_movements();
+    void expect_leg_end(NodeId id);
+    void tell_arrival(NodeId id);
     void next_leg(NodeId id);
     void begin_leg(NodeId id, const Leg& leg);
     void end_movement(NodeId id);
     void start_watch();
     void change_links();
+    void tell_lost(NodeId node, NodeId from);
     void expect_link_change();
     void take(NodeId id, const Leg& leg);
     void put(NodeId id, const Leg& leg);
@@ -166,7 +170,7 @@ class Engine final : public LinkLayer, public Air {
     Slots<Flight> flights_;
     Sieve<Reception> later_;            // those of a flight that are not served yet
     Overtaking overtaking_;             // of a flight that does not wait for its turn
-    std::vector<Reception> heard_;      // those of a flight that are handed up ...
+    std::vector<Reception> heard_;      // of a flight: that are handed up ...
     std::vector<std::size_t> places_;   // ... and where they belong
     bool frames_meet_;                  // the rung is above threshold
     OnAir on_air_;                      // if frames meet
@@ -177,17 +181,14 @@ class Engine final : public LinkLayer, public Air {
     std::size_t most_on_air_ = 0;  // of them at a time
     std::optional<AlohaAccess> aloha_;
     std::optional<Dcf> dcf_;
-    /// A node that always has something to send.
-    struct Saturated {
-        NodeId to;
-        std::uint32_t bytes;
-    };
     std::map<NodeId, Saturated> saturated_;
     Slots<Action> actions_;
     std::vector<Body> bodies_;
     std::map<NodeId, Leg> interrupted_;  // by switching off
     std::map<NodeId, Leg> after_turn_;   // begins when the turn on the current leg is over
     std::size_t begun_ = 0;              // nodes whose movement has begun
+    std::vector<NodeId> set_off_;        // of them, those that something comes of ...
+    bool beginning_ = false;             // ... while movements begin
     bool links_wanted_ = false;
     std::optional<LinkWatch> watch_;  // once links are wanted and the run has begun
     Time link_event_ = never;         // the next one queued

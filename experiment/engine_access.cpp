@@ -12,13 +12,17 @@ std::uint32_t Engine::bytes(const AirFrame& frame) const {
         case AirFrame::ack: return ack_bytes;
         case AirFrame::data: break;
     }
-    return messages_[frame.frame.message].size + (dcf_ ? dcf_->settings().header : 0);
+    return messages_[frame.frame.message].size + header();
 }
 
 BitRate Engine::rate_of(const AirFrame& frame) const {
-    const bool is_unicast = frame.kind == AirFrame::data && frame.frame.next_hop != everyone;
-    if (dcf_ && !is_unicast) return dcf_->settings().timing.basic_rate;
-    return medium_.radio(frame.frame.sender).rate;
+    const NodeId to = frame.frame.next_hop;
+    if (!dcf_ || (frame.kind == AirFrame::data && to != everyone)) {
+        return medium_.radio(frame.frame.sender).rate;
+    }
+    if (frame.kind != AirFrame::ack) return dcf_->lowest_basic_rate();  // a CTS answers an RTS
+    if (to == everyone) return dcf_->settings().timing.lowest_rate;
+    return dcf_->answer_rate(medium_.radio(to).rate);
 }
 
 Duration Engine::airtime(const AirFrame& frame) const {
@@ -71,7 +75,7 @@ void Engine::receive_unicast(Flight& flight, std::span<Reception> receptions) {
             r.fate = repeated ? Fate::duplicate : Fate::arrived;
             r.delivered = !repeated;
         }
-        emit(Received{flight.air.frame, {&r, 1}, flight.air.reserved});
+        emit(Received{flight.air.frame, {&r, 1}, flight.air.reserved, header()});
         if (has_reactions_) hand_over(flight, {&r, 1});
     }
 }

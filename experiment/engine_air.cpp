@@ -152,9 +152,12 @@ void Engine::garble(Flight& flight) {
 void Engine::judge(const Flight& flight, std::span<Reception> receptions) {
     const Emission& judged = on_air_[flight.emission];
     const bool locks = std::holds_alternative<Sinr>(settings_.reception);
-    // What was over by `since` or begins at `until` arrives nowhere together with it; nor with what
-    // its receivers may have locked on to before.
-    const Time since = judged.begin - longest_delay() - (locks ? on_air_.longest() : Duration{0});
+    const auto* rung = std::get_if<Collision>(&settings_.reception);
+    // What was over by `since` or begins at `until` arrives nowhere together with it; nor, where
+    // that matters, with what its receivers may have been at before.
+    const bool past_matters = locks || rung->capture == CaptureOrder::first;
+    const Duration past = past_matters ? on_air_.longest() : Duration{0};
+    const Time since = judged.begin - longest_delay() - past;
     const Time until = judged.end + longest_delay();
     const Frames nearby = settings_.reference ? Frames{} : on_air_.near(judged, since, until, now_);
     if (!nearby.empty()) {  // together, so that none waits for the one before
@@ -195,6 +198,7 @@ std::optional<Arrival> Engine::arrival(const Emission& frame, NodeId node) {
 void Engine::judge_collision(const Emission& judged, Frames others, Reception& reception) {
     const NodeId node = reception.node;
     const auto& rung = std::get<Collision>(settings_.reception);
+    const Time since = judged.begin - longest_delay();  // who was over by then met it nowhere
     constexpr double open = std::numeric_limits<double>::quiet_NaN();
     Arrival signal{.begin = reception.time - (judged.end - judged.begin),
                    .end = reception.time,
@@ -206,11 +210,31 @@ void Engine::judge_collision(const Emission& judged, Frames others, Reception& r
         return medium_.is_stronger(mine, other, by, node);
     };
     for (const Emission* frame : others) {
+        if (frame->end <= since) continue;
         auto other = arrival(*frame, node);
         if (!other || rung.survives(signal, *other, is_stronger)) continue;
+        if (!other->own && rung.finds_receiver_at(signal, *other) &&
+            was_let_pass(*frame, *other, others, node)) {
+            continue;
+        }
         reception.fate = other->own ? Fate::busy : Fate::collided;
         if (!other->own) return;
     }
+}
+
+/// At the rung "collision": `node`, where `frame` arrives, was at one of the `others` when it
+/// began, and let it pass.
+bool Engine::was_let_pass(const Emission& frame, Arrival& arrives, Frames others, NodeId node) {
+    const auto& rung = std::get<Collision>(settings_.reception);
+    const Time over = arrives.begin - longest_delay();  // who was so by then was so here
+    const auto is_stronger = [&](Arrival& a, Arrival& b, Db by) {
+        return medium_.is_stronger(a, b, by, node);
+    };
+    return std::any_of(others.begin(), others.end(), [&](const Emission* each) {
+        if (each->begin > arrives.begin || each->end <= over || each == &frame) return false;
+        auto other = arrival(*each, node);
+        return other && rung.lets_pass(arrives, *other, is_stronger);
+    });
 }
 
 /// What judging a flight's receptions takes, but for the receiver's noise.
@@ -243,7 +267,8 @@ void Engine::judge_sinr(const SinrFrame& sent, const Emission& judged, Frames ot
             const std::uint64_t pair = combine(key(judged.from), key(node));
             return uniform({settings_.seed, settings_.replication, Purpose::bit_errors, pair,
                             flights_[judged.flight].number, 0});
-        });
+        },
+        [this](NodeId a, NodeId b) { return key(a) < key(b); });
     const bool decoded_but_garbled = is_decoded(fate) && reception.fate == Fate::garbled;
     if (!decoded_but_garbled) reception.fate = fate;
 }
@@ -334,7 +359,8 @@ std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
     } else if (!flight.in_order) {
         count = split(flight, rest, until);
     } else {
-        while (!settings_.reference && count < rest.size() && rest[count].time <= until) ++count;
+        const Time last = settings_.reference ? rest.front().time : until;
+        while (count < rest.size() && rest[count].time <= last) ++count;
         now_ = rest[count - 1].time;
         if (count < rest.size()) flight.receivers.first = rest[count].time;
     }

@@ -93,7 +93,7 @@ void Engine::receive_broadcast(Flight& flight, std::span<Reception> receptions) 
         hand_up_heard(flight, receptions);
     }
     receiving_ = false;
-    emit(Received{flight.air.frame, receptions});
+    emit(Received{flight.air.frame, receptions, {}, header()});
     if (has_reactions_) hand_over(flight, receptions);
 }
 
@@ -116,11 +116,17 @@ void Engine::hand_up_heard(const Flight& flight, std::span<Reception> receptions
 }
 
 void Engine::hand_over(const Flight& flight, std::span<const Reception> receptions) {
+    heard_.clear();
     for (const auto& r : receptions) {
-        if (!r.delivered || node(r.node).on_receive.empty()) continue;
-        const Frame& frame = flight.air.frame;
+        if (r.delivered && !node(r.node).on_receive.empty()) heard_.push_back(r);
+    }
+    std::sort(heard_.begin(), heard_.end(), [this](const Reception& a, const Reception& b) {
+        return a.time != b.time ? a.time < b.time : key(a.node) < key(b.node);
+    });
+    const Frame& frame = flight.air.frame;
+    const std::uint64_t hops = frame.hops;
+    for (const Reception& r : heard_) {
         messages_.hold(frame.message);
-        const std::uint64_t hops = frame.hops;
         queue_.schedule(r.time + least_reaction, Priority::user,
                         {Occurrence::Kind::handed_over, r.node, hops << 32 | frame.message.value});
     }

@@ -42,8 +42,8 @@ NodeId Engine::add(Robot robot) {
     if (!non_negative.contains(robot.radius.value)) {
         throw_out_of_range("robot", "radius", non_negative.text, robot.radius.value);
     }
-    if (!positive.contains(robot.turn_rate.value_or(RadiansPerSecond{1}).value)) {
-        throw_out_of_range("robot", "turn_rate", positive.text, robot.turn_rate->value);
+    if (!turn_rates.contains(robot.turn_rate.value_or(RadiansPerSecond{1}).value)) {
+        throw_out_of_range("robot", "turn_rate", turn_rates.text, robot.turn_rate->value);
     }
     if (!(robot.top_speed.value > 0)) {
         throw_out_of_range("robot", "top_speed", positive.text, robot.top_speed.value);
@@ -88,7 +88,10 @@ Mover Engine::mover(NodeId id) {
                       .b = robot.movements}};
 }
 
+/// Of robots that begin together, what comes of it at one time comes in the order of their keys:
+/// their numbers decide nothing.
 void Engine::begin_movements() {
+    beginning_ = true;
     while (begun_ < nodes_.size()) {
         const NodeId id{static_cast<std::uint32_t>(begun_++)};
         if (medium_.is_on(id)) {
@@ -97,6 +100,26 @@ void Engine::begin_movements() {
             take(id, standing_leg(mover(id)));
         }
     }
+    beginning_ = false;
+    std::sort(set_off_.begin(), set_off_.end(),
+              [this](NodeId a, NodeId b) { return key(a) < key(b); });
+    for (const NodeId id : std::exchange(set_off_, {})) {
+        legs_.leg(id).end == never ? tell_arrival(id) : expect_leg_end(id);
+    }
+}
+
+void Engine::expect_leg_end(NodeId id) {
+    if (beginning_) return set_off_.push_back(id);
+    queue_.schedule(legs_.leg(id).end, Priority::timer,
+                    {Occurrence::Kind::leg_end, id, legs_.version(id)});
+}
+
+/// Calls back who waits for the robot to come to rest.
+void Engine::tell_arrival(NodeId id) {
+    const auto reactions = on_arrival_.find(id);
+    if (reactions == on_arrival_.end()) return;
+    if (beginning_) return set_off_.push_back(id);
+    for (const auto& react : reactions->second) schedule(now_ + least_reaction, {react});
 }
 
 void Engine::next_leg(NodeId id) {
@@ -116,9 +139,7 @@ void Engine::next_leg(NodeId id) {
         return;
     }
     emit(Arrived{now_, id});
-    const auto reactions = on_arrival_.find(id);
-    if (reactions == on_arrival_.end()) return;
-    for (const auto& react : reactions->second) schedule(now_ + least_reaction, {react});
+    tell_arrival(id);
 }
 
 /// Takes a leg of the movement model, after turning towards it if the robot turns in place.
@@ -145,8 +166,7 @@ void Engine::begin_leg(NodeId id, const Leg& leg) {
 void Engine::take(NodeId id, const Leg& leg) {
     put(id, leg);
     emit(Moved{now_, id, leg});
-    if (leg.end == never) return;
-    queue_.schedule(leg.end, Priority::timer, {Occurrence::Kind::leg_end, id, legs_.version(id)});
+    if (leg.end != never) expect_leg_end(id);
 }
 
 void Engine::put(NodeId id, const Leg& leg) {

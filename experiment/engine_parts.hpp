@@ -49,6 +49,12 @@ struct Action {
     Duration period{0};
 };
 
+/// A node always has something to send.
+struct Saturated {
+    NodeId to;
+    std::uint32_t bytes;
+};
+
 /// A robot's body and how it can move; those alike that were added in a row share one.
 struct Body {
     Meters radius;

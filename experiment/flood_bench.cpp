@@ -155,13 +155,12 @@ void flood(Network& network, NodeId from, const Count& count) {
 FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
     if (nodes < 2) throw std::invalid_argument("a flood needs at least 2 nodes");
     const double before = allocated();
-    Network network(
-        {.seed = bench.seed,
-         .propagation = model(bench),
-         .reception = ReceptionTable{.model = bench.reception}.make(),
-         .access = AccessTable{.model = bench.access, .basic_rate = BitRate{11e6}}.make(),
-         .event_limit = ~std::uint64_t{0},
-         .metrics = false});
+    Network network({.seed = bench.seed,
+                     .propagation = model(bench),
+                     .reception = ReceptionTable{.model = bench.reception}.make(),
+                     .access = AccessTable{.model = bench.access, .basic_rates = {{{11e6}}}}.make(),
+                     .event_limit = ~std::uint64_t{0},
+                     .metrics = false});
     add_robots(network, bench, nodes);
     const Duration jitter{bench.access == AccessModel::csma ? 50'000'000 : 10'000'000};
     network.route(Flood{.ttl = 65535, .upgrade = false, .jitter = jitter});

@@ -69,7 +69,11 @@ void Network::at(Time time, std::function<void()> action) {
 }
 
 void Network::every(Duration period, std::function<void()> action) {
-    if (period <= Duration{0}) throw_out_of_range("every", "period", "> 0", seconds(period));
+    constexpr Range periods{
+        .low = 0, .high = 1e9, .low_included = false, .text = "> 0 s, up to 1e9 s"};
+    if (!periods.contains(seconds(period))) {
+        throw_out_of_range("every", "period", periods.text, seconds(period));
+    }
     engine_->schedule(now() + period, {callback(std::move(action)), period});
 }
 

@@ -10,6 +10,7 @@
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
 #include "models/reception.hpp"
+#include "sim/fields.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
@@ -30,6 +31,9 @@
 
 namespace rovernet {
 
+/// [rad/s] of robots that turn in place: half a turn ends well before the clock does.
+inline constexpr Range turn_rates{.low = 1e-8, .text = ">= 1e-8 rad/s"};
+
 /// A robot as it joins a Network.
 struct Robot {
     std::string name;    ///< unique; its random draws depend on it. Empty: "r" and its number
@@ -40,7 +44,7 @@ struct Robot {
     Movement move = Fixed{};
     Radians heading{0};                                                  ///< at the start
     MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};  ///< > 0
-    /// > 0: it turns in place before it moves off; none: it turns at once.
+    /// Within turn_rates: it turns in place before it moves off; none: it turns at once.
     std::optional<RadiansPerSecond> turn_rate = std::nullopt;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/robot_table.hpp"
 
+#include "experiment/network.hpp"
 #include "experiment/scenario.hpp"
 
 #include <fmt/format.h>
@@ -178,7 +179,7 @@ RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_p
     table.read("heading", robot.heading);
     table.read("radius", robot.radius, non_negative);
     table.read("top_speed", robot.top_speed, positive);
-    table.read("turn_rate", robot.turn_rate, positive);
+    table.read("turn_rate", robot.turn_rate, turn_rates);
     if (const Value* move = table.take("move")) robot.move = read_move(*move, placed);
     if (!placed && needs_place && !robot.move.draws_place()) {
         table.missing("at", "at = [\"2 m\", \"3 m\"], or place = { ... }");

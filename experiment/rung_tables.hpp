@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace rovernet {
 
@@ -59,7 +60,7 @@ struct AccessTable {
     std::optional<Duration> sifs = std::nullopt, difs = std::nullopt, cca_time = std::nullopt,
                             turnaround = std::nullopt, rx_start_delay = std::nullopt;
     std::optional<int> cw_min = std::nullopt, cw_max = std::nullopt;
-    std::optional<BitRate> basic_rate = std::nullopt;
+    std::optional<std::vector<BitRate>> basic_rates = std::nullopt;
     bool eifs = true;
     int short_retries = Csma{}.short_retries;
     int long_retries = Csma{}.long_retries;
@@ -83,7 +84,9 @@ struct AccessTable {
                   "until the beginning of an answer is noticed"),
             field("cw_min", &A::cw_min, window, "least contention window, in slots"),
             field("cw_max", &A::cw_max, window, "largest contention window, in slots"),
-            field("basic_rate", &A::basic_rate, positive, "of broadcasts, RTS, CTS and ACK"),
+            field("basic_rates", &A::basic_rates,
+                  "broadcasts and RTS go at the lowest, answers at the highest not above the "
+                  "asker's"),
             field("eifs", &A::eifs, "wait longer after a frame with errors"),
             field("short_retries", &A::short_retries, non_negative, "attempts; 0: no end"),
             field("long_retries", &A::long_retries, non_negative, "behind an RTS; 0: no end"),

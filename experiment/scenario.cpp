@@ -102,8 +102,10 @@ void check_modulation(std::string_view key, BitRate rate, Location where) {
 void check_sinr(const Scenario& scenario) {
     if (scenario.reception.model != ReceptionModel::sinr) return;
     const AccessTable& access = scenario.access;
-    if (access.model == AccessModel::csma && access.basic_rate) {
-        check_modulation("basic_rate", *access.basic_rate, scenario.access_where);
+    if (access.model == AccessModel::csma && access.basic_rates) {
+        for (const BitRate rate : *access.basic_rates) {
+            check_modulation("basic_rates", rate, scenario.access_where);
+        }
     }
     const auto check = [](const PropagationTable& propagation, Location propagation_where,
                           const Radio& radio, Location radio_where) {
@@ -144,10 +146,30 @@ void read_section(TableReader& document, std::string_view key, T& out) {
     table.reject_unknown();
 }
 
+/// Values that suit another access model, but not csma.
+void check_csma(const AccessTable& access, const Table& table) {
+    if (access.slot == Duration{0}) {
+        const Value& slot = *table.find("slot");
+        throw InputError(slot.where, fmt::format("slot: found {}; [access] model = \"csma\" counts "
+                                                 "its backoff in slots: expected a value > 0",
+                                                 slot.description()));
+    }
+    const auto& rates = access.basic_rates;
+    const auto is_none = [](BitRate rate) { return !(rate > BitRate{0}); };
+    if (rates && (rates->empty() || std::any_of(rates->begin(), rates->end(), is_none))) {
+        const Value& given = *table.find("basic_rates");
+        throw InputError(given.where, fmt::format("basic_rates: found {}; expected at least one "
+                                                  "bit rate, all of them > 0",
+                                                  given.description()));
+    }
+}
+
 /// Radios of OFDM have its preamble and its highest rate, unless [radio] says otherwise.
 void read_access(TableReader& document, Scenario& out) {
-    if (const Value* access = document.take("access")) out.access_where = access->where;
+    const Value* access = document.take("access");
+    if (access) out.access_where = access->where;
     read_section(document, "access", out.access);
+    if (access && out.access.model == AccessModel::csma) check_csma(out.access, *access->table());
     if (out.access.model == AccessModel::csma && out.access.standard != WifiStandard::b) {
         out.radio.rate = BitRate{54e6};
         out.radio.preamble = std::chrono::microseconds{20};
@@ -253,9 +275,9 @@ AccessRung AccessTable::make() const {
     timing.rx_start_delay = rx_start_delay.value_or(timing.rx_start_delay);
     timing.cw_min = cw_min.value_or(timing.cw_min);
     timing.cw_max = std::max(cw_max.value_or(timing.cw_max), timing.cw_min);
-    timing.basic_rate = basic_rate.value_or(timing.basic_rate);
     return Csma{.standard = standard,
                 .timing = timing,
+                .basic_rates = basic_rates.value_or(mandatory_rates(standard)),
                 .eifs = eifs,
                 .short_retries = short_retries,
                 .long_retries = long_retries,

@@ -24,7 +24,8 @@ class Air {
     virtual Time now() const = 0;
     /// Puts a frame on air now; returns when it ends at its sender.
     virtual Time transmit(const AirFrame& frame) = 0;
-    /// How long a frame is on air [ns], and how large it is then [bytes].
+    /// How long a frame is on air [ns], and how large it is then [bytes]. An ACK for everyone is
+    /// the longest that anybody sends.
     virtual Duration airtime(const AirFrame& frame) const = 0;
     virtual std::uint32_t bytes(const AirFrame& frame) const = 0;
     /// Calls the rung's on_timer(node, tag) at `at`.

@@ -12,7 +12,7 @@ namespace rovernet {
 
 /// Which frame can capture a receiver where two overlap.
 enum class CaptureOrder {
-    first,  ///< the one that began first, as in ns-2
+    first,  ///< the one that the receiver is at, as in ns-2
     later,  ///< either
 };
 template <>
@@ -23,22 +23,36 @@ struct EnumNames<CaptureOrder> {
 /// Reception rung "collision": frames that overlap at a node destroy each other, unless one
 /// captures it; and a node that sends hears nothing.
 ///
-/// Of two frames f and g that overlap at a node, f survives g iff it is stronger by the capture
-/// ratio and begins no later than g (or `order` lets a later one capture). The rule holds for each
-/// pair, so that what becomes of a frame does not depend on the order in which they are looked at.
-/// Source: ns-2.35's 802.11, whose receiver compares a frame with the one that it is at, only.
+/// CaptureOrder::first: a receiver that is free is at the first frame that it senses, until that is
+/// over. A frame that begins in the meantime and is weaker by the capture ratio is let pass: it is
+/// lost, and harms nobody, be it on air for longer than the first. Any other destroys the one that
+/// the receiver is at and is lost itself, and the receiver is free again when both are over. Of two
+/// that begin together the receiver is at the stronger one. Whether a frame was let pass is decided
+/// by who was on air when it began, without asking whether those had been let pass themselves.
+/// CaptureOrder::later: of two that overlap, the one that is stronger by the capture ratio
+/// survives. Source: what ns-2.35's 802.11 does, whose receiver compares a frame with the one that
+/// it is at.
 struct Collision {
     Db capture_ratio{10};  ///< [dB] > 0
     CaptureOrder capture = CaptureOrder::first;
 
-    /// Whether `frame` survives that `other` arrives at the same node. is_stronger(frame, other,
-    /// capture_ratio) is asked where it matters.
+    /// Whether `frame` survives that `other` arrives at the same node, unless that one was let
+    /// pass. is_stronger(frame, other, capture_ratio) is asked where it matters.
     template <class IsStronger>
     bool survives(Arrival& frame, Arrival& other, IsStronger is_stronger) const {
         if (!frame.overlaps(other)) return true;
-        if (other.own || (frame.begin > other.begin && capture == CaptureOrder::first))
-            return false;
+        if (other.own || finds_receiver_at(frame, other)) return false;
         return is_stronger(frame, other, capture_ratio);
+    }
+    /// The receiver was at `other`, unless that was let pass, when `frame` began.
+    bool finds_receiver_at(const Arrival& frame, const Arrival& other) const {
+        return capture == CaptureOrder::first && frame.begin > other.begin;
+    }
+    /// The receiver lets `frame` pass, as it is at `other`.
+    template <class IsStronger>
+    bool lets_pass(Arrival& frame, Arrival& other, IsStronger is_stronger) const {
+        const bool is_at = other.begin <= frame.begin && frame.begin < other.end && !other.own;
+        return is_at && is_stronger(other, frame, capture_ratio);
     }
 };
 

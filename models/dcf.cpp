@@ -1,9 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "models/dcf.hpp"
 
+#include "sim/fields.hpp"
+
 #include <algorithm>
+#include <functional>
 
 namespace rovernet {
+
+Dcf::Dcf(const Csma& settings) : settings_(settings) {
+    const double slot = seconds(settings_.timing.slot);
+    if (!positive.contains(slot)) throw_out_of_range("csma", "slot", positive.text, slot);
+    auto& rates = settings_.basic_rates;
+    std::sort(rates.begin(), rates.end(), std::less<>());
+    const double lowest = rates.empty() ? 0 : rates.front().value;
+    if (!positive.contains(lowest)) {
+        throw_out_of_range("csma", "basic_rates", positive.text, lowest);
+    }
+}
+
+BitRate Dcf::answer_rate(BitRate rate) const {
+    const auto& rates = settings_.basic_rates;
+    const auto above = std::upper_bound(rates.begin(), rates.end(), rate);
+    return above == rates.begin() ? rates.front() : *(above - 1);
+}
 
 void Dcf::add() {
     stations_.emplace_back();
@@ -207,8 +227,8 @@ void Dcf::send_response(Air& air, NodeId node) {
 
 void Dcf::missed(Air& air, NodeId node) {
     if (!settings_.eifs) return;
-    const Duration ack = air.airtime(control_frame(node, node, AirFrame::ack));
     const WifiTiming& t = settings_.timing;
+    const Duration ack = air.airtime(control_frame(node, everyone, AirFrame::ack));
     backoff(node).frame_lost(air.now(), t.sifs + ack + t.difs);
 }
 

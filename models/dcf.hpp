@@ -18,6 +18,9 @@ namespace rovernet {
 struct Csma {
     WifiStandard standard = WifiStandard::b;
     WifiTiming timing = timing_of(WifiStandard::b);
+    /// Broadcasts and RTS go at the lowest, an answer at the highest that is not above the rate of
+    /// what it answers (the lowest, if all are above). Not empty; in any order.
+    std::vector<BitRate> basic_rates = mandatory_rates(WifiStandard::b);
     bool eifs = true;                    ///< wait longer after a frame with errors
     int short_retries = 7;               ///< attempts of an RTS, or of data without; 0: no end
     int long_retries = 4;                ///< attempts of data behind an RTS; 0: no end
@@ -34,7 +37,8 @@ struct Csma {
 /// finds that the medium was busy in the meantime is set again. Source: IEEE 802.11-2020, 10.3.
 class Dcf {
   public:
-    explicit Dcf(const Csma& settings) : settings_(settings) {}
+    /// @throws std::invalid_argument if a slot is not > 0, or there is no basic rate
+    explicit Dcf(const Csma& settings);
 
     Dcf(const Dcf&) = delete;  // backoffs refer to the timing
     Dcf& operator=(const Dcf&) = delete;
@@ -62,6 +66,10 @@ class Dcf {
     void switch_off(Air& air, NodeId node);
 
     const Csma& settings() const { return settings_; }
+    /// Of broadcasts and RTS.
+    BitRate lowest_basic_rate() const { return settings_.basic_rates.front(); }
+    /// Of a CTS or an ACK. @param rate  of what it answers
+    BitRate answer_rate(BitRate rate) const;
 
   private:
     enum class State : std::uint8_t { idle, contending, awaiting_cts, awaiting_ack };

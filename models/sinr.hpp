@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -49,9 +50,12 @@ class SinrReceiver {
     ///        one that `signal` overlaps can have begun
     /// @param level_of  level_of(arrival) [dBm], asked once for each where it matters
     /// @param draw      uniform in (0, 1); asked if the outcome is not certain
-    template <class LevelOf, class Draw>
+    /// @param before    before(a, b) of two senders: whose frame is looked at first, if nothing
+    /// else
+    ///        tells the two apart
+    template <class LevelOf, class Draw, class Before = std::less<NodeId>>
     Fate judge(Arrival& signal, std::span<Arrival> arrivals, const SinrFrame& frame,
-               LevelOf level_of, Draw draw) {
+               LevelOf level_of, Draw draw, Before before = {}) {
         here_.clear();
         for (Arrival& a : arrivals) here_.push_back(&a);
         const auto level = [&](Arrival& a) {
@@ -59,7 +63,7 @@ class SinrReceiver {
             return a.level_dbm;
         };
         if (*signal.lock == Lock::open) {
-            sort_here(level);
+            sort_here(level, before);
             settle_locks(signal.begin, frame.noise, level);
         }
         if (sends_during(signal)) return Fate::busy;
@@ -69,7 +73,7 @@ class SinrReceiver {
         if (*signal.lock == Lock::missed) return lost;
         level(signal);
         for (Arrival* a : here_) level(*a);
-        sort_here(level);
+        sort_here(level, before);
         if (is_certain(signal, frame)) return Fate::waiting;
         if (draw() < success(log_success_of(signal, frame))) return Fate::waiting;
         return lost;
@@ -78,11 +82,11 @@ class SinrReceiver {
   private:
     /// Canonical: what is decided and summed does not depend on the order of becoming known. Of
     /// frames that begin together the strongest is first.
-    template <class Level>
-    void sort_here(Level level) {
+    template <class Level, class Before>
+    void sort_here(Level level, Before before) {
         std::sort(here_.begin(), here_.end(), [&](Arrival* a, Arrival* b) {
             if (a->begin != b->begin) return a->begin < b->begin;
-            return level(*a) != level(*b) ? level(*a) > level(*b) : a->from < b->from;
+            return level(*a) != level(*b) ? level(*a) > level(*b) : before(a->from, b->from);
         });
     }
     bool sends_during(const Arrival& judged) const;

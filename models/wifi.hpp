@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace rovernet {
 
@@ -33,7 +34,7 @@ struct WifiTiming {
     Duration rx_start_delay;  ///< aRxPHYStartDelay: how long it takes to notice that a frame begins
     int cw_min;               ///< aCWmin [slots]
     int cw_max;               ///< aCWmax [slots]
-    BitRate basic_rate;       ///< of broadcasts and of RTS, CTS and ACK
+    BitRate lowest_rate;      ///< that every station has; of the ACK that an EIFS has room for
 };
 
 /// The constants of a standard. Clauses of IEEE 802.11-2020; the CCA times are what a slot leaves
@@ -49,6 +50,13 @@ constexpr WifiTiming timing_of(WifiStandard standard) {
             return {9us, 10us, 28us, 5us, 2us, 20us, 15, 1023, {6e6}};
     }
     return {};
+}
+
+/// The rates that every station of a standard has, lowest first. Sources: 802.11-2020, 16.1.1,
+/// 17.1.1 and, for 802.11g among its own, 18.1.2.
+inline std::vector<BitRate> mandatory_rates(WifiStandard standard) {
+    if (standard == WifiStandard::b) return {{1e6}, {2e6}, {5.5e6}, {11e6}};
+    return {{6e6}, {12e6}, {24e6}};
 }
 
 /// Time on air [ns] of `bytes` [bytes] behind a preamble: for 802.11b in whole microseconds, as its

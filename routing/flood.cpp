@@ -48,9 +48,12 @@ void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Rece
             return is_duplicate(frame, known[r->node]);
         });
     }
-    // Timers of one time are served in the order in which they were set.
+    // Timers of one time are served in the order in which they were set: in that of the nodes'
+    // keys, so that their numbers decide nothing.
     if (end - news.begin() > 1) {
-        std::sort(news.begin(), end, [](const auto* a, const auto* b) { return *a < *b; });
+        std::sort(news.begin(), end, [&](const auto* a, const auto* b) {
+            return a->time != b->time ? a->time < b->time : link.key(a->node) < link.key(b->node);
+        });
     }
     for (auto each = news.begin(); each != end; ++each) take(link, frame, known, **each);
 }

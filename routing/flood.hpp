@@ -40,7 +40,7 @@ struct Flood {
             field("duplicates", &Flood::duplicates, "what a node does with a second copy"),
             field("upgrade", &Flood::upgrade,
                   "under \"suppress\": a copy of higher TTL lifts the one not yet sent"),
-            field("jitter", &Flood::jitter, non_negative,
+            field("jitter", &Flood::jitter, Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
                   "upper end of the uniform delay before forwarding"));
     }
 

@@ -52,7 +52,8 @@ struct Transmitted {
 struct Received {
     Frame frame;
     std::span<const Reception> receptions;
-    Duration reserved{0};  ///< [ns] after its end, by a unicast at csma for its acknowledgement
+    Duration reserved{0};      ///< [ns] after its end, by a unicast at csma for its acknowledgement
+    std::uint32_t header = 0;  ///< [bytes] that access adds to the message
 };
 
 /// A copy is lost while it waits.

@@ -84,6 +84,8 @@ std::string_view layer_of(DropReason reason) {
 
 /// The PLCP preamble and header at 1 Mb/s, which ns-2 counts among a frame's bytes.
 constexpr std::uint32_t plcp_bytes = 24;
+/// [bytes] that a frame with this header of the access rung has on air beside its message.
+constexpr std::uint32_t on_air(std::uint32_t header) { return header ? header + plcp_bytes : 0; }
 
 /// What a MAC wrote into a packet; nothing: it has not seen it.
 struct MacHeader {
@@ -163,13 +165,10 @@ class Ns2Trace::Writer {
     void lines(const Received&, const RecordContext&);
     void lines(const Dropped&, const RecordContext&);
     void lines(const Moved&, const RecordContext&);
-    void lines(const Arrived&, const RecordContext&) {}
-    void lines(const NoWay&, const RecordContext&) {}
-    void lines(const Switched&, const RecordContext&) {}
-    void lines(const LinkUp&, const RecordContext&) {}
-    void lines(const LinkDown&, const RecordContext&) {}
     void lines(const AirSent&, const RecordContext&);
     void lines(const ControlReceived&, const RecordContext&);
+    template <class Other>
+    void lines(const Other&, const RecordContext&) {}
 
     void packet(const PacketLine&, const RecordContext&);
     void old_packet(const PacketLine&, const Message&);
@@ -237,8 +236,10 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
         PacketLine line{{'r', rx.time, rx.node, "MAC", "---", mac}, frame.message, frame.ttl};
         const bool repeated = frame.next_hop != everyone && rx.fate == Fate::duplicate;
         if (repeated || !is_decoded(rx.fate)) {
+            if (mac_ == MacTrace::off) continue;
             line.op = 'D';
             line.reason = repeated ? "DUP" : reason_of_loss(rx.fate);
+            line.added = repeated ? 0 : on_air(r.header);
             packet(line, context);
             continue;
         }
@@ -257,6 +258,7 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
 }
 
 void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
+    if (r.reason == DropReason::retries && mac_ == MacTrace::off) return;
     MacHeader mac;
     if (r.frame.sender != r.node) mac = ip_header(r.frame.sender, r.frame.next_hop);
     packet({{'D', r.time, r.node, layer_of(r.reason), reason_of(r.reason), mac},
@@ -270,8 +272,7 @@ void Ns2Trace::Writer::lines(const AirSent& r, const RecordContext& context) {
     const Line line{'s', r.time, air.frame.sender, "MAC", "---", mac_header(air)};
     if (air.kind != AirFrame::data) return control(line, air, r.bytes, context);
     const std::uint32_t header = r.bytes - context.messages[air.frame.message].size;
-    packet({line, air.frame.message, air.frame.ttl, header + (header > 0 ? plcp_bytes : 0)},
-           context);
+    packet({line, air.frame.message, air.frame.ttl, on_air(header)}, context);
 }
 
 void Ns2Trace::Writer::lines(const ControlReceived& r, const RecordContext& context) {

@@ -22,9 +22,9 @@ enum class MacTrace { off, on };
 /// | Sent               | `s AGT`, `r RTR` (the own packet on its way down)                   |
 /// | Sent.reachable     | before these: `v T eval {set sim_annotation {reachable UID N}}`     |
 /// | Transmitted        | `s RTR` by the message's origin, `f RTR` by anybody else            |
-/// | Received           | per reception `r RTR`, then `r AGT` if delivered, then              |
-/// |                    | `D RTR TTL` or `D RTR DUP` by its fate; fate off: only `D MAC SLP`  |
-/// | Dropped            | `D RTR SLP`                                                         |
+/// | Received           | per decoded reception `r RTR`, then `r AGT` if delivered, then      |
+/// |                    | `D RTR TTL` or `D RTR DUP` by its fate                              |
+/// | Dropped            | `D RTR SLP`, `D IFQ IFQ` or `D IFQ END`                             |
 /// | Moved              | `M`                                                                 |
 ///
 /// With MacTrace::on also, and else the same lines:
@@ -32,18 +32,20 @@ enum class MacTrace { off, on };
 /// | record             | lines                                                               |
 /// |--------------------|---------------------------------------------------------------------|
 /// | AirSent            | `s MAC`, that of a message behind its `s RTR` or `f RTR`            |
-/// | Received           | per decoded reception `r MAC` before the `r RTR`                    |
+/// | Received           | per decoded reception `r MAC` before the `r RTR`; of any other only |
+/// |                    | `D MAC` with the reason                                             |
+/// | Dropped            | `D MAC RET` of a unicast that was given up                          |
 /// | ControlReceived    | `r MAC`, or `D MAC` with the reason                                 |
 ///
 /// Times are exact [ns], 9 decimals; 5 in an `M` line. The id of a packet is the message's uid, its
-/// type `message`, its size [bytes] the message's at every layer but in `s MAC`; ports are 0. The
+/// type `message`, its size [bytes] the message's but on air (see below); ports are 0. The
 /// ttl is that carried on air, in a `D RTR TTL` line too (ns-2 shows 0 there).
 ///
-/// The size in an `s MAC` line is that on air. A frame with a header of the access rung counts 24
-/// bytes more, the PLCP's (802.11-2020, 15.2.2: 144 + 48 bits), as ns-2 counts them at any rate and
-/// standard; those that control access do so when they are received, too: RTS 44, CTS and ACK 38,
-/// id 0. Their lines have no network part; they show no transmitter of a CTS or an ACK, which do
-/// not carry it, and in the new format no type and size.
+/// The size in an `s MAC` line, and of a frame that is lost on air, is that on air. A frame with a
+/// header of the access rung counts 24 bytes more, the PLCP's (802.11-2020, 15.2.2: 144 + 48 bits),
+/// as ns-2 counts them at any rate and standard; those that control access do so when they are
+/// received, too: RTS 44, CTS and ACK 38, id 0. Their lines have no network part; they show no
+/// transmitter of a CTS or an ACK, which do not carry it, and in the new format no type and size.
 ///
 /// Source: the output of ns-2.35, and its cmu-trace.cc.
 class Ns2Trace {

@@ -116,6 +116,66 @@ TEST_CASE("csma: an idle medium costs a DIFS, and the airtimes are those of the 
     CHECK(cell.ledger->transmitted == 1);
 }
 
+namespace {
+
+/// When an ACK began and when it was over.
+struct ControlTimes {
+    std::vector<Time> times{};
+    KindMask kinds() const { return kind_of<AirSent>() | kind_of<ControlReceived>(); }
+    void on(const Record& record, const RecordContext&) {
+        const auto* sent = std::get_if<AirSent>(&record);
+        if (sent && sent->air.kind == AirFrame::ack) times.push_back(sent->time);
+        const auto* got = std::get_if<ControlReceived>(&record);
+        if (got && got->air.kind == AirFrame::ack) times.push_back(got->reception.time);
+    }
+};
+
+/// [us] that the ACK of a unicast takes, without the way.
+double microseconds_of_answer(double rate, std::vector<BitRate> basic_rates) {
+    Room cell(2, Csma{.basic_rates = std::move(basic_rates)}, {.rate = {rate}});
+    const auto control = std::make_shared<ControlTimes>();
+    cell.net.add_sink(Sink{control});
+    cell.net.at(start_of_run,
+                [&] { cell.net.unicast(cell.nodes[0], cell.nodes[1], "", 1000 - 28); });
+    cell.net.run_for(1s);
+    REQUIRE(control->times.size() == 2);
+    return 1e6 * seconds(control->times[1] - control->times[0]);
+}
+
+}  // namespace
+
+TEST_CASE("csma: an answer goes at the highest basic rate that is not above the frame's") {
+    const std::vector<BitRate> standard = mandatory_rates(WifiStandard::b);
+    const auto ack_us = [](double rate) { return 192 + std::ceil(8 * 14 / rate * 1e6); };
+    CHECK(microseconds_of_answer(11e6, standard) == doctest::Approx(ack_us(11e6)));
+    CHECK(microseconds_of_answer(5.5e6, standard) == doctest::Approx(ack_us(5.5e6)));
+    CHECK(microseconds_of_answer(9e6, standard) == doctest::Approx(ack_us(5.5e6)));
+    CHECK(microseconds_of_answer(1e6, standard) == doctest::Approx(ack_us(1e6)));
+    CHECK(microseconds_of_answer(11e6, {{2e6}, {1e6}}) == doctest::Approx(ack_us(2e6)));
+    CHECK(microseconds_of_answer(1e6, {{2e6}, {11e6}}) == doctest::Approx(ack_us(2e6)));
+}
+
+TEST_CASE("csma: broadcasts and RTS go at the lowest basic rate") {
+    for (const double lowest : {1e6, 5.5e6}) {
+        Room cell(2, Csma{.basic_rates = {{11e6}, {lowest}}}, {.rate = {11e6}});
+        cell.net.at(start_of_run,
+                    [&] { cell.net.unicast(cell.nodes[0], everyone, "", 1000 - 28); });
+        cell.net.run_for(1s);
+        REQUIRE(cell.ledger->deliveries.size() == 1);
+        const double us = 50 + 192 + std::ceil(8000 / lowest * 1e6);
+        CHECK(1e6 * seconds(cell.ledger->deliveries[0] - start_of_run) == doctest::Approx(us));
+    }
+}
+
+TEST_CASE("csma: a slot of no length, and no basic rate, are refused") {
+    Csma no_slot;
+    no_slot.timing.slot = Duration{0};
+    CHECK_THROWS_WITH_AS(Network({.access = no_slot}), "csma: slot must be > 0, got 0",
+                         std::invalid_argument);
+    CHECK_THROWS_AS(Network({.access = Csma{.basic_rates = {}}}), std::invalid_argument);
+    CHECK_THROWS_AS(Network({.access = Csma{.basic_rates = {{0}}}}), std::invalid_argument);
+}
+
 TEST_CASE("csma: a unicast that nobody answers is sent seven times and given up") {
     Room cell(2, Csma{}, {}, 1000);
     cell.net.at(start_of_run, [&] { cell.net.unicast(cell.nodes[0], cell.nodes[1], "x", {}); });

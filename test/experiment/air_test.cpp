@@ -177,6 +177,15 @@ struct Playground {
     }
     std::uint64_t key(NodeId node) const { return name_key(net.name(node)); }
 
+    /// Somebody was on air at the node when it began who is stronger by the capture ratio.
+    bool was_let_pass(const Heard& mine, NodeId node) const {
+        return std::any_of(log->sendings.begin(), log->sendings.end(), [&](const Sending& g) {
+            const auto other = g.from == node ? std::nullopt : heard(g, node);
+            return other && other->begin <= mine.begin && mine.begin < other->end &&
+                   other->level_dbm >= mine.level_dbm + rung.capture_ratio.value;
+        });
+    }
+
     /// What becomes of a sending at a node that can receive it.
     Fate expected(const Sending& f, NodeId node) const {
         const Heard mine = *heard(f, node);
@@ -188,6 +197,7 @@ struct Playground {
             if (!other || mine.begin >= other->end || other->begin >= mine.end) continue;
             const bool in_order = mine.begin <= other->begin || rung.capture == CaptureOrder::later;
             if (in_order && mine.level_dbm >= other->level_dbm + rung.capture_ratio.value) continue;
+            if (!own && !in_order && was_let_pass(*other, node)) continue;
             if (!own) return Fate::collided;
             fate = Fate::busy;
         }
@@ -312,6 +322,35 @@ TEST_CASE("air: a frame from afar that was over where it was sent meets one wher
         const auto fates = fates_at(*space.log, robot);
         REQUIRE(fates.size() == 2);
         CHECK(fates[1] == (later ? Fate::waiting : Fate::collided));
+    }
+}
+
+TEST_CASE("air: at collision a frame that was let pass harms none that comes later, as in ns-2") {
+    // ns-2.35: a strong frame, a weak one under it that lasts longer, and one while that is on air.
+    for (const bool strong : {true, false}) {
+        Network net({.propagation = LogDistance{.exponent = 4, .sigma = Db{0}},
+                     .reception = Collision{},
+                     .metrics = false});
+        const auto log = std::make_shared<Log>();
+        log->net = &net;
+        net.add_sink(Sink{log});
+        const Radio radio{.power = {20}, .sensitivity = {-120}, .rate = {1e6}, .preamble = 0ns};
+        for (const Vec3 at : {Vec3{}, Vec3{50, 0}, Vec3{-240, 0}, Vec3{0, 150}}) {
+            net.add({.name = {}, .at = at, .radio = radio});
+        }
+        const auto send = [&](Time t, std::uint32_t from, std::uint32_t bytes) {
+            net.at(t, [&net, from, bytes] { net.unicast({from}, {0}, "", bytes); });
+        };
+        if (strong) send(start_of_run, 1, 1000);
+        send(start_of_run + 6ms, 2, 1000);
+        send(start_of_run + 10ms, 3, 100);
+        net.run_for(1s);
+        const auto fates = fates_at(*log, {0});
+        if (strong) {
+            CHECK(fates == std::vector{Fate::waiting, Fate::waiting, Fate::collided});
+        } else {
+            CHECK(fates == std::vector{Fate::collided, Fate::collided});
+        }
     }
 }
 

@@ -45,13 +45,8 @@ std::string difference(const std::string& one, const std::string& other) {
     return "\"" + (x == a.end() ? "" : *x) + "\" and \"" + (y == b.end() ? "" : *y) + "\"";
 }
 
-/// Lines that only MacTrace::on writes: sendings, receptions and control frames of the MAC.
-bool is_of_mac(const std::string& line) {
-    static const std::regex sending_or_reception(R"(^[sr] .*\bMAC\b.*)");
-    static const std::regex control(R"(.*( (RTS|CTS|ACK) \d+ \[| -Mt 0 $).*)");
-    return std::regex_match(line, sending_or_reception) ||
-           (line.find(" MAC ") != line.npos && std::regex_match(line, control));
-}
+/// Lines that only MacTrace::on writes.
+bool is_of_mac(const std::string& line) { return line.find(" MAC ") != line.npos; }
 
 std::string without_mac(const std::string& text) {
     std::string rest;
@@ -144,7 +139,8 @@ TEST_CASE("MAC trace: the same to the byte whether receptions are served togethe
     }
 }
 
-TEST_CASE("MAC trace: its lines come on top of the others, and what is read back stays the same") {
+TEST_CASE(
+    "MAC trace: its lines come on top of the others, and what arrived is read back the same") {
     for (const Ns2Format format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (const AccessRung& access : accesses) {
             CAPTURE(access.index());
@@ -152,13 +148,18 @@ TEST_CASE("MAC trace: its lines come on top of the others, and what is read back
             const Traced with = traced(setting);
             setting.mac = MacTrace::off;
             const Traced plain = traced(setting);
-            CHECK(count(plain.text, "^[sr] .*MAC|RTS|CTS|ACK") == 0);
+            CHECK(count(plain.text, "MAC|RTS|CTS|ACK") == 0);
             CHECK(difference(without_mac(with.text), plain.text) == "");
             CHECK(with.fingerprint == plain.fingerprint);
             CHECK(with.metrics.drops[4].count > 0);  // COL
             CHECK(with.metrics == plain.metrics);
-            CHECK(with.read == plain.read);
             CHECK(with.read == with.metrics);
+            // What was lost on air is the MAC's to tell; nothing else is.
+            CHECK(plain.read.drops[4].count == 0);
+            CHECK(plain.read.deliveries == with.read.deliveries);
+            CHECK(plain.read.delivery_ratio == with.read.delivery_ratio);
+            CHECK(plain.read.transmissions == with.read.transmissions);
+            CHECK(plain.read.latency == with.read.latency);
         }
     }
 }

@@ -26,7 +26,7 @@ constexpr WifiTiming instant{.slot = 4us,
                              .rx_start_delay = 0us,
                              .cw_min = 31,
                              .cw_max = 1023,
-                             .basic_rate = {1e6}};
+                             .lowest_rate = {1e6}};
 constexpr Duration eifs = 26us;
 
 /// A station that listens.

@@ -72,6 +72,30 @@ TEST_CASE("collision: a node that sends hears nothing, before, during and after"
     }
 }
 
+TEST_CASE("collision: a receiver is at the frame that came first, if the order matters") {
+    const Arrival first = frame(0, 100, -50), second = frame(50, 150, -50);
+    const Collision in_order, any_order{.capture = CaptureOrder::later};
+    CHECK(in_order.finds_receiver_at(second, first));
+    CHECK_FALSE(in_order.finds_receiver_at(first, second));
+    CHECK_FALSE(in_order.finds_receiver_at(first, frame(0, 10, -20)));
+    CHECK_FALSE(any_order.finds_receiver_at(second, first));
+}
+
+TEST_CASE("collision: a frame is let pass that begins under one that is stronger by the ratio") {
+    const auto lets_pass = [](Arrival f, Arrival g) {
+        return Collision{}.lets_pass(f, g, [](const Arrival& a, const Arrival& b, Db by) {
+            return a.level_dbm >= b.level_dbm + by.value;
+        });
+    };
+    const Arrival weak = frame(50, 500, -70);
+    CHECK(lets_pass(weak, frame(0, 100, -60)));
+    CHECK(lets_pass(weak, frame(50, 60, -60)));
+    CHECK_FALSE(lets_pass(weak, frame(0, 100, -60.01)));
+    CHECK_FALSE(lets_pass(weak, frame(0, 50, -20)));
+    CHECK_FALSE(lets_pass(weak, frame(51, 100, -20)));
+    CHECK_FALSE(lets_pass(weak, own_frame(NodeId{0}, at(0), at(100))));
+}
+
 TEST_CASE("collision: who is stronger is asked only where it decides") {
     int asked = 0;
     const auto is_stronger = [&](const Arrival&, const Arrival&, Db by) {

@@ -108,10 +108,10 @@ struct Recorded {
 
 }  // namespace
 
-TEST_CASE("reader: the metrics of a trace are those of its run, to the last digit") {
+TEST_CASE("reader: the metrics of a trace with MAC lines are those of its run, to the last digit") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (unsigned seed = 0; seed < 20; ++seed) {
-            const Recorded run(format, seed, 2 + static_cast<int>(seed) * 7, 2'000);
+            const Recorded run(format, seed, 2 + static_cast<int>(seed) * 7, 2'000, MacTrace::on);
             const auto read = metrics_of(run.text);
             REQUIRE(run.values.deliveries > 0);
             REQUIRE(run.values.drops[2].count > 0);
@@ -130,17 +130,20 @@ TEST_CASE("reader: the metrics of a trace are those of its run, to the last digi
     }
 }
 
-TEST_CASE("reader: lines of the MAC layer change nothing of what is read") {
+TEST_CASE("reader: without the MAC's lines all is read but what was lost on air") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (unsigned seed = 0; seed < 5; ++seed) {
             const Recorded plain(format, seed, 20, 1'000);
             const Recorded with(format, seed, 20, 1'000, MacTrace::on);
             REQUIRE(with.text.size() > plain.text.size());
             CHECK(metrics_of(with.text) == plain.values);
+            const auto read = metrics_of(plain.text);
+            CHECK(read.deliveries == plain.values.deliveries);
+            CHECK(read.delivery_ratio == plain.values.delivery_ratio);
+            CHECK(read.latency == plain.values.latency);
             const auto a = records_of(with.text), b = records_of(plain.text);
             CHECK(a.transmitted.size() == b.transmitted.size());
-            CHECK(a.received.size() == b.received.size());
-            CHECK(a.dropped.size() == b.dropped.size());
+            CHECK(a.received.size() >= b.received.size());
         }
     }
 }

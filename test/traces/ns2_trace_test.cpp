@@ -75,9 +75,28 @@ TEST_CASE("ns-2 trace: a repeated unicast is dropped by the MAC") {
     };
     const std::string last =
         "D 1.500000000 _1_ MAC  DUP 0 message 64 [0 1 0 800] ------- [0:0 -1:0 1 0] \n";
-    CHECK(trace_of(Ns2Format::old_format, repeat).ends_with(last));
-    CHECK(trace_of(Ns2Format::old_format, repeat, MacTrace::on).ends_with(last));
-    CHECK(trace_of(Ns2Format::old_format, repeat).find("r 1.5") == std::string::npos);
+    const auto with_mac = trace_of(Ns2Format::old_format, repeat, MacTrace::on);
+    CHECK(with_mac.ends_with(last));
+    CHECK(with_mac.find("r 1.5") == std::string::npos);
+    CHECK(trace_of(Ns2Format::old_format, repeat).find(" 1.5") == std::string::npos);
+}
+
+TEST_CASE("ns-2 trace: a frame that is lost on air has its size there, and no line without MAC") {
+    const auto lose = [](Stream& s) {
+        s.place(Vec3{});
+        s.place(Vec3{10, 0, 0});
+        const auto m = s.send(at(1'000'000'000), a, 1, 500, 2);
+        const std::vector<Reception> lost = {{at(1'500'000'000), b, Fate::collided}};
+        s.emit(Received{frame(m, a, 1, 1), lost, {}, 28});
+        s.emit(Dropped{at(1'600'000'000), a, frame(m, a, 1, 1), DropReason::retries});
+    };
+    CHECK(
+        trace_of(Ns2Format::old_format, lose, MacTrace::on)
+            .ends_with("D 1.500000000 _1_ MAC  COL 0 message 552 [0 ffffffff 0 800] ------- [0:0 "
+                       "-1:0 1 0] \n"
+                       "D 1.600000000 _0_ MAC  RET 0 message 500 [0 0 0 0] ------- [0:0 -1:0 1 0] "
+                       "\n"));
+    CHECK(trace_of(Ns2Format::old_format, lose).find("MAC") == std::string::npos);
 }
 
 TEST_CASE("ns-2 trace: the old format, line by line") {
@@ -88,7 +107,6 @@ TEST_CASE("ns-2 trace: the old format, line by line") {
           "s 10.000000000 _0_ RTR  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
           "r 10.000520067 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] \n"
           "r 10.000520067 _1_ AGT  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] \n"
-          "D 10.000520100 _11_ MAC  SLP 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] \n"
           "f 10.002000001 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 2 0] \n"
           "r 10.002520068 _0_ RTR  --- 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n"
           "D 10.002520068 _0_ RTR  DUP 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n"
@@ -115,9 +133,6 @@ TEST_CASE("ns-2 trace: the new format, line by line") {
         "-Iv 3 \n"
         "r -t 10.000520067 -Hs 1 -Hd -2 -Ni 1 -Nx 10.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl AGT "
         "-Nw --- -Ma 0 -Md ffffffff -Ms 0 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
-        "-Iv 3 \n"
-        "d -t 10.000520100 -Hs 11 -Hd -2 -Ni 11 -Nx 6.00 -Ny 0.00 -Nz 1.00 -Ne -1.000000 -Nl MAC "
-        "-Nw SLP -Ma 0 -Md ffffffff -Ms 0 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
         "-Iv 3 \n"
         "f -t 10.002000001 -Hs 1 -Hd -2 -Ni 1 -Nx 10.00 -Ny 1.00 -Nz 0.50 -Ne -1.000000 -Nl RTR "
         "-Nw --- -Ma 0 -Md ffffffff -Ms 0 -Mt 800 -Is 0.0 -Id -1.0 -It message -Il 64 -If 0 -Ii 0 "
