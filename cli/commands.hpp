@@ -123,6 +123,7 @@ struct StudyArguments : FileArguments {
     std::optional<std::string> store;
     std::optional<std::uint64_t> replications, max_replications;
     std::optional<double> precision;
+    std::optional<std::string> interval;
     std::uint64_t workers = 0;  ///< 0: as many as processors
     std::optional<std::string> timeout, memory;
     bool fail_fast = false, json = false;
@@ -150,6 +151,7 @@ struct ResultsArguments {
     std::string store;
     std::vector<std::string> metrics, group_by, where;
     std::optional<double> confidence, quantile;
+    std::optional<std::string> interval;
     std::optional<std::string> sql;
     bool csv = false, json = false, provenance = false, failures = false;
 };
@@ -159,6 +161,7 @@ struct PlotArguments {
     std::string store, x, y, by, kind, out;
     std::vector<std::string> where;
     std::optional<double> confidence, quantile;
+    std::optional<std::string> interval;
     bool log_x = false, log_y = false;
     int width = 640;
 };

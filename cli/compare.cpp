@@ -148,6 +148,7 @@ void compare(const CompareArguments& a) {
     } else {
         print_text(comparison);
     }
+    check_precision(study, result);
 }
 
 }  // namespace rovernet::cli

@@ -31,4 +31,11 @@ void add_json(CLI::App& command, bool& json) {
     command.add_flag("--json", json, "print one JSON document");
 }
 
+void add_interval(CLI::App& command, std::optional<std::string>& interval) {
+    command
+        .add_option("--interval", interval,
+                    "of means: t or betting (default: betting where a metric has two bounds)")
+        ->check(CLI::IsMember({"t", "betting"}));
+}
+
 }  // namespace rovernet::cli

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -34,6 +35,8 @@ void add_study_file(CLI::App& command, FileArguments& arguments, const char* wha
 /// FILE and the options that go over it.
 void add_file(CLI::App& command, FileArguments& arguments, const char* what);
 void add_json(CLI::App& command, bool& json);
+/// How the intervals of means are made: t or betting.
+void add_interval(CLI::App& command, std::optional<std::string>& interval);
 
 constexpr const char* any_file = "scenario (.toml), Stage world (.world) or movement file";
 

@@ -39,6 +39,7 @@ void plot(const PlotArguments& a) {
                                             .where = conditions_of(varied_paths(store), a.where),
                                             .confidence = a.confidence,
                                             .quantile = a.quantile,
+                                            .interval = method_named(a.interval),
                                             .log_x = a.log_x,
                                             .log_y = a.log_y});
     if (writes(".svg")) {

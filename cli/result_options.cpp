@@ -16,6 +16,7 @@ void add_results(CLI::App& app) {
     results.add_option("--where", a.where, only_points)->allow_extra_args(false);
     results.add_option("--confidence", a.confidence, "of the intervals, such as 0.95")
         ->check(CLI::Range(0.5, 0.9999));
+    add_interval(results, a.interval);
     results.add_option("--quantile", a.quantile, "this quantile in place of the mean, such as 0.9")
         ->check(CLI::Range(0.0001, 0.9999));
     results.add_flag("--csv", a.csv, "a row per run and metric, for pandas and R");
@@ -37,6 +38,7 @@ void add_plot(CLI::App& app) {
                     "bars over words)");
     plot.add_option("--confidence", p.confidence, "of the intervals, such as 0.95")
         ->check(CLI::Range(0.5, 0.9999));
+    add_interval(plot, p.interval);
     plot.add_option("--quantile", p.quantile, "this quantile in place of the mean, such as 0.9")
         ->check(CLI::Range(0.0001, 0.9999));
     plot.add_flag("--log-x", p.log_x, "a logarithmic axis");

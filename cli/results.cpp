@@ -30,6 +30,8 @@ Table as_table(const Answer& answer) {
     row.set("value", optional_value(answer.value));
     row.set("low", optional_value(answer.low));
     row.set("high", optional_value(answer.high));
+    row.set("skewed", answer.skewed);
+    row.set("interval", answer.method ? Value(std::string(name_of(*answer.method))) : Value());
     const auto& s = answer.summary;
     row.set("sd", s ? optional_value(s->standard_deviation) : Value());
     row.set("min", s ? Value(s->min) : Value());
@@ -78,6 +80,14 @@ void warn(const std::vector<Answer>& list, std::size_t failures, const std::stri
                         "intervals say little",
                         few, list.size(), few_replications));
     }
+    const auto skewed = std::ranges::count_if(list, &Answer::skewed);
+    if (skewed > 0) {
+        notice(
+            fmt::format("warning: {} of {} intervals are by Student's t of values that are too "
+                        "skewed for it (n <= 25 times their squared skewness): they may cover "
+                        "the truth less often than they say",
+                        skewed, list.size()));
+    }
     if (failures > 0) {
         notice(fmt::format("{} runs failed and are not in these: rovernet results {} --failures",
                            failures, store));
@@ -104,7 +114,8 @@ void print_answers(const ResultsArguments& a, const Store& store) {
                                       .group_by = group_by_of(a, store),
                                       .where = conditions_of(varied_paths(store), a.where),
                                       .confidence = a.confidence,
-                                      .quantile = a.quantile});
+                                      .quantile = a.quantile,
+                                      .interval = method_named(a.interval)});
     const std::size_t failures = failures_in(store);
     if (a.json) {
         Array rows;

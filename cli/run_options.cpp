@@ -32,6 +32,7 @@ void add_study_run(CLI::App& command, StudyArguments& a) {
         ->check(CLI::PositiveNumber);
     command.add_option("--max-replications", a.max_replications, "for --precision, at most")
         ->check(CLI::Range(1, 1'000'000));
+    add_interval(command, a.interval);
     command.add_option("--timeout", a.timeout, "of one run, in real time, such as 60s");
     command.add_option("--memory", a.memory, "of one run, such as 2GB");
     command.add_flag("--fail-fast", a.fail_fast, "begin nothing new once a run has failed");

@@ -4,9 +4,12 @@
 #include "cli/study_display.hpp"
 #include "experiment/quantity.hpp"
 #include "study/explain.hpp"
+#include "study/precision.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <thread>
 
 namespace rovernet::cli {
@@ -28,6 +31,14 @@ WorkerLimits limits_of(const StudyArguments& a) {
     return limits;
 }
 
+/// "+- 0.034 of 100 values"
+std::string reached_text(const ImprecisePoint& point) {
+    if (point.half_width)
+        return fmt::format("+- {:.2g} of {} values", *point.half_width, point.values);
+    if (point.values < 2) return fmt::format("no interval of {} values", point.values);
+    return fmt::format("no interval, as its {} values are all equal", point.values);
+}
+
 }  // namespace
 
 ScenarioOptions study_options(const StudyArguments& a) {
@@ -38,6 +49,7 @@ ScenarioOptions study_options(const StudyArguments& a) {
     set("replications", a.replications);
     set("max_replications", a.max_replications);
     set("precision", a.precision);
+    set("interval", a.interval);
     return options;
 }
 
@@ -69,6 +81,22 @@ void check_end(const StudyArguments& a, const Store& store, const SweepResult& r
                     "--failures; the same sweep tries them again",
                     result.progress.failed, run.error,
                     run_command(store, points.at(run.point), run.replication), store.path()));
+}
+
+void check_precision(const Study& study, const SweepResult& result) {
+    if (result.imprecise.empty()) return;
+    constexpr std::size_t most = 20;
+    const auto& list = result.imprecise;
+    std::string text = fmt::format(
+        "{} of {} points did not reach the precision {} of {} within {} replications:", list.size(),
+        study.points().size(), *study.table().precision, first_metric(study.table()),
+        study.table().max_replications);
+    for (const ImprecisePoint& point : std::span(list).first(std::min(list.size(), most))) {
+        text += fmt::format("\n  {}: {}", settings_text(study.points()[point.point].settings),
+                            reached_text(point));
+    }
+    if (list.size() > most) text += fmt::format("\n  and {} more", list.size() - most);
+    throw CommandEnd(partly_failed, text + "\nexpected more --max-replications, or less precision");
 }
 
 }  // namespace rovernet::cli

@@ -17,4 +17,7 @@ SweepResult run_study(const StudyArguments& arguments, Study& study, Store& stor
 /// @throws CommandEnd if the study was interrupted, or a part of it failed
 void check_end(const StudyArguments& arguments, const Store& store, const SweepResult& result);
 
+/// @throws CommandEnd, which tells what was reached, if a point is not as precise as the study asks
+void check_precision(const Study& study, const SweepResult& result);
+
 }  // namespace rovernet::cli

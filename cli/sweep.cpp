@@ -83,7 +83,22 @@ void print_plan(const SweepArguments& a, const Study& study) {
     fmt::print("{}", to_json(table));
 }
 
-void print_end(const SweepArguments& a, const Store& store, const SweepProgress& p) {
+Array imprecise_points(const Study& study, const SweepResult& result) {
+    Array list;
+    for (const ImprecisePoint& point : result.imprecise) {
+        Table row;
+        row.set("point", std::uint64_t{point.point});
+        row.set("settings", study.points()[point.point].settings);
+        row.set("n", std::uint64_t{point.values});
+        row.set("half_width", point.half_width ? Value(*point.half_width) : Value());
+        list.emplace_back(std::move(row));
+    }
+    return list;
+}
+
+void print_end(const SweepArguments& a, const Study& study, const Store& store,
+               const SweepResult& result) {
+    const SweepProgress& p = result.progress;
     if (a.json) {
         Table table;
         table.set("store", store.path());
@@ -91,6 +106,10 @@ void print_end(const SweepArguments& a, const Store& store, const SweepProgress&
         table.set("finished", p.finished);
         table.set("failed", p.failed);
         table.set("left", p.left);
+        if (study.table().precision) {
+            table.set("precision", *study.table().precision);
+            table.set("imprecise", imprecise_points(study, result));
+        }
         fmt::print("{}", to_json(table));
         return;
     }
@@ -120,8 +139,9 @@ void sweep(const SweepArguments& a) {
     if (a.shard) options.shard = Shard{*a.shard, a.chunk};
     if (a.except) options.elsewhere = finished_runs(Store::open(*a.except));
     const SweepResult result = run_study(a, study, store, options);
-    print_end(a, store, result.progress);
+    print_end(a, study, store, result);
     check_end(a, store, result);
+    check_precision(study, result);
 }
 
 }  // namespace rovernet::cli

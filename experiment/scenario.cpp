@@ -330,7 +330,9 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     read_routing(document, out.routing);
     out.traffic = read_list<TrafficTable>(document, "traffic", read_traffic);
     read_section(document, "trace", out.trace);
-    if (const Value* study = document.take("study")) out.study = read_study(*study);
+    if (const Value* study = document.take("study")) {
+        out.study = read_study(*study, out.scenario.duration);
+    }
     document.reject_unknown();
     if (out.robots.empty() && out.movement.robots.empty())
         document.missing("robot", "[[robot]] with a name and a place");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/study_table.hpp"
 
+#include "experiment/toml.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -198,7 +200,7 @@ void read_exclude(const Value& value, StudyTable& study) {
     }
 }
 
-void read_warmup(const Value& value, Warmup& warmup) {
+void read_warmup(const Value& value, Duration duration, Warmup& warmup) {
     if (value.string() && *value.string() == "mser5") {
         warmup.mser5 = true;
         return;
@@ -212,15 +214,21 @@ void read_warmup(const Value& value, Warmup& warmup) {
         throw InputError(value.where, fmt::format("warmup: found {}; expected a value >= 0",
                                                   value.description()));
     }
+    if (warmup.given >= duration) {
+        throw InputError(value.where,
+                         fmt::format("warmup: found {}; expected less than the run takes, "
+                                     "[scenario] duration = {}: no message would count",
+                                     value.description(), to_toml(to_value(duration))));
+    }
 }
 
 }  // namespace
 
-StudyTable read_study(const Value& value) {
+StudyTable read_study(const Value& value, Duration duration) {
     StudyTable study;
     TableReader table(value, "[study]");
     table.read_fields(study);
-    if (const Value* warmup = table.take("warmup")) read_warmup(*warmup, study.warmup);
+    if (const Value* warmup = table.take("warmup")) read_warmup(*warmup, duration, study.warmup);
     if (const Value* vary = table.take("vary")) study.vary = read_vary(*vary);
     if (const Value* zip = table.take("zip")) read_zip(*zip, study);
     if (const Value* exclude = table.take("exclude")) read_exclude(*exclude, study);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/interval_method.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/value.hpp"
 #include "sim/fields.hpp"
@@ -31,6 +32,7 @@ struct Warmup {
 struct StudyTable {
     int replications = 1;
     double confidence = 0.95;
+    std::optional<IntervalMethod> interval;  ///< by the metric if not given: see method_for()
     std::optional<double> precision;
     int max_replications = 1000;
     Warmup warmup;
@@ -46,6 +48,8 @@ struct StudyTable {
         return describe(
             field("replications", &S::replications, counts, "independent repetitions, at least"),
             field("confidence", &S::confidence, share, "of the intervals"),
+            field("interval", &S::interval,
+                  "of means: t or betting; by default betting where a metric has two bounds"),
             field("precision", &S::precision, positive,
                   "repeats until the interval of the first metric has this half-width"),
             field("max_replications", &S::max_replications, counts, "for precision, at most"),
@@ -53,8 +57,8 @@ struct StudyTable {
     }
 };
 
-/// Reads [study]. @throws InputError at the first mistake
-StudyTable read_study(const Value& value);
+/// Reads [study] of a scenario whose run takes `duration`. @throws InputError at the first mistake
+StudyTable read_study(const Value& value, Duration duration);
 
 /// The reverse, with every list written out.
 Table study_document(const StudyTable& study);

@@ -5,9 +5,12 @@
 #include "study/bounded_mean.hpp"
 #include "study/summary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace rovernet {
 namespace {
@@ -72,6 +75,15 @@ bool too_skewed_for_t(std::span<const double> values) {
     const double skewness = cubes / n / (squares / n * std::sqrt(squares / n));
     const double noise = std::sqrt(6 * n * (n - 1) / ((n - 2) * (n + 1) * (n + 3)));
     return std::abs(skewness) > 2 * noise && n <= 25 * skewness * skewness;
+}
+
+std::optional<IntervalMethod> method_named(const std::optional<std::string>& name) {
+    if (!name) return std::nullopt;
+    for (const IntervalMethod method : {IntervalMethod::t, IntervalMethod::betting}) {
+        if (name_of(method) == *name) return method;
+    }
+    throw std::invalid_argument(
+        fmt::format("interval: unknown value \"{}\"; expected t or betting", *name));
 }
 
 std::string_view words_of(IntervalMethod method) {

@@ -60,6 +60,10 @@ std::optional<std::size_t> replications_for_width(std::span<const double> values
 /// The Statistician 47(1), 1998.
 bool too_skewed_for_t(std::span<const double> values);
 
+/// The method of this name, "t" or "betting"; nothing for no name.
+/// @throws std::invalid_argument for any other
+std::optional<IntervalMethod> method_named(const std::optional<std::string>& name);
+
 /// The method in words, for captions: "by betting", "by Student's t".
 std::string_view words_of(IntervalMethod method);
 

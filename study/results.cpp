@@ -103,10 +103,13 @@ void conclude(Answer& answer, const Question& question, double confidence) {
         return;
     }
     answer.value = answer.summary->mean;
-    const auto half = half_width(*answer.summary, confidence);
-    if (!half) return;
-    answer.low = *answer.value - *half;
-    answer.high = *answer.value + *half;
+    const auto interval =
+        interval_of(values, bounds_of(answer.metric), confidence, question.interval);
+    if (!interval) return;
+    answer.low = interval->low;
+    answer.high = interval->high;
+    answer.method = interval->method;
+    answer.skewed = interval->skewed;
 }
 
 /// A cell of a CSV file.
@@ -133,6 +136,14 @@ std::vector<std::string> varied_paths(const Store& store) {
     return paths;
 }
 
+std::optional<IntervalMethod> interval_method_of(const Store& store) {
+    const Table study = study_of(store);
+    const Value* given = study.find("interval");
+    std::optional<IntervalMethod> method;
+    if (given) read_value(*given, "interval", method);
+    return method;
+}
+
 double confidence_of(const Store& store) {
     const Table study = study_of(store);
     const Value* given = study.find("confidence");
@@ -140,7 +151,9 @@ double confidence_of(const Store& store) {
     return number ? *number : StudyTable{}.confidence;
 }
 
-std::vector<Answer> answers(const Store& store, const Question& question) {
+std::vector<Answer> answers(const Store& store, const Question& given) {
+    Question question = given;
+    if (!question.interval) question.interval = interval_method_of(store);
     const std::vector<std::string> varied = varied_paths(store);
     const auto paths = question.group_by.value_or(varied);
     for (const auto& path : paths) check_known(path, varied, "the key");

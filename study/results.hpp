@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "study/interval.hpp"
 #include "study/quantile.hpp"
 #include "study/store.hpp"
 #include "study/summary.hpp"
@@ -26,6 +27,8 @@ struct Question {
     std::vector<Condition> where = {};      ///< of the points that meet all of these
     std::optional<double> confidence = {};  ///< as in [study] if not given
     std::optional<double> quantile = {};    ///< this one, in place of the mean
+    /// How intervals of means are made: as in [study] if not given, else see method_for().
+    std::optional<IntervalMethod> interval = {};
 };
 
 /// One metric of the points that agree in what a question groups by.
@@ -37,6 +40,8 @@ struct Answer {
     std::optional<Summary> summary;          ///< of the values; nothing without any
     std::optional<double> value;             ///< the mean or the quantile
     std::optional<double> low, high;         ///< its interval, if there are enough values for one
+    std::optional<IntervalMethod> method;    ///< of the interval of a mean
+    bool skewed = false;                     ///< see MeanInterval
 };
 
 /// Answers group by group, in the order of their points, and in it metric by metric. The
@@ -50,6 +55,9 @@ std::vector<std::string> varied_paths(const Store& store);
 
 /// [study] confidence of the study.
 double confidence_of(const Store& store);
+
+/// [study] interval of the study, if given.
+std::optional<IntervalMethod> interval_method_of(const Store& store);
 
 /// What every result is, as comma-separated values (RFC 4180) with a head: a row per finished run
 /// and metric, sorted by point, replication and metric: point, the varied keys, replication,

@@ -78,6 +78,18 @@ std::string replications_text(const std::vector<Answer>& list) {
     return least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most);
 }
 
+/// " by betting", or how else the intervals of means were made; nothing for those of quantiles.
+std::string methods_text(const std::vector<Answer>& list) {
+    std::string text;
+    for (const IntervalMethod method : {IntervalMethod::betting, IntervalMethod::t}) {
+        if (std::ranges::count(list, method, &Answer::method) == 0) continue;
+        text += fmt::format("{}{}", text.empty() ? " " : " and ", words_of(method));
+    }
+    const auto skewed = std::ranges::count_if(list, &Answer::skewed);
+    if (skewed > 0) text += fmt::format(" ({} of {} too skewed for it)", skewed, list.size());
+    return text;
+}
+
 std::string note_of(const std::vector<Answer>& list, const ChartQuestion& q, double confidence) {
     std::string where;
     for (const Condition& condition : q.where) {
@@ -87,7 +99,8 @@ std::string note_of(const std::vector<Answer>& list, const ChartQuestion& q, dou
     const std::string of = replications_text(list);
     if (q.kind == ChartKind::cdf) return fmt::format("{}of {} replications", where, of);
     if (q.kind == ChartKind::heat_map) return fmt::format("{} of {} replications", what, of);
-    return fmt::format("{} of {} replications, with {} intervals", what, of, percent(confidence));
+    return fmt::format("{} of {} replications, with {} intervals{}", what, of, percent(confidence),
+                       methods_text(list));
 }
 
 ChartSeries& series_named(Chart& chart, const std::string& name) {
@@ -162,7 +175,8 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
                                       .group_by = group_by,
                                       .where = q.where,
                                       .confidence = q.confidence,
-                                      .quantile = q.quantile});
+                                      .quantile = q.quantile,
+                                      .interval = q.interval});
     const auto numbers = q.x.empty() ? std::nullopt : numbers_of(list, q.x);
     if (!q.kind) q.kind = numbers ? ChartKind::lines : ChartKind::bars;
 

@@ -19,6 +19,7 @@ struct ChartQuestion {
     std::vector<Condition> where = {};   ///< of the points that meet all of these
     std::optional<double> confidence = {};
     std::optional<double> quantile = {};
+    std::optional<IntervalMethod> interval = {};  ///< as in Question
     bool log_x = false, log_y = false;
 };
 

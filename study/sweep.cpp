@@ -92,6 +92,8 @@ class Sweep {
     void end_run(Task task);
     void keep(const TaskEnd& end);
     void report();
+    std::vector<double> values_of(std::uint32_t point) const;
+    std::vector<ImprecisePoint> imprecise_points() const;
     std::string id_of(Task task) const {
         return run_id(study_.points()[task.point].id, task.replication, version_);
     }
@@ -156,14 +158,31 @@ void Sweep::plan() {
 void Sweep::extend(std::uint32_t point) {
     if (!study_.table().precision) return;
     while (open_[point] == 0 && hopeless_[point] == 0) {
-        std::vector<double> values;
-        for (const StoredValue& v : store_.values(first_metric(study_.table()), point)) {
-            if (v.value) values.push_back(*v.value);
-        }
-        const auto wanted = replications_for(study_.table(), values, planned_[point]);
+        const auto wanted = replications_for(study_.table(), values_of(point), planned_[point]);
         if (wanted <= planned_[point]) return;
         for (std::uint32_t r = planned_[point]; r < wanted; ++r) add_run({point, r});
     }
+}
+
+/// The values of the study's first metric, in the order of the replications.
+std::vector<double> Sweep::values_of(std::uint32_t point) const {
+    std::vector<double> values;
+    for (const StoredValue& v : store_.values(first_metric(study_.table()), point)) {
+        if (v.value) values.push_back(*v.value);
+    }
+    return values;
+}
+
+std::vector<ImprecisePoint> Sweep::imprecise_points() const {
+    std::vector<ImprecisePoint> list;
+    if (!study_.table().precision || result_.stopped) return list;
+    for (std::uint32_t point = 0; point < open_.size(); ++point) {
+        const ReachedPrecision reached = reached_precision(study_.table(), values_of(point));
+        if (reached.enough) continue;
+        list.push_back(
+            {.point = point, .values = reached.values, .half_width = reached.half_width});
+    }
+    return list;
 }
 
 void Sweep::end_run(Task task) {
@@ -215,6 +234,7 @@ SweepResult Sweep::run() {
         report();
     }
     result_.stopped = result_.progress.left > 0;
+    result_.imprecise = imprecise_points();
     return result_;
 }
 

@@ -43,10 +43,18 @@ struct SweepOptions {
     std::function<void(const SweepProgress&)> progress = [](const SweepProgress&) {};
 };
 
+/// A point that is not as precise as its study asks, after max_replications.
+struct ImprecisePoint {
+    std::uint32_t point = 0;
+    std::size_t values = 0;            ///< replications in which the metric has a value
+    std::optional<double> half_width;  ///< reached; nothing where there is no interval
+};
+
 struct SweepResult {
     SweepProgress progress;
-    bool stopped = false;              ///< before everything was done
-    std::optional<StoredRun> failure;  ///< the first
+    bool stopped = false;                   ///< before everything was done
+    std::optional<StoredRun> failure;       ///< the first
+    std::vector<ImprecisePoint> imprecise;  ///< of a sweep that was not stopped
 };
 
 /// Opens the store of a study, or makes it. @throws InputError if it has runs of another version or
@@ -65,9 +73,9 @@ std::vector<RunState> run_states(const Study& study, const Store& store);
 
 /// Runs what the store does not have yet, and what failed, in worker processes; each run is in the
 /// store as soon as it is over. A run whose process dies is tried once more. In all, each point is
-/// repeated [study] replications times; with `precision` until the half-width of the interval of
-/// the first metric is that small, up to max_replications. What is run depends on results alone,
-/// never on which run ended first.
+/// repeated [study] replications times; with `precision` until the interval of the first metric is
+/// that narrow, see reached_precision(), up to max_replications. What is run depends on results
+/// alone, never on which run ended first.
 /// @throws RunError if the store cannot be written any more
 SweepResult sweep(Study& study, Store& store, const SweepOptions& options);
 

@@ -103,6 +103,42 @@ TEST_CASE("sweep: a dry run lists every point, and makes nothing") {
     CHECK(json["runs"] == 200);
 }
 
+TEST_CASE("sweep: a precision that is not reached ends with 4 and says what was, point by point") {
+    const Place place;
+    const std::vector<std::string> wanted = {"sweep",       place.file, "--replications",     "2",
+                                             "--precision", "0.01",     "--max-replications", "4"};
+    const Ended ended = command(place.folder, wanted);
+    CHECK(ended.exit == 4);
+    CHECK(ended.err.find("5 of 5 points did not reach the precision 0.01 of delivery_ratio within "
+                         "4 replications:\n  propagation.range=10 m: +- 0.") != std::string::npos);
+    CHECK(ended.err.find(" of 4 values\n") != std::string::npos);
+    auto as_json = wanted;
+    as_json.push_back("--json");
+    const Ended again = command(place.folder, as_json);
+    CHECK(again.exit == 4);
+    const Json json = Json::parse(again.out);
+    REQUIRE(json["imprecise"].size() == 5);
+    CHECK(json["imprecise"][0]["n"] == 4);
+    CHECK(json["imprecise"][0]["half_width"] > 0.01);
+    const Ended coarse =
+        command(place.folder, {"sweep", place.file, "--replications", "2", "--precision", "0.9"});
+    CHECK(coarse.exit == 0);
+}
+
+TEST_CASE("results: intervals are by betting or by t, as asked, and JSON says which") {
+    const Place place;
+    json_of(place.folder, {"sweep", place.file, "--replications", "6"});
+    const auto first = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"results", place.store(), "--metric", "delivery_ratio"};
+        words.insert(words.end(), more.begin(), more.end());
+        return Json(json_of(place.folder, words)["rows"][2]);
+    };
+    CHECK(first({})["interval"] == "betting");
+    CHECK(first({"--interval", "t"})["interval"] == "t");
+    CHECK(first({"--interval", "t"})["high"] < first({})["high"]);
+    CHECK(command(place.folder, {"results", place.store(), "--interval", "z"}).exit == 2);
+}
+
 TEST_CASE("sweep: the runs of a study come to a table, to CSV, and to an explanation") {
     const Place place;
     const Json made = json_of(place.folder, {"sweep", place.file, "--replications", "6"});

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -106,6 +107,17 @@ TEST_CASE("equivalence: a verdict falls when it is due, whatever comes after") {
     const auto result = equivalence_of(then_far, margin, share, alpha, models);
     CHECK(result == equivalence_of(none, margin, share, alpha, models));
     CHECK(result.decided_at == 288U);
+}
+
+TEST_CASE("equivalence: a first verdict stays, though the other would be reached later") {
+    EquivalenceTest test(0.5, 0.05, 1);
+    for (int i = 0; i < 30; ++i) test.add(1);
+    CHECK(test.verdict() == Equivalence::outside);
+    for (int i = 0; i < 3000; ++i) test.add(0);
+    const double within = std::min(test.log_wealth(EquivalenceTest::not_above),
+                                   test.log_wealth(EquivalenceTest::not_below));
+    CHECK(within > std::log(1 / 0.05));
+    CHECK(test.verdict() == Equivalence::outside);
 }
 
 TEST_CASE("equivalence: what is undecided tells how many replications would decide") {

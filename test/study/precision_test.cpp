@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/precision.hpp"
 
+#include "study/interval.hpp"
+
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -9,34 +11,65 @@ using namespace rovernet;
 
 namespace {
 
-StudyTable wanting(double half_width, int most) {
+/// A study that is foremost about this metric.
+StudyTable wanting(double half_width, int most, const char* metric = "latency_mean_s") {
     StudyTable study;
+    study.metrics = {metric};
     study.precision = half_width;
     study.max_replications = most;
     return study;
 }
 
-// Mean 2, standard deviation 1; t of 3 degrees at 95 % is 3.182, the half-width 1.59.
-const std::vector<double> four = {1.0, 3.0, 2.0 + 0.7071067811865476, 2.0 - 0.7071067811865476};
+/// Mean 2, standard deviation 1.0801; t of 9 degrees at 95 % is 2.2622.
+const std::vector<double> ten = {0.5, 1, 1, 1, 2, 2, 3, 3, 3, 3.5};
+constexpr double ten_reach = 0.7732;  // the half-width is 0.77266
 
 }  // namespace
 
 TEST_CASE("precision: without one, or when it is reached, what was made is enough") {
-    CHECK(replications_for(StudyTable{}, four, 4) == 4);
-    CHECK(replications_for(wanting(1.6, 100), four, 4) == 4);
-    CHECK(replications_for(wanting(1.5, 100), four, 4) == 5);
+    CHECK(replications_for(StudyTable{}, ten, 10) == 10);
+    CHECK(replications_for(wanting(ten_reach, 100), ten, 10) == 10);
+    CHECK(replications_for(wanting(0.75, 100), ten, 10) == 11);
 }
 
 TEST_CASE("precision: an estimate asks for more, at most for twice as many, never for too many") {
-    CHECK(replications_for(wanting(0.01, 100), four, 4) == 8);
-    CHECK(replications_for(wanting(0.01, 6), four, 4) == 6);
-    CHECK(replications_for(wanting(0.01, 4), four, 4) == 4);
-    CHECK(replications_for(wanting(0.01, 2), four, 4) == 4);
+    CHECK(replications_for(wanting(0.01, 100), ten, 10) == 20);
+    CHECK(replications_for(wanting(0.01, 12), ten, 10) == 12);
+    CHECK(replications_for(wanting(0.01, 10), ten, 10) == 10);
+    CHECK(replications_for(wanting(0.01, 2), ten, 10) == 10);
 }
 
-TEST_CASE("precision: fewer than two values ask for twice as many runs") {
+TEST_CASE("precision: a look costs, so each asks for a 16th more at least") {
+    std::vector<double> many;
+    for (int i = 0; i < 320; ++i) many.push_back(ten[static_cast<std::size_t>(i % 10)]);
+    const double reach = *reached_precision(wanting(1, 1000), many).half_width;
+    CHECK(replications_for(wanting(0.999 * reach, 1000), many, 320) == 340);
+}
+
+TEST_CASE("precision: fewer than two values of a time ask for twice as many runs") {
     CHECK(replications_for(wanting(1, 100), {}, 5) == 10);
     CHECK(replications_for(wanting(1, 100), std::vector<double>{0.5}, 5) == 10);
+}
+
+TEST_CASE("precision: two ratios that happen to agree are not enough, as they were by t") {
+    const std::vector<double> two = {0.9759, 0.9759};
+    const StudyTable study = wanting(0.01, 1000, "delivery_ratio");
+    CHECK_FALSE(reached_precision(study, two).enough);
+    CHECK(replications_for(study, two, 2) == 4);
+    const std::vector<double> many(500, 1.0);
+    CHECK(reached_precision(study, many).enough);
+}
+
+TEST_CASE("precision: by t nothing is enough before ten values, nor values that are all equal") {
+    const StudyTable study = wanting(0.5, 1000);
+    const std::vector<double> nine = {1, 1.1, 1, 1.1, 1, 1.1, 1, 1.1, 1};
+    CHECK(*reached_precision(study, nine).half_width < 0.05);
+    CHECK_FALSE(reached_precision(study, nine).enough);
+    CHECK(replications_for(study, nine, 9) == 10);
+    const std::vector<double> equal(50, 1.0);
+    CHECK_FALSE(reached_precision(study, equal).half_width);
+    CHECK_FALSE(reached_precision(study, equal).enough);
+    CHECK(replications_for(study, equal, 50) == 100);
 }
 
 TEST_CASE("precision: the first metric of the study counts, or the delivery ratio") {

@@ -56,6 +56,30 @@ TEST_CASE("results: a group is of one point if nothing else is asked, with mean 
     CHECK(std::abs(*list[2].low - (101 - half)) < rounding);
 }
 
+TEST_CASE(
+    "results: a ratio within its bounds has an interval by betting, in them, or t on request") {
+    const TemporaryFolder folder;
+    Store store = Store::open_to_write(folder.path("s.db"));
+    store.set_points({{0, "p", {}}});
+    for (std::uint32_t r = 0; r < 30; ++r) {
+        StoredRun run{};
+        run.id = std::to_string(r);
+        run.replication = r;
+        run.measurement.metrics = {{"delivery_ratio", 1.0}, {"latency_mean_s", 0.1 + 0.01 * r}};
+        store.record(run);
+    }
+    const std::vector<std::string> metrics = {"delivery_ratio", "latency_mean_s"};
+    const auto list = answers(store, {.metrics = metrics});
+    CHECK(list[0].method == IntervalMethod::betting);
+    CHECK(*list[0].low < 0.9);
+    CHECK(*list[0].high == 1);
+    CHECK(list[1].method == IntervalMethod::t);
+    const auto by_t = answers(store, {.metrics = metrics, .interval = IntervalMethod::t});
+    CHECK_FALSE(by_t[0].low);
+    store.set_property("study", R"({"interval":"t"})");
+    CHECK_FALSE(answers(store, {.metrics = metrics})[0].low);
+}
+
 TEST_CASE("results: points that a group joins are averaged in each replication first") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")),

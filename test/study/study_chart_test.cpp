@@ -55,7 +55,7 @@ TEST_CASE("study chart: numbers on x are lines, and other keys are averaged over
     CHECK(chart.kind == ChartKind::lines);
     CHECK(chart.x_label == "robot.r.count");
     CHECK(chart.y_label == "latency_mean [s]");
-    CHECK(chart.note == "means of 3 replications, with 95 % intervals");
+    CHECK(chart.note == "means of 3 replications, with 95 % intervals by Student's t");
     REQUIRE(chart.series.size() == 1);
     REQUIRE(chart.series[0].points.size() == 2);
     CHECK(chart.series[0].points[1].x == 20);
@@ -123,7 +123,8 @@ TEST_CASE("study chart: it may show the points that meet a condition, and says s
                             .y = "latency_mean_s",
                             .where = conditions_of({"robot.r.count", "routing.ttl"}, {"ttl=3"})});
     CHECK(std::abs(chart.series[0].points[1].y - (10 + 2 + 0.1)) < rounding);
-    CHECK(chart.note == "routing.ttl = 3; means of 3 replications, with 95 % intervals");
+    CHECK(chart.note ==
+          "routing.ttl = 3; means of 3 replications, with 95 % intervals by Student's t");
     CHECK_THROWS_WITH_AS(conditions_of({"routing.ttl"}, {"ttl"}), doctest::Contains("KEY=VALUE"),
                          std::invalid_argument);
 }

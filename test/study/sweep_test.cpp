@@ -281,6 +281,20 @@ TEST_CASE("sweep: precision repeats each point until its interval is narrow, how
     CHECK(one.csv() == bench.csv());
 }
 
+TEST_CASE("sweep: a point that does not reach its precision is told, with what it reached") {
+    const Bench bench(scattered + study_keys);
+    const std::vector<std::string> wanted = {"study.precision=0.01", "study.max_replications=8"};
+    const SweepResult result = bench.sweep({.workers = 3}, wanted);
+    REQUIRE(result.imprecise.size() == 2);
+    CHECK(result.imprecise[1].point == 1);
+    CHECK(result.imprecise[1].values == 8);
+    CHECK(*result.imprecise[1].half_width > 0.01);
+    // The same when nothing is left to run.
+    CHECK(bench.sweep({}, wanted).imprecise.size() == 2);
+    CHECK(bench.sweep({}, {"study.precision=0.9"}).imprecise.empty());
+    CHECK(bench.sweep({}).imprecise.empty());
+}
+
 TEST_CASE("sweep: precision asks no more of a point of which a run failed") {
     const Bench bench(scattered + study_keys);
     const SweepResult result = bench.sweep(

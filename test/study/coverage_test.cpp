@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Whether intervals cover the truth as often as they say: studies drawn anew, with keyed draws,
+// from the delivery ratios of examples/density itself and from shapes that are hard for intervals.
+#include "sim/random.hpp"
+#include "study/interval.hpp"
+#include "study/precision.hpp"
+#include "test/study/listed_numbers.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+constexpr Bounds share{0.0, 1.0};
+constexpr double confidence = 0.95;
+
+/// Values and how often each occurs: the whole truth that studies are drawn from.
+struct Distribution {
+    std::string name;
+    std::vector<double> values{};
+    std::vector<std::uint64_t> up_to{};  ///< occurrences of the values so far, the last is all
+
+    void add(double value, std::uint64_t count) {
+        values.push_back(value);
+        up_to.push_back((up_to.empty() ? 0 : up_to.back()) + count);
+    }
+    double mean() const {
+        double sum = 0;
+        std::uint64_t before = 0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            sum += values[i] * static_cast<double>(up_to[i] - before);
+            before = up_to[i];
+        }
+        return sum / static_cast<double>(up_to.back());
+    }
+    /// The value of replication r of a study.
+    double draw(std::uint32_t study, std::uint64_t r) const {
+        const Key key{.seed = 7, .replication = study, .purpose = Purpose::order, .index = r};
+        const std::uint64_t one = below(key, up_to.back());
+        return values[static_cast<std::size_t>(std::ranges::upper_bound(up_to, one) -
+                                               up_to.begin())];
+    }
+    std::vector<double> study(std::uint32_t number, std::size_t n) const {
+        std::vector<double> drawn;
+        for (std::size_t r = 0; r < n; ++r) drawn.push_back(draw(number, r));
+        return drawn;
+    }
+};
+
+/// The delivery ratios of examples/density with that many robots, 4,000 replications each.
+Distribution density(int robots) {
+    static const test::Vectors vectors("density_delivery.csv");
+    Distribution all{fmt::format("examples/density with {} robots", robots)};
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        if (vectors.number(i, "robots") != robots) continue;
+        const double deliveries = vectors.number(i, "deliveries");
+        all.add(deliveries / (robots - 1), std::stoul(vectors.text(i, "replications")));
+    }
+    return all;
+}
+
+/// A bell of width 0.02 around 0.03 as quantiles, cut at 0.
+Distribution near_zero() {
+    Distribution all{"near 0"};
+    for (int i = 0; i < 1000; ++i) {
+        all.add(std::max(0.0, 0.03 + 0.02 * normal_quantile((i + 0.5) / 1000)), 1);
+    }
+    return all;
+}
+
+std::vector<Distribution> distributions() {
+    Distribution zero{"always 0"}, rare{"one run in 50 loses everything"}, two{"two humps"};
+    zero.add(0, 1);
+    rare.add(1, 49);
+    rare.add(0, 1);
+    two.add(0.05, 30);
+    two.add(0.9, 50);
+    two.add(0.95, 20);
+    return {density(200), density(250), density(300), near_zero(), zero, rare, two};
+}
+
+/// The least share of `studies` that an interval of 95 % may cover by chance: 3 standard errors.
+double least(int studies) {
+    return confidence - 3 * std::sqrt(confidence * (1 - confidence) / studies);
+}
+
+bool covers(const std::optional<MeanInterval>& interval, double truth) {
+    constexpr double rounding = 1e-12;
+    return interval && interval->low <= truth + rounding && interval->high >= truth - rounding;
+}
+
+double coverage(const Distribution& all, std::size_t n, int studies, IntervalMethod method) {
+    int count = 0;
+    for (int i = 0; i < studies; ++i) {
+        const auto values = all.study(static_cast<std::uint32_t>(i), n);
+        count += covers(interval_of(values, share, confidence, method), all.mean()) ? 1 : 0;
+    }
+    return static_cast<double>(count) / studies;
+}
+
+}  // namespace
+
+TEST_CASE("coverage: intervals by betting cover the truth in 95 % of studies, whatever its shape") {
+    constexpr int studies = 200;
+    for (const Distribution& all : distributions()) {
+        for (const std::size_t n : {5U, 10U, 30U, 100U}) {
+            CAPTURE(all.name);
+            CAPTURE(n);
+            CHECK(coverage(all, n, studies, IntervalMethod::betting) >= least(studies));
+        }
+    }
+}
+
+TEST_CASE("coverage: Student's t does not, so this test can tell") {
+    CHECK(coverage(density(250), 30, 200, IntervalMethod::t) < 0.6);
+    CHECK(coverage(density(300), 100, 200, IntervalMethod::t) < 0.5);
+}
+
+TEST_CASE("coverage: where a precision of 0.1 stops, the interval still covers the truth") {
+    constexpr int studies = 200;
+    StudyTable table;
+    table.precision = 0.1;
+    for (const Distribution& all : distributions()) {
+        CAPTURE(all.name);
+        int count = 0;
+        for (std::uint32_t study = 0; study < studies; ++study) {
+            std::vector<double> values;
+            for (std::uint32_t n = 1; values.size() < n;) {
+                while (values.size() < n) values.push_back(all.draw(study, values.size()));
+                n = replications_for(table, values, n);
+            }
+            REQUIRE(values.size() < 1000);
+            const auto interval = interval_of(values, share, confidence);
+            CHECK(interval->half_width() <= 0.1);
+            count += covers(interval, all.mean()) ? 1 : 0;
+        }
+        CHECK(count >= least(studies) * studies);
+    }
+}
+
+TEST_CASE("coverage: the price of it, as widths beside Student's where that is right") {
+    constexpr int studies = 50;
+    constexpr double last_digit = 0.05;
+    struct Price {
+        double deviation;  ///< of normal values around 0.5, nearly all in [0, 1]
+        std::size_t n;
+        double ratio;  ///< as the table in docs/experiments.md has it
+    };
+    for (const auto& [deviation, n, ratio] : {Price{0.05, 10, 5.6},
+                                              {0.05, 30, 4.2},
+                                              {0.05, 100, 2.7},
+                                              {0.1, 10, 2.8},
+                                              {0.1, 30, 2.3},
+                                              {0.1, 100, 1.6},
+                                              {0.2, 10, 1.6},
+                                              {0.2, 30, 1.4},
+                                              {0.2, 100, 1.4}}) {
+        double betting = 0, student = 0;
+        for (std::uint32_t study = 0; study < studies; ++study) {
+            std::vector<double> values;
+            for (std::size_t r = 0; r < n; ++r) {
+                const Key key{.replication = study, .purpose = Purpose::order, .index = r};
+                values.push_back(std::clamp(0.5 + deviation * normal(key), 0.0, 1.0));
+            }
+            betting += interval_of(values, share)->half_width();
+            student += interval_of(values, share, confidence, IntervalMethod::t)->half_width();
+        }
+        CAPTURE(deviation);
+        CAPTURE(n);
+        CHECK(std::abs(betting / student - ratio) <= last_digit);
+    }
+}
