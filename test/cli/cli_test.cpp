@@ -158,7 +158,7 @@ TEST_CASE("trace stats: the metrics of the summary to the last digit, in both fo
         const TemporaryFolder folder;
         const std::string out = folder.path("out");
         json_of(folder, {"run", folder.write("s.toml", relay), "--out", out, "--set",
-                         "trace.ns2=" + format});
+                         "trace.ns2=" + format, "--set", "trace.mac=true"});
         const Json summary = Json::parse(content(out + "/summary.json"));
         const Json stats = json_of(folder, {"trace", "stats", out + "/trace.tr"});
         CHECK(stats.size() >= 13);
