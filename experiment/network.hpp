@@ -67,7 +67,7 @@ struct NetworkSettings {
     AccessRung access = NoAccess{};           ///< how robots get access to the medium
     bool propagation_delay = true;            ///< frames travel at the speed of light
     std::uint64_t event_limit = 100'000'000;  ///< a run that needs more events fails
-    /// For tests: looks at every pair of robots and serves every reception by an event of its own.
+    /// For tests: looks at every pair of robots; receptions at different times are separate events.
     /// Slow, and the same to the last record.
     bool reference = false;
     bool metrics = true;  ///< keep Metrics; off saves a search per message

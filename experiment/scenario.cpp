@@ -148,11 +148,15 @@ void read_section(TableReader& document, std::string_view key, T& out) {
 
 /// Values that suit another access model, but not csma.
 void check_csma(const AccessTable& access, const Table& table) {
-    if (access.slot == Duration{0}) {
+    constexpr double longest = 1e9;  // [s] of a backoff; see read_value of a time
+    const WifiTiming timing = std::get<Csma>(access.make()).timing;
+    const double backoff = timing.cw_max * seconds(timing.slot);
+    if (timing.slot == Duration{0} || backoff > longest) {
         const Value& slot = *table.find("slot");
         throw InputError(slot.where, fmt::format("slot: found {}; [access] model = \"csma\" counts "
-                                                 "its backoff in slots: expected a value > 0",
-                                                 slot.description()));
+                                                 "its backoff in up to {} slots: expected a value "
+                                                 "> 0, and at most 1e9 s in all",
+                                                 slot.description(), timing.cw_max));
     }
     const auto& rates = access.basic_rates;
     const auto is_none = [](BitRate rate) { return !(rate > BitRate{0}); };

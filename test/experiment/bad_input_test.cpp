@@ -218,6 +218,7 @@ const std::vector<Mistake> mistakes = {
      {"every", "at most 1e9 s"}},
     {robot_a + "turn_rate = \"1e-9 rad/s\"", "4:13", {"turn_rate", ">= 1e-8 rad/s"}},
     {robot_a + "[access]\nmodel = \"csma\"\nslot = \"0 s\"", "6:8", {"slot", "csma", "> 0"}},
+    {robot_a + "[access]\nmodel = \"csma\"\nslot = \"1e8 s\"", "6:8", {"slot", "1023", "1e9 s"}},
     {robot_a + "[access]\nslot = \"0 s\"\nmodel = \"csma\"", "5:8", {"slot", "csma", "> 0"}},
     {robot_a + "[access]\nmodel = \"cmsa\"", "5:9", {"did you mean \"csma\"?"}},
     {robot_a + "[access]\ncw_min = -1", "5:10", {"from 0 to 65535"}},
