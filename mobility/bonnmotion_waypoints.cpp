@@ -159,12 +159,19 @@ int BonnMotionNumbers::column() const {
     return static_cast<int>(std::min(source_.taken() - line_start_ + 1, most));
 }
 
+/// A file of one endless line would cost its whole length before anything is said.
+void BonnMotionNumbers::check_length() const {
+    if (source_.taken() - line_start_ <= longest_line) return;
+    throw InputError(where_, fmt::format("a line is longer than {} bytes", longest_line));
+}
+
 /// To the next byte that is no blank. False at the end of the file.
 bool BonnMotionNumbers::skip_blanks() {
     while (true) {
         const std::string_view text = source_.window();
         const std::size_t n = text.find_first_not_of(blanks);
         source_.take(std::min(n, text.size()));
+        check_length();
         if (n != text.npos) return true;
         if (!source_.more()) return false;
     }
@@ -176,6 +183,7 @@ void BonnMotionNumbers::skip_comment() {
         const std::string_view text = source_.window();
         const std::size_t n = text.find('\n');
         source_.take(std::min(n, text.size()));
+        check_length();
         if (n != text.npos || !source_.more()) return;
     }
 }

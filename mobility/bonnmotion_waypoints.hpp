@@ -14,16 +14,17 @@
 
 namespace rovernet {
 
-/// The numbers of a BonnMotion file. Lines may be of any length.
+/// The numbers of a BonnMotion file.
 class BonnMotionNumbers {
   public:
+    static constexpr std::uint64_t longest_line = 16U << 20;  ///< [bytes]: 500,000 places or so
     enum class Item { number, end_of_line, end_of_file };
 
     explicit BonnMotionNumbers(TextSource source)
         : source_(std::move(source)), where_{.source = source_.name(), .line = 1, .column = 1} {}
 
     /// Comment lines are left out; every other line, also the last, has its end.
-    /// @throws InputError for what is no finite number
+    /// @throws InputError for what is no finite number, and for a line longer than `longest_line`
     Item next();
     void rewind();
 
@@ -38,6 +39,7 @@ class BonnMotionNumbers {
     void begin_line();
     bool skip_blanks();
     void skip_comment();
+    void check_length() const;
     int column() const;
     Item end_line(std::size_t bytes);
 

@@ -4,15 +4,17 @@
 #include "sim/math.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace rovernet {
 namespace {
 
-constexpr double longest_s = 9e8;  // 28 years: beyond any run, within the clock
+constexpr double last_s = 9.2e9;  // 291 years: beyond any run, within the clock
 
-/// `s` seconds after now, at least a nanosecond.
-Time after(const Mover& mover, double s) {
-    return mover.now + std::max(from_seconds(std::min(s, longest_s)), Duration{1});
+/// `s` seconds after now, at least a nanosecond; nothing if no run lasts until then.
+std::optional<Time> after(const Mover& mover, double s) {
+    if (!(s < last_s - seconds(mover.now))) return std::nullopt;
+    return mover.now + std::max(from_seconds(s), Duration{1});
 }
 
 Leg leg_until(const Mover& mover, Vec3 to, Time arrival) {
@@ -25,16 +27,25 @@ Leg leg_until(const Mover& mover, Vec3 to, Time arrival) {
             .heading = way.x == 0 && way.y == 0 ? mover.heading : math::atan2(way.y, way.x)};
 }
 
+/// The part of the way to `to` that the mover makes before the clock ends.
+Leg endless_leg(const Mover& mover, Vec3 to, MetersPerSecond speed) {
+    const Time end = start_of_run + from_seconds(last_s);
+    const double share = speed.value * seconds(end - mover.now) / distance(mover.position, to);
+    return leg_until(mover, mover.position + share * (to - mover.position), end);
+}
+
 }  // namespace
 
 Leg straight_leg(const Mover& mover, Vec3 to, MetersPerSecond speed) {
-    const double v = std::min(speed, mover.top_speed).value;
-    return leg_until(mover, to, after(mover, distance(mover.position, to) / v));
+    const MetersPerSecond v = std::min(speed, mover.top_speed);
+    const auto arrival = after(mover, distance(mover.position, to) / v.value);
+    return arrival ? leg_until(mover, to, *arrival) : endless_leg(mover, to, v);
 }
 
 Leg straight_leg(const Mover& mover, Vec3 to, Time arrival) {
-    const Time soonest = after(mover, distance(mover.position, to) / mover.top_speed.value);
-    return leg_until(mover, to, std::max(arrival, soonest));
+    const auto soonest = after(mover, distance(mover.position, to) / mover.top_speed.value);
+    if (!soonest) return endless_leg(mover, to, mover.top_speed);
+    return leg_until(mover, to, std::max(arrival, *soonest));
 }
 
 }  // namespace rovernet

@@ -256,3 +256,17 @@ TEST_CASE("bonnmotion: a damaged file is read or refused, never more") {
     CHECK(refused > 100);
     CHECK(refused < 400);
 }
+
+TEST_CASE("bonnmotion: a line without end is refused, zipped or not") {
+    const TemporaryFolder folder;
+    std::string zeros(20U << 20, ' ');
+    for (std::size_t i = 0; i < zeros.size(); i += 2) zeros[i] = '0';
+    const std::string words = "a line is longer than 16777216 bytes";
+    for (const std::string& bytes : {zeros, zipped(zeros)}) {
+        const std::string error = movement_error(folder.write("scen.movements", bytes));
+        CAPTURE(error);
+        CHECK(error.find(words) != std::string::npos);
+    }
+    const std::string comment = "#" + zeros + "\n0 1 2\n";
+    CHECK(movement_error(folder.write("scen.movements", comment)).find(words) != std::string::npos);
+}

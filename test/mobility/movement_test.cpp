@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <utility>
 
 using namespace rovernet;
@@ -60,4 +61,17 @@ TEST_CASE("movement: a copy goes on by itself") {
     Movement copy = goal;
     CHECK(leg_of(goal).to == Vec3{9, 2, 0});
     CHECK(leg_of(copy).to == Vec3{9, 2, 0});
+}
+
+TEST_CASE("movement: a leg that outlasts the clock keeps its speed") {
+    const MetersPerSecond slow{0.1};
+    for (const double metres : {1e7, 1e9}) {  // 3 and 317 years
+        CAPTURE(metres);
+        Movement goal = ToGoal{.to = {1 + metres, 2, 0}, .speed = slow};
+        const Leg leg = leg_of(goal);
+        CHECK(leg.velocity.x == doctest::Approx(slow.value).epsilon(1e-12));
+        const Time year = start_of_run + from_seconds(31'556'952);
+        CHECK(leg.position(year).x == doctest::Approx(1 + 3'155'695.2).epsilon(1e-12));
+        CHECK(leg.end >= start_of_run + from_seconds(std::min(metres / slow.value, 9e9)));
+    }
 }
