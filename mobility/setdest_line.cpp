@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <string>
 #include <vector>
 
@@ -62,21 +61,6 @@ class Words {
     const Location& where_;
     std::size_t at_ = 0;
 };
-
-/// i of "$node_(i)"; any other name may stand before the bracket.
-std::uint32_t node_number(Word word, const Location& where) {
-    constexpr std::string_view expected = "a node as in $node_(0), its number below 10000000";
-    const std::size_t open = word.text.find('(');
-    if (open == word.text.npos || word.text.back() != ')') fail_at(where, word, expected);
-    const char* begin = word.text.data() + open + 1;
-    const char* end = word.text.data() + word.text.size() - 1;
-    std::uint32_t node = 0;
-    const auto [stop, error] = std::from_chars(begin, end, node);
-    if (error != std::errc{} || stop != end || node >= most_file_robots) {
-        fail_at(where, word, expected);
-    }
-    return node;
-}
 
 std::uint8_t axis_of(Word word, const Words& words) {
     if (word.text == "X_") return 0;

@@ -44,7 +44,7 @@ double any_number(Word word, const Location& line, std::string_view expected) {
 }
 
 double coordinate(double v, Word word, const Location& line) {
-    if (!(std::abs(v) <= farthest)) fail_at(line, word, a_coordinate);
+    if (!(std::abs(v) <= largest_coordinate)) fail_at(line, word, a_coordinate);
     return v;
 }
 
@@ -65,6 +65,20 @@ double pace(Word word, const Location& line) {
     const double v = any_number(word, line, a_pace);
     if (!(v >= 0 && v <= fastest)) fail_at(line, word, a_pace);
     return v;
+}
+
+std::uint32_t node_number(Word word, const Location& line) {
+    constexpr std::string_view expected = "a node as in $node_(0), its number below 10000000";
+    const std::size_t open = word.text.find('(');
+    if (open == word.text.npos || word.text.back() != ')') fail_at(line, word, expected);
+    const char* begin = word.text.data() + open + 1;
+    const char* end = word.text.data() + word.text.size() - 1;
+    std::uint32_t node = 0;
+    const auto [stop, error] = std::from_chars(begin, end, node);
+    if (error != std::errc{} || stop != end || node >= most_file_robots) {
+        fail_at(line, word, expected);
+    }
+    return node;
 }
 
 }  // namespace rovernet

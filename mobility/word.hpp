@@ -4,6 +4,7 @@
 #include "sim/error.hpp"
 #include "sim/time.hpp"
 
+#include <cstdint>
 #include <string_view>
 
 namespace rovernet {
@@ -16,7 +17,7 @@ struct Word {
 
 // What a movement file may say at most.
 inline constexpr std::uint32_t most_file_robots = 10'000'000;
-inline constexpr double farthest = 1e9;  ///< |coordinate| [m]
+inline constexpr double largest_coordinate = 1e9;  ///< |coordinate| [m]
 inline constexpr double fastest = 1e9;   ///< [m/s]
 inline constexpr double latest = 9e9;    ///< [s]
 
@@ -28,10 +29,14 @@ inline constexpr double latest = 9e9;    ///< [s]
 double any_number(Word word, const Location& line, std::string_view expected);
 
 // The number `v` that `word` says, within its limits.
-/// @throws InputError unless |v| <= farthest [m]
+/// @throws InputError unless |v| <= largest_coordinate [m]
 double coordinate(double v, Word word, const Location& line);
 /// @throws InputError unless 0 <= v <= latest [s]
 Time moment(double v, Word word, const Location& line);
+
+/// i of "$node_(i)"; any other name may stand before the bracket.
+/// @throws InputError unless i < most_file_robots
+std::uint32_t node_number(Word word, const Location& line);
 
 double coordinate(Word word, const Location& line);
 Time moment(Word word, const Location& line);
