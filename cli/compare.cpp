@@ -134,6 +134,7 @@ void print_text(const Comparison& c) {
 
 void compare(const CompareArguments& a) {
     Study study(a.file, study_options(a), models_to_vary(a));
+    for (const std::string& text : study.base().notices) notice(text);
     const PassingStore passing;
     Store store = open_store(a.store.value_or(passing.file()), study);
     const SweepResult result = run_study(a, study, store);

@@ -1,11 +1,58 @@
 // SPDX-License-Identifier: MIT
 #include "cli/options.hpp"
 
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
 namespace rovernet::cli {
+namespace {
+
+/// The number that is the whole text.
+template <class T>
+std::optional<T> number_in(std::string_view text) {
+    T v{};
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, v);
+    if (error != std::errc{} || rest != end) return std::nullopt;
+    return v;
+}
+
+/// Accepts what `is_good` accepts.
+template <class T>
+CLI::Validator number_check(const char* expected, const char* kind, bool (*is_good)(T)) {
+    const auto check = [=](std::string& text) -> std::string {
+        const auto v = number_in<T>(text);
+        if (v && is_good(*v)) return "";
+        return fmt::format("found \"{}\"; expected {}", text, expected);
+    };
+    return {check, kind};
+}
+
+}  // namespace
+
+CLI::Validator above_zero() {
+    return number_check<double>("a number > 0", "POSITIVE",
+                                [](double v) { return std::isfinite(v) && v > 0; });
+}
+
+CLI::Validator not_negative() {
+    return number_check<double>("a number >= 0", "NONNEGATIVE",
+                                [](double v) { return std::isfinite(v) && v >= 0; });
+}
+
+CLI::Validator whole_number() {
+    return number_check<std::int64_t>("a whole number >= 0, below 2^63", "",
+                                      [](std::int64_t v) { return v >= 0; });
+}
 
 void add_study_file(CLI::App& command, FileArguments& a, const char* what) {
     command.add_option("FILE", a.file, what)->required();
-    command.add_option("--seed", a.seed, "seed of every random draw");
+    command.add_option("--seed", a.seed, "seed of every random draw")->check(whole_number());
     command
         .add_option("--set", a.options.set,
                     "key=value over the file's, such as radio.power=\"15 dBm\"")
@@ -24,7 +71,8 @@ void add_study_file(CLI::App& command, FileArguments& a, const char* what) {
 
 void add_file(CLI::App& command, FileArguments& a, const char* what) {
     add_study_file(command, a, what);
-    command.add_option("--replication", a.replication, "which independent repetition");
+    command.add_option("--replication", a.replication, "which independent repetition")
+        ->check(whole_number());
 }
 
 void add_json(CLI::App& command, bool& json) {

@@ -38,7 +38,14 @@ void add_json(CLI::App& command, bool& json);
 /// How the intervals of means are made: t or betting.
 void add_interval(CLI::App& command, std::optional<std::string>& interval);
 
-constexpr const char* any_file = "scenario (.toml), Stage world (.world) or movement file";
+constexpr const char* any_file =
+    "scenario (.toml; - for standard input), Stage world (.world) or movement file";
+
+/// Checks of an option's text, whose errors say what was found and expected.
+CLI::Validator above_zero();
+CLI::Validator not_negative();
+/// From 0 to 2^63 - 1, as in a file.
+CLI::Validator whole_number();
 
 /// run, sweep, compare. @param typed  the command line as it was typed
 void add_run_commands(CLI::App& app, const std::string& typed);

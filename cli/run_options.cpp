@@ -13,7 +13,7 @@ void add_run(CLI::App& app) {
     run.add_option("--speed", a.speed, "pace the run: 1 is real time, 2 (or x2) twice as fast")
         ->transform(
             [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     add_json(run, a.json);
     run.add_flag("--print-scenario", a.print_scenario,
                  "print the scenario with every default, and do not run it");
@@ -29,7 +29,7 @@ void add_study_run(CLI::App& command, StudyArguments& a) {
     command
         .add_option("--precision", a.precision,
                     "repeat until the interval of the first metric has this half-width")
-        ->check(CLI::PositiveNumber);
+        ->check(above_zero());
     command.add_option("--max-replications", a.max_replications, "for --precision, at most")
         ->check(CLI::Range(1, 1'000'000));
     add_interval(command, a.interval);
@@ -51,9 +51,10 @@ void add_sweep(CLI::App& app, const std::string& typed) {
     sweep.add_flag("--fresh", a.fresh, "throw away the runs that the store has; asks")
         ->excludes(resume);
     sweep.add_flag("--yes", a.yes, "do not ask");
-    sweep.add_option("--shard", a.shard, "make only the runs of this chunk, from 0");
+    sweep.add_option("--shard", a.shard, "make only the runs of this chunk, from 0")
+        ->check(whole_number());
     sweep.add_option("--chunk", a.chunk, "runs of a chunk")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     sweep.add_option("--except", a.except, "make no run that this store has finished");
     sweep.add_option("--merge", a.merge, "move the runs of these stores into the study's")

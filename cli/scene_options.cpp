@@ -50,7 +50,7 @@ void add_draw(CLI::App& app) {
     draw.add_flag("--links", a.links, "show who hears whom");
     draw.add_flag("--trails", a.trails, "show where the robots have been");
     draw.add_option("--width", a.width, "of the picture, in pixels")
-        ->check(CLI::Range(100, 10000))
+        ->check(CLI::Range(400, 10000))
         ->capture_default_str();
     draw.add_option("-o,--output", a.out, "picture to write: NAME.svg or NAME.png")->required();
 }

@@ -66,7 +66,10 @@ Table map_report(const SceneArguments& a) {
                          "such as --size 16x16, or a map.yaml");
     }
     if (a.size) table.size = size_of(*a.size);
-    return scene_report(*load_map(table, a.file), a.json);
+    std::vector<std::string> notices;  // of materials; a map alone has those beside it
+    const auto map = load_map(table, a.file, notices);
+    for (const std::string& text : notices) notice(text);
+    return scene_report(*map, a.json);
 }
 
 void print_list(std::string_view what, const Value& names) {

@@ -4,6 +4,7 @@
 #include "cli/diagnostics.hpp"
 #include "experiment/json.hpp"
 #include "experiment/output.hpp"
+#include "experiment/toml.hpp"
 #include "study/command_words.hpp"
 #include "study/merge.hpp"
 #include "study/slurm.hpp"
@@ -54,6 +55,10 @@ std::vector<std::string> task_options(const SweepArguments& a, const Study& stud
 }
 
 SlurmSweep plan(const SweepArguments& a, Study& study, const std::string& store) {
+    if (a.file == standard_input) {
+        throw std::invalid_argument(
+            "sweep -: the tasks of a job array read the scenario anew; expected a file");
+    }
     // Closed again before a task reads it.
     const std::vector<RunState> states = run_states(study, open_store(store, study));
     SlurmSweep slurm{.command = fs::read_symlink("/proc/self/exe").string(),

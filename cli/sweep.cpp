@@ -6,6 +6,7 @@
 #include "cli/slurm.hpp"
 #include "cli/study_run.hpp"
 #include "experiment/json.hpp"
+#include "experiment/toml.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +20,11 @@ namespace {
 
 std::string store_path(const SweepArguments& a) {
     if (a.store) return *a.store;
+    if (a.file == standard_input) {
+        throw std::invalid_argument(
+            "sweep -: a scenario from standard input gives the store no name; expected --store "
+            "FILE");
+    }
     return std::filesystem::path(a.file).replace_extension(".db").string();
 }
 

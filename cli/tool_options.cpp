@@ -12,7 +12,8 @@ void add_models(CLI::App& app) {
 
 void add_loss(CLI::App& app) {
     const auto [loss, a] = add_command(
-        app, "loss", "Median path loss of a propagation model over distance", cli::loss);
+        app, "loss", "Median path loss of a model over distance, antennas 1 m above the ground",
+        cli::loss);
     loss.add_option("MODEL", a.model, "its name; see rovernet models")->required();
     loss.add_option("PARAMETERS", a.parameters, "param=value ...");
     loss.add_option("--frequency", a.frequency, "such as \"2450 MHz\"")->capture_default_str();
@@ -37,12 +38,12 @@ void add_bench(CLI::App& app) {
     flood.add_option("--access", a.access, "none, aloha or csma")->capture_default_str();
     flood.add_option("--mobility", a.mobility, "static or random_waypoint")->capture_default_str();
     flood.add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")
-        ->check(CLI::NonNegativeNumber)
+        ->check(not_negative())
         ->capture_default_str();
     flood.add_flag("--in-order", a.bench.in_order,
                    "look at all receptions in their order, as a trace does");
     flood.add_option("--cpu", a.bench.cpu_s, "seconds of CPU for each size, at least")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     flood.add_option("--seed", a.bench.seed, "of every random draw")->capture_default_str();
     add_json(flood, a.json);

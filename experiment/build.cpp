@@ -41,8 +41,8 @@ class Builder {
     void add_robot(const RobotTable& table, const std::string& name,
                    const std::optional<Propagation>& propagation);
     void react(const Built& robot, const ReactionTable& reaction, MotionBuilder::Plan plan);
-    std::function<void()> answer(const Built& robot, const ReactionTable& reaction,
-                                 MotionBuilder::Plan plan);
+    std::function<void(NodeId)> answer(const Built& robot, const ReactionTable& reaction,
+                                       MotionBuilder::Plan plan);
 
     /// What a robot does at a time that the scenario tells.
     struct Due {
@@ -128,9 +128,10 @@ void Builder::add_reactions() {
     }
 }
 
-/// What the robot does when the reaction's condition holds.
-std::function<void()> Builder::answer(const Built& robot, const ReactionTable& reaction,
-                                      MotionBuilder::Plan plan) {
+/// What the robot does when the reaction's condition holds; its argument is the sender of the
+/// message that came, if one did.
+std::function<void(NodeId)> Builder::answer(const Built& robot, const ReactionTable& reaction,
+                                            MotionBuilder::Plan plan) {
     std::optional<Movement> move;
     if (reaction.move) {
         move = motion_.movement(*reaction.move, *robot.table, network_.name(robot.node), robot.at,
@@ -138,12 +139,24 @@ std::function<void()> Builder::answer(const Built& robot, const ReactionTable& r
     }
     std::optional<std::uint32_t> size;
     if (reaction.size) size = reaction.size->value;
-    return [this_ = &network_, node = robot.node, move, size, send = reaction.send,
-            stop = reaction.stop, once = reaction.once, done = false]() mutable {
+    const bool to_sender = reaction.to == ReactionTable::sender;
+    const auto to = reaction.to && !to_sender ? network_.find(*reaction.to) : std::nullopt;
+    if (to == robot.node) {
+        throw InputError(reaction.to_where, fmt::format("to: robot \"{}\" cannot send to itself; "
+                                                        "expected another robot",
+                                                        *reaction.to));
+    }
+    return [this_ = &network_, node = robot.node, move, size, send = reaction.send, to, to_sender,
+            stop = reaction.stop, once = reaction.once, done = false](NodeId sender) mutable {
         if (once && std::exchange(done, true)) return;
         if (stop) this_->stop(node);
         if (move) this_->move(node, *move);
-        if (send) this_->broadcast(node, *send, size);
+        if (!send) return;
+        if (to || to_sender) {
+            this_->unicast(node, to.value_or(sender), *send, size);
+        } else {
+            this_->broadcast(node, *send, size);
+        }
     };
 }
 
@@ -158,15 +171,17 @@ void Builder::react(const Built& robot, const ReactionTable& reaction, MotionBui
                     const bool wanted = message.payload.starts_with(prefix) &&
                                         (!from || message.origin == *from) &&
                                         (!hops || heard.hops <= *hops);
-                    if (wanted) act();
+                    if (wanted) act(message.origin);
                 });
-        case Trigger::on_arrival: return network_.on_arrival(robot.node, std::move(act));
+        case Trigger::on_arrival:
+            return network_.on_arrival(robot.node, [act]() mutable { act(everyone); });
         case Trigger::on_link_lost:
             return network_.on_link_lost(robot.node, [act, from](NodeId lost) mutable {
-                if (!from || lost == *from) act();
+                if (!from || lost == *from) act(everyone);
             });
         case Trigger::on_time:
-            return expect(network_.name(robot.node), reaction.time, std::move(act));
+            return expect(network_.name(robot.node), reaction.time,
+                          [act]() mutable { act(everyone); });
     }
 }
 
@@ -178,6 +193,8 @@ void send_and_repeat(Network& network, NodeId from, const TrafficTable& table, i
         const auto length = static_cast<std::uint32_t>(table.payload.size());
         return network.saturate(from, to.value_or(everyone), size.value_or(length));
     }
+    const Time end = table.stop ? start_of_run + *table.stop : never;
+    if (network.now() >= end) return;  // "arrival" may come as late
     if (to) {
         network.unicast(from, *to, table.payload, size);
     } else {
@@ -185,7 +202,7 @@ void send_and_repeat(Network& network, NodeId from, const TrafficTable& table, i
     }
     if (!table.every || sent + 1 == table.count) return;
     const Time next = network.now() + *table.every;
-    if (table.stop && next >= start_of_run + *table.stop) return;
+    if (next >= end) return;
     network.at(next,
                [&network, from, table, sent] { send_and_repeat(network, from, table, sent + 1); });
 }
@@ -234,20 +251,24 @@ NetworkSettings network_settings(const Scenario& scenario) {
         .propagation_delay = scenario.medium.propagation_delay,
         .event_limit = scenario.scenario.event_limit,
     };
-    settings.scene = scenario.walls ? scenario.walls : load_map(scenario.scene, scenario.file);
+    std::vector<std::string> notices;  // were told when the file was loaded
+    settings.scene =
+        scenario.walls ? scenario.walls : load_map(scenario.scene, scenario.file, notices);
     return settings;
 }
 
 void populate(Network& network, const Scenario& scenario) {
-    network.route(scenario.routing.flood);
-    Builder builder(network, scenario);
-    builder.add_robots();
-    builder.schedule();
-    play_file(network, scenario);
-    builder.add_reactions();
-    builder.schedule();
-    builder.add_traffic();
-    builder.schedule();
+    located(Location{scenario.file}, [&] {
+        network.route(scenario.routing.flood);
+        Builder builder(network, scenario);
+        builder.add_robots();
+        builder.schedule();
+        play_file(network, scenario);
+        builder.add_reactions();
+        builder.schedule();
+        builder.add_traffic();
+        builder.schedule();
+    });
 }
 
 }  // namespace rovernet

@@ -47,12 +47,13 @@ Vec3 MotionBuilder::start(const RobotTable& table, const std::string& name) {
     const Vec3 at = table.at      ? *table.at
                     : table.place ? drawn_place(table, name)
                                   : place_of_model(table, name);
-    if (fits(at, table.radius)) return at;
+    if (scenario_.scene.lenient || fits(at, table.radius)) return at;
     throw InputError(
         table.place ? table.place->where : table.at_where,
         fmt::format("robot \"{}\" at {} m is inside a wall or nearer to one than its radius "
-                    "of {} m (clearance {:.3f} m); move it or give it a smaller radius",
-                    name, coordinates(at), table.radius.value, network_.scene().clearance(at)));
+                    "of {} m (clearance {:.3f} m); move it or give it a smaller radius{}",
+                    name, coordinates(at), table.radius.value, network_.scene().clearance(at),
+                    scenario_.scene.world ? "; --lenient goes on with a notice" : ""));
 }
 
 Vec3 MotionBuilder::drawn_place(const RobotTable& table, const std::string& name) const {

@@ -121,15 +121,16 @@ void Engine::count_events() {
     // The queue ends there; an event may add more than one.
     constexpr std::uint64_t most_pending = SchedulerLimits{}.pending / 16 * 15;
     if (queue_.size() > most_pending) {
-        throw RunError(fmt::format(
-            "{} events wait at {:.9f} s, more than a run can hold; lower the load: under "
-            "duplicates = \"forward\" it grows with every hop of the TTL",
-            queue_.size(), seconds(now_)));
+        throw RunError(
+            fmt::format("{} events wait at {:.9f} s, more than a run can hold; lower the load: "
+                        "fewer messages, a "
+                        "smaller ttl",
+                        queue_.size(), seconds(now_)));
     }
     if (queue_.scheduled() > settings_.event_limit) {
         throw RunError(fmt::format(
             "event limit of {} reached at {:.9f} s; raise [scenario] event_limit, or lower the "
-            "load: under duplicates = \"forward\" it grows with every hop of the TTL",
+            "load: a shorter duration, fewer messages, a smaller ttl",
             settings_.event_limit, seconds(now_)));
     }
     check_at_ = std::min(settings_.event_limit, queue_.scheduled() + most_pending - queue_.size());

@@ -77,7 +77,7 @@ std::vector<LossRow> loss_table(const std::string& model,
     Value name{model};
     name.where = option;
     document.table()->set("model", std::move(name));
-    for (const auto& parameter : parameters) set_option(document, parameter);
+    for (const auto& parameter : parameters) set_option(document, parameter, parameter);
     const Propagation propagation = median_propagation(document);
     try {
         propagation.check_frequency(frequency);

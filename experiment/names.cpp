@@ -82,6 +82,9 @@ void check_names(const Scenario& scenario) {
         names.check(robot.move);
         for (const ReactionTable& reaction : robot.reactions) {
             if (reaction.from) names.check(*reaction.from, "from", reaction.from_where);
+            if (reaction.to && *reaction.to != ReactionTable::sender) {
+                names.check(*reaction.to, "to", reaction.to_where);
+            }
             if (reaction.move) names.check(*reaction.move);
         }
     }

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -22,6 +23,8 @@ struct Kind {
     std::string_view what;  // with its article
     std::string_view example;
     std::span<const Unit> units;
+    double largest;  // magnitude in the base unit: beyond it sums and products may overflow
+    std::string_view largest_text;
 };
 
 constexpr Unit powers[] = {{"dBm", 1}, {"mW", 0, 1}, {"W", 0, 1e3}, {"uW", 0, 1e-3}};
@@ -33,7 +36,13 @@ constexpr Unit times[] = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6},
                           {"ns", 1e-9}, {"min", 60},  {"h", 3600}};
 constexpr Unit rates[] = {{"Mb/s", 1e6}, {"kb/s", 1e3},   {"Gb/s", 1e9},  {"b/s", 1},
                           {"bit/s", 1},  {"kbit/s", 1e3}, {"Mbit/s", 1e6}};
-constexpr Unit sizes[] = {{"B", 1}, {"kB", 1e3}, {"KiB", 1024}, {"MB", 1e6}};
+constexpr Unit sizes[] = {{"B", 1},
+                          {"kB", 1e3},
+                          {"KiB", 1024},
+                          {"MB", 1e6},
+                          {"MiB", 1 << 20},
+                          {"GB", 1e9},
+                          {"GiB", 1024.0 * (1 << 20)}};
 
 constexpr double degree = 3.14159265358979323846 / 180;
 constexpr Unit angles[] = {{"deg", degree}, {"rad", 1}};
@@ -41,17 +50,17 @@ constexpr Unit turn_rates[] = {{"deg/s", degree}, {"rad/s", 1}};
 constexpr Unit attenuations[] = {{"dB/m", 1}, {"dB/cm", 100}};
 
 constexpr Kind kinds[] = {
-    {"a power", "15 dBm", powers},
-    {"a ratio", "2 dB", gains},
-    {"a frequency", "2450 MHz", frequencies},
-    {"a length", "5 m", lengths},
-    {"a speed", "0.5 m/s", speeds},
-    {"a time", "10 s", times},
-    {"a bit rate", "11 Mb/s", rates},
-    {"a size", "64 B", sizes},
-    {"an angle", "90 deg", angles},
-    {"a turn rate", "45 deg/s", turn_rates},
-    {"an attenuation", "75 dB/m", attenuations},
+    {"a power", "15 dBm", powers, 1e4, "10000 dBm"},
+    {"a ratio", "2 dB", gains, 1e4, "10000 dB"},
+    {"a frequency", "2450 MHz", frequencies, 1e15, "1e6 GHz"},
+    {"a length", "5 m", lengths, 1e9, "1e6 km"},
+    {"a speed", "0.5 m/s", speeds, 1e9, "1e9 m/s"},
+    {"a time", "10 s", times, 1e9, "1e9 s (31 years)"},
+    {"a bit rate", "11 Mb/s", rates, 1e15, "1e6 Gb/s"},
+    {"a size", "64 B", sizes, 1e15, "1e6 GB"},
+    {"an angle", "90 deg", angles, 1e6, "1e6 rad"},
+    {"a turn rate", "45 deg/s", turn_rates, 1e9, "1e9 rad/s"},
+    {"an attenuation", "75 dB/m", attenuations, 1e6, "1e6 dB/m"},
 };
 
 const Kind& kind(Dimension dimension) { return kinds[static_cast<std::size_t>(dimension)]; }
@@ -69,6 +78,22 @@ std::string unit_names(const Kind& kind) {
                          const std::string& found, const std::string& suggestion) {
     throw InputError(value.where, fmt::format("{}: {}; expected {} with a unit ({}); {}", key,
                                               found, kind.what, unit_names(kind), suggestion));
+}
+
+/// What people write in full or in other ways.
+std::string_view usual_unit(std::string_view name) {
+    constexpr std::pair<std::string_view, std::string_view> others[] = {
+        {"sec", "s"},       {"secs", "s"},     {"second", "s"},    {"seconds", "s"},
+        {"mins", "min"},    {"minute", "min"}, {"minutes", "min"}, {"hr", "h"},
+        {"hour", "h"},      {"hours", "h"},    {"msec", "ms"},     {"usec", "us"},
+        {"meter", "m"},     {"meters", "m"},   {"metre", "m"},     {"metres", "m"},
+        {"mps", "m/s"},     {"kph", "km/h"},   {"degree", "deg"},  {"degrees", "deg"},
+        {"radians", "rad"}, {"byte", "B"},     {"bytes", "B"},     {"bps", "b/s"},
+        {"kbps", "kb/s"},   {"Mbps", "Mb/s"},  {"Gbps", "Gb/s"},   {"dBW", "dBm"},
+    };
+    const auto found = std::find_if(std::begin(others), std::end(others),
+                                    [&](const auto& other) { return other.first == name; });
+    return found == std::end(others) ? name : found->second;
 }
 
 /// "did you mean ...?" for a unit that is misspelt, in its capitals above all.
@@ -91,20 +116,21 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-double finite(const Value& value, std::string_view key, const Kind& kind, double number) {
-    if (std::isfinite(number)) return number;
-    throw InputError(value.where, fmt::format("{}: found {}; expected {} that is finite", key,
-                                              value.description(), kind.what));
+/// The quantity [base unit], unless it is not finite or too large to compute with.
+double within(const Value& value, std::string_view key, const Kind& kind, double number) {
+    if (std::abs(number) <= kind.largest) return number;
+    throw InputError(value.where, fmt::format("{}: found {}; expected {} of at most {}", key,
+                                              value.description(), kind.what, kind.largest_text));
 }
 
 double in_base_unit(const Value& value, std::string_view key, const Kind& kind, double number,
                     const Unit& unit) {
-    if (unit.factor != 0) return finite(value, key, kind, number * unit.factor);
-    if (finite(value, key, kind, number) <= 0) {
+    if (unit.factor != 0) return within(value, key, kind, number * unit.factor);
+    if (number <= 0) {
         reject(value, key, kind, fmt::format("found {} {}, which has no level", number, unit.name),
                fmt::format("did you mean \"{} dBm\"?", number));
     }
-    return finite(value, key, kind, to_dbm({number * unit.milliwatts}).value);
+    return within(value, key, kind, to_dbm({number * unit.milliwatts}).value);
 }
 
 /// A number without a unit: fine on the command line only, where it is in SI units.
@@ -113,11 +139,13 @@ double bare(const Value& value, std::string_view key, Dimension dimension, doubl
     if (value.where.is_option) {
         constexpr Unit watts = powers[2];
         return dimension == Dimension::power ? in_base_unit(value, key, k, number, watts)
-                                             : finite(value, key, k, number);
+                                             : within(value, key, k, number);
     }
-    finite(value, key, k, number);
+    within(value, key, k, number);
+    // 2.4 is of gigahertz, 2400 of megahertz.
+    const bool small = dimension == Dimension::frequency && std::abs(number) < 100;
     reject(value, key, k, fmt::format("found the number {} without a unit", number),
-           fmt::format("did you mean \"{} {}\"?", number, k.units.front().name));
+           fmt::format("did you mean \"{} {}\"?", number, k.units[small ? 1 : 0].name));
 }
 
 }  // namespace
@@ -149,7 +177,7 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
     if (unit_name.starts_with(',')) {
         reject(value, key, k, "found " + value.description(), "write the decimal point as \".\"");
     }
-    const std::string near = nearest_unit(k, unit_name);
+    const std::string near = nearest_unit(k, usual_unit(unit_name));
     reject(value, key, k, fmt::format("found the unit \"{}\"", unit_name),
            near.empty() ? example : near);
 }

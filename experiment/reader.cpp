@@ -45,6 +45,8 @@ void read_value(const Value& value, std::string_view key, double& out) {
     } else {
         out = as<double>(value, key, "a number without a unit");
     }
+    constexpr double largest = 1e9;  // factors and exponents: their products stay finite
+    if (!(std::abs(out) <= largest)) wrong_type(value, key, "a number of at most 1e9");
 }
 
 void read_value(const Value& value, std::string_view key, std::string& out) {
@@ -67,7 +69,9 @@ void read_value(const Value& value, std::string_view key, MetersPerSecond& out) 
     out = {read_quantity(value, key, Dimension::speed)};
 }
 void read_value(const Value& value, std::string_view key, BitRate& out) {
+    constexpr double slowest = 1;  // [bit/s]: the largest message takes 93 days
     out = {read_quantity(value, key, Dimension::bit_rate)};
+    if (out.value > 0 && out.value < slowest) wrong_type(value, key, "a bit rate >= 1 bit/s");
 }
 void read_value(const Value& value, std::string_view key, Radians& out) {
     out = {read_quantity(value, key, Dimension::angle)};
@@ -80,10 +84,7 @@ void read_value(const Value& value, std::string_view key, DbPerMeter& out) {
 }
 
 void read_value(const Value& value, std::string_view key, Duration& out) {
-    constexpr double longest = 1e9;  // the clock, which ends after 9.2e9 s, has room for a few
-    const double s = read_quantity(value, key, Dimension::time);
-    if (!(std::abs(s) <= longest)) wrong_type(value, key, "a time of at most 1e9 s (31 years)");
-    out = from_seconds(s);
+    out = from_seconds(read_quantity(value, key, Dimension::time));
 }
 
 void read_value(const Value& value, std::string_view key, Bytes& out) {
@@ -105,6 +106,18 @@ void read_value(const Value& value, std::string_view key, Vec3& out) {
     for (std::size_t i = 0; i < list->size(); ++i) {
         *axes[i] = read_quantity((*list)[i], key, Dimension::length);
     }
+}
+
+void check_printable(const Value& value, std::string_view key, std::string_view text) {
+    const auto control = [](char c) {
+        return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7f;
+    };
+    const auto found = std::find_if(text.begin(), text.end(), control);
+    if (found == text.end()) return;
+    throw InputError(value.where,
+                     fmt::format("{}: found the control character 0x{:02x} in it; expected a text "
+                                 "that can be printed",
+                                 key, static_cast<unsigned char>(*found)));
 }
 
 std::size_t read_choice(const Value& value, std::string_view key,

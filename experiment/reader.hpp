@@ -40,6 +40,10 @@ void read_value(const Value& value, std::string_view key, Duration& out);
 void read_value(const Value& value, std::string_view key, Bytes& out);
 void read_value(const Value& value, std::string_view key, Vec3& out);
 
+/// A text that is printed and names things: it has no control characters.
+/// @throws InputError at the value
+void check_printable(const Value& value, std::string_view key, std::string_view text);
+
 /// Finds a word among an enumeration's.
 std::size_t read_choice(const Value& value, std::string_view key,
                         const std::vector<std::string>& choices);

@@ -24,6 +24,17 @@ PlaceTable read_place(const Value& value) {
     return place;
 }
 
+/// A message for one robot needs words, and a sender needs a message that came.
+void check_receiver(const ReactionTable& reaction, TableReader& table) {
+    if (!reaction.to) return;
+    if (!reaction.send) table.missing("send", "send = \"F\": to needs it");
+    if (*reaction.to != ReactionTable::sender || reaction.trigger == Trigger::on_receive) return;
+    throw InputError(reaction.to_where,
+                     fmt::format("to: found \"sender\" in {}, where no message came; expected the "
+                                 "name of a robot, or on_receive",
+                                 name_of(reaction.trigger)));
+}
+
 ReactionTable read_reaction(const Value& value, Trigger trigger) {
     TableReader table(value, std::string(name_of(trigger)));
     ReactionTable reaction;
@@ -47,9 +58,11 @@ ReactionTable read_reaction(const Value& value, Trigger trigger) {
     }
     if (const Value* move = table.take("move")) reaction.move = read_move(*move, true);
     table.read("send", reaction.send);
+    if (table.read("to", reaction.to)) reaction.to_where = table.take("to")->where;
     table.read("size", reaction.size);
     table.read("stop", reaction.stop);
     table.reject_unknown();
+    check_receiver(reaction, table);
     if (reaction.stop && reaction.move) table.only_one_of("move", "stop");
     if (reaction.size && !reaction.send) table.missing("send", "send = \"F\": size needs it");
     if (!reaction.move && !reaction.send && !reaction.stop) {
@@ -75,9 +88,10 @@ void read_reactions(TableReader& table, RobotTable& robot) {
 }
 
 void check_name(const Value& value, const std::string& name) {
-    if (name.empty() || name.find_first_of(".\"\n") != std::string::npos) {
-        throw InputError(value.where, fmt::format("name: found {}; expected a name, without dots, "
-                                                  "quotes or line breaks",
+    check_printable(value, "name", name);
+    if (name.empty() || name.find_first_of(".\"") != std::string::npos) {
+        throw InputError(value.where, fmt::format("name: found {}; expected a name, without dots "
+                                                  "and quotes",
                                                   value.description()));
     }
 }
@@ -85,7 +99,8 @@ void check_name(const Value& value, const std::string& name) {
 void read_switching(TableReader& table, RobotTable& robot) {
     for (auto* times : {&robot.off, &robot.on}) {
         const char* key = times == &robot.off ? "off" : "on";
-        table.read(key, *times);
+        if (!table.read(key, *times)) continue;
+        (times == &robot.off ? robot.off_where : robot.on_where) = table.take(key)->where;
         for (const Duration t : *times) {
             if (t >= Duration{0}) continue;
             throw InputError(
@@ -95,16 +110,17 @@ void read_switching(TableReader& table, RobotTable& robot) {
     }
 }
 
-void read_radio(TableReader& table, RobotTable& robot, const Scenario& scenario) {
+void read_air(TableReader& table, RobotTable& robot, const Scenario& scenario) {
     robot.radio = scenario.radio;
+    robot.radio_places = scenario.radio_places;
     if (const Value* radio = table.take("radio")) {
-        TableReader own(*radio, "robot's radio");
         robot.radio_where = radio->where;
-        own.read_fields(robot.radio);
-        own.reject_unknown();
+        read_radio(*radio, "robot's radio", robot.radio, robot.radio_places);
     }
     if (const Value* propagation = table.take("propagation")) {
-        robot.propagation = scenario.propagation;
+        robot.own_model = propagation->table() && propagation->table()->find("model");
+        // Who chooses a model chooses its parameters with it: none are inherited.
+        robot.propagation = robot.own_model ? PropagationTable{} : scenario.propagation;
         robot.propagation_where = propagation->where;
         read_propagation(*propagation, *robot.propagation);
     }
@@ -131,6 +147,7 @@ Table reaction_document(const ReactionTable& reaction) {
     }
     if (reaction.move) table.set("move", move_document(*reaction.move));
     if (reaction.send) table.set("send", *reaction.send);
+    if (reaction.to) table.set("to", *reaction.to);
     if (reaction.size) table.set("size", to_value(*reaction.size));
     if (reaction.stop) table.set("stop", true);
     return table;
@@ -164,6 +181,21 @@ Table place_document(const PlaceTable& place) {
 
 }  // namespace
 
+void read_radio(const Value& value, const std::string& name, Radio& out, RadioPlaces& places) {
+    TableReader table(value, name);
+    table.read_fields(out);
+    table.reject_unknown();
+    for (const char* label : {"essid", "ip", "netmask", "mac"}) {
+        if (const Value* text = table.take(label)) check_printable(*text, label, *text->string());
+    }
+    const auto find = [&](std::string_view key, Location& where) {
+        if (const Value* key_value = table.take(key)) where = key_value->where;
+    };
+    find("sensitivity", places.sensitivity);
+    find("frequency", places.frequency);
+    find("rate", places.rate);
+}
+
 RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_place) {
     TableReader table(value, "[[robot]]");
     RobotTable robot;
@@ -184,7 +216,7 @@ RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_p
     if (!placed && needs_place && !robot.move.draws_place()) {
         table.missing("at", "at = [\"2 m\", \"3 m\"], or place = { ... }");
     }
-    read_radio(table, robot, scenario);
+    read_air(table, robot, scenario);
     read_reactions(table, robot);
     read_switching(table, robot);
     table.reject_unknown();

@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rovernet {
@@ -55,11 +56,23 @@ struct ReactionTable {
     Duration time{0};                      ///< on_time
     bool once = true;                      ///< the first time only
     std::optional<MoveTable> move = {};    ///< then it moves so,
-    std::optional<std::string> send = {};  ///< broadcasts this,
+    std::optional<std::string> send = {};  ///< sends this,
+    std::optional<std::string> to = {};    ///< to this robot or the "sender"; none: to everyone
     std::optional<Bytes> size = {};        ///< of that many bytes, if not its length
     bool stop = false;                     ///< or stops
-    Location where = {}, from_where = {};
+    Location where = {}, from_where = {}, to_where = {};
+
+    /// `to` stands for the robot that sent the message first, and is no name.
+    static constexpr std::string_view sender = "sender";
 };
+
+/// Places of a radio's keys in the file, for what is found wrong once everything is read.
+struct RadioPlaces {
+    Location sensitivity = {}, frequency = {}, rate = {};
+};
+/// Reads [radio], or a robot's own, over `out`; places of keys that are not there stay as they are.
+/// @param name  of the table, for errors
+void read_radio(const Value& value, const std::string& name, Radio& out, RadioPlaces& places);
 
 /// [[robot]], one or `count` of a kind.
 struct RobotTable {
@@ -72,11 +85,13 @@ struct RobotTable {
     std::optional<MetersPerSecond> top_speed;
     std::optional<RadiansPerSecond> turn_rate;
     Radio radio;  ///< [radio] with the robot's own keys over it
+    RadioPlaces radio_places;
     std::optional<PropagationTable> propagation;
+    bool own_model = false;  ///< `propagation` chooses a model
     MoveTable move;
     std::vector<ReactionTable> reactions;
     std::vector<Duration> off, on;  ///< when the robot is switched off and on
-    Location where, at_where, radio_where, propagation_where;
+    Location where, at_where, radio_where, propagation_where, on_where, off_where;
 
     /// The i-th robot's name.
     std::string name_of(int i) const { return count ? name + std::to_string(i) : name; }

@@ -3,6 +3,7 @@
 
 #include "experiment/build.hpp"
 #include "experiment/json.hpp"
+#include "experiment/located.hpp"
 #include "experiment/output.hpp"
 #include "experiment/run_folder.hpp"
 #include "experiment/toml.hpp"
@@ -55,7 +56,10 @@ void run_in_slices(Network& network, const Scenario& scenario, const RunOptions&
             const std::chrono::duration<double> wall = WallClock::now() - started;
             until = std::min(end, start_of_run + from_seconds(wall.count() * *options.speed));
         }
-        done = network.advance(until, events_a_slice) && until == end;
+        // What a model refuses only when its turn comes is the scenario's fault, too.
+        const bool arrived = located(Location{scenario.file},
+                                     [&] { return network.advance(until, events_a_slice); });
+        done = arrived && until == end;
         const double share = seconds(network.now()) / seconds(scenario.scenario.duration);
         if (options.progress && !options.progress(share)) throw Interrupted();
         if (options.speed && !done && network.now() >= until) {

@@ -2,7 +2,10 @@
 #include "experiment/scenario.hpp"
 
 #include "experiment/located.hpp"
+#include "experiment/memory.hpp"
 #include "experiment/names.hpp"
+#include "experiment/traffic_file.hpp"
+#include "experiment/unlikely.hpp"
 #include "models/disc.hpp"
 #include "models/error_rate.hpp"
 #include "sim/math.hpp"
@@ -29,6 +32,10 @@ std::vector<std::string> model_names() {
 
 /// The name becomes a folder's.
 void check_run_name(TableReader& document, const std::string& name) {
+    if (const Value* table = document.take("scenario")) {
+        if (const Value* given = table->table()->find("name"))
+            check_printable(*given, "name", name);
+    }
     if (!name.empty() && name.front() != '.' && name.find('/') == std::string::npos) return;
     const Value* given = document.take("scenario")->table()->find("name");
     throw InputError(given->where, fmt::format("name: found {}; expected a name for a folder: not "
@@ -43,6 +50,22 @@ void read_start(const Value* start, TrafficTable& traffic, TableReader& table) {
     } else {
         table.read("start", traffic.start, non_negative);
     }
+}
+
+void check_receiver(const TrafficTable& traffic) {
+    if (!traffic.to || *traffic.to != traffic.from) return;
+    throw InputError(
+        traffic.to_where,
+        fmt::format("to: found \"{}\", who sends it; expected another robot", *traffic.to));
+}
+
+/// Traffic that stops before it starts says nothing.
+void check_stop(const TrafficTable& traffic, TableReader& table) {
+    if (!traffic.stop || !traffic.start || *traffic.stop > *traffic.start) return;
+    throw InputError(table.take("stop")->where,
+                     fmt::format("stop: found {} s, and start is {} s, so that nothing would be "
+                                 "sent; expected a later time",
+                                 seconds(*traffic.stop), seconds(*traffic.start)));
 }
 
 TrafficTable read_traffic(const Value& value) {
@@ -68,6 +91,8 @@ TrafficTable read_traffic(const Value& value) {
     table.read("count", traffic.count, Range{.low = 1, .text = ">= 1"});
     if (to_one && !traffic.to) table.missing("to", "to = \"B\": whom a unicast is for");
     table.reject_unknown();
+    check_receiver(traffic);
+    check_stop(traffic, table);
     if (traffic.saturate && traffic.every) {
         throw InputError(
             table.take("every")->where,
@@ -108,19 +133,19 @@ void check_sinr(const Scenario& scenario) {
         }
     }
     const auto check = [](const PropagationTable& propagation, Location propagation_where,
-                          const Radio& radio, Location radio_where) {
+                          const Radio& radio, Location rate_where) {
         if (propagation.make().name() == Disc::name) {
             throw InputError(propagation_where,
                              "model: \"disc\" has no levels for [reception] model = \"sinr\"; "
                              "expected another, such as \"friis\"");
         }
-        check_modulation("rate", radio.rate, radio_where);
+        check_modulation("rate", radio.rate, rate_where);
     };
     for (const RobotTable& robot : scenario.robots) {
         const bool own = robot.propagation.has_value();
         check(own ? *robot.propagation : scenario.propagation,
               own ? robot.propagation_where : scenario.propagation_where, robot.radio,
-              robot.radio_where);
+              robot.radio_places.rate);
     }
 }
 
@@ -135,6 +160,21 @@ std::vector<T> read_list(TableReader& document, std::string_view key, auto&& rea
     }
     for (const auto& item : *value->array()) list.push_back(read_item(item));
     return list;
+}
+
+/// [[traffic]]: flows, and files of flows; a lone [traffic] may be a file, too.
+void read_all_traffic(TableReader& document, Scenario& out) {
+    const auto is_file = [](const Value& v) { return v.table() && v.table()->find("file"); };
+    const Value* value = document.take("traffic");
+    if (value && is_file(*value)) return read_flows(*value, out);
+    read_list<int>(document, "traffic", [&](const Value& item) {
+        if (is_file(item)) {
+            read_flows(item, out);
+        } else {
+            out.traffic.push_back(read_traffic(item));
+        }
+        return 0;
+    });
 }
 
 template <Described T>
@@ -173,6 +213,9 @@ void read_access(TableReader& document, Scenario& out) {
     const Value* access = document.take("access");
     if (access) out.access_where = access->where;
     read_section(document, "access", out.access);
+    if (access && access->table()->find("basic_rates")) {
+        out.access_where = access->table()->find("basic_rates")->where;
+    }
     if (access && out.access.model == AccessModel::csma) check_csma(out.access, *access->table());
     if (out.access.model == AccessModel::csma && out.access.standard != WifiStandard::b) {
         out.radio.rate = BitRate{54e6};
@@ -220,6 +263,16 @@ void note_decay(Scenario& out) {
             "to {:.3g} m/s; start = \"stationary\", without at or place, has no such phase",
             robot.move.where.text(), robot.name, name_of(model->start), (low + high) / 2, settled));
     }
+}
+
+/// A network needs somebody.
+void check_robots(TableReader& document, const Scenario& scenario) {
+    if (!scenario.robots.empty() || !scenario.movement.robots.empty()) return;
+    if (!scenario.scene.world) document.missing("robot", "[[robot]] with a name and a place");
+    throw InputError(
+        scenario.scene.map_where.line > 0 ? scenario.scene.map_where : Location{scenario.file},
+        "no robot in this world; expected a position that has a wifi, or a scenario "
+        "with [[robot]] that names the world: [scene] world = \"...\"");
 }
 
 /// Whether the movement file, which names these robots, places the robot of that table.
@@ -316,7 +369,9 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     check_run_name(document, out.scenario.name);
     if (const Value* scene = document.take("scene")) out.scene = read_scene(*scene);
     read_access(document, out);
-    read_section(document, "radio", out.radio);
+    if (const Value* radio = document.take("radio")) {
+        read_radio(*radio, "[radio]", out.radio, out.radio_places);
+    }
     read_section(document, "medium", out.medium);
     out.propagation_where = value.where;
     if (const Value* propagation = document.take("propagation")) {
@@ -332,18 +387,19 @@ Scenario read_scenario(const Value& value, const std::string& file) {
         return read_robot(v, out, !placed_by_file(v, in_file));
     });
     read_routing(document, out.routing);
-    out.traffic = read_list<TrafficTable>(document, "traffic", read_traffic);
+    read_all_traffic(document, out);
     read_section(document, "trace", out.trace);
     if (const Value* study = document.take("study")) {
         out.study = read_study(*study, out.scenario.duration);
     }
     document.reject_unknown();
-    if (out.robots.empty() && out.movement.robots.empty())
-        document.missing("robot", "[[robot]] with a name and a place");
+    check_robots(document, out);
+    check_memory(out, available_memory());
     check_names(out);
     check_traffic(out);
     check_sinr(out);
     note_decay(out);
+    note_unlikely(out);
     check_addresses(out);
     return out;
 }

@@ -130,6 +130,7 @@ struct Scenario {
     SceneTable scene;
     std::shared_ptr<const Scene> walls;  ///< if they are loaded already: those of a Stage world
     Radio radio;
+    RadioPlaces radio_places;
     MediumTable medium;
     PropagationTable propagation;
     Location propagation_where;
@@ -168,6 +169,7 @@ struct ScenarioOptions {
 /// what the command line says over it. Scenarios are made from it, with more settings or none.
 class ScenarioFile {
   public:
+    /// @param path  "-": a scenario from standard input, relative to the current folder
     /// @throws InputError
     ScenarioFile(const std::string& path, const ScenarioOptions& options);
 
@@ -182,7 +184,7 @@ class ScenarioFile {
     std::shared_ptr<const WorldFile> world_;  // if [scene] names one
 };
 
-/// ScenarioFile(path, options).scenario()
+/// ScenarioFile(path, options).scenario(), with its map loaded and its robots looked at there.
 Scenario load_scenario(const std::string& path, const ScenarioOptions& options);
 
 /// The scenario as a document with every default; it reads back as the same scenario.

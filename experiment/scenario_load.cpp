@@ -3,6 +3,7 @@
 #include "experiment/scenario.hpp"
 #include "experiment/stage_world.hpp"
 #include "experiment/toml.hpp"
+#include "experiment/unlikely.hpp"
 
 #include <fmt/format.h>
 
@@ -18,15 +19,47 @@ namespace fs = std::filesystem;
 
 bool is_world(const std::string& path) { return fs::path(path).extension() == ".world"; }
 
-/// A map is no scenario, however alike a YAML file looks.
-void refuse_map(const std::string& path) {
-    const auto ending = fs::path(path).extension();
-    for (const char* map : {".yaml", ".yml", ".png", ".pgm"}) {
-        if (ending != map || !fs::is_regular_file(path)) continue;
-        throw InputError(
-            Location{path},
-            "a map, not a scenario; expected a scenario (.toml) that names it: [scene] "
-            "map = \"...\"; rovernet scene shows a map alone");
+/// The world that a configuration of Player names, if it does.
+std::string world_of(const std::string& player_file) {
+    std::ifstream file(player_file);
+    for (std::string line; std::getline(file, line);) {
+        const auto key = line.find("worldfile");
+        const auto begin = line.find('"', key);
+        if (key == line.npos || begin == line.npos || line.find('#') < key) continue;
+        const std::string name = line.substr(begin + 1, line.find('"', begin + 1) - begin - 1);
+        return (fs::path(player_file).parent_path() / name).string();
+    }
+    return "NAME.world";
+}
+
+/// A file of another kind is no scenario, however alike it looks: says what it is, and what to do.
+void refuse_others(const std::string& path) {
+    struct Kind {
+        std::string_view endings, what;
+    };
+    constexpr Kind kinds[] = {
+        {".yaml .yml .png .pgm",
+         "a map, not a scenario; expected a scenario (.toml) that names it: [scene] map = "
+         "\"...\"; rovernet scene shows a map alone"},
+        {".inc", "a part of a Stage world; expected the world that includes it (.world)"},
+        {".db", "a study's store, not a scenario; rovernet results shows what is in it"},
+        {".tr", "a trace, not a scenario; rovernet trace stats shows its metrics"},
+        {".json", "not a scenario; of a run, scenario.toml beside it is"}};
+    const std::string ending = fs::path(path).extension().string();
+    if (ending.empty() || !fs::is_regular_file(path)) return;
+    if (ending == ".cfg") {
+        throw InputError(Location{path},
+                         fmt::format("a configuration of Player, not a scenario; expected the "
+                                     "Stage world that it names: {}",
+                                     world_of(path)));
+    }
+    for (const Kind& kind : kinds) {
+        for (auto at = kind.endings.find(ending); at != kind.endings.npos;
+             at = kind.endings.find(ending, at + 1)) {
+            const auto end = at + ending.size();
+            if (end != kind.endings.size() && kind.endings[end] != ' ') continue;
+            throw InputError(Location{path}, std::string(kind.what));
+        }
     }
 }
 
@@ -43,7 +76,7 @@ Value world_alone(const std::string& path) {
 /// A movement file tells itself by its first sign that is no comment: `$`, `<`, a digit or gzip's
 /// mark; a TOML file begins with a letter, a quote or a bracket.
 bool is_movement(const std::string& path) {
-    if (fs::path(path).extension() == ".toml") return false;
+    if (fs::path(path).extension() == ".toml" || !fs::is_regular_file(path)) return false;
     std::ifstream file(path, std::ios::binary);
     for (char c = 0; file.get(c);) {
         if (c == '#') {
@@ -146,7 +179,7 @@ void add_world(Table& document, const Table& world) {
 }  // namespace
 
 ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& options) : path_(path) {
-    refuse_map(path);
+    refuse_others(path);
     document_ = is_world(path)      ? world_alone(path)
                 : is_movement(path) ? movement_alone(path)
                                     : read_toml(path);
@@ -163,7 +196,7 @@ ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& optio
         add_world(table, stage_document(world, notices_));
         world_ = std::make_shared<const WorldFile>(std::move(world));
     }
-    for (const auto& option : options.set) set_option(document_, option);
+    for (const auto& option : options.set) set_option(document_, option, "--set " + option);
 }
 
 Scenario ScenarioFile::scenario(const Table& settings) const {
@@ -179,7 +212,12 @@ Scenario ScenarioFile::scenario(const Table& settings) const {
 }
 
 Scenario load_scenario(const std::string& path, const ScenarioOptions& options) {
-    return ScenarioFile(path, options).scenario();
+    Scenario scenario = ScenarioFile(path, options).scenario();
+    if (!scenario.walls) {
+        scenario.walls = load_map(scenario.scene, scenario.file, scenario.notices);
+    }
+    note_places(scenario, scenario.walls.get());
+    return scenario;
 }
 
 }  // namespace rovernet

@@ -71,7 +71,7 @@ Table to_document(const Scenario& scenario) {
     document.set("movement", section(scenario.movement));
     Array robots;
     for (const auto& robot : scenario.robots) robots.emplace_back(robot_document(robot, scenario));
-    document.set("robot", std::move(robots));
+    if (!robots.empty()) document.set("robot", std::move(robots));
     Table routing;
     routing.set("protocol", to_value(scenario.routing.protocol));
     append_fields(routing, scenario.routing.flood);

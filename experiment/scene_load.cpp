@@ -51,8 +51,36 @@ OccupancyGrid load_grid(const SceneTable& scene, const fs::path& path) {
     return image_map(path.string(), size[0], size[1]);
 }
 
+/// The materials' pixels of a map: how many, and how many of them are walls.
+struct Pixels {
+    std::size_t all = 0, walls = 0;
+};
+
+/// A material that no wall is made of was meant otherwise.
+void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view map,
+                 std::vector<std::string>& notices) {
+    if (pixels.walls == pixels.all && pixels.all > 0) return;
+    const bool has_grey = material.grey || material.greys;
+    if (!has_grey) {
+        return notices.push_back(fmt::format(
+            "{}: material \"{}\" has no grey, and a map has no colours: it counts nowhere",
+            material.where.text(), material.name));
+    }
+    if (pixels.all == 0) {
+        return notices.push_back(
+            fmt::format("{}: material \"{}\" fits no pixel of {}; the first material "
+                        "that fits counts",
+                        material.where.text(), material.name, map));
+    }
+    notices.push_back(fmt::format(
+        "{}: material \"{}\": {} of its {} pixels in {} are no walls, and let the radio pass; "
+        "their grey is too light: darken it, or lower the map's occupied_thresh",
+        material.where.text(), material.name, pixels.all - pixels.walls, pixels.all, map));
+}
+
 /// Gives each wall the first material that has its grey level; 0 is the usual one.
-void assign_materials(OccupancyGrid& grid, const std::vector<MaterialTable>& tables) {
+void assign_materials(OccupancyGrid& grid, const std::vector<MaterialTable>& tables,
+                      std::string_view map, std::vector<std::string>& notices) {
     if (tables.empty()) return;
     std::vector<std::uint8_t> by_level(256, 0);
     for (int level = 0; level < 256; ++level) {
@@ -64,12 +92,20 @@ void assign_materials(OccupancyGrid& grid, const std::vector<MaterialTable>& tab
         }
     }
     grid.cell_materials.resize(grid.cells.size());
+    std::vector<Pixels> pixels(tables.size() + 1);
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-        grid.cell_materials[i] = by_level[grid.greys[i]];
+        const std::uint8_t material = by_level[grid.greys[i]];
+        grid.cell_materials[i] = material;
+        ++pixels[material].all;
+        pixels[material].walls += grid.cells[i] == Cell::occupied;
+    }
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        note_pixels(tables[i], pixels[i + 1], map, notices);
     }
 }
 
-std::shared_ptr<const Scene> map_scene(const SceneTable& scene, const std::string& file) {
+std::shared_ptr<const Scene> map_scene(const SceneTable& scene, const std::string& file,
+                                       std::vector<std::string>& notices) {
     const fs::path path = fs::path(file).parent_path() / *scene.map;
     std::vector<MaterialTable> tables = scene.materials;
     for (const MaterialTable& more : sidecar(path)) tables.push_back(more);
@@ -78,7 +114,7 @@ std::shared_ptr<const Scene> map_scene(const SceneTable& scene, const std::strin
         throw InputError(tables[most].where, "materials: expected at most 254 of them");
     }
     OccupancyGrid grid = load_grid(scene, path);
-    assign_materials(grid, tables);
+    assign_materials(grid, tables, *scene.map, notices);
     std::vector<Material> materials{made_of({}, scene.wall_height)};
     materials.front().name = "wall";
     for (const MaterialTable& table : tables) {
@@ -102,10 +138,11 @@ WorldOptions world_options(const SceneTable& scene, const std::string& file) {
     return options;
 }
 
-std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file) {
+std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file,
+                                      std::vector<std::string>& notices) {
     if (!scene.map) return nullptr;
     try {
-        return map_scene(scene, file);
+        return map_scene(scene, file, notices);
     } catch (const InputError& error) {
         if (error.where().source == scene.map_where.source) throw;
         throw InputError(scene.map_where, std::string("map: ") + error.what());
@@ -126,6 +163,13 @@ std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::stri
                                                   : made_of(*found, std::nullopt);
         if (scene.wall_height && found == scene.materials.end())
             material.height = *scene.wall_height;
+    }
+    for (const MaterialTable& table : scene.materials) {
+        const bool used = std::any_of(walls.materials.begin(), walls.materials.end(),
+                                      [&](const Material& m) { return table.color == m.name; });
+        if (used) continue;
+        notices.push_back(fmt::format("{}: material \"{}\": no wall of the world has its colour",
+                                      table.where.text(), table.name));
     }
     if (walls.grids.empty()) return nullptr;
     return std::make_shared<const Scene>(std::move(walls.grids), std::move(walls.materials));

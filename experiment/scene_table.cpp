@@ -24,6 +24,9 @@ MaterialTable read_material(const Entry& entry) {
     table.reject_unknown();
     material.name = entry.key;
     material.where = entry.key_where;
+    Value name{entry.key};
+    name.where = entry.key_where;
+    check_printable(name, "material", entry.key);
     check_greys(material, table);
     if (material.grey && material.greys) table.only_one_of("grey", "greys");
     if (!material.grey && !material.greys && !material.color) {

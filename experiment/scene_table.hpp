@@ -87,9 +87,11 @@ Table scene_document(const SceneTable& scene);
 WorldOptions world_options(const SceneTable& scene, const std::string& file);
 
 /// The scene's map; null for an open field.
-/// @param file  of the scenario
+/// @param file     of the scenario
+/// @param notices  appended: materials that make no wall, though the map has their grey
 /// @throws InputError naming the scenario's line, then the map's own error
-std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file);
+std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file,
+                                      std::vector<std::string>& notices);
 
 /// The walls of the scene's world; null if it has none.
 /// @param notices  appended

@@ -8,13 +8,15 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <sstream>
+#include <vector>
 
 namespace rovernet {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uintmax_t largest_file = 64U << 20;
+constexpr std::size_t largest_file = 64U << 20;
 
 Location location(const std::string& source, const toml::source_region& region) {
     return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
@@ -148,6 +150,11 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
             if (*name->string() == step) return item;
             names.push_back(*name->string());
         }
+        if (names.empty()) {
+            throw InputError(option, fmt::format("\"{}\" leads into a list; expected the number of "
+                                                 "an item before it, from 0 to {}",
+                                                 step, list->size() - 1));
+        }
         const std::string near = did_you_mean(step, names);
         throw InputError(option, fmt::format("nothing in the list is named \"{}\"{}{}", step,
                                              near.empty() ? "" : "; ", near));
@@ -165,6 +172,59 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
     return *table->find(step);
 }
 
+/// What was probably meant where the parser says these words.
+std::string_view advice_for(std::string_view description) {
+    struct Slip {
+        std::string_view words, advice;
+    };
+    constexpr Slip slips[] = {
+        {"expected a comment or whitespace", "texts and quantities stand in quotes: \"30 mW\""},
+        {"expected '='", "a line is KEY = VALUE, [TABLE] or [[LIST OF TABLES]]"},
+        {"parsing boolean", "true and false have small letters"},
+        {"dangling comma", "no comma stands before }"},
+        {"inline table", "what begins with { ends with } on the same line"},
+        {"invalid utf-8", "save the file as UTF-8"},
+    };
+    for (const Slip& slip : slips) {
+        if (description.find(slip.words) != description.npos) return slip.advice;
+    }
+    return "";
+}
+
+/// What the parser says, and what was probably meant.
+std::string parse_message(std::string_view description) {
+    constexpr std::string_view twice = "cannot redefine existing ";
+    if (const auto found = description.find(twice); found != description.npos) {
+        const auto begin = description.find('\'', found) + 1;
+        const auto name = description.substr(begin, description.find('\'', begin) - begin);
+        if (description.substr(found + twice.size(), 5) != "table") {
+            return fmt::format("the key \"{}\" is there a second time; expected it once", name);
+        }
+        if (name == "robot" || name == "traffic") {
+            return fmt::format("[{0}] is there a second time; expected [[{0}]], once for each",
+                               name);
+        }
+        return fmt::format("[{0}] is there a second time; expected one [{0}] with all its keys",
+                           name);
+    }
+    const std::string_view advice = advice_for(description);
+    return fmt::format("not TOML: {}{}{}", description, advice.empty() ? "" : "; ", advice);
+}
+
+/// All that the stream has. @throws InputError if that is more than a scenario is long
+std::string bounded_text(std::istream& in, const std::string& source) {
+    std::string text;
+    std::vector<char> portion(64 * 1024);
+    while (in.read(portion.data(), static_cast<std::streamsize>(portion.size())) ||
+           in.gcount() > 0) {
+        text.append(portion.data(), static_cast<std::size_t>(in.gcount()));
+        if (text.size() > largest_file) {
+            throw InputError({source}, "larger than 64 MiB; expected a scenario file");
+        }
+    }
+    return text;
+}
+
 }  // namespace
 
 Value parse_toml(std::string_view text, const std::string& source) {
@@ -173,31 +233,27 @@ Value parse_toml(std::string_view text, const std::string& source) {
         document.where = {source};
         return document;
     } catch (const toml::parse_error& error) {
-        // The commonest slip: power = 30 mW
-        const bool unquoted =
-            error.description().find("expected a comment or whitespace") != std::string_view::npos;
-        throw InputError(
-            location(source, error.source()),
-            fmt::format("not TOML: {}{}", error.description(),
-                        unquoted ? "; texts and quantities stand in quotes: \"30 mW\"" : ""));
+        throw InputError(location(source, error.source()), parse_message(error.description()));
     }
 }
 
 Value read_toml(const std::string& path) {
+    if (path == standard_input) {
+        static const std::string text = bounded_text(std::cin, "standard input");
+        return parse_toml(text, "standard input");
+    }
     std::error_code error;
     const auto status = fs::status(path, error);
     if (!fs::exists(status)) throw InputError({path}, "no such file; check the path");
     if (fs::is_directory(status)) {
         throw InputError({path}, "a directory; expected a scenario file (.toml) in it");
     }
-    if (fs::is_regular_file(status) && fs::file_size(path, error) > largest_file) {
-        throw InputError({path}, "larger than 64 MiB; expected a scenario file");
-    }
     std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    if (!file) throw InputError({path}, "cannot be read; check its permissions");
-    return parse_toml(text.str(), path);
+    std::string text = bounded_text(file, path);
+    if (file.bad() || !file.is_open()) {
+        throw InputError({path}, "cannot be read; check its permissions");
+    }
+    return parse_toml(text, path);
 }
 
 std::string to_toml(const Value& value) { return inline_text(value); }
@@ -234,8 +290,8 @@ void set_value(Value& document, const std::string& path, Value value, const Loca
     *at = std::move(value);
 }
 
-void set_option(Value& document, const std::string& assignment) {
-    const Location option{"--set " + assignment, 0, 0, true};
+void set_option(Value& document, const std::string& assignment, const std::string& typed) {
+    const Location option{typed, 0, 0, true};
     const auto equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) {
         throw InputError(option, "expected key=value, such as radio.power=\"15 dBm\"");

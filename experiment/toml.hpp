@@ -8,8 +8,12 @@
 
 namespace rovernet {
 
-/// Reads a TOML file. @throws InputError with file:line:column; for a file that is missing, a
-/// directory, unreadable or larger than 64 MiB, with the file alone
+/// The path that stands for standard input.
+inline constexpr std::string_view standard_input = "-";
+
+/// Reads a TOML file, or standard input ("-"), whose text is kept for a second reading.
+/// @throws InputError with file:line:column; for a file that is missing, a directory, unreadable or
+/// larger than 64 MiB, with the file alone
 Value read_toml(const std::string& path);
 
 /// Reads TOML from a text; `source` stands for the file in errors.
@@ -31,7 +35,7 @@ std::string plain_text(const Value& value);
 void set_value(Value& document, const std::string& path, Value value, const Location& where);
 
 /// Applies "path=value", as the command line's --set does. The value is TOML, or else a bare
-/// string; numbers are in SI units. @throws InputError whose place is the option
-void set_option(Value& document, const std::string& assignment);
+/// string; numbers are in SI units. @throws InputError whose place is the option as it was `typed`
+void set_option(Value& document, const std::string& assignment, const std::string& typed);
 
 }  // namespace rovernet

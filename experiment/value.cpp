@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace rovernet {
 
@@ -52,7 +53,10 @@ std::string Value::description() const {
         std::string operator()(std::monostate) const { return "nothing"; }
         std::string operator()(bool v) const { return v ? "true" : "false"; }
         std::string operator()(std::int64_t v) const { return fmt::format("the number {}", v); }
-        std::string operator()(double v) const { return fmt::format("the number {}", v); }
+        std::string operator()(double v) const {
+            const bool whole = v == std::floor(v) && std::abs(v) < 1e15;
+            return fmt::format("the number {}{}", v, whole ? ".0" : "");
+        }
         std::string operator()(const std::string& v) const {
             constexpr std::size_t longest = 60;
             if (v.size() <= longest) return fmt::format("\"{}\"", v);

@@ -2,6 +2,7 @@
 #include "study/study.hpp"
 
 #include "experiment/toml.hpp"
+#include "experiment/unlikely.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -141,11 +142,17 @@ Study::Study(const std::string& path, const ScenarioOptions& options,
         base_.study.zip.clear();
         base_.study.exclude.clear();
     }
+    note_own_models(base_);
     const Location where = base_.study.vary.empty() ? Location{path} : base_.study.vary[0].where;
     for (Table& settings : study_points(base_.study, where)) {
         std::string identity_text;
         try {
-            identity_text = to_toml(identity(at(settings)));
+            Scenario scenario = at(settings);
+            identity_text = to_toml(identity(scenario));
+            if (points_.empty()) note_places(scenario, scenario.walls.get());
+            for (std::string& notice : scenario.notices) {
+                add_notice(base_.notices, std::move(notice));
+            }
         } catch (const InputError& error) {
             if (settings.entries.empty()) throw;
             throw InputError(error.where(), fmt::format("{}; at the point {}", error.message(),
@@ -165,7 +172,8 @@ const Study::Walls& Study::walls(const Scenario& scenario) {
     const auto [found, is_new] = walls_.try_emplace(to_toml(*to_document(scenario).find("scene")));
     Walls& walls = found->second;
     if (is_new) {
-        walls.scene = scenario.walls ? scenario.walls : load_map(scenario.scene, scenario.file);
+        walls.scene = scenario.walls ? scenario.walls
+                                     : load_map(scenario.scene, scenario.file, base_.notices);
         if (walls.scene) walls.digest = hash(wall_bytes(*walls.scene));
     }
     return walls;

@@ -403,8 +403,8 @@ TEST_CASE("load: a message storm ends at the event limit, and says what it is an
         storm.run();
         CHECK(storm.said.starts_with("event limit of 10000 reached at 0."));
         CHECK(
-            storm.said.ends_with(" s; raise [scenario] event_limit, or lower the load: under "
-                                 "duplicates = \"forward\" it grows with every hop of the TTL"));
+            storm.said.ends_with(" s; raise [scenario] event_limit, or lower the load: a shorter "
+                                 "duration, fewer messages, a smaller ttl"));
         const std::uint64_t served = storm.world.net.events();
         CHECK(served <= 10'000);
         CHECK_THROWS_AS(storm.world.net.run_for(1h), RunError);  // and not one event more

@@ -137,3 +137,46 @@ TEST_CASE("movement file: a vehicle is silent before it appears and after it is 
     CHECK(distance(at(1.5)->position(*at(0)->find("bus")), {9, 2, 0}) < 1e-9);
     CHECK(std::abs(at(0.5)->heading(*at(0)->find("car")).value) < 1e-9);
 }
+
+TEST_CASE("reactions: an answer goes to who sent the message, or to a robot by name") {
+    const auto deliveries = [](const std::string& reaction) {
+        const TemporaryFolder folder;
+        const Scenario s =
+            load_scenario(folder.write("s.toml", line_of_three(reaction, a_says)), {});
+        const RunResult result = run_scenario(s, {.folder = folder.path("out"), .speed = {}});
+        std::vector<std::string> heard;
+        for (const auto& happening : result.timeline) {
+            if (happening.text.find("hears \"yes\"") == std::string::npos) continue;
+            heard.push_back(*happening.detail.find("robot")->string());
+        }
+        return heard;
+    };
+    CHECK(deliveries("on_receive = { send = \"yes\", to = \"sender\" }") == Words{"a"});
+    CHECK(deliveries("on_receive = { send = \"yes\", to = \"c\" }") == Words{"c"});
+    CHECK(deliveries("on_time = { time = \"5 s\", send = \"yes\", to = \"c\" }") == Words{"c"});
+    CHECK(deliveries("on_receive = { send = \"yes\" }") == Words{"a", "c"});
+    const std::string every = "every = \"2 s\"\ncount = 3\n";
+    CHECK(said(line_of_three("on_receive = { send = \"yes\", to = \"sender\", once = false }",
+                             a_says + every))
+              .front() == "a: go");
+}
+
+TEST_CASE("reactions: requests and answers, one for each") {
+    const TemporaryFolder folder;
+    const std::string scenario = line_of_three(
+        "on_receive = { send = \"yes\", to = \"sender\", once = false }",
+        "[[traffic]]\nkind = \"unicast\"\nfrom = \"a\"\nto = \"b\"\npayload = \"ask\"\n"
+        "every = \"1 s\"\ncount = 5\n");
+    const Scenario s = load_scenario(folder.write("s.toml", scenario), {});
+    const RunResult result = run_scenario(s, {.folder = folder.path("out"), .speed = {}});
+    CHECK(result.metrics.messages == 10);
+    CHECK(result.metrics.deliveries == 10);
+}
+
+TEST_CASE("reactions: traffic that begins on arrival sends nothing once its stop has passed") {
+    const std::string moving = "move = { model = \"goal\", to = [\"8 m\", \"5 m\"] }\n";
+    const std::string arrives =
+        "[[traffic]]\nfrom = \"b\"\npayload = \"here\"\nstart = \"arrival\"\nevery = \"1 s\"\n";
+    CHECK(said(line_of_three(moving, arrives + "stop = \"3 s\"\n")) == Words{});
+    CHECK(said(line_of_three(moving, arrives + "stop = \"30 s\"\n")) == Words{"b: here"});
+}

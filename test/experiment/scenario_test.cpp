@@ -114,7 +114,7 @@ move = { model = "waypoints", path = [["5 m", "3 m"], ["5 m", "9 m"]], speed = "
 on_receive = { payload = "F", from = "c", hops = 2, once = false, move = { model = "goal", to = ["1 m", "1 m"], speed = "3 m/s" } }
 on_arrival = [{ send = "here", size = "9 B", once = false }, { stop = true, once = false }]
 on_link_lost = { from = "c", once = false, stop = true }
-on_time = { time = "3 s", send = "three" }
+on_time = { time = "3 s", send = "three", to = "c" }
 heading = "90 deg"
 top_speed = "2 m/s"
 turn_rate = "45 deg/s"

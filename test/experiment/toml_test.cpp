@@ -33,7 +33,7 @@ std::string error_of_file(const std::string& path) {
 
 std::string after_option(const std::string& text, const std::string& option) {
     Value document = parse_toml(text, "f.toml");
-    set_option(document, option);
+    set_option(document, option, "--set " + option);
     return to_toml(*document.table());
 }
 

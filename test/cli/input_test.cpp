@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// What the command takes as input, and what it says of what is none.
+#include "test/cli/process.hpp"
+
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+using test::command;
+using test::Ended;
+using test::Process;
+using test::TemporaryFolder;
+
+namespace {
+
+const std::string two =
+    "[scenario]\nname = \"two\"\nduration = \"2 s\"\n"
+    "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
+    "[[robot]]\nname = \"B\"\nat = [\"9 m\", \"0 m\"]\n"
+    "[[traffic]]\nfrom = \"A\"\npayload = \"F\"\n";
+
+/// The command with a file as its standard input.
+Ended with_input(const TemporaryFolder& folder, const std::string& text,
+                 const std::string& arguments) {
+    const std::string input = folder.write("input", text);
+    const std::string line = std::string("cd '") + folder.path("") + "' && exec '" +
+                             ROVERNET_COMMAND + "' " + arguments + " < '" + input + "'";
+    return Process(folder, {"-c", line}, "/bin/sh").wait();
+}
+
+bool contains(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("input: - is a scenario from standard input, for every command that takes a file") {
+    const TemporaryFolder folder;
+    folder.write("s.toml", two);
+    const Ended piped = with_input(folder, two, "run - --out out");
+    CHECK(piped.exit == 0);
+    CHECK(piped.out ==
+          command(folder, {"run", folder.path("s.toml"), "--out", folder.path("o2")}).out);
+    for (const char* arguments :
+         {"link - A B", "links -", "where - --at 1s", "scene -", "draw - -o x.svg",
+          "move convert - x.tcl", "sweep - --store x.db --workers 1",
+          "compare - --models friis,two_ray --workers 1 --replications 2"}) {
+        CAPTURE(arguments);
+        CHECK(with_input(folder, two, arguments).exit == 0);
+    }
+}
+
+TEST_CASE("input: of a scenario from standard input, files are relative to the current folder") {
+    const TemporaryFolder folder;
+    folder.write("m.tcl", "$node_(0) set X_ 3.0\n");
+    const Ended ended = with_input(folder, "[movement]\nfile = \"m.tcl\"\n", "where - --at 1s");
+    CHECK(ended.exit == 0);
+    CHECK(contains(ended.out, "n0"));
+}
+
+TEST_CASE("input: a mistake in standard input names its line, and a store needs a name") {
+    const TemporaryFolder folder;
+    const Ended wrong = with_input(folder, "[radio]\npower = 15\n", "run -");
+    CHECK(wrong.exit == 3);
+    CHECK(contains(wrong.err, "standard input:2:9: power: found the number 15"));
+    const Ended nameless = with_input(folder, two, "sweep -");
+    CHECK(nameless.exit == 2);
+    CHECK(contains(nameless.err, "--store"));
+}
+
+TEST_CASE("input: a file without end is refused, not read to its end") {
+    const TemporaryFolder folder;
+    const Ended ended = command(folder, {"run", "/dev/zero"});
+    CHECK(ended.exit == 3);
+    CHECK(contains(ended.err, "/dev/zero: larger than 64 MiB"));
+}
+
+TEST_CASE("input: files of other kinds are called by their names, with what to do") {
+    const TemporaryFolder folder;
+    const auto said = [&](const std::string& name, const std::string& text) {
+        const Ended ended = command(folder, {"run", folder.write(name, text)});
+        CHECK(ended.exit == 3);
+        return ended.err;
+    };
+    const std::string player = "driver ( name \"stage\" plugin \"stageplugin\"\n";
+    CHECK(contains(said("p.cfg", player + "  worldfile \"simple.world\" )\n"),
+                   "a configuration of Player, not a scenario; expected the Stage world that it "
+                   "names: " +
+                       folder.path("simple.world")));
+    CHECK(contains(said("q.cfg", player + ")\n"), "NAME.world"));
+    CHECK(contains(said("x.db", ""), "rovernet results"));
+    CHECK(contains(said("x.tr", ""), "rovernet trace stats"));
+    CHECK(contains(said("x.inc", ""), "the world that includes it"));
+    CHECK(contains(said("summary.json", "{}"), "scenario.toml"));
+    const std::string empty = said("e.world", "");
+    CHECK(contains(empty, "no robot in this world; expected a position that has a wifi"));
+    CHECK(!contains(empty, "the key"));
+}
+
+TEST_CASE("input: numbers of options that cannot be are told in plain words") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", two);
+    const auto said = [&](const std::string& option, const std::string& value) {
+        const Ended ended = command(folder, {"run", file, option, value});
+        CHECK(ended.exit == 2);
+        CHECK(ended.err.size() < 120);
+        return ended.err;
+    };
+    CHECK(contains(said("--speed", "0"), "--speed: found \"0\"; expected a number > 0"));
+    CHECK(contains(said("--speed", "fast"), "--speed: found \"fast\"; expected a number > 0"));
+    CHECK(contains(said("--seed", "-1"), "--seed: found \"-1\"; expected a whole number >= 0"));
+    CHECK(contains(said("--seed", "abc"), "--seed: found \"abc\""));
+    const Ended parameter = command(folder, {"loss", "two_ray", "n=2", "--distance", "1"});
+    CHECK(contains(parameter.err, "rovernet: n=2: unknown key \"n\""));
+    const Ended memory = command(folder, {"sweep", file, "--memory", "2GB", "--dry-run"});
+    CHECK(memory.exit == 0);
+}
+
+TEST_CASE("input: compare says which robots keep a model of their own") {
+    const TemporaryFolder folder;
+    const std::string own =
+        "[[robot]]\nname = \"C\"\nat = [\"5 m\", \"0 m\"]\npropagation = { model = \"two_ray\" }\n";
+    const std::string file = folder.write("s.toml", two + own);
+    const Ended ended = command(folder, {"compare", file, "--models", "friis,two_ray", "--workers",
+                                         "1", "--replications", "2"});
+    CHECK(ended.exit == 0);
+    CHECK(contains(ended.err,
+                   "keep a propagation model of their own, whatever [propagation] says: \"C\""));
+}
