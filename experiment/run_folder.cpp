@@ -31,7 +31,7 @@ void flatten(const Value& value, const std::string& path, Settings& out) {
 /// What stays of the settings where each is said once and the folder's name does not say it anyhow.
 Settings settings_of(const std::vector<std::string>& set) {
     Value document{Table{}};
-    for (const std::string& option : set) set_option(document, option);
+    for (const std::string& option : set) set_option(document, option, "--set " + option);
     Settings settings;
     flatten(document, "", settings);
     for (const char* key : {"scenario.name", "scenario.seed", "scenario.replication"}) {

@@ -18,8 +18,8 @@ struct Word {
 // What a movement file may say at most.
 inline constexpr std::uint32_t most_file_robots = 10'000'000;
 inline constexpr double largest_coordinate = 1e9;  ///< |coordinate| [m]
-inline constexpr double fastest = 1e9;   ///< [m/s]
-inline constexpr double latest = 9e9;    ///< [s]
+inline constexpr double fastest = 1e9;             ///< [m/s]
+inline constexpr double latest = 9e9;              ///< [s]
 
 /// "found WORD, expected EXPECTED", with the word's column in the line.
 /// @throws InputError, always
