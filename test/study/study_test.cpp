@@ -33,7 +33,7 @@ payload = "F"
 
 std::vector<std::string> points_of(const std::string& keys) {
     const Value document = parse_toml("[study]\n" + keys, "s.toml");
-    const StudyTable study = read_study(*document.table()->find("study"));
+    const StudyTable study = read_study(*document.table()->find("study"), Duration::max());
     std::vector<std::string> texts;
     for (const Table& settings : study_points(study, {"s.toml"})) {
         texts.push_back(settings_text(settings));
