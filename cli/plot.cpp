@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
 #include "experiment/output.hpp"
+#include "pictures/picture_file.hpp"
 #include "sim/error.hpp"
 #include "study/study_chart.hpp"
 
@@ -23,13 +24,25 @@ std::optional<ChartKind> kind_of(const std::string& word) {
                                             near));
 }
 
+/// A picture of 672 points, fewer if they are to be larger, as so many pixels.
+ChartLayout layout_of(const PlotArguments& a) {
+    constexpr double usual_font_size = 12;
+    const ChartLayout usual;
+    const double points = usual_font_size / a.font_size;
+    ChartLayout out{.width = usual.width * points, .height = usual.height * points, .columns = 1};
+    out.scale = a.width / out.picture_width();
+    return out;
+}
+
 }  // namespace
 
 void plot(const PlotArguments& a) {
     const auto writes = [&](const char* ending) { return a.out.ends_with(ending); };
-    if (!writes(".svg") && !writes(".gp") && !writes(".vl.json")) {
-        throw std::invalid_argument(fmt::format(
-            "-o: \"{}\"; expected NAME.svg, NAME.gp (gnuplot) or NAME.vl.json (Vega-Lite)", a.out));
+    if (!is_picture_name(a.out) && !writes(".gp") && !writes(".vl.json")) {
+        throw std::invalid_argument(
+            fmt::format("-o: \"{}\"; expected NAME.svg, NAME.png, NAME.pdf, "
+                        "NAME.gp (gnuplot) or NAME.vl.json (Vega-Lite)",
+                        a.out));
     }
     const Store store = Store::open(a.store);
     const Chart chart = study_chart(store, {.kind = kind_of(a.kind),
@@ -42,9 +55,8 @@ void plot(const PlotArguments& a) {
                                             .interval = method_named(a.interval),
                                             .log_x = a.log_x,
                                             .log_y = a.log_y});
-    if (writes(".svg")) {
-        const ChartLayout layout{.width = static_cast<double>(a.width), .columns = 1};
-        write_file(a.out, chart_svg(std::span(&chart, 1), layout));
+    if (is_picture_name(a.out)) {
+        write_picture(chart_svg(std::span(&chart, 1), layout_of(a)), a.out);
     } else {
         write_file(a.out, writes(".gp") ? chart_gnuplot(chart) : chart_vega_lite(chart));
     }

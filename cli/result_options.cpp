@@ -43,11 +43,16 @@ void add_plot(CLI::App& app) {
         ->check(CLI::Range(0.0001, 0.9999));
     plot.add_flag("--log-x", p.log_x, "a logarithmic axis");
     plot.add_flag("--log-y", p.log_y, "a logarithmic axis");
-    plot.add_option("--width", p.width, "of the picture, in pixels")
-        ->check(CLI::Range(200, 10000))
+    plot.add_option("--width", p.width,
+                    "of the picture, in pixels (points of a PDF); all is scaled")
+        ->check(CLI::Range(100, 10000))
+        ->capture_default_str();
+    plot.add_option("--font-size", p.font_size, "in points, of which the width is 672")
+        ->check(CLI::Range(4, 36))
         ->capture_default_str();
     plot.add_option("-o,--output", p.out,
-                    "NAME.svg, or to restyle it NAME.gp (gnuplot) or NAME.vl.json (Vega-Lite)")
+                    "NAME.svg, NAME.png or NAME.pdf; to restyle it NAME.gp (gnuplot) or "
+                    "NAME.vl.json (Vega-Lite)")
         ->required();
 }
 

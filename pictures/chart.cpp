@@ -12,7 +12,7 @@
 namespace rovernet {
 namespace {
 
-constexpr double margin = 16;  // [px] around the picture, and twice between charts
+constexpr double margin = ChartLayout::margin;
 constexpr double title_size = 17, title_height = 30;
 
 void check(const ChartLayout& layout) {
@@ -61,13 +61,13 @@ std::string chart_svg(std::span<const Chart> panels, const ChartLayout& layout) 
     const Chart nothing;
     if (panels.empty()) panels = {&nothing, 1};
     const std::vector<Row> rows = rows_of(panels, layout);
-    const auto columns = static_cast<double>(rows.front().panels.size());
+    const int columns = static_cast<int>(rows.front().panels.size());
     const double top = margin + (layout.title.empty() ? 0 : title_height);
-    const double width = columns * (layout.width + 2 * margin);
+    const double width = layout.picture_width(columns);
     double height = top;
     for (const auto& row : rows) height += row.head + layout.height + row.foot + margin;
 
-    Svg svg(width, height);
+    Svg svg(width, height, layout.scale);
     svg.add("rect", {{"width", width}, {"height", height}, {"fill", "#ffffff"}});
     svg.text(width / 2, margin + title_size, fitted(layout.title, width - 2 * margin, title_size),
              {.size = title_size, .anchor = TextAnchor::middle, .bold = true});

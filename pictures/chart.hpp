@@ -43,14 +43,24 @@ struct ChartSeries {
     std::vector<ChartPoint> points = {};
 };
 
+/// Bounds that the numbers of an axis cannot pass, such as 0 and 1 of a ratio. Neither the axis nor
+/// an interval goes beyond them; of an axis with both, the whole is shown unless the numbers use
+/// less than a fifth of it.
+struct ChartLimits {
+    std::optional<double> low = {}, high = {};
+};
+
 /// A chart as plain data. Labels carry their units; any text may be empty.
 struct Chart {
     ChartKind kind = ChartKind::lines;
     std::string title = {}, x_label = {}, y_label = {};
-    std::string value_label = {};  ///< of the colours of a heat map
-    std::string note = {};         ///< below it: what the intervals are, where the numbers are from
+    std::string value_label = {};   ///< of the colours of a heat map
+    std::string legend_title = {};  ///< what tells the series apart, such as "ttl"
+    std::string note = {};  ///< below it: what the intervals are, where the numbers are from
     bool log_x = false, log_y = false;     ///< of axes with numbers
     bool x_from_zero = false;              ///< the axis of x shows 0 too, unless it is logarithmic
+    ChartLimits x_limits = {};             ///< of x, where it is a number
+    ChartLimits y_limits = {};             ///< of y; of the colours of a heat map
     std::vector<ChartSeries> series = {};  ///< their names differ
 };
 
@@ -60,6 +70,11 @@ struct ChartLayout {
     double width = 640;   ///< [px] of a chart with all its texts, 200 at least
     double height = 320;  ///< [px] of the part between its axes, 80 at least
     int columns = 2;      ///< charts side by side at most, 1 at least
+    double scale = 1;     ///< pixels of the document to one of these pixels, > 0
+
+    static constexpr double margin = 16;  ///< [px] around the picture, and twice between charts
+    /// Of a picture with so many charts side by side [px].
+    double picture_width(int charts = 1) const { return charts * (width + 2 * margin); }
 };
 
 /// Draws charts as one Scalable Vector Graphics document, row by row. The same bytes on every

@@ -93,15 +93,30 @@ struct TickEnds {
     double low = 0, high = 0;
 };
 
-ChartAxis linear_axis(const ChartRange& shown, int most) {
-    double low = shown.low(), high = shown.high();
-    constexpr double beyond = 0.05;  // of an interval's end
-    const bool share = low >= -beyond && high <= 1 + beyond && high - low >= 0.5 - slack;
-    if (share) {
-        low = std::min(low, 0.0);
-        high = std::max(high, 1.0);
-    }
-    const double least_step = shown.whole() && !share ? 1.0 : 0.0;
+/// The numbers, or all from limit to limit where they use enough of it.
+ChartRange with_limits(ChartRange range, const ChartLimits& limits) {
+    constexpr double enough = 0.2;  // of the whole
+    if (!limits.low || !limits.high || range.empty()) return range;
+    const double whole = *limits.high - *limits.low;
+    if (range.high() - range.low() < enough * whole - slack * whole) return range;
+    range.include(*limits.low);
+    range.include(*limits.high);
+    return range;
+}
+
+/// Ends the axis at its limits, unless the numbers go beyond.
+void cut(ChartAxis& axis, const ChartRange& range, const ChartLimits& limits) {
+    if (limits.low && range.low() >= *limits.low) axis.low = std::max(axis.low, *limits.low);
+    if (limits.high && range.high() <= *limits.high) axis.high = std::min(axis.high, *limits.high);
+    const double little = slack * (axis.high - axis.low);
+    std::erase_if(axis.ticks, [&](const ChartTick& tick) {
+        return tick.value < axis.low - little || tick.value > axis.high + little;
+    });
+}
+
+ChartAxis linear_axis(const ChartRange& shown, bool whole, int most) {
+    const double low = shown.low(), high = shown.high();
+    const double least_step = whole && shown.whole() ? 1.0 : 0.0;
     TickEnds ends(low, high, std::max(round_number((high - low) / most), least_step));
     while (ends.last - ends.first >= most)
         ends = TickEnds(low, high, round_number(2.5 * ends.step));
@@ -178,9 +193,13 @@ std::string ChartAxis::text(double v) const {
     return tick_text(v, (high - low) / 100, largest);
 }
 
-ChartAxis number_axis(const ChartRange& range, bool log, int most) {
-    if (log && range.low() > 0) return log_axis(range, most);
-    return linear_axis(widened(range), most);
+ChartAxis number_axis(const ChartRange& range, bool log, int most, const ChartLimits& limits) {
+    const bool share = limits.low && limits.high;
+    ChartAxis axis = log && range.low() > 0 ? log_axis(range, most)
+                                            : linear_axis(widened(with_limits(range, limits)),
+                                                          range.whole() && !share, most);
+    cut(axis, range, limits);
+    return axis;
 }
 
 ChartAxis word_axis(const std::vector<std::string>& words) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "pictures/chart.hpp"
+
 #include <string>
 #include <vector>
 
@@ -38,11 +40,11 @@ struct ChartAxis {
 };
 
 /// An axis of numbers. It shows the whole range, with at most `most` >= 3 texts at multiples of 1,
-/// 2 or 5 times a power of ten, of whole numbers at such; 0 ... 1 if the numbers lie there, but for
-/// ends of intervals just outside, and use half of it. A logarithmic
-/// axis has texts at powers of ten, or at 1, 2 and 5 times them if there are few.
-/// @param range  within -1e100 ... 1e100, of positive numbers if log
-ChartAxis number_axis(const ChartRange& range, bool log, int most);
+/// 2 or 5 times a power of ten, of whole numbers at such. A logarithmic axis has texts at powers of
+/// ten, or at 1, 2 and 5 times them if there are few.
+/// @param range   within -1e100 ... 1e100, of positive numbers if log
+/// @param limits  the axis ends there, unless the range itself goes beyond
+ChartAxis number_axis(const ChartRange& range, bool log, int most, const ChartLimits& limits = {});
 
 /// An axis of words, at 0, 1, 2 ...
 ChartAxis word_axis(const std::vector<std::string>& words);

@@ -70,7 +70,8 @@ class Script {
         }
         line("set xlabel {}", below);
         line("set ylabel {}", quoted(chart_.y_label, 45));
-        line("set key outside right top vertical Left reverse");
+        line("set key outside right top vertical Left reverse{}",
+             chart_.legend_title.empty() ? "" : " title " + quoted(chart_.legend_title, 30));
         line("set tics nomirror\nset border 3");
     }
 
@@ -100,8 +101,8 @@ class Script {
     }
 
     void axes_of_series() {
-        x_ = number_axis(view_.x_range, chart_.log_x, most_ticks);
-        y_ = number_axis(view_.y_range, chart_.log_y, most_ticks);
+        x_ = number_axis(view_.x_range, chart_.log_x, most_ticks, chart_.x_limits);
+        y_ = number_axis(view_.y_range, chart_.log_y, most_ticks, view_.y_limits);
         view_.has_words ? words("x", view_.words) : numbers("x", x_);
         numbers("y", y_);
         line("set grid back linecolor rgb '#e4e4e4'");
@@ -224,7 +225,7 @@ class Script {
         for (const auto& series : chart_.series) names.push_back(series.name);
         words("x", view_.words);
         words("y", names);
-        const ChartAxis values = number_axis(view_.y_range, false, most_ticks);
+        const ChartAxis values = number_axis(view_.y_range, false, most_ticks, view_.y_limits);
         numbers("cb", values);
         line("set cblabel {}", quoted(chart_.value_label, 45));
         palette();

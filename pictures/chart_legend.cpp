@@ -68,6 +68,9 @@ Legend chart_legend(const Chart& chart, const ChartView& view, bool marks, doubl
         }
         return legend;
     }
+    if (!chart.legend_title.empty() && !chart.series.empty()) {
+        legend.add({.text = fitted(chart.legend_title, width / 2, text_size), .width = 0});
+    }
     for (std::size_t i = 0; i < std::min(chart.series.size(), most); ++i) {
         LegendItem sign = item(chart, view, i, marks && chart.kind == ChartKind::lines);
         sign.text = fitted(chart.series[i].name, width - 2 * line_length, text_size);

@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -14,6 +17,8 @@ constexpr double mark_radius = 3.6;        // [px]
 constexpr double small_mark_radius = 1.6;  // [px] where there are many
 constexpr double line_width = 1.8;         // [px]
 constexpr double whisker_width = 1.3;      // [px]
+constexpr double cap = 3;                  // [px] half the width of a whisker's ends
+constexpr double beside = 9;               // [px] between points that would hide one another
 constexpr std::size_t most_tips = 1000;    // of a chart, so that large ones stay small files
 constexpr Color dark{0x22, 0x22, 0x22};
 
@@ -44,27 +49,45 @@ void add_path(Svg& svg, const char* what, const SvgPath& path, Color stroke, dou
                      {"stroke-dasharray", dashes}});
 }
 
-/// Appends a whisker at x from one end of the interval to the other, or to the point; what is
+/// Appends a whisker at px from one end of the interval to the other, or to the point; what is
 /// beyond the axis has no cap.
-void append_whisker(SvgPath& path, const ChartFrame& frame, const DrawnPoint& p, double x) {
-    constexpr double cap = 3;  // [px] half the width of its ends
+void append_whisker(SvgPath& path, const ChartFrame& frame, const DrawnPoint& p, double px) {
     if (!p.low && !p.high) return;
-    const double px = frame.at(x, p.y).x;
-    const double low = frame.at(x, p.low.value_or(p.y)).y;
-    const double high = frame.at(x, p.high.value_or(p.y)).y;
+    const double low = frame.at(p.x, p.low.value_or(p.y)).y;
+    const double high = frame.at(p.x, p.high.value_or(p.y)).y;
     path.move(px, low).vertical(high);
     const auto shown = [&](double v) { return v >= frame.y.low && v <= frame.y.high; };
     if (p.low && shown(*p.low)) path.move(px - cap, low).horizontal(px + cap);
     if (p.high && shown(*p.high)) path.move(px - cap, high).horizontal(px + cap);
 }
 
+/// Where the points of a series stand from left to right [px].
+using Places = std::vector<double>;
+
+/// At their x, and so far beside it [px].
+Places places_of(const std::vector<DrawnPoint>& points, const ChartFrame& frame, double shift) {
+    Places out;
+    for (const auto& p : points) out.push_back(frame.at(p.x, p.y).x + shift);
+    return out;
+}
+
+/// What a point and its whisker cover [px], with the room that they need.
+Box cover(const DrawnPoint& p, const ChartFrame& frame, double px) {
+    const double reach = mark_radius + 0.5;
+    const double y = frame.at(p.x, p.y).y;
+    const double top = frame.at(p.x, p.high.value_or(p.y)).y;
+    const double bottom = frame.at(p.x, p.low.value_or(p.y)).y;
+    return {px - reach, std::min(top, y - reach), px + reach, std::max(bottom, y + reach)};
+}
+
 /// Draws the marks of a series, in one path if there are too many for tips.
 void draw_marks(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame,
-                std::size_t series, double offset) {
+                std::size_t series, const Places& places) {
     const ChartStyle style = chart_style(series);
     SvgPath all;
-    for (const auto& p : view.series[series]) {
-        const PicturePoint at = frame.at(p.x + offset, p.y);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const DrawnPoint& p = view.series[series][i];
+        const PicturePoint at{places[i], frame.at(p.x, p.y).y};
         if (view.points > most_tips) {
             style.marker.append_to(all, at, small_mark_radius);
         } else {
@@ -88,14 +111,15 @@ std::size_t end_of_run(const std::vector<DrawnPoint>& points, std::size_t begin)
 }
 
 /// The intervals of a line: bands where neighbours have them, whiskers elsewhere.
-void draw_intervals(Svg& svg, const ChartView& view, const ChartFrame& frame, std::size_t series) {
+void draw_intervals(Svg& svg, const ChartView& view, const ChartFrame& frame, std::size_t series,
+                    const Places& places) {
     const auto& points = view.series[series];
     const Color color = chart_style(series).color;
     SvgPath band, whiskers;
     for (std::size_t i = 0; i < points.size();) {
         const std::size_t end = end_of_run(points, i);
         if (!has_band(view, series) || end < i + 2) {
-            append_whisker(whiskers, frame, points[i], points[i].x);
+            append_whisker(whiskers, frame, points[i], places[i]);
             ++i;
             continue;
         }
@@ -141,14 +165,77 @@ void draw_bar(Svg& svg, double left, double right, double from, double to, std::
     svg.close();
 }
 
-/// What labels of a scatter have to leave free.
-void keep_marks_free(LabelPlaces& places, const ChartView& view, const ChartFrame& frame) {
-    constexpr double reach = mark_radius + 1;  // [px]
+/// How far the series of a line chart stand beside their x [px]: nothing where no whisker or mark
+/// hides another, or where bands show the intervals.
+std::vector<double> shifts(const ChartView& view, const ChartFrame& frame) {
+    std::vector<double> out(view.series.size(), 0);
+    std::vector<std::pair<double, Box>> covers;  // of all points, and their x
+    double room = frame.box.right - frame.box.left;
+    std::set<double> all_x;
+    for (std::size_t i = 0; i < view.series.size(); ++i) {
+        if (has_band(view, i) || view.points > most_tips) return out;
+        for (const auto& p : view.series[i]) {
+            covers.emplace_back(p.x, cover(p, frame, 0));
+            all_x.insert(frame.at(p.x, p.y).x);
+        }
+    }
+    for (auto it = all_x.begin(); it != all_x.end() && std::next(it) != all_x.end(); ++it) {
+        room = std::min(room, *std::next(it) - *it);
+    }
+    bool hidden = false;
+    for (std::size_t i = 0; i < covers.size() && !hidden; ++i) {
+        for (std::size_t k = 0; k < i && !hidden; ++k) {
+            hidden =
+                covers[i].first == covers[k].first && covers[i].second.overlaps(covers[k].second);
+        }
+    }
+    if (!hidden) return out;
+    const auto count = static_cast<double>(view.series.size());
+    const double step = std::min(beside, 0.6 * room / count);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = step * (static_cast<double>(i) - (count - 1) / 2);
+    }
+    return out;
+}
+
+/// Where the points of a scatter stand: at their x, or as near as none hides one before it.
+std::vector<Places> apart(const ChartView& view, const ChartFrame& frame) {
+    constexpr int most_steps = 6;
+    std::vector<Places> out;
+    std::vector<Box> taken;
     for (const auto& points : view.series) {
-        for (const auto& p : points) {
-            const PicturePoint at = frame.at(p.x, p.y);
-            places.keep_free({at.x - reach, at.y - reach, at.x + reach, at.y + reach});
-            places.avoid(frame.at(p.x, p.low.value_or(p.y)), frame.at(p.x, p.high.value_or(p.y)));
+        out.push_back(places_of(points, frame, 0));
+        if (view.points > most_tips) continue;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double x = out.back()[i];
+            for (int n = 0; n <= 2 * most_steps; ++n) {
+                const double at = x + beside * (n % 2 == 0 ? 1 : -1) * ((n + 1) / 2);
+                const Box box = cover(points[i], frame, at);
+                const bool fits = box.left >= frame.box.left && box.right <= frame.box.right;
+                const bool free = std::none_of(taken.begin(), taken.end(),
+                                               [&](const Box& b) { return b.overlaps(box); });
+                if (!fits || !free) continue;
+                out.back()[i] = at;
+                break;
+            }
+            taken.push_back(cover(points[i], frame, out.back()[i]));
+        }
+    }
+    return out;
+}
+
+/// Keeps labels of a scatter off its marks and whiskers.
+void keep_marks_free(LabelPlaces& free, const ChartView& view, const ChartFrame& frame,
+                     const std::vector<Places>& places) {
+    constexpr double reach = mark_radius + 1;  // [px]
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        for (std::size_t k = 0; k < places[i].size(); ++k) {
+            const DrawnPoint& p = view.series[i][k];
+            const double x = places[i][k], y = frame.at(p.x, p.y).y;
+            free.keep_free({x - reach, y - reach, x + reach, y + reach});
+            if (!p.low && !p.high) continue;
+            free.keep_free({x - cap, frame.at(p.x, p.high.value_or(p.y)).y, x + cap,
+                            frame.at(p.x, p.low.value_or(p.y)).y});
         }
     }
 }
@@ -187,17 +274,23 @@ bool room_for_marks(const ChartView& view, const ChartFrame& frame) {
 }
 
 void draw_lines(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame) {
-    for (std::size_t i = 0; i < view.series.size(); ++i) draw_intervals(svg, view, frame, i);
+    const std::vector<double> beside_x = shifts(view, frame);
+    std::vector<Places> places;
+    for (std::size_t i = 0; i < view.series.size(); ++i) {
+        places.push_back(places_of(view.series[i], frame, beside_x[i]));
+        draw_intervals(svg, view, frame, i, places[i]);
+    }
     for (std::size_t i = 0; i < view.series.size(); ++i) {
         const ChartStyle style = chart_style(i);
         SvgPath line;
-        for (const auto& p : view.series[i]) {
-            const PicturePoint at = frame.at(p.x, p.y);
-            p.joined ? line.line(at.x, at.y) : line.move(at.x, at.y);
+        for (std::size_t k = 0; k < places[i].size(); ++k) {
+            const DrawnPoint& p = view.series[i][k];
+            const double x = places[i][k], y = frame.at(p.x, p.y).y;
+            p.joined ? line.line(x, y) : line.move(x, y);
         }
         add_path(svg, "line", line, style.color, line_width, style.dash_text());
         if (room_for_marks(view, frame) || any_alone(view.series[i])) {
-            draw_marks(svg, chart, view, frame, i, 0);
+            draw_marks(svg, chart, view, frame, i, places[i]);
         }
     }
 }
@@ -209,14 +302,17 @@ void draw_bars(Svg& svg, const Chart& chart, const ChartView& view, const ChartF
         const double offset = bar_offset(i, count);
         SvgPath whiskers;
         for (const auto& p : view.series[i]) {
-            append_whisker(whiskers, frame, p, p.x + offset);
+            append_whisker(whiskers, frame, p, frame.at(p.x + offset, p.y).x);
             if (view.dots) continue;
             const PicturePoint left = frame.at(p.x + offset - half, 0);
             const PicturePoint right = frame.at(p.x + offset + half, p.y);
             draw_bar(svg, left.x, right.x, left.y, right.y, i, tip_of(chart, view, i, p));
         }
         add_path(svg, "whisker", whiskers, view.dots ? chart_style(i).color : dark, whisker_width);
-        if (view.dots) draw_marks(svg, chart, view, frame, i, offset);
+        if (!view.dots) continue;
+        Places places;
+        for (const auto& p : view.series[i]) places.push_back(frame.at(p.x + offset, p.y).x);
+        draw_marks(svg, chart, view, frame, i, places);
     }
 }
 
@@ -224,21 +320,25 @@ std::size_t draw_scatter(Svg& svg, const Chart& chart, const ChartView& view,
                          const ChartFrame& frame) {
     constexpr double size = 11, descent = 3;  // [px] of the labels
     constexpr std::size_t most_characters = 40;
-    LabelPlaces places(frame.box);
-    keep_marks_free(places, view, frame);
-    std::size_t homeless = 0;
+    const std::vector<Places> places = apart(view, frame);
+    LabelPlaces free(frame.box);
+    keep_marks_free(free, view, frame, places);
     for (std::size_t i = 0; i < view.series.size(); ++i) {
         SvgPath whiskers;
-        for (const auto& p : view.series[i]) append_whisker(whiskers, frame, p, p.x);
+        for (std::size_t k = 0; k < places[i].size(); ++k) {
+            append_whisker(whiskers, frame, view.series[i][k], places[i][k]);
+        }
         add_path(svg, "whisker", whiskers, chart_style(i).color, whisker_width);
-        draw_marks(svg, chart, view, frame, i, 0);
+        draw_marks(svg, chart, view, frame, i, places[i]);
     }
-    for (const auto& points : view.series) {
-        for (const auto& p : points) {
+    std::size_t homeless = 0;
+    for (std::size_t i = 0; i < view.series.size(); ++i) {
+        for (std::size_t k = 0; k < places[i].size(); ++k) {
+            const DrawnPoint& p = view.series[i][k];
             const std::string label = shortened(p.source->label, most_characters);
             if (label.empty()) continue;
-            const auto box = places.place(frame.at(p.x, p.y), mark_radius + 1,
-                                          text_width(label, size), size + descent);
+            const auto box = free.place({places[i][k], frame.at(p.x, p.y).y}, mark_radius + 1,
+                                        text_width(label, size), size + descent);
             if (box)
                 svg.text(box->left, box->bottom - descent, label, {.size = size, .halo = true});
             homeless += !box;

@@ -24,11 +24,12 @@ struct ChartFrame {
 // Each draws the points of a chart into its frame.
 
 /// Lines with marks, and the intervals as a band, or as whiskers where there are few points or x is
-/// a word.
+/// a word. Series whose whiskers hide one another stand a few pixels apart.
 void draw_lines(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
 /// Bars or dots, with whiskers.
 void draw_bars(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
-/// Marks with whiskers and labels. @return how many labels found no place
+/// Marks with whiskers and labels; what would hide another point stands a few pixels beside it.
+/// @return how many labels found no place
 std::size_t draw_scatter(Svg& svg, const Chart& chart, const ChartView& view,
                          const ChartFrame& frame);
 /// Steps.

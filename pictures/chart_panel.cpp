@@ -44,13 +44,13 @@ bool side_by_side(const ChartAxis& axis, double length) {
 }
 
 /// The axis of numbers with the most texts that stand side by side.
-ChartAxis widest_axis(const ChartRange& range, bool log, double length) {
+ChartAxis widest_axis(const ChartRange& range, bool log, double length, const ChartLimits& limits) {
     constexpr int most = 11, fewest = 3;
     for (int texts = most; texts > fewest; --texts) {
-        ChartAxis axis = number_axis(range, log, texts);
+        ChartAxis axis = number_axis(range, log, texts, limits);
         if (side_by_side(axis, length)) return axis;
     }
-    return number_axis(range, log, fewest);
+    return number_axis(range, log, fewest, limits);
 }
 
 /// Every so many words of an axis have room for their texts. @param least  [px] from text to text
@@ -109,13 +109,14 @@ void ChartPanel::place_axes(double height) {
     const int ticks = static_cast<int>(std::clamp(height / tick_spacing, 3.0, 11.0));
     frame_.box = {0, 0, width_ - (heat_map() ? color_bar_width : margin), height};
     frame_.inset = view_.has_words ? 0 : inset;
-    colors_ = number_axis(view_.y_range, false, ticks);
-    frame_.y =
-        heat_map() ? word_axis(names_of(chart_)) : number_axis(view_.y_range, chart_.log_y, ticks);
+    const ChartLimits& limits = view_.y_limits;
+    colors_ = number_axis(view_.y_range, false, ticks, limits);
+    frame_.y = heat_map() ? word_axis(names_of(chart_))
+                          : number_axis(view_.y_range, chart_.log_y, ticks, limits);
     place_left();
     const double length = frame_.box.right - frame_.box.left - 2 * frame_.inset;
-    frame_.x =
-        view_.has_words ? word_axis(view_.words) : widest_axis(view_.x_range, chart_.log_x, length);
+    frame_.x = view_.has_words ? word_axis(view_.words)
+                               : widest_axis(view_.x_range, chart_.log_x, length, chart_.x_limits);
     place_below();
 }
 

@@ -6,13 +6,6 @@
 namespace rovernet {
 namespace {
 
-// The colours for categories of M. Okabe and K. Ito, Color Universal Design (2008), without the
-// yellow, which is too light for a line on white.
-constexpr std::array colors{Color{0x00, 0x72, 0xb2}, Color{0xd5, 0x5e, 0x00},
-                            Color{0x00, 0x9e, 0x73}, Color{0xcc, 0x79, 0xa7},
-                            Color{0x00, 0x00, 0x00}, Color{0xe6, 0x9f, 0x00},
-                            Color{0x56, 0xb4, 0xe9}};
-
 constexpr std::array dashes{std::array<double, 4>{}, std::array<double, 4>{8, 3, 8, 3},
                             std::array<double, 4>{2.5, 2.5, 2.5, 2.5},
                             std::array<double, 4>{9, 2.5, 2.5, 2.5}};
@@ -54,7 +47,7 @@ std::string ChartStyle::dash_text() const {
 
 ChartStyle chart_style(std::size_t series) {
     const auto& d = dashes[series % dashes.size()];
-    ChartStyle out{colors[series % colors.size()], {}, markers[series % markers.size()]};
+    ChartStyle out{category_color(series), {}, markers[series % markers.size()]};
     if (d[0] > 0) out.dashes.assign(d.begin(), d.end());
     return out;
 }

@@ -37,8 +37,8 @@ class Specification {
   public:
     explicit Specification(const Chart& chart) : chart_(chart), view_(view_of(chart)) {
         for (const auto& series : chart.series) names_.push_back(series.name);
-        x_ = number_axis(view_.x_range, chart.log_x, most_ticks);
-        y_ = number_axis(view_.y_range, chart.log_y, most_ticks);
+        x_ = number_axis(view_.x_range, chart.log_x, most_ticks, chart.x_limits);
+        y_ = number_axis(view_.y_range, chart.log_y, most_ticks, view_.y_limits);
     }
 
     Value value() const {
@@ -137,7 +137,7 @@ class Specification {
     Value by_series(Array range) const {
         return object({{"field", "series"},
                        {"type", "nominal"},
-                       {"title", Value()},
+                       {"title", or_null(chart_.legend_title)},
                        {"legend", object({{"symbolOpacity", 1}})},
                        {"scale", object({{"domain", list(names_)}, {"range", std::move(range)}})}});
     }

@@ -77,10 +77,14 @@ class SeriesView {
     bool log_x() const { return chart_.log_x && !words_; }
     bool log_y() const { return chart_.log_y && chart_.kind != ChartKind::heat_map; }
 
-    /// Both ends of the interval, the lower one even where a logarithmic axis does not reach it.
+    /// Both ends of the interval, the lower one even where a logarithmic axis does not reach it;
+    /// never beyond what y can be.
     void set_interval(DrawnPoint& p) {
+        const ChartLimits& limits = view_.y_limits;
         p.low = p.source->low;
         p.high = p.source->high;
+        if (p.low && limits.low) p.low = std::max(*p.low, std::min(*limits.low, p.y));
+        if (p.high && limits.high) p.high = std::min(*p.high, std::max(*limits.high, p.y));
         for (auto* end : {&p.low, &p.high}) {
             if (!*end || drawable(**end, false)) continue;
             end->reset();
@@ -205,6 +209,7 @@ ChartView view_of(const Chart& chart) {
     ChartView view;
     std::optional<Words> words;
     view.has_words = words_on_x(chart);
+    view.y_limits = chart.kind == ChartKind::cdf ? ChartLimits{0, 1} : chart.y_limits;
     if (view.has_words) {
         words.emplace(chart);
         view.words = words->words;

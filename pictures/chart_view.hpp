@@ -31,6 +31,7 @@ struct ChartView {
     bool dots = false;        ///< instead of bars
     ChartRange x_range = {};  ///< of numbers
     ChartRange y_range = {};  ///< with the intervals, and 0 where bars begin there
+    ChartLimits y_limits = {};
 
     /// The chart's note and what else a reader has to know.
     std::vector<std::string> notes;

@@ -48,6 +48,14 @@ double luminance(Color c) {
     return 0.2126 * linear(c.red) + 0.7152 * linear(c.green) + 0.0722 * linear(c.blue);
 }
 
+Color category_color(std::size_t i) {
+    constexpr std::array colors{Color{0x00, 0x72, 0xb2}, Color{0xd5, 0x5e, 0x00},
+                                Color{0x00, 0x9e, 0x73}, Color{0xcc, 0x79, 0xa7},
+                                Color{0x00, 0x00, 0x00}, Color{0xe6, 0x9f, 0x00},
+                                Color{0x56, 0xb4, 0xe9}};
+    return colors[i % colors.size()];
+}
+
 Color blend(Color a, Color b, double share) {
     const auto mixed = [&](std::uint8_t of_a, std::uint8_t of_b) {
         return sample(of_b + share * (of_a - of_b));

@@ -22,6 +22,11 @@ std::string hex(Color c);
 /// How light a colour looks, 0 (black) to 1 (white): the relative luminance of WCAG 2.1.
 double luminance(Color c);
 
+/// Colours that tell things apart for every kind of eyes, also as lines on white; they come again
+/// after seven. Source: M. Okabe and K. Ito, Color Universal Design (2008), without the yellow,
+/// which is too light for a line.
+Color category_color(std::size_t i);
+
 /// `share` of `a` over 1 - share of `b`, sample by sample; share from 0 to 1.
 Color blend(Color a, Color b, double share);
 

@@ -13,6 +13,8 @@ constexpr double item_gap = 20;    // [px] between items
 constexpr std::string_view separator = " \xc2\xb7 ";
 
 double item_width(const LegendItem& item) {
+    constexpr double bold = 1.15;  // times as wide as other text, at most
+    if (!item.draw) return bold * text_width(item.text, text_size);
     return item.width + sign_gap + text_width(item.text, text_size);
 }
 
@@ -55,8 +57,10 @@ void Legend::draw(Svg& svg, PicturePoint corner, double width) const {
     const auto at = places(width);
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const double x = corner.x + at[i].x, y = corner.y + at[i].y + row_height / 2;
-        items_[i].draw(svg, {x, y});
-        svg.text(x + items_[i].width + sign_gap, y + baseline, items_[i].text, {.size = text_size});
+        const bool title = !items_[i].draw;
+        if (!title) items_[i].draw(svg, {x, y});
+        svg.text(title ? x : x + items_[i].width + sign_gap, y + baseline, items_[i].text,
+                 {.size = text_size, .bold = title});
     }
 }
 

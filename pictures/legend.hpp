@@ -14,8 +14,9 @@ namespace rovernet {
 struct LegendItem {
     std::string text;
     double width = 24;  ///< [px] of the sign
-    /// Draws the sign; the point is the middle of its left edge.
-    std::function<void(Svg&, PicturePoint)> draw;
+    /// Draws the sign; the point is the middle of its left edge. None: the text stands alone, bold,
+    /// as the title of the items after it.
+    std::function<void(Svg&, PicturePoint)> draw = nullptr;
 };
 
 /// The signs of a picture in rows, from left to right.

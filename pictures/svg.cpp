@@ -169,13 +169,13 @@ void SvgPath::append(char command, std::initializer_list<double> numbers) {
     }
 }
 
-Svg::Svg(double width, double height) {
+Svg::Svg(double width, double height, double scale) {
     const std::string w = svg_number(width), h = svg_number(height);
     out_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                  {"xmlns:xlink", "http://www.w3.org/1999/xlink"},
-                 {"width", w},
-                 {"height", h},
+                 {"width", scale * width},
+                 {"height", scale * height},
                  {"viewBox", fmt::format("0 0 {} {}", w, h)},
                  {"font-family", "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif"}});
 }

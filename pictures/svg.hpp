@@ -75,8 +75,9 @@ struct TextStyle {
 /// bytes everywhere.
 class Svg {
   public:
-    /// @param width, height  [px] > 0
-    Svg(double width, double height);
+    /// @param width, height  > 0, of the document in its own units
+    /// @param scale          [px] of a unit, > 0
+    Svg(double width, double height, double scale = 1);
 
     /// An element without content.
     void add(std::string_view element, SvgAttributes attributes);

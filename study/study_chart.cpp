@@ -4,6 +4,7 @@
 #include "experiment/quantity.hpp"
 #include "experiment/toml.hpp"
 #include "sim/error.hpp"
+#include "study/metric_bounds.hpp"
 
 #include <fmt/format.h>
 
@@ -64,6 +65,12 @@ std::string label_of(const std::string& path, const std::string& unit) {
 /// Metrics in seconds end in _s.
 std::string metric_label(const std::string& metric) {
     return metric.ends_with("_s") ? metric.substr(0, metric.size() - 2) + " [s]" : metric;
+}
+
+/// The bounds of a metric as those of an axis; after a quantile of the runs they are the same.
+ChartLimits limits_of(const std::string& metric) {
+    const Bounds bounds = bounds_of(metric);
+    return {bounds.low, bounds.high};
 }
 
 std::string percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
@@ -186,6 +193,7 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
                     : q.kind == ChartKind::heat_map ? q.by
                                                     : metric_label(q.y);
     if (q.kind == ChartKind::heat_map) chart.value_label = metric_label(q.y);
+    (cdf ? chart.x_limits : chart.y_limits) = limits_of(q.y);
     chart.note = note_of(list, q, q.confidence.value_or(confidence_of(store)));
     for (std::size_t i = 0; i < list.size(); ++i) {
         const Answer& answer = list[i];
@@ -212,11 +220,14 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
     };
     Chart values{.kind = ChartKind::bars,
                  .x_label = "propagation model",
-                 .y_label = metric_label(comparison.metric)};
+                 .y_label = metric_label(comparison.metric),
+                 .y_limits = limits_of(comparison.metric)};
     Chart errors{.kind = ChartKind::scatter,
                  .x_label = "CPU time per run [ms]",
                  .y_label = "mean distance to " + comparison.dearest,
-                 .x_from_zero = true};
+                 .x_from_zero = true,
+                 .x_limits = {.low = 0},
+                 .y_limits = {.low = 0}};
     ChartSeries& bars = values.series.emplace_back(ChartSeries{});
     ChartSeries& dots = errors.series.emplace_back(ChartSeries{});
     for (const ComparedModel& m : comparison.models) {

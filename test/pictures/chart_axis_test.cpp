@@ -64,11 +64,37 @@ TEST_CASE("chart axis: it ends at a tick, or little beyond one") {
     CHECK((beyond.high > 1.01 && beyond.high < 1.05));
 }
 
-TEST_CASE("chart axis: shares keep the limits 0 and 1 where they use half of it") {
-    const ChartAxis wide = number_axis(range({0.2, 0.7}), false, 6);
+TEST_CASE("chart axis: of a ratio it is 0 to 1, or a part of that if the numbers use little") {
+    const ChartLimits share{.low = 0, .high = 1};
+    const ChartAxis wide = number_axis(range({0.4, 0.7}), false, 6, share);
     CHECK((wide.low == 0 && wide.high == 1));
-    const ChartAxis narrow = number_axis(range({0.62, 0.7}), false, 6);
+    CHECK(texts(wide) == Texts{"0", "0.2", "0.4", "0.6", "0.8", "1.0"});
+    const ChartAxis narrow = number_axis(range({0.62, 0.7}), false, 6, share);
     CHECK((narrow.low > 0.5 && narrow.high < 0.8));
+    const ChartAxis whole = number_axis(range({0, 1}), false, 6, share);
+    CHECK(texts(whole).size() == 6);
+}
+
+TEST_CASE("chart axis: it never goes beyond what a number can be") {
+    const ChartLimits share{.low = 0, .high = 1}, positive{.low = 0};
+    for (const auto& each : {range({0.93, 0.999}), range({0.99, 1}), range({1, 1}), range({0, 0}),
+                             range({0, 0.01}), range({0.0001, 0.13}), range({0.9999, 1})}) {
+        const ChartAxis axis = number_axis(each, false, 6, share);
+        CHECK((axis.low >= 0 && axis.high <= 1));
+        CHECK((axis.low <= each.low() && axis.high >= each.high()));
+        CHECK(axis.ticks.size() >= 2);
+        for (const ChartTick& tick : axis.ticks) CHECK((tick.value >= 0 && tick.value <= 1));
+    }
+    for (const auto& each : {range({0.001, 5}), range({0, 0}), range({3e-9, 4e-9})}) {
+        const ChartAxis axis = number_axis(each, false, 6, positive);
+        CHECK((axis.low >= 0 && axis.low <= each.low() && axis.high >= each.high()));
+    }
+    CHECK(number_axis(range({0.1, 0.9}), true, 6, share).high == 1);
+}
+
+TEST_CASE("chart axis: a number beyond its limits is shown all the same") {
+    const ChartAxis axis = number_axis(range({-0.3, 1.2}), false, 6, {.low = 0, .high = 1});
+    CHECK((axis.low <= -0.3 && axis.high >= 1.2));
 }
 
 TEST_CASE("chart axis: a value stands where it divides the axis") {
@@ -175,15 +201,6 @@ TEST_CASE("chart axis: between whole numbers there are no ticks with a fraction"
     }
     few.include(2.5);
     CHECK_FALSE(few.whole());
-}
-
-TEST_CASE("chart axis: an interval's end just beyond a share shows all from 0 to 1") {
-    ChartRange range;
-    range.include(0.22);
-    range.include(1.002);
-    CHECK(number_axis(range, false, 6).low == 0);
-    CHECK(number_axis(range, false, 6).ticks.back().value == 1);
-    CHECK(number_axis(range, false, 6).high > 1.001);
 }
 
 TEST_CASE("chart axis: words stand in the middle of equal parts") {

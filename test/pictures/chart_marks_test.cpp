@@ -150,6 +150,79 @@ TEST_CASE("chart: a line is broken where a value is missing") {
     CHECK(has(text, "1 value left out: not finite"));
 }
 
+TEST_CASE("chart: bands and whiskers end at what a number can be, and so does the axis") {
+    for (const int points : {4, 9}) {  // whiskers, a band
+        Chart ratio = one_series(ChartKind::lines, {});
+        ratio.y_limits = {.low = 0, .high = 1};
+        for (int i = 0; i < points; ++i) {
+            const double y = i == 0 ? 0.05 : 0.95;
+            ratio.series[0].points.push_back(
+                {.x = double(i), .y = y, .low = y - 0.2, .high = y + 0.2});
+        }
+        const std::string text = drawn(ratio);
+        CHECK_FALSE(has(text, "-0.2"));
+        CHECK_FALSE(has(text, "1.2<"));
+        const auto svg = svg_elements(text);
+        const double top = y_tick(svg, "1.0"), bottom = y_tick(svg, "0");
+        for (const char* shape : {"band", "whisker"}) {
+            for (const auto& each : of_class(svg, shape)) {
+                for (const auto& piece : corners(each)) {
+                    for (const PicturePoint p : piece) {
+                        CHECK(p.y >= top - rounding);
+                        CHECK(p.y <= bottom + rounding);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("chart: whiskers that hide one another stand side by side, and with them their lines") {
+    Chart lines = ramp(ChartKind::lines, 4);
+    lines.series.push_back({"second", lines.series[0].points});
+    const auto svg = svg_elements(drawn(lines));
+    const auto whiskers = of_class(svg, "whisker");
+    REQUIRE(whiskers.size() == 2);
+    const auto first = stems(whiskers[0]), second = stems(whiskers[1]);
+    const auto drawn_lines = of_class(svg, "line");
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(second[i][0].x - first[i][0].x > 7);
+        CHECK(near((first[i][0].x + second[i][0].x) / 2, x_tick(svg, std::to_string(i))));
+        CHECK(near(corners(drawn_lines[1])[0][i].x, second[i][0].x));
+    }
+    for (auto& point : lines.series[1].points) {
+        for (double* y : {&point.y, &*point.low, &*point.high}) *y += 9;
+    }
+    const auto apart = svg_elements(drawn(lines));
+    for (const auto& each : of_class(apart, "whisker")) {
+        CHECK(near(stems(each)[2][0].x, x_tick(apart, "2")));
+    }
+}
+
+TEST_CASE("chart: points of a scatter that hide one another stand side by side") {
+    Chart scatter = one_series(ChartKind::scatter, {});
+    for (int i = 0; i < 5; ++i) {
+        scatter.series[0].points.push_back(
+            {.x = 26, .y = 0.1 * i, .low = 0.1 * i - 0.2, .high = 0.1 * i + 0.2, .label = "model"});
+    }
+    scatter.x_from_zero = true;
+    const std::string text = drawn(scatter);
+    const auto svg = svg_elements(text);
+    std::set<double> x;
+    for (const auto& stem : stems(of_class(svg, "whisker").at(0))) x.insert(stem[0].x);
+    CHECK(x.size() >= 4);
+    for (const auto& each : svg) {
+        if (each.text != "model") continue;
+        const double left = each.number("x"), baseline_y = each.number("y");
+        const Box label{left, baseline_y - 8, left + text_width("model", 11), baseline_y + 2};
+        for (const auto& stem : stems(of_class(svg, "whisker").at(0))) {
+            const double top = std::min(stem[0].y, stem[1].y);
+            const double bottom = std::max(stem[0].y, stem[1].y);
+            CHECK_FALSE(label.overlaps({stem[0].x - 0.5, top, stem[0].x + 0.5, bottom}));
+        }
+    }
+}
+
 TEST_CASE("chart: bars begin at 0 and end at their values, whiskers at the ends of the intervals") {
     Chart bars = one_series(ChartKind::bars, {{.category = "up", .y = 20, .low = 15, .high = 30},
                                               {.category = "down", .y = -10, .low = -12}});

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/picture.hpp"
+#include "pictures/picture_file.hpp"
+
+#include "experiment/output.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <memory>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 extern char** environ;
 
@@ -50,16 +54,33 @@ struct FileActions {
     FileActions& operator=(const FileActions&) = delete;
 };
 
+/// The variables that the program is run with: ours, and a time for a PDF to say when it was made.
+std::vector<char*> variables() {
+    static char start_of_time[] = "SOURCE_DATE_EPOCH=0";
+    std::vector<char*> out;
+    for (char** each = environ; *each; ++each) out.push_back(*each);
+    if (!std::getenv("SOURCE_DATE_EPOCH")) out.push_back(start_of_time);
+    out.push_back(nullptr);
+    return out;
+}
+
 /// Runs the program from `in` to the file `out`; its exit status, 127 if it is not there.
-int convert(std::FILE* in, const std::string& out, std::FILE* errors) {
+int convert(std::FILE* in, const std::string& format, const std::string& out, std::FILE* errors) {
     FileActions files;
     posix_spawn_file_actions_adddup2(&files.actions, fileno(in), STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&files.actions, fileno(errors), STDERR_FILENO);
-    std::string words[] = {program, "--unlimited", "--format=png", "--output=" + out};
-    char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(),
-                         nullptr};
+    // A pixel of the picture becomes a pixel, and of a PDF a point.
+    std::vector<std::string> words{program,      "--unlimited", "--format=" + format,
+                                   "--dpi-x=72", "--dpi-y=72",  "--output=" + out};
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
     pid_t child = 0;
-    if (posix_spawnp(&child, program, &files.actions, nullptr, arguments, environ) != 0) return 127;
+    std::vector<char*> with = variables();
+    if (posix_spawnp(&child, program, &files.actions, nullptr, arguments.data(), with.data()) !=
+        0) {
+        return 127;
+    }
     int status = 0;
     while (waitpid(child, &status, 0) < 0) {
         if (errno != EINTR) return 1;
@@ -67,21 +88,27 @@ int convert(std::FILE* in, const std::string& out, std::FILE* errors) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
-}  // namespace
+/// "png" or "pdf"; empty for any other ending.
+std::string format_of(const std::string& path) {
+    for (const char* format : {"png", "pdf"}) {
+        if (path.ends_with(std::string(".") + format)) return format;
+    }
+    return "";
+}
 
-void write_png(const std::string& svg, const std::string& path) {
+void write_converted(const std::string& svg, const std::string& format, const std::string& path) {
     const std::string part = path + ".part";
     const File in = unnamed_file(), errors = unnamed_file();
     const bool written = std::fwrite(svg.data(), 1, svg.size(), in.get()) == svg.size() &&
                          std::fflush(in.get()) == 0;
     if (!written) throw RunError("the picture cannot be stored; check the space on the disk");
     std::rewind(in.get());
-    const int status = convert(in.get(), part, errors.get());
+    const int status = convert(in.get(), format, part, errors.get());
     if (status == 127) {
         throw RunError(
-            fmt::format("{}: a PNG needs the program {}, which is not there; install "
+            fmt::format("{}: a .{} needs the program {}, which is not there; install "
                         "the package librsvg2-bin, or draw an .svg",
-                        path, program));
+                        path, format, program));
     }
     if (status != 0) {
         std::remove(part.c_str());
@@ -91,6 +118,18 @@ void write_png(const std::string& svg, const std::string& path) {
         std::remove(part.c_str());
         throw RunError(fmt::format("{}: cannot be written ({})", path, std::strerror(errno)));
     }
+}
+
+}  // namespace
+
+bool is_picture_name(const std::string& path) {
+    return path.ends_with(".svg") || !format_of(path).empty();
+}
+
+void write_picture(const std::string& svg, const std::string& path) {
+    const std::string format = format_of(path);
+    if (format.empty()) return write_file(path, svg);
+    write_converted(svg, format, path);
 }
 
 }  // namespace rovernet
