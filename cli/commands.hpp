@@ -50,6 +50,9 @@ ScenarioOptions options_of(const FileArguments& arguments);
 /// Reads FILE, and says its notices.
 Scenario scenario_of(const FileArguments& arguments);
 
+/// The time of an option --at; one after the end of the run is told.
+Time time_in(const Scenario& scenario, const std::string& at);
+
 struct RunArguments : FileArguments {
     std::optional<std::string> out;
     std::optional<double> speed;
@@ -108,7 +111,9 @@ struct DrawArguments : FileArguments {
     std::optional<std::string> coverage;
     bool links = false;
     bool trails = false;
+    bool axes = false;
     int width = 1200;
+    double font_size = 12;
     std::string out;
 };
 void draw(const DrawArguments& arguments);
@@ -163,7 +168,8 @@ struct PlotArguments {
     std::optional<double> confidence, quantile;
     std::optional<std::string> interval;
     bool log_x = false, log_y = false;
-    int width = 640;
+    int width = 672;
+    double font_size = 12;
 };
 void plot(const PlotArguments& arguments);
 

@@ -97,8 +97,8 @@ void loss(const LossArguments& a) {
 }
 
 void link(const LinkArguments& a) {
-    const Duration at = option_time("--at", a.at);
-    const auto report = report_link(scenario_of(a), a.from, a.to, start_of_run + at);
+    const Scenario scenario = scenario_of(a);
+    const auto report = report_link(scenario, a.from, a.to, time_in(scenario, a.at));
     if (a.json) {
         fmt::print("{}", to_json(as_table(report)));
     } else {

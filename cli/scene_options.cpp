@@ -49,10 +49,16 @@ void add_draw(CLI::App& app) {
     draw.add_option("--coverage", a.coverage, "robot whose received power is shown");
     draw.add_flag("--links", a.links, "show who hears whom");
     draw.add_flag("--trails", a.trails, "show where the robots have been");
-    draw.add_option("--width", a.width, "of the picture, in pixels")
-        ->check(CLI::Range(400, 10000))
+    draw.add_flag("--axes", a.axes, "show axes in metres");
+    draw.add_option("--width", a.width,
+                    "of the picture, in pixels (points of a PDF); all is scaled")
+        ->check(CLI::Range(100, 10000))
         ->capture_default_str();
-    draw.add_option("-o,--output", a.out, "picture to write: NAME.svg or NAME.png")->required();
+    draw.add_option("--font-size", a.font_size, "in points, of which the width is 1200")
+        ->check(CLI::Range(4, 36))
+        ->capture_default_str();
+    draw.add_option("-o,--output", a.out, "picture to write: NAME.svg, NAME.png or NAME.pdf")
+        ->required();
 }
 
 void add_move(CLI::App& app) {

@@ -4,20 +4,27 @@
 #include "experiment/json.hpp"
 #include "experiment/link_table.hpp"
 #include "experiment/loss_table.hpp"
-#include "experiment/output.hpp"
 #include "experiment/run.hpp"
 #include "experiment/scene_report.hpp"
 #include "experiment/whereabouts.hpp"
 #include "pictures/picture.hpp"
+#include "pictures/picture_file.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace rovernet::cli {
 namespace {
 
-Time time_of(const std::string& text) { return start_of_run + option_time("--at", text); }
+/// Who is not there, or off: ", not departed".
+std::string presence_text(std::string_view presence) {
+    if (presence == name_of(Presence::on)) return "";
+    std::string text = fmt::format(", {}", presence);
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
+}
 
 void print_table(const LinkTable& table) {
     const Device& d = table.device;
@@ -111,7 +118,7 @@ void print_robots(const Table& report) {
         fmt::print("{:<20} {} at ({:.3f}, {:.3f}) m, {}, {:.2f} dBm, sensitivity {:.2f} dBm{}\n",
                    "robot", *r.find("name")->string(), value("x_m"), value("y_m"),
                    *r.find("model")->string(), value("power_dbm"), value("sensitivity_dbm"),
-                   std::get<bool>(r.find("on")->data) ? "" : ", off");
+                   presence_text(*r.find("presence")->string()));
     }
     const Value* connectivity = report.find("connectivity");
     if (!connectivity) return;
@@ -124,13 +131,23 @@ void print_robots(const Table& report) {
 
 }  // namespace
 
+Time time_in(const Scenario& scenario, const std::string& text) {
+    const Time at = start_of_run + option_time("--at", text);
+    const Duration end = scenario.scenario.duration;
+    if (at > start_of_run + end) {
+        notice(fmt::format("--at {}: the run ends at {:.9g} s; it is played on until then", text,
+                           seconds(end)));
+    }
+    return at;
+}
+
 void links(const LinksArguments& a) {
     const Scenario scenario = scenario_of(a);
     if (a.history) {
         fmt::print("{}", link_history(scenario));
         return;
     }
-    const Time at = time_of(a.at);
+    const Time at = time_in(scenario, a.at);
     const auto tables = link_tables(*network_at(scenario, at), a.robot);
     if (a.json) {
         fmt::print("{}", to_json(link_tables_document(tables, at)));
@@ -144,7 +161,8 @@ void scene(const SceneArguments& a) {
     if (is_map(a.file)) {
         report = map_report(a);
     } else {
-        const auto network = network_at(scenario_of(a), time_of(a.at));
+        const Scenario scenario = scenario_of(a);
+        const auto network = network_at(scenario, time_in(scenario, a.at));
         report = scene_report(network->scene(), a.json);
         append_robots(report, *network);
     }
@@ -157,13 +175,14 @@ void scene(const SceneArguments& a) {
 }
 
 void where(const WhereArguments& a) {
+    const Scenario scenario = scenario_of(a);
     std::vector<Time> times;
-    for (const std::string& text : a.at) times.push_back(time_of(text));
-    const auto all = whereabouts(scenario_of(a), times);
+    for (const std::string& text : a.at) times.push_back(time_in(scenario, text));
+    const auto all = whereabouts(scenario, times);
     Array list;
     for (const Whereabouts& now : all) {
         Array robots;
-        for (const auto& [name, p, v, heading] : now.robots) {
+        for (const auto& [name, p, v, heading, presence] : now.robots) {
             Table robot;
             robot.set("name", name);
             robot.set("x_m", p.x);
@@ -172,12 +191,14 @@ void where(const WhereArguments& a) {
             robot.set("vx", v.x);
             robot.set("vy", v.y);
             robot.set("heading_rad", heading);
+            robot.set("presence", name_of(presence));
             robots.emplace_back(std::move(robot));
             if (a.json) continue;
             fmt::print(
                 "{:>12.6f} s  {:<12} at ({:.6f}, {:.6f}, {:.6f}) m, {:.6f} m/s, heading "
-                "{:.6f} rad\n",
-                seconds(now.time), name, p.x, p.y, p.z, distance(v, {}), heading);
+                "{:.6f} rad{}\n",
+                seconds(now.time), name, p.x, p.y, p.z, distance(v, {}), heading,
+                presence_text(name_of(presence)));
         }
         Table at;
         at.set("t_s", seconds(now.time));
@@ -190,21 +211,19 @@ void where(const WhereArguments& a) {
 }
 
 void draw(const DrawArguments& a) {
-    const std::string ending = std::filesystem::path(a.out).extension().string();
-    if (ending != ".svg" && ending != ".png") {
+    if (!is_picture_name(a.out)) {
         throw InputError(Location{"--output " + a.out, 0, 0, true},
-                         "expected a name that ends in .svg or .png; for example office.svg");
+                         "expected a name that ends in .svg, .png or .pdf; for example office.svg");
     }
-    const std::string svg = draw_svg(scenario_of(a), {.at = time_of(a.at),
-                                                      .coverage = a.coverage,
-                                                      .links = a.links,
-                                                      .trails = a.trails,
-                                                      .width = a.width});
-    if (ending == ".png") {
-        write_png(svg, a.out);
-    } else {
-        write_file(a.out, svg);
-    }
+    const Scenario scenario = scenario_of(a);
+    write_picture(draw_svg(scenario, {.at = time_in(scenario, a.at),
+                                      .coverage = a.coverage,
+                                      .links = a.links,
+                                      .trails = a.trails,
+                                      .axes = a.axes,
+                                      .width = a.width,
+                                      .font_size = a.font_size}),
+                  a.out);
 }
 
 void convert_movements(const ConvertArguments& a) { write_movements(scenario_of(a), a.out); }

@@ -71,10 +71,10 @@ class Engine final : public LinkLayer, public Air {
     void switch_robot(NodeId node, bool on);
     void schedule(Time time, Action action);
     bool advance(Time end, std::uint64_t most_events);
-    /// Link changes are wanted from now on.
-    void watch_links() { links_wanted_ = true; }
+    void watch_links() { links_wanted_ = true; }  ///< link changes are wanted from now on
     std::optional<Db> interference_left_out() const;
     Node& node(NodeId id) { return nodes_.at(id.index()); }
+    const Body& body(NodeId id) const { return bodies_[nodes_[id.index()].body]; }
     /// The same id. @throws std::out_of_range if there is no such node
     NodeId known(NodeId id) { return nodes_.at(id.index()), id; }
 
@@ -88,6 +88,7 @@ class Engine final : public LinkLayer, public Air {
     NameTable names_;
     std::map<NodeId, std::vector<Callback<>>> on_arrival_;
     std::map<NodeId, std::vector<Callback<NodeId>>> on_link_lost_;
+    std::map<NodeId, Presence> away_;  // robots that are not there: off, and why
     std::shared_ptr<Metrics> metrics_;
     std::uint64_t served_ = 0;
     bool has_reactions_ = false;  // some node has an on_receive
@@ -154,7 +155,6 @@ class Engine final : public LinkLayer, public Air {
     void expect_link_change();
     void take(NodeId id, const Leg& leg);
     void put(NodeId id, const Leg& leg);
-    const Body& body(NodeId id) const { return bodies_[nodes_[id.index()].body]; }
     Mover mover(NodeId id);
 
     Time now_ = start_of_run;

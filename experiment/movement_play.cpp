@@ -22,7 +22,7 @@ struct Player {
         using Kind = MovementCommand::Kind;
         switch (command.kind) {
             case Kind::appear: network.place(node, command.to); return network.switch_on(node);
-            case Kind::vanish: return network.switch_off(node);
+            case Kind::vanish: return network.take_away(node, Presence::left);
             case Kind::reach:
                 return network.move(node, Straight{.to = command.to, .arrival = command.arrival});
             case Kind::go:
@@ -45,7 +45,9 @@ struct Player {
 
 void play(Network& network, MovementFile file, std::vector<NodeId> nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (file.robots()[i].appears > network.now()) network.switch_off(nodes[i]);
+        if (file.robots()[i].appears > network.now()) {
+            network.take_away(nodes[i], Presence::not_departed);
+        }
     }
     const auto player =
         std::make_shared<Player>(Player{network, std::move(file), std::move(nodes), std::nullopt});

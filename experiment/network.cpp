@@ -62,7 +62,14 @@ void Network::move(NodeId node, Movement movement) { engine_->move(node, std::mo
 void Network::place(NodeId node, Vec3 at) { engine_->place(node, at); }
 void Network::stop(NodeId node) { engine_->place(node, position(node)); }
 void Network::switch_off(NodeId node) { engine_->switch_robot(node, false); }
-void Network::switch_on(NodeId node) { engine_->switch_robot(node, true); }
+void Network::take_away(NodeId node, Presence why) {
+    engine_->away_[engine_->known(node)] = why;
+    engine_->switch_robot(node, false);
+}
+void Network::switch_on(NodeId node) {
+    engine_->away_.erase(node);
+    engine_->switch_robot(node, true);
+}
 
 void Network::at(Time time, std::function<void()> action) {
     engine_->schedule(time, {callback(std::move(action))});
@@ -103,6 +110,14 @@ Vec3 Network::position(NodeId node) const { return engine_->legs_.position(node,
 Radians Network::heading(NodeId node) const {
     return {wrapped(engine_->legs_.leg(node).heading_at(now()))};
 }
+
+Presence Network::presence(NodeId node) const {
+    if (engine_->medium_.is_on(engine_->known(node))) return Presence::on;
+    const auto away = engine_->away_.find(node);
+    return away == engine_->away_.end() ? Presence::off : away->second;
+}
+Meters Network::radius(NodeId node) const { return engine_->body(node).radius; }
+const NetworkSettings& Network::settings() const { return engine_->settings_; }
 
 std::vector<Neighbour> Network::links(NodeId node, Time t) const {
     return neighbours(engine_->medium_, engine_->legs_, node, t);

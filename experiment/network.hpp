@@ -19,6 +19,7 @@
 #include "sim/time.hpp"
 #include "traces/metrics.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -46,6 +47,19 @@ struct Robot {
     MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};  ///< > 0
     /// Within turn_rates: it turns in place before it moves off; none: it turns at once.
     std::optional<RadiansPerSecond> turn_rate = std::nullopt;
+};
+
+/// Whether a robot takes part in what happens.
+enum class Presence {
+    on,            ///< it is there, its radio is on
+    off,           ///< it is there, switched off
+    not_departed,  ///< it is not there yet, and off: where it is means where it will appear
+    left,          ///< it is not there any more, and off: where it is means where it was last
+};
+
+template <>
+struct EnumNames<Presence> {
+    static constexpr std::array<std::string_view, 4> values = {"on", "off", "not_departed", "left"};
 };
 
 /// How a message came.
@@ -126,6 +140,9 @@ class Network {
     void stop(NodeId node);
     /// Switches a robot off (it stops, its radio is silent and deaf) or on again (it goes on).
     void switch_off(NodeId node);
+    /// Switches a robot off that is not there: `why` is not_departed or left. switch_on() brings
+    /// it.
+    void take_away(NodeId node, Presence why);
     void switch_on(NodeId node);
 
     /// Calls `action` at `time`, not before now().
@@ -155,8 +172,11 @@ class Network {
     std::vector<Neighbour> links(NodeId node, Time t) const;
     /// Appends to `out` who would hear `node` if it sent now, in no order to rely on.
     void find_hearers(NodeId node, std::vector<NodeId>& out);
+    Presence presence(NodeId node) const;  ///< now
+    Meters radius(NodeId node) const;      ///< of its body
+    const NetworkSettings& settings() const;
     const Legs& legs() const;
-    const Medium& medium() const;
+    const Medium& medium() const;  ///< its radio and model among all else
     const Scene& scene() const;
     Planners& planners();  ///< ways around the scene's walls
     /// What happened so far. @throws std::invalid_argument if settings.metrics is off

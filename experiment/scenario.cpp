@@ -357,8 +357,7 @@ Propagation PropagationTable::make() const {
 Propagation median_propagation(const Value& value) {
     PropagationTable table;
     read_propagation(value, table);
-    std::get<LogDistance>(table.parameters).sigma = Db{0};
-    return table.make();
+    return table.make().median();
 }
 
 Scenario read_scenario(const Value& value, const std::string& file) {

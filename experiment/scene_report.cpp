@@ -119,7 +119,8 @@ Table robot_document(const Network& network, const Device& device, NodeId node) 
     table.set("y_m", p.y);
     table.set("z_m", p.z);
     table.set("heading_rad", network.heading(node).value);
-    table.set("on", network.medium().is_on(node));
+    table.set("on", network.presence(node) == Presence::on);
+    table.set("presence", name_of(network.presence(node)));
     table.set("model", network.medium().model(node).name());
     table.set("power_dbm", radio.power.value);
     table.set("sensitivity_dbm", radio.sensitivity.value);

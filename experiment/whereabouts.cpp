@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 namespace rovernet {
@@ -21,7 +22,8 @@ Whereabouts everybody(const Network& network) {
         const Leg& leg = network.legs().leg(node);
         const bool moves = now.time < leg.end;
         now.robots.push_back({network.name(node), network.position(node),
-                              moves ? leg.velocity : Vec3{}, network.heading(node).value});
+                              moves ? leg.velocity : Vec3{}, network.heading(node).value,
+                              network.presence(node)});
     }
     return now;
 }
@@ -53,14 +55,17 @@ struct Recorder {
 
 }  // namespace
 
-std::vector<Whereabouts> whereabouts(const Scenario& scenario, std::vector<Time> times) {
-    std::sort(times.begin(), times.end());
+std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times) {
+    std::vector<std::size_t> order(times.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
     Network network(network_settings(scenario));
     populate(network, scenario);
-    std::vector<Whereabouts> all;
-    for (const Time t : times) {
-        network.run_until(t);
-        all.push_back(everybody(network));
+    std::vector<Whereabouts> all(times.size());
+    for (const std::size_t i : order) {
+        network.run_until(times[i]);
+        all[i] = everybody(network);
     }
     return all;
 }

@@ -18,13 +18,14 @@ struct Whereabouts {
         Vec3 position;   ///< [m]
         Vec3 velocity;   ///< [m/s]
         double heading;  ///< [rad], -pi ... pi
+        Presence presence;
     };
     Time time;
     std::vector<Row> robots;
 };
 
-/// Runs the scenario through all these times, in ascending order.
-std::vector<Whereabouts> whereabouts(const Scenario& scenario, std::vector<Time> times);
+/// Runs the scenario through all these times; the answers are in their order.
+std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times);
 
 /// Everybody's legs of the scenario's run.
 std::vector<Track> tracks(const Scenario& scenario);

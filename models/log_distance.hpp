@@ -34,6 +34,8 @@ struct LogDistance {
         return sigma.value == 0 ? LossShape::by_distance : LossShape::by_pair;
     }
 
+    bool is_random() const { return sigma.value > 0; }
+    LogDistance median() const { return {exponent, Db{0}, reference_distance}; }
     ShadowedLoss shadowed_loss(Hertz f) const;
     Meters reach(Db loss, Hertz f) const;
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;

@@ -89,6 +89,14 @@ concept ShadowedModel = requires(const T& model, Hertz frequency) {
     { model.shadowed_loss(frequency) } -> std::same_as<ShadowedLoss>;
 };
 
+/// A model with a random part for each pair of nodes tells the same model without it; with nothing
+/// random, an equal model.
+template <class T>
+concept RandomModel = requires(const T& model) {
+    { model.median() } -> std::same_as<T>;
+    { model.is_random() } -> std::same_as<bool>;
+};
+
 /// A model that cannot work with every frequency says so by std::invalid_argument.
 template <class T>
 concept FrequencyCheckedModel = requires(const T& model, Hertz frequency) {
@@ -119,6 +127,16 @@ class Propagation {
     std::optional<ShadowedLoss> shadowed_loss(Hertz frequency) const {
         return self_->shadowed_loss(frequency);
     }
+    /// Whether each pair of nodes draws a part of its loss.
+    bool is_random() const { return self_->is_random(); }
+    /// The model without its random part; this one if it has none.
+    Propagation median() const { return is_random() ? self_->median() : *this; }
+    /// The model inside if it is a T, or null.
+    template <class T>
+    const T* as() const {
+        const auto* holder = dynamic_cast<const Holder<T>*>(self_.get());
+        return holder ? &holder->model : nullptr;
+    }
     /// Whether both are copies of one handle; the Network keeps one table entry for them.
     friend bool operator==(const Propagation&, const Propagation&) = default;
 
@@ -131,6 +149,8 @@ class Propagation {
         virtual void check_frequency(Hertz) const = 0;
         virtual LossShape shape() const = 0;
         virtual std::optional<ShadowedLoss> shadowed_loss(Hertz) const = 0;
+        virtual bool is_random() const = 0;
+        virtual Propagation median() const = 0;  // of a model that is random
     };
     template <class T>
     struct Holder final : Concept {
@@ -156,6 +176,14 @@ class Propagation {
         std::optional<ShadowedLoss> shadowed_loss(Hertz frequency) const override {
             if constexpr (ShadowedModel<T>) return model.shadowed_loss(frequency);
             return std::nullopt;
+        }
+        bool is_random() const override {
+            if constexpr (RandomModel<T>) return model.is_random();
+            return false;
+        }
+        Propagation median() const override {
+            if constexpr (RandomModel<T>) return Propagation(model.median());
+            return Propagation(model);
         }
         T model;
     };

@@ -5,144 +5,197 @@
 #include "sim/math.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 
 namespace rovernet {
 namespace {
 
-constexpr double full_turn = 6.283185307179586;
-constexpr double fewest_rays = 720;
-constexpr double most_rays = 6000;            // to begin with
-constexpr std::size_t most_refined = 40'000;  // rays in all
-constexpr double ray_spacing = 4;             // [resolutions] between neighbours
-constexpr double jump = 6;                    // [resolutions] between the radii of neighbours
-constexpr double bisection = 0.25;            // [resolutions] to which a radius is found
-constexpr int most_halvings = 50;
+/// Numbers on a grid: those of a map's cells, and one more all around, equal to its neighbour.
+struct Grid {
+    int columns = 0, rows = 0;
+    std::vector<double> values = {};
 
-struct Ray {
-    double angle = 0;  // [rad]
-    Vec3 direction = {};
-    double radius = 0;  // [m]
+    double& at(int column, int row) {
+        return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                      static_cast<std::size_t>(column)];
+    }
+    double at(int column, int row) const { return const_cast<Grid&>(*this).at(column, row); }
 };
 
-Ray ray_at(double angle) {
-    const auto [sin, cos] = math::sincos(angle);
-    return {.angle = angle, .direction = {cos, sin, 0}, .radius = 0};
-}
-
-/// Finds radii, many rays at a time.
-class Tracer {
-  public:
-    Tracer(const Transmitter& transmitter, Dbm level, const ContourOptions& options)
-        : transmitter_(transmitter), level_(level), resolution_(options.resolution.value) {
-        constexpr double slack = 1 + 1e-9;  // rounding of the model's inverse
-        const Db budget = received_power(transmitter.radio, transmitter.radio, Db{0}) - level;
-        const double reach =
-            transmitter.model.reach(budget, transmitter.radio.frequency).value * slack;
-        farthest_ = std::min(options.farthest.value, std::max(reach, resolution_));
-    }
-
-    double farthest() const { return farthest_; }
-    double resolution() const { return resolution_; }
-
-    /// Fills in the radius of each ray; 0 if the level is too low right at the antenna.
-    void trace(std::vector<Ray>& rays);
-
-  private:
-    /// Whether each ray is still above the level at its distance.
-    void look(const std::vector<Ray>& rays, const std::vector<double>& distances);
-
-    const Transmitter& transmitter_;
-    Dbm level_;
-    double resolution_;
-    double farthest_ = 0;
-    std::vector<Vec3> places_ = {};
-    std::vector<double> levels_ = {};
-};
-
-void Tracer::look(const std::vector<Ray>& rays, const std::vector<double>& distances) {
-    places_.clear();
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        places_.push_back(transmitter_.antenna + distances[i] * rays[i].direction);
-    }
-    levels_.resize(places_.size());
-    received_levels(transmitter_, places_, levels_, level_);
-}
-
-void Tracer::trace(std::vector<Ray>& rays) {
-    std::vector<double> high(rays.size(), farthest_), middle;
-    look(rays, high);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        rays[i].radius = levels_[i] >= level_.value ? farthest_ : 0;
-    }
-    double width = farthest_;
-    for (int n = 0; n < most_halvings && width > bisection * resolution_; ++n, width /= 2) {
-        middle.resize(rays.size());
-        for (std::size_t i = 0; i < rays.size(); ++i) middle[i] = (rays[i].radius + high[i]) / 2;
-        look(rays, middle);
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            (levels_[i] >= level_.value ? rays[i].radius : high[i]) = middle[i];
+/// How far each cell is above the level [dB], within narrow bounds.
+Grid excess(const CoverageMap& map, Dbm level) {
+    constexpr double most = 0.5;  // [dB]
+    Grid out{map.columns + 2, map.rows + 2, {}};
+    out.values.reserve(static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows));
+    for (int row = 0; row < out.rows; ++row) {
+        for (int column = 0; column < out.columns; ++column) {
+            const double dbm = map.at(std::clamp(column - 1, 0, map.columns - 1),
+                                      std::clamp(row - 1, 0, map.rows - 1));
+            out.values.push_back(std::clamp(dbm - level.value, -most, most));
         }
     }
+    return out;
 }
 
-/// Rays between neighbours whose radii jump while they are farther apart than the resolution.
-std::vector<Ray> rays_at_jumps(const std::vector<Ray>& rays, double resolution) {
-    std::vector<Ray> more;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const bool last = i + 1 == rays.size();
-        const Ray& a = rays[i];
-        const Ray& b = rays[last ? 0 : i + 1];
-        const double step = b.angle + (last ? full_turn : 0) - a.angle;
-        if (std::abs(a.radius - b.radius) <= jump * resolution) continue;
-        if (step * std::max(a.radius, b.radius) <= resolution) continue;
-        more.push_back(ray_at(a.angle + step / 2));
+/// The right half of a Gaussian, its middle first, that sums to 1 with both halves.
+std::vector<double> kernel(double sigma) {
+    constexpr double most_sigmas = 3, most_cells = 200;
+    const auto radius = static_cast<std::size_t>(std::min(most_sigmas * sigma, most_cells));
+    std::vector<double> out{1};
+    double sum = 1;
+    for (std::size_t i = 1; i <= radius; ++i) {
+        const double x = static_cast<double>(i) / sigma;
+        out.push_back(math::exp2(-0.5 * x * x * 1.4426950408889634));
+        sum += 2 * out.back();
     }
-    return more;
+    for (double& weight : out) weight /= sum;
+    return out;
 }
 
-void refine(Tracer& tracer, std::vector<Ray>& rays) {
-    while (rays.size() < most_refined) {
-        std::vector<Ray> more = rays_at_jumps(rays, tracer.resolution());
-        if (more.empty()) return;
-        if (rays.size() + more.size() > most_refined) return;
-        tracer.trace(more);
-        std::vector<Ray> all(rays.size() + more.size());
-        std::merge(rays.begin(), rays.end(), more.begin(), more.end(), all.begin(),
-                   [](const Ray& a, const Ray& b) { return a.angle < b.angle; });
-        rays = std::move(all);
+/// The field smoothed along its rows, or along its columns. @param sigma  [cells]
+Grid smoothed(const Grid& field, double sigma, bool along_rows) {
+    const std::vector<double> weights = kernel(sigma);
+    const int last = (along_rows ? field.columns : field.rows) - 1;
+    Grid out = field;
+    for (int row = 0; row < field.rows; ++row) {
+        for (int column = 0; column < field.columns; ++column) {
+            const int i = along_rows ? column : row;
+            const auto value = [&](int k) {
+                const int held = std::clamp(k, 0, last);
+                return along_rows ? field.at(held, row) : field.at(column, held);
+            };
+            double sum = weights[0] * value(i);
+            for (std::size_t k = 1; k < weights.size(); ++k) {
+                const int step = static_cast<int>(k);
+                sum += weights[k] * (value(i - step) + value(i + step));
+            }
+            out.at(column, row) = sum;
+        }
     }
+    return out;
+}
+
+/// The lines of a field's zeros. They cross the edges between neighbouring values; an edge is
+/// numbered by its left or lower end, even along a row, odd along a column.
+class Tracer {
+  public:
+    Tracer(const Grid& field, const CoverageMap& map)
+        : field_(field), map_(map), next_(2 * field.values.size(), none) {}
+
+    std::vector<ContourLine> lines();
+
+  private:
+    using Edge = std::uint32_t;
+    static constexpr Edge none = UINT32_MAX;
+
+    Edge edge(int column, int row, bool along_column) const {
+        return 2 * static_cast<Edge>(row * field_.columns + column) + (along_column ? 1 : 0);
+    }
+    void cross(int column, int row);
+    Vec3 place(Edge edge) const;
+    ContourLine line_from(Edge first);
+
+    const Grid& field_;
+    const CoverageMap& map_;
+    std::vector<Edge> next_;  // where the line through an edge goes on; none: there is no line
+};
+
+/// Joins the edges of the square whose lower left corner this is: from where a line comes in to
+/// where it leaves, what is above 0 on its left.
+void Tracer::cross(int column, int row) {
+    const std::array<double, 4> corner{field_.at(column, row), field_.at(column + 1, row),
+                                       field_.at(column + 1, row + 1), field_.at(column, row + 1)};
+    const std::array<Edge, 4> side{edge(column, row, false), edge(column + 1, row, true),
+                                   edge(column, row + 1, false), edge(column, row, true)};
+    // Counter-clockwise along side i, from corner i to i + 1: a line goes out where the sign turns
+    // to above, and comes in where it turns to below.
+    std::array<Edge, 2> in{none, none}, out{none, none};
+    std::size_t ins = 0, outs = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const bool here = corner[i] >= 0, there = corner[(i + 1) % 4] >= 0;
+        if (here && !there) in[ins++] = side[i];
+        if (!here && there) out[outs++] = side[i];
+    }
+    if (ins == 0) return;
+    if (ins == 2) {
+        // Of two lines each cuts off a corner: one that is above if the middle is below.
+        const bool middle = corner[0] + corner[1] + corner[2] + corner[3] >= 0;
+        const bool first_above = corner[0] >= 0;
+        if (first_above != middle) std::swap(out[0], out[1]);
+    }
+    for (std::size_t i = 0; i < ins; ++i) next_[in[i]] = out[i];
+}
+
+Vec3 Tracer::place(Edge edge) const {
+    const bool along_column = edge % 2 == 1;
+    const int index = static_cast<int>(edge / 2);
+    const int column = index % field_.columns, row = index / field_.columns;
+    const double a = field_.at(column, row);
+    const double b = field_.at(column + !along_column, row + along_column);
+    const double share = a / (a - b);
+    const Vec3 low = map_.centre(column - 1, row - 1);
+    return {low.x + (along_column ? 0 : share * map_.cell_width),
+            low.y + (along_column ? share * map_.cell_height : 0), low.z};
+}
+
+ContourLine Tracer::line_from(Edge first) {
+    ContourLine out;
+    Edge at = first;
+    while (at != none) {
+        out.points.push_back(place(at));
+        at = std::exchange(next_[at], none);
+        if (at != first) continue;
+        out.closed = true;
+        break;
+    }
+    return out;
+}
+
+std::vector<ContourLine> Tracer::lines() {
+    for (int row = 0; row + 1 < field_.rows; ++row) {
+        for (int column = 0; column + 1 < field_.columns; ++column) cross(column, row);
+    }
+    std::vector<bool> entered(next_.size(), false);
+    for (const Edge to : next_) {
+        if (to != none) entered[to] = true;
+    }
+    std::vector<ContourLine> out;
+    for (const bool closed : {false, true}) {  // those that begin at the map's edge come first
+        for (Edge first = 0; first < next_.size(); ++first) {
+            if (next_[first] == none || entered[first] != closed) continue;
+            out.push_back(line_from(first));
+        }
+    }
+    return out;
+}
+
+/// Whether a closed line goes around so little, or so narrow a strip, that it says nothing.
+bool is_speck(const ContourLine& line, Meters smoothing) {
+    double area = 0, length = 0;
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+        const Vec3 a = line.points[i], b = line.points[(i + 1) % line.points.size()];
+        area += (a.x * b.y - b.x * a.y) / 2;
+        length += distance(a, b);
+    }
+    const double least = pi * 4 * smoothing.value * smoothing.value;
+    return std::abs(area) < std::max(least, length * smoothing.value / 2);
 }
 
 }  // namespace
 
-std::vector<Vec3> contour(const Transmitter& transmitter, Dbm level,
-                          const ContourOptions& options) {
-    for (const Meters option : {options.farthest, options.resolution}) {
-        if (!positive.contains(option.value)) {
-            throw_out_of_range("contour", "farthest and resolution", positive.text, option.value);
-        }
+std::vector<ContourLine> contours(const CoverageMap& map, Dbm level, Meters smoothing) {
+    if (!positive.contains(smoothing.value)) {
+        throw_out_of_range("contours", "smoothing", positive.text, smoothing.value);
     }
-    Tracer tracer(transmitter, level, options);
-    const double spacing = ray_spacing * tracer.resolution();
-    const auto count = static_cast<std::size_t>(
-        std::clamp(std::ceil(full_turn * tracer.farthest() / spacing), fewest_rays, most_rays));
-    std::vector<Ray> rays;
-    for (std::size_t i = 0; i < count; ++i) {
-        rays.push_back(ray_at(full_turn * static_cast<double>(i) / static_cast<double>(count)));
-    }
-    tracer.trace(rays);
-    refine(tracer, rays);
-
-    std::vector<Vec3> polygon;
-    bool any_inside = false;
-    for (const Ray& ray : rays) {
-        polygon.push_back(transmitter.antenna + ray.radius * ray.direction);
-        any_inside = any_inside || ray.radius > 0;
-    }
-    if (!any_inside) polygon.clear();
-    return polygon;
+    const Grid along = smoothed(excess(map, level), smoothing.value / map.cell_width, true);
+    const Grid field = smoothed(along, smoothing.value / map.cell_height, false);
+    std::vector<ContourLine> lines = Tracer(field, map).lines();
+    std::erase_if(lines, [&](const ContourLine& l) { return l.closed && is_speck(l, smoothing); });
+    return lines;
 }
 
 }  // namespace rovernet

@@ -9,22 +9,24 @@
 
 namespace rovernet {
 
-/// How a contour is traced.
-struct ContourOptions {
-    Meters farthest{1000};   ///< [m] > 0; where the level is still above, the contour ends there
-    Meters resolution{0.1};  ///< [m] > 0; what is smaller need not be seen: half a pixel, say
+/// A line along which a map has one level.
+struct ContourLine {
+    std::vector<Vec3> points;  ///< [m] at the map's height; places above the level to the left
+    bool closed = false;       ///< the first point, which is not repeated, follows the last
 };
 
-/// Within which places around a transmitter its level is at least `level`: a closed polygon at the
-/// antenna's height, counter-clockwise, first point not repeated; empty if there is no such place.
+/// The lines between the places of a map whose level is at least `level` and the others, smoothed:
+/// areas and gaps that are narrower than about 1.3 `smoothing` vanish, such as the rays of light
+/// and shadow behind the ragged edge of a drawn wall; corners are rounded by about as much, and
+/// islands smaller than a disc of the radius 2 `smoothing` or narrower than it are left out.
+/// Straight edges stay in their place, and so does a contour of free space.
 ///
-/// Traced by rays. Along each, the radius where the level falls below is bisected: exact to a
-/// quarter of `resolution` where the level never rises along a ray, as with all listed models;
-/// with another, some radius where it falls. There are 720 rays at least, and 4 `resolution`
-/// between neighbours at most (at the distance `farthest`, up to 6000 rays); where the radius jumps
-/// between neighbours, rays are put in until they are one `resolution` apart, so that a shadow has
-/// its true edges. A shadow of less than 4 `resolution` can be missed.
-/// @throws std::invalid_argument if an option is out of its range
-std::vector<Vec3> contour(const Transmitter& transmitter, Dbm level, const ContourOptions& options);
+/// Each level counts as how far it is above `level`, at most half a decibel either way; this is
+/// smoothed by a Gaussian, whose zeros the lines go through (marching squares, W. E. Lorensen and
+/// H. E. Cline, Computer Graphics 21(4), 1987, in the plane). Lines that leave the map go on to
+/// half a cell beyond its edge.
+/// @param smoothing  [m] > 0, standard deviation of the Gaussian
+/// @throws std::invalid_argument if smoothing is not > 0
+std::vector<ContourLine> contours(const CoverageMap& map, Dbm level, Meters smoothing);
 
 }  // namespace rovernet

@@ -7,27 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
-#include <tuple>
 
 namespace rovernet {
 namespace {
-
-/// Calls `visit(sigma, chosen)` for each model with shadowing; chosen: it is the table's model.
-template <class Visitor>
-void for_each_sigma(auto& table, Visitor visit) {
-    std::size_t index = 0;
-    const auto look = [&](auto& model) {
-        const bool chosen = index++ == table.model;
-        if constexpr (requires { model.sigma; }) visit(model.sigma, chosen);
-    };
-    std::apply([&](auto&... each) { (look(each), ...); }, table.parameters);
-}
-
-const PropagationTable& own_model(const Scenario& scenario, NodeId robot) {
-    const auto& own = robot_table(scenario, robot).propagation;
-    return own ? *own : scenario.propagation;
-}
 
 /// A map with its cells laid out, levels to be filled in.
 CoverageMap empty_map(Vec3 low, Vec3 high, int cells) {
@@ -52,41 +36,20 @@ CoverageMap empty_map(Vec3 low, Vec3 high, int cells) {
 
 }  // namespace
 
-const RobotTable& robot_table(const Scenario& scenario, NodeId robot) {
-    std::size_t left = robot.index();
-    for (const auto& table : scenario.robots) {
-        const auto count = static_cast<std::size_t>(table.count.value_or(1));
-        if (left < count) return table;
-        left -= count;
-    }
-    throw std::invalid_argument(
-        fmt::format("robot number {} is none of the scenario's robots", robot.index()));
-}
-
-bool has_shadowing(const PropagationTable& table) {
-    bool found = false;
-    for_each_sigma(table, [&](Db sigma, bool chosen) { found |= chosen && sigma > Db{0}; });
-    return found;
-}
-
-PropagationTable without_shadowing(PropagationTable table) {
-    for_each_sigma(table, [](Db& sigma, bool) { sigma = Db{0}; });
-    return table;
-}
-
-Transmitter transmitter(const Network& network, const Scenario& scenario, NodeId robot, Time at) {
-    return {.model = without_shadowing(own_model(scenario, robot)).make(),
+Transmitter transmitter(const Network& network, NodeId robot, Time at) {
+    const NetworkSettings& settings = network.settings();
+    return {.model = network.medium().model(robot).median(),
             .radio = network.medium().radio(robot),
             .antenna = network.medium().antenna(robot, at, network.legs()),
             .key = name_key(network.name(robot)),
             .scene = &network.scene(),
-            .floor_height = scenario.scene.floor_height,
-            .seed = scenario.scenario.seed,
-            .replication = static_cast<std::uint32_t>(scenario.scenario.replication)};
+            .floor_height = settings.floor_height,
+            .seed = settings.seed,
+            .replication = settings.replication};
 }
 
 void received_levels(const Transmitter& transmitter, std::span<const Vec3> antennas,
-                     std::span<double> out_dbm, Dbm enough) {
+                     std::span<double> out_dbm) {
     const Radio& radio = transmitter.radio;
     const std::vector<std::uint64_t> keys(antennas.size(), transmitter.key);
     const LinkBatch links{.frequency = radio.frequency,
@@ -98,7 +61,7 @@ void received_levels(const Transmitter& transmitter, std::span<const Vec3> anten
                           .floor_height = transmitter.floor_height,
                           .seed = transmitter.seed,
                           .replication = transmitter.replication};
-    transmitter.model.loss(links, received_power(radio, radio, Db{0}) - enough, out_dbm);
+    transmitter.model.loss(links, {std::numeric_limits<double>::infinity()}, out_dbm);
     for (double& v : out_dbm) v = received_power(radio, radio, Db{v}).value;
 }
 

@@ -2,14 +2,12 @@
 #pragma once
 
 #include "experiment/network.hpp"
-#include "experiment/scenario.hpp"
 #include "models/propagation.hpp"
 #include "models/radio.hpp"
 #include "sim/geometry.hpp"
 #include "sim/time.hpp"
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,26 +25,15 @@ struct Transmitter {
     std::uint32_t replication = 0;
 };
 
-/// The table that a robot comes from. @param robot  as numbered by populate()
-/// @throws std::invalid_argument if there are not so many robots
-const RobotTable& robot_table(const Scenario& scenario, NodeId robot);
-
-/// Whether the chosen model draws a level of its own for each pair of robots.
-bool has_shadowing(const PropagationTable& table);
-/// The same models with shadowing off: their medians.
-PropagationTable without_shadowing(PropagationTable table);
-
 /// The robot as it stands at `at`. Its model is the median: shadowing belongs to pairs of robots,
-/// and there is no robot at most places. @throws std::invalid_argument as robot_table
-Transmitter transmitter(const Network& network, const Scenario& scenario, NodeId robot, Time at);
+/// and there is no robot at most places. The network outlives the transmitter.
+Transmitter transmitter(const Network& network, NodeId robot, Time at);
 
 /// Levels [dBm] at which a radio like the transmitter's own would receive it.
 /// @param antennas  [m] of the receivers
 /// @param out_dbm   same size; every element written
-/// @param enough    a level below this may come out as any other level below it
 void received_levels(const Transmitter& transmitter, std::span<const Vec3> antennas,
-                     std::span<double> out_dbm,
-                     Dbm enough = {-std::numeric_limits<double>::infinity()});
+                     std::span<double> out_dbm);
 
 /// Levels over an upright rectangle, on a grid of equal cells.
 struct CoverageMap {

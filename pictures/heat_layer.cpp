@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/heat_layer.hpp"
 
-#include "pictures/contour.hpp"
 #include "scene/png.hpp"
 
 #include <fmt/format.h>
@@ -48,34 +47,26 @@ Image image_of(const CoverageMap& map, double low, double high) {
     return image;
 }
 
-/// The polygon without the points that nobody would miss.
-std::vector<PicturePoint> smoothed(const std::vector<Vec3>& polygon, const Plot& plot) {
+/// The line in the picture, without the points that nobody would miss.
+std::string path_of(const ContourLine& line, const Plot& plot) {
     constexpr double visible = 0.08;  // [px] from a straight line
     constexpr double longest = 8;     // [px] of a side that replaces others
-    std::vector<PicturePoint> out;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const PicturePoint p = plot.at(polygon[i]);
-        if (!out.empty() && i + 1 < polygon.size()) {
-            const PicturePoint a = out.back(), b = plot.at(polygon[i + 1]);
+    SvgPath out;
+    PicturePoint a;  // the last point of the path
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+        const PicturePoint p = plot.at(line.points[i]);
+        if (i > 0 && i + 1 < line.points.size()) {
+            const PicturePoint b = plot.at(line.points[i + 1]);
             const double side = std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-            const double area = std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
+            const double twice = std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
             const double to_p = std::sqrt((p.x - a.x) * (p.x - a.x) + (p.y - a.y) * (p.y - a.y));
-            if (side < longest && to_p <= side && area <= visible * side) continue;
+            if (side < longest && to_p <= side && twice <= visible * side) continue;
         }
-        out.push_back(p);
+        i == 0 ? out.move(p.x, p.y) : out.line(p.x, p.y);
+        a = p;
     }
-    return out;
-}
-
-/// Distance from `p` to the plot's farthest corner [m].
-double farthest_corner(const Plot& plot, Vec3 p) {
-    double out = 0;
-    for (const double x : {plot.low.x, plot.high.x}) {
-        for (const double y : {plot.low.y, plot.high.y}) {
-            out = std::max(out, distance(p, {x, y, p.z}));
-        }
-    }
-    return out;
+    if (line.closed) out.close();
+    return out.text();
 }
 
 void draw_line(Svg& svg, const std::string& data, bool dashed) {
@@ -117,10 +108,10 @@ HeatLayer::HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells
     for (const auto& line : lines_) weakest = std::min(weakest, line.level.value);
     std::tie(low_, high_) = color_range(map_.dbm, weakest);
 
-    constexpr double beyond = 1.05;  // so that what ends there is not seen
-    const ContourOptions options{.farthest = {beyond * farthest_corner(plot, transmitter.antenna)},
-                                 .resolution = {0.5 / plot.scale}};
-    for (auto& line : lines_) line.polygon = contour(transmitter, line.level, options);
+    constexpr double smoothing = 3;  // [px]: what is narrower than a line's width is not seen
+    for (auto& line : lines_) {
+        line.contours = contours(map_, line.level, {smoothing / plot.scale});
+    }
 }
 
 void HeatLayer::draw_levels(Svg& svg, const Plot& plot) const {
@@ -135,11 +126,9 @@ void HeatLayer::draw_levels(Svg& svg, const Plot& plot) const {
 
 void HeatLayer::draw_contours(Svg& svg, const Plot& plot) const {
     for (const auto& line : lines_) {
-        SvgPath path;
-        for (const PicturePoint p : smoothed(line.polygon, plot)) {
-            path.empty() ? path.move(p.x, p.y) : path.line(p.x, p.y);
-        }
-        if (!path.empty()) draw_line(svg, path.close().text(), line.dashed);
+        std::string data;
+        for (const ContourLine& each : line.contours) data += path_of(each, plot);
+        if (!data.empty()) draw_line(svg, data, line.dashed);
     }
 }
 

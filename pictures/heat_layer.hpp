@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "pictures/contour.hpp"
 #include "pictures/coverage.hpp"
 #include "pictures/legend.hpp"
 #include "pictures/plot.hpp"
@@ -31,7 +32,7 @@ class HeatLayer {
         Dbm level;
         const char* meaning;
         bool dashed;
-        std::vector<Vec3> polygon = {};
+        std::vector<ContourLine> contours = {};
     };
 
     CoverageMap map_;

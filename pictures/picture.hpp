@@ -19,7 +19,11 @@ struct PictureOptions {
     bool links = false;   ///< who hears whom, by margin
     bool trails = false;  ///< where the robots have been
     int cells = 200'000;  ///< of the heat map, about; from 1 to most_coverage_cells
-    int width = 1200;  ///< [px] of the picture at most, from 400 to 10000; a tall one is narrower
+    bool axes = false;    ///< in metres, around the map
+    int width = 1200;  ///< [px] of the picture at most, from 100 to 10000; a tall one is narrower
+    /// [points] of its texts, from 4 to 36, where 1200 points are the width of the picture: `width`
+    /// changes how many pixels it has, and nothing in it.
+    double font_size = 12;
 };
 
 /// Runs the scenario until `at` and draws it, as a Scalable Vector Graphics document.
@@ -30,9 +34,5 @@ struct PictureOptions {
 /// @throws InputError, RunError; std::invalid_argument for a robot that there is not, a time before
 ///         the start, or an option out of its range
 std::string draw_svg(const Scenario& scenario, const PictureOptions& options);
-
-/// The picture as a PNG, by rsvg-convert; `path` never holds half of it.
-/// @throws RunError if that program is missing or fails, or the file cannot be written
-void write_png(const std::string& svg, const std::string& path);
 
 }  // namespace rovernet

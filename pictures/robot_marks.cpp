@@ -3,6 +3,8 @@
 
 #include "sim/math.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace rovernet {
@@ -10,17 +12,17 @@ namespace {
 
 constexpr double least_radius = 5;  // [px]
 constexpr double tick = 5;          // [px] that the heading stands out beyond the circle
-constexpr const char* ink = "#111111";
+constexpr Color ink{0x11, 0x11, 0x11};
 
 void draw_circle(Svg& svg, const RobotMark& robot) {
     svg.add("circle", {{"cx", robot.at.x},
                        {"cy", robot.at.y},
                        {"r", robot.radius},
                        {"fill", robot.stands_out ? "#ffa94d"
-                                : robot.on       ? "#ffffff"
+                                : robot.on()     ? "#ffffff"
                                                  : "#d0d0d0"},
-                       {"stroke", ink},
-                       {"stroke-width", 1.6}});
+                       {"stroke", robot.rim},
+                       {"stroke-width", robot.rim == ink ? 1.6 : 2.4}});
 }
 
 void draw_heading(Svg& svg, const RobotMark& robot) {
@@ -31,7 +33,7 @@ void draw_heading(Svg& svg, const RobotMark& robot) {
     path.line(robot.at.x + length * cos, robot.at.y - length * sin);
     for (const bool seam : {true, false}) {
         svg.add("path", {{"d", path.text()},
-                         {"stroke", seam ? "#ffffff" : ink},
+                         {"stroke", seam ? Color{0xff, 0xff, 0xff} : ink},
                          {"stroke-width", seam ? 4.2 : 2.0},
                          {"stroke-linecap", "round"}});
     }
@@ -49,9 +51,9 @@ void draw_cross(Svg& svg, const RobotMark& robot) {
 void draw_robot(Svg& svg, const RobotMark& robot) {
     svg.open("g", {});
     svg.title(robot.name);
-    if (robot.on) draw_heading(svg, robot);
+    if (robot.on()) draw_heading(svg, robot);
     draw_circle(svg, robot);
-    if (robot.on) {
+    if (robot.on()) {
         const auto [sin, cos] = math::sincos(robot.heading);
         SvgPath path;
         path.move(robot.at.x, robot.at.y);
@@ -63,56 +65,73 @@ void draw_robot(Svg& svg, const RobotMark& robot) {
     svg.close();
 }
 
-LegendItem sample(std::string text, bool on, bool stands_out) {
-    return {std::move(text), 12, [on, stands_out](Svg& svg, PicturePoint p) {
+LegendItem sample(std::string text, Presence presence, bool stands_out) {
+    return {std::move(text), 12, [=](Svg& svg, PicturePoint p) {
                 const RobotMark robot{.name = "",
                                       .at = {p.x + 6, p.y},
                                       .radius = least_radius,
                                       .heading = 0,
-                                      .on = on,
-                                      .stands_out = stands_out};
+                                      .presence = presence,
+                                      .stands_out = stands_out,
+                                      .rim = ink};
                 draw_circle(svg, robot);
-                if (!on) draw_cross(svg, robot);
+                if (!robot.on()) draw_cross(svg, robot);
             }};
 }
 
 }  // namespace
 
-RobotMarks::RobotMarks(const Network& network, const std::vector<Meters>& radii,
-                       std::optional<NodeId> standing_out, Time at, const Plot& plot) {
+RobotMarks::RobotMarks(const Network& network, std::optional<NodeId> standing_out, bool colored,
+                       Time at, const Plot& plot) {
     for (std::uint32_t i = 0; i < network.size(); ++i) {
         const NodeId node{i};
         marks_.push_back({.name = network.name(node),
                           .at = plot.at(network.legs().position(node, at)),
-                          .radius = std::max(least_radius, radii[i].value * plot.scale),
+                          .radius = std::max(least_radius, network.radius(node).value * plot.scale),
                           .heading = network.legs().leg(node).heading_at(at),
-                          .on = network.medium().is_on(node),
-                          .stands_out = standing_out == node});
+                          .presence = network.presence(node),
+                          .stands_out = standing_out == node,
+                          .rim = colored ? robot_color(node) : ink});
     }
 }
 
-void RobotMarks::draw(Svg& svg, LabelPlaces& places) const {
-    for (const auto& robot : marks_) draw_robot(svg, robot);
-    draw_names(svg, places);
+void RobotMarks::draw(Svg& svg) const {
+    for (const auto& robot : marks_) {
+        if (robot.drawn()) draw_robot(svg, robot);
+    }
+    for (const Name& name : names_) {
+        svg.text(name.at.x, name.at.y, name.text,
+                 {.size = name_size(), .anchor = name.anchor, .halo = true, .color = ink});
+    }
 }
 
-void RobotMarks::draw_names(Svg& svg, LabelPlaces& places) const {
-    constexpr std::size_t longest_name = 24;
-    constexpr std::size_t many = 60;             // robots, from which on names are smaller
-    constexpr double line = 1.1, ascent = 0.36;  // [em] height of a box, baseline below its middle
-    const double size = marks_.size() > many ? 9 : 12;
+double RobotMarks::name_size() const {
+    constexpr std::size_t many = 60;  // robots, from which on names are smaller
+    return marks_.size() > many ? 9 : 12;
+}
+
+void RobotMarks::keep_marks_free(LabelPlaces& places) const {
     for (const auto& robot : marks_) {
+        if (!robot.drawn()) continue;
         const double r = robot.radius;
         places.keep_free({robot.at.x - r, robot.at.y - r, robot.at.x + r, robot.at.y + r});
-        if (!robot.on) continue;
+        if (!robot.on()) continue;
         const auto [sin, cos] = math::sincos(robot.heading);
         const double x = robot.at.x + (r + tick) * cos, y = robot.at.y - (r + tick) * sin;
         places.keep_free({x - 2, y - 2, x + 2, y + 2});
     }
+}
+
+void RobotMarks::place_names(LabelPlaces& places) {
+    constexpr std::size_t longest_name = 24;
+    constexpr double line = 1.1, ascent = 0.36;  // [em] height of a box, baseline below its middle
+    const double size = name_size();
+    keep_marks_free(places);
     for (const auto& robot : marks_) {
-        const std::string name = shortened(robot.name, longest_name);
-        const double width = text_width(name, size);
-        const auto box = places.place(robot.at, robot.radius, width, line * size);
+        if (!robot.drawn()) continue;
+        const std::string text = shortened(robot.name, longest_name);
+        const auto box = places.place(robot.at, robot.radius, text_width(text, size), line * size);
+        homeless_ += !box;
         if (!box) continue;
         const TextAnchor anchor = box->left >= robot.at.x    ? TextAnchor::start
                                   : box->right <= robot.at.x ? TextAnchor::end
@@ -120,18 +139,20 @@ void RobotMarks::draw_names(Svg& svg, LabelPlaces& places) const {
         const double x = anchor == TextAnchor::start ? box->left
                          : anchor == TextAnchor::end ? box->right
                                                      : (box->left + box->right) / 2;
-        svg.text(x, (box->top + box->bottom) / 2 + ascent * size, name,
-                 {.size = size, .anchor = anchor, .halo = true, .color = {0x11, 0x11, 0x11}});
+        names_.push_back({text, {x, (box->top + box->bottom) / 2 + ascent * size}, anchor});
     }
 }
 
 void RobotMarks::append_to(Legend& legend) const {
+    bool some_off = false;
     for (const auto& robot : marks_) {
-        if (robot.stands_out) legend.add(sample("transmitter", robot.on, true));
+        if (robot.stands_out) legend.add(sample("transmitter", robot.presence, true));
+        some_off = some_off || robot.presence == Presence::off;
     }
-    const bool some_off =
-        std::any_of(marks_.begin(), marks_.end(), [](const RobotMark& r) { return !r.on; });
-    if (some_off) legend.add(sample("switched off", false, false));
+    if (some_off) legend.add(sample("switched off", Presence::off, false));
+    if (homeless_ == 0) return;
+    legend.add({fmt::format("no room for {} name{}", homeless_, homeless_ == 1 ? "" : "s"), 0,
+                [](Svg&, PicturePoint) {}});
 }
 
 }  // namespace rovernet

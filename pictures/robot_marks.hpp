@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/network.hpp"
+#include "pictures/color.hpp"
 #include "pictures/label.hpp"
 #include "pictures/legend.hpp"
 #include "pictures/plot.hpp"
@@ -19,28 +20,47 @@ struct RobotMark {
     PicturePoint at;
     double radius = 0;   ///< [px] of its circle
     double heading = 0;  ///< [rad], counter-clockwise from the x axis
-    bool on = true;
+    Presence presence = Presence::on;
     bool stands_out = false;  ///< its coverage is drawn
+    Color rim = {};           ///< of its circle
+
+    bool on() const { return presence == Presence::on; }
+    /// One that is not in the world is drawn only if its coverage is.
+    bool drawn() const { return on() || presence == Presence::off || stands_out; }
 };
 
 /// The robots of a picture: circles to scale, though not below 5 px, with a tick that shows the
 /// heading and the name beside, where there is room for it.
 class RobotMarks {
   public:
-    /// @param radii     [m] by node
     /// @param standing_out  whose coverage is drawn
-    RobotMarks(const Network& network, const std::vector<Meters>& radii,
-               std::optional<NodeId> standing_out, Time at, const Plot& plot);
+    /// @param colored       each has a rim of its own colour, that of its trail
+    RobotMarks(const Network& network, std::optional<NodeId> standing_out, bool colored, Time at,
+               const Plot& plot);
 
     const RobotMark& operator[](NodeId node) const { return marks_[node.index()]; }
-    /// @param places  of the names; knows already what else is in the way
-    void draw(Svg& svg, LabelPlaces& places) const;
+    /// Finds room for the names. @param places  knows already what else is in the way
+    void place_names(LabelPlaces& places);
+    void draw(Svg& svg) const;
+    /// Also says how many names found no room.
     void append_to(Legend& legend) const;
 
   private:
-    void draw_names(Svg& svg, LabelPlaces& places) const;
+    struct Name {
+        std::string text;
+        PicturePoint at;  // of its baseline
+        TextAnchor anchor;
+    };
+
+    double name_size() const;
+    void keep_marks_free(LabelPlaces& places) const;
 
     std::vector<RobotMark> marks_;  // by node
+    std::vector<Name> names_ = {};
+    std::size_t homeless_ = 0;  // names without room
 };
+
+/// The colour of a robot and its trail.
+inline Color robot_color(NodeId node) { return category_color(node.index()); }
 
 }  // namespace rovernet

@@ -18,16 +18,18 @@ const std::vector<Leg>& Trails::legs(NodeId node) const {
     return node.index() < legs_.size() ? legs_[node.index()] : none;
 }
 
-std::vector<Vec3> Trails::corners(NodeId node, Time at) const {
-    std::vector<Vec3> out;
-    const auto add = [&](Vec3 p) {
-        if (out.empty() || !(out.back() == p)) out.push_back(p);
-    };
+std::vector<std::vector<Vec3>> Trails::ways(NodeId node, Time at) const {
+    constexpr double jump = 1e-6;  // [m] more than rounding
+    std::vector<std::vector<Vec3>> out;
     const auto& own = legs(node);
     for (std::size_t i = 0; i < own.size() && own[i].start <= at; ++i) {
-        add(own[i].from);
+        if (out.empty() || distance(out.back().back(), own[i].from) > jump) {
+            out.push_back({own[i].from});
+        }
         const Time next = i + 1 < own.size() ? own[i + 1].start : never;
-        add(own[i].position(std::min(next, at)));
+        for (const Vec3 p : {own[i].from, own[i].position(std::min(next, at))}) {
+            if (!(out.back().back() == p)) out.back().push_back(p);
+        }
     }
     return out;
 }

@@ -15,8 +15,9 @@ class Trails {
     KindMask kinds() const { return kind_of<Moved>(); }
     void on(const Record& record, const RecordContext& context);
 
-    /// Corners of a robot's way until `at`, in order [m]; empty if it never had a leg.
-    std::vector<Vec3> corners(NodeId node, Time at) const;
+    /// Corners of a robot's way until `at`, in order [m]; another way begins where it was put
+    /// elsewhere. Empty if it never had a leg.
+    std::vector<std::vector<Vec3>> ways(NodeId node, Time at) const;
     /// Where a robot was at `start`, start + every, ... and until `at` [m]; `every` > 0.
     std::vector<Vec3> marks(NodeId node, Time at, Duration every) const;
 

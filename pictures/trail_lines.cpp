@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace rovernet {
 namespace {
 
-constexpr const char* ink = "#1f4e79";
-constexpr double line_width = 1.2;  // [px]
+constexpr Color sample_color{0x44, 0x44, 0x44};
+constexpr double line_width = 1.4;  // [px]
 constexpr double dot_radius = 2.6;  // [px]
 constexpr double ring_radius = 3;   // [px]
 constexpr double visible = 0.3;     // [px] a corner nearer to the last one is left out
@@ -55,6 +56,14 @@ void append_way(SvgPath& path, const std::vector<PicturePoint>& way) {
     }
 }
 
+void draw_way(Svg& svg, const std::string& lines, Color color, double width) {
+    svg.add("path", {{"d", lines},
+                     {"fill", "none"},
+                     {"stroke", color},
+                     {"stroke-width", width},
+                     {"stroke-linejoin", "round"}});
+}
+
 }  // namespace
 
 TrailLines::TrailLines(const Trails& trails, std::uint32_t robots, Time at)
@@ -62,50 +71,64 @@ TrailLines::TrailLines(const Trails& trails, std::uint32_t robots, Time at)
 
 void TrailLines::include_in(Extent& extent) const {
     for (std::uint32_t i = 0; i < robots_; ++i) {
-        for (const Vec3 p : trails_.corners(NodeId{i}, at_)) extent.include(p);
+        for (const auto& way : trails_.ways(NodeId{i}, at_)) {
+            for (const Vec3 p : way) {
+                if (way.size() > 1) extent.include(p);
+            }
+        }
     }
 }
 
-void TrailLines::draw(Svg& svg, const Plot& plot, bool on_colors) const {
-    SvgPath ways, dots, rings;
+TrailLines::Trail TrailLines::trail(NodeId node, const Plot& plot) const {
+    SvgPath lines, dots, rings;
+    for (const auto& way : trails_.ways(node, at_)) {
+        std::vector<PicturePoint> points;
+        for (const Vec3 p : way) points.push_back(plot.at(p));
+        if (points.size() < 2) continue;
+        append_way(lines, points);
+        append_disc(rings, points.front(), ring_radius);
+    }
+    if (lines.empty()) return {};
+    for (const Vec3 p : trails_.marks(node, at_, every_)) append_disc(dots, plot.at(p), dot_radius);
+    return {lines.text(), dots.text(), rings.text()};
+}
+
+void TrailLines::draw(Svg& svg, const Plot& plot, const Network& network, bool on_colors) const {
+    std::vector<Trail> all;
+    for (std::uint32_t i = 0; i < robots_; ++i) all.push_back(trail(NodeId{i}, plot));
+    for (const Trail& each : all) {
+        if (!on_colors || each.lines.empty()) continue;
+        draw_way(svg, each.lines, {0xff, 0xff, 0xff}, line_width + 2);
+    }
     for (std::uint32_t i = 0; i < robots_; ++i) {
-        std::vector<PicturePoint> way;
-        for (const Vec3 p : trails_.corners(NodeId{i}, at_)) way.push_back(plot.at(p));
-        if (way.size() < 2) continue;
-        append_way(ways, way);
-        append_disc(rings, way.front(), ring_radius);
-        for (const Vec3 p : trails_.marks(NodeId{i}, at_, every_)) {
-            append_disc(dots, plot.at(p), dot_radius);
-        }
+        if (all[i].lines.empty()) continue;
+        const Color color = robot_color(NodeId{i});
+        svg.open("g", {{"class", "trail"}});
+        svg.title(network.name(NodeId{i}));
+        draw_way(svg, all[i].lines, color, line_width);
+        svg.add("path", {{"d", all[i].dots}, {"fill", color}});
+        svg.add("path", {{"d", all[i].rings},
+                         {"fill", "#ffffff"},
+                         {"stroke", color},
+                         {"stroke-width", line_width}});
+        svg.close();
     }
-    if (ways.empty()) return;
-    for (const bool seam : {true, false}) {
-        if (seam && !on_colors) continue;
-        svg.add("path", {{"d", ways.text()},
-                         {"fill", "none"},
-                         {"stroke", seam ? "#ffffff" : ink},
-                         {"stroke-width", line_width + (seam ? 2 : 0)},
-                         {"stroke-linejoin", "round"}});
-    }
-    svg.add("path", {{"d", dots.text()}, {"fill", ink}});
-    svg.add(
-        "path",
-        {{"d", rings.text()}, {"fill", "#ffffff"}, {"stroke", ink}, {"stroke-width", line_width}});
 }
 
 void TrailLines::append_to(Legend& legend) const {
     legend.add(
-        {fmt::format("trail, a dot every {}", period_text(every_)), 34,
+        {fmt::format("trail in the robot's colour, a dot every {}", period_text(every_)), 34,
          [](Svg& svg, PicturePoint p) {
              SvgPath line, dot, ring;
              line.move(p.x + ring_radius, p.y).horizontal(p.x + 34);
              append_disc(dot, {p.x + 20, p.y}, dot_radius);
              append_disc(ring, {p.x + ring_radius, p.y}, ring_radius);
-             svg.add("path", {{"d", line.text()}, {"stroke", ink}, {"stroke-width", line_width}});
-             svg.add("path", {{"d", dot.text()}, {"fill", ink}});
+             svg.add("path",
+                     {{"d", line.text()}, {"stroke", sample_color}, {"stroke-width", line_width}});
+             svg.add("path", {{"d", dot.text()}, {"fill", sample_color}});
              svg.add("path", {{"d", ring.text()},
                               {"fill", "#ffffff"},
-                              {"stroke", ink},
+                              {"stroke", sample_color},
                               {"stroke-width", line_width}});
          }});
 }

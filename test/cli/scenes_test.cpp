@@ -257,6 +257,67 @@ payload = "F"
     CHECK(again.out == printed.out);
 }
 
+TEST_CASE("where: says who is not there, and answers in the order asked") {
+    const TemporaryFolder folder;
+    folder.write("v.xml",
+                 "<fcd-export>\n"
+                 "<timestep time=\"1\"><vehicle id=\"v\" x=\"5\" y=\"0\"/></timestep>\n"
+                 "<timestep time=\"2\"><vehicle id=\"v\" x=\"9\" y=\"0\"/></timestep>\n"
+                 "<timestep time=\"4\"></timestep>\n</fcd-export>\n");
+    const Json times = json_of(folder, {"where", folder.path("v.xml"), "--at", "5s,1.5s,0.5s"});
+    const std::vector<std::string> expected{"left", "on", "not_departed"};
+    const std::vector<double> at{5, 1.5, 0.5};
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(times["times"][i]["t_s"] == at[i]);
+        CHECK(times["times"][i]["robots"][0]["presence"] == expected[i]);
+    }
+    const std::string text =
+        command(folder, {"where", folder.path("v.xml"), "--at", "5s,1.5s,0.5s"}).out;
+    CHECK(text.find("rad, left\n") < text.find("rad\n"));
+    CHECK(text.find("rad\n") < text.find("rad, not departed\n"));
+    const Json scene = json_of(folder, {"scene", folder.path("v.xml"), "--at", "0.5s"});
+    CHECK(scene["robots"][0]["presence"] == "not_departed");
+    CHECK(scene["robots"][0]["on"] == false);
+}
+
+TEST_CASE("where, link, links, scene, draw: a time after the end of the run is a notice") {
+    const TemporaryFolder folder;
+    folder.write("pair.toml", pair);
+    const std::string file = folder.path("pair.toml");
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"where", file},
+                                                  {"link", file, "A", "B"},
+                                                  {"links", file},
+                                                  {"scene", file},
+                                                  {"draw", file, "-o", folder.path("late.svg")}}) {
+        std::vector<std::string> late = words, in_time = words;
+        late.insert(late.end(), {"--at", "101s"});
+        in_time.insert(in_time.end(), {"--at", "100s"});
+        const Ended ended = command(folder, late);
+        CHECK(ended.exit == 0);
+        CHECK(ended.err.find("the run ends at 100 s") != std::string::npos);
+        CHECK(command(folder, in_time).err.empty());
+    }
+}
+
+TEST_CASE("draw: robots that only a movement file names, with or without a [[robot]] beside") {
+    const TemporaryFolder folder;
+    folder.write("mv.tcl",
+                 "$node_(0) set X_ 1\n$node_(0) set Y_ 2\n$node_(1) set X_ 50\n"
+                 "$node_(1) set Y_ 2\n$ns_ at 1.0 \"$node_(0) setdest 11 2 2\"\n");
+    folder.write("s.toml",
+                 "[movement]\nfile = \"mv.tcl\"\n[[robot]]\nname = \"own\"\n"
+                 "at = [\"9 m\", \"9 m\"]\n");
+    for (const char* file : {"mv.tcl", "s.toml"}) {
+        const Ended ended =
+            command(folder, {"draw", folder.path(file), "--at", "2s", "--coverage", "n1", "--links",
+                             "--trails", "--axes", "-o", folder.path("out.svg")});
+        CHECK(ended.exit == 0);
+        const std::string svg = content(folder.path("out.svg"));
+        CHECK(svg.find("coverage of n1") != std::string::npos);
+        CHECK(svg.find(">n0</text>") != std::string::npos);
+    }
+}
+
 TEST_CASE("draw: writes a whole picture or nothing, the same bytes each time") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);

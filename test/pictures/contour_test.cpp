@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/contour.hpp"
 
-#include "models/disc.hpp"
 #include "models/friis.hpp"
-#include "models/raytrace_2007.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
@@ -18,133 +17,143 @@ using namespace rovernet;
 namespace {
 
 constexpr Dbm sensitivity{-75};
+constexpr double cell = 0.1;  // [m]
 
-double angle_of(Vec3 p) { return std::atan2(p.y, p.x); }
+/// A map of 20 m x 20 m around the origin whose levels are a function of the place.
+CoverageMap map_of(const std::function<double(Vec3)>& dbm) {
+    CoverageMap map{.lower_left = {-10, -10, 1},
+                    .cell_width = cell,
+                    .cell_height = cell,
+                    .columns = 200,
+                    .rows = 200};
+    for (int row = 0; row < map.rows; ++row) {
+        for (int column = 0; column < map.columns; ++column) {
+            map.dbm.push_back(dbm(map.centre(column, row)));
+        }
+    }
+    return map;
+}
+
+/// A map that is above the level where `inside` says so, and far below elsewhere.
+CoverageMap mask(const std::function<bool(Vec3)>& inside) {
+    return map_of([&](Vec3 p) { return inside(p) ? -40.0 : -120.0; });
+}
+
 double radius_of(Vec3 p) { return std::sqrt(p.x * p.x + p.y * p.y); }
 
-/// A wall of one cell with its lower left corner there.
-Scene block(Vec3 corner, double width, double height) {
-    return Scene(OccupancyGrid{.columns = 1,
-                               .rows = 1,
-                               .cell_width = width,
-                               .cell_height = height,
-                               .origin = corner,
-                               .yaw = 0,
-                               .cells = {Cell::occupied}});
-}
-
-/// No walls are weaker than these: behind them there is no level left.
-Transmitter ray_transmitter(const Scene& scene) {
-    return {.model = Raytrace2007{.coefficient = 30, .wall_factor = 100},
-            .antenna = {0, 0, 1},
-            .scene = &scene};
-}
-
-double largest_radius(const std::vector<Vec3>& polygon, double from, double to) {
-    double out = -1;
-    for (const Vec3 p : polygon) {
-        const double angle = angle_of(p);
-        if (angle >= from && angle <= to) out = std::max(out, radius_of(p));
+/// What a closed line goes around, > 0 if counter-clockwise [m^2].
+double area(const ContourLine& line) {
+    double twice = 0;
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+        const Vec3 a = line.points[i], b = line.points[(i + 1) % line.points.size()];
+        twice += a.x * b.y - b.x * a.y;
     }
-    return out;
+    return twice / 2;
+}
+
+double length(const std::vector<ContourLine>& lines) {
+    double sum = 0;
+    for (const auto& line : lines) {
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            sum += distance(line.points[i - 1], line.points[i]);
+        }
+    }
+    return sum;
 }
 
 }  // namespace
 
-TEST_CASE("contour: in free space it is the circle of the model's reach") {
+TEST_CASE("contour: in free space it is the circle of the model's reach, counter-clockwise") {
     const Scene scene;
-    const Transmitter t{.model = Friis{}, .antenna = {3, -4, 1}, .scene = &scene};
-    const double reach =
-        Friis{}
-            .reach(received_power(t.radio, t.radio, Db{0}) - sensitivity, t.radio.frequency)
-            .value;
-    constexpr double tolerance = 1e-3;  // of the radius
-    const auto polygon =
-        contour(t, sensitivity, {.farthest = {1e4}, .resolution = {reach * tolerance}});
-    REQUIRE(polygon.size() >= 720);
-    for (const Vec3 p : polygon) {
-        CHECK(std::abs(distance(p, t.antenna) - reach) < tolerance * reach);
+    const Radio weak{.power = {-30}};
+    const Transmitter t{.model = Friis{}, .radio = weak, .antenna = {1, -2, 1}, .scene = &scene};
+    const Db budget = received_power(weak, weak, Db{0}) - sensitivity;
+    const double reach = Friis{}.reach(budget, weak.frequency).value;
+    REQUIRE((reach > 1 && reach < 6));
+    const CoverageMap map = coverage(t, {-10, -10}, {10, 10}, 40'000);
+    const auto lines = contours(map, sensitivity, {0.2});
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].closed);
+    for (const Vec3 p : lines[0].points) {
+        CHECK(std::abs(distance(p, t.antenna) - reach) < 0.2 * cell);
         CHECK(p.z == 1);
     }
+    constexpr double of_smoothing = 0.02;  // sigma^2 / radius^2
+    CHECK(std::abs(area(lines[0]) / (pi * reach * reach) - 1) < of_smoothing);
 }
 
-TEST_CASE("contour: it goes round counter-clockwise, once") {
-    const Scene scene;
-    const Transmitter t{.model = Disc{.range = {10}}, .scene = &scene};
-    const auto polygon = contour(t, sensitivity, {.farthest = {100}, .resolution = {0.1}});
-    double area = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-        area += (a.x * b.y - b.x * a.y) / 2;
+TEST_CASE("contour: around a hole it goes clockwise") {
+    const auto lines = contours(mask([](Vec3 p) { return radius_of(p) < 8 && radius_of(p) > 4; }),
+                                sensitivity, {0.15});
+    REQUIRE(lines.size() == 2);
+    CHECK(area(lines[0]) * area(lines[1]) < 0);
+    CHECK(area(lines[0]) + area(lines[1]) > 0);
+}
+
+TEST_CASE("contour: a comb that is finer than the smoothing leaves no teeth") {
+    const auto comb = [](double tooth) {
+        return mask([=](Vec3 p) {
+            const bool in_tooth = std::fmod(p.y + 20, 3 * tooth) < tooth;
+            return p.x < 0 || (p.x < 6 && in_tooth);
+        });
+    };
+    const Meters smoothing{0.3};
+    CHECK(length(contours(comb(2), sensitivity, smoothing)) > 45);    // teeth are seen ...
+    CHECK(length(contours(comb(0.2), sensitivity, smoothing)) < 25);  // ... or one straight edge
+    const auto ray = mask([](Vec3 p) { return p.x < 0 || std::abs(p.y) < 0.1; });
+    const auto edge = contours(ray, sensitivity, smoothing);
+    REQUIRE(edge.size() == 1);
+    for (const Vec3 p : edge[0].points) CHECK(std::abs(p.x) < 2 * smoothing.value);
+}
+
+TEST_CASE("contour: a straight edge stays in its place") {
+    for (const double at : {-3.0, 0.0, 0.05, 7.5}) {
+        const auto lines = contours(mask([=](Vec3 p) { return p.x < at; }), sensitivity, {0.3});
+        REQUIRE(lines.size() == 1);
+        CHECK_FALSE(lines[0].closed);
+        for (const Vec3 p : lines[0].points) CHECK(std::abs(p.x - at) <= 0.5 * cell + 1e-9);
     }
-    constexpr double tolerance = 1;  // [m^2] resolution / 4 along the rim, and the chords
-    CHECK(std::abs(area - 3.14159265 * 100) < 2 * tolerance);
 }
 
-TEST_CASE("contour: behind a wall the radius is smaller, beside it it is not") {
-    const Scene wall = block({5, -3}, 0.2, 6), open;
-    const ContourOptions options{.farthest = {200}, .resolution = {0.05}};
-    const auto shadowed = contour(ray_transmitter(wall), sensitivity, options);
-    const auto free = contour(ray_transmitter(open), sensitivity, options);
-    const double reach = largest_radius(free, -3.2, 3.2);
-    CHECK(reach > 20);
-    const double half = std::atan2(3, 5.2);
-    CHECK(largest_radius(shadowed, -0.9 * half, 0.9 * half) < std::sqrt(5.2 * 5.2 + 9));
-    CHECK(largest_radius(shadowed, 1.1 * half, 3.1) == reach);
-    CHECK(largest_radius(shadowed, -0.1, 0.1) >= 5);
+TEST_CASE("contour: an island that is too small to be seen is left out") {
+    const auto island = [](double radius) {
+        return contours(mask([=](Vec3 p) { return radius_of(p) < radius; }), sensitivity, {0.3});
+    };
+    CHECK(island(0.5).empty());
+    CHECK(island(1).size() == 1);
 }
 
-TEST_CASE("contour: a doorpost of 0.1 m at 5 m makes a notch with its true edges") {
-    const Scene post = block({5, -0.05}, 0.1, 0.1);
-    constexpr double resolution = 0.05;  // [m]
-    const auto polygon = contour(ray_transmitter(post), sensitivity,
-                                 {.farthest = {200}, .resolution = {resolution}});
-    const double reach = largest_radius(polygon, 1, 2);
-    std::vector<double> inside;
-    for (const Vec3 p : polygon) {
-        if (std::abs(angle_of(p)) < 0.1 && radius_of(p) < 0.9 * reach) {
-            inside.push_back(angle_of(p));
-            CHECK(radius_of(p) > 5 - resolution);
-            CHECK(radius_of(p) < 5.2);
+TEST_CASE("contour: it goes on to the edge of the map and beyond") {
+    const auto lines = contours(mask([](Vec3 p) { return p.y < 0; }), sensitivity, {0.3});
+    REQUIRE(lines.size() == 1);
+    const auto [first, last] = std::minmax({lines[0].points.front().x, lines[0].points.back().x});
+    CHECK(first < -10);
+    CHECK(last > 10);
+    // What is above the level is on the left of who goes along.
+    CHECK(lines[0].points.front().x > lines[0].points.back().x);
+}
+
+TEST_CASE("contour: a map that is above or below everywhere has none") {
+    CHECK(contours(map_of([](Vec3) { return -10.0; }), sensitivity, {0.3}).empty());
+    CHECK(contours(map_of([](Vec3) { return -90.0; }), sensitivity, {0.3}).empty());
+}
+
+TEST_CASE("contour: lines never meet themselves, whatever the map is") {
+    test::Draw draw(5);
+    for (int n = 0; n < 20; ++n) {
+        CoverageMap map{.columns = 1 + draw.below(40), .rows = 1 + draw.below(40)};
+        for (int i = 0; i < map.columns * map.rows; ++i) map.dbm.push_back(draw.uniform(-80, -70));
+        for (const ContourLine& line : contours(map, sensitivity, {0.01})) {
+            REQUIRE(line.points.size() >= 2);
+            for (std::size_t i = 1; i < line.points.size(); ++i) {
+                CHECK(distance(line.points[i - 1], line.points[i]) < 1.5);
+            }
+            if (line.closed) CHECK(distance(line.points.front(), line.points.back()) < 1.5);
         }
     }
-    REQUIRE(inside.size() >= 2);
-    // The near corners see the post widest; rays are a resolution apart at the far radius.
-    const double edge = std::atan2(0.05, 5);
-    const double tolerance = 1.5 * resolution / reach;
-    CHECK(std::abs(*std::min_element(inside.begin(), inside.end()) + edge) < tolerance);
-    CHECK(std::abs(*std::max_element(inside.begin(), inside.end()) - edge) < tolerance);
 }
 
-TEST_CASE("contour: where the level is still above at the farthest place, it ends there") {
-    const Scene scene;
-    const Transmitter t{.model = Friis{}, .scene = &scene};
-    const auto polygon = contour(t, sensitivity, {.farthest = {12}, .resolution = {0.1}});
-    REQUIRE_FALSE(polygon.empty());
-    constexpr double rounding = 1e-12;
-    for (const Vec3 p : polygon) CHECK(std::abs(radius_of(p) - 12) < 12 * rounding);
-}
-
-TEST_CASE("contour: a level that there is nowhere has none") {
-    const Scene scene;
-    const Transmitter t{.model = Friis{}, .scene = &scene};
-    CHECK(contour(t, {100}, {.farthest = {12}, .resolution = {0.1}}).empty());
-}
-
-TEST_CASE("contour: among many walls the number of rays is bounded") {
-    test::Draw draw(1);
-    const Scene scene(test::random_map(draw, 60, 60, 20));
-    Transmitter t = ray_transmitter(scene);
-    t.antenna = {30.5, 30.5, 1};
-    const auto polygon = contour(t, {-60}, {.farthest = {60}, .resolution = {0.001}});
-    CHECK(polygon.size() <= 40'000);
-}
-
-TEST_CASE("contour: options that make no sense are the caller's fault") {
-    const Scene scene;
-    const Transmitter t{.model = Friis{}, .scene = &scene};
-    CHECK_THROWS_AS(contour(t, sensitivity, {.farthest = {0}, .resolution = {1}}),
-                    std::invalid_argument);
-    CHECK_THROWS_AS(contour(t, sensitivity, {.farthest = {10}, .resolution = {-1}}),
+TEST_CASE("contour: smoothing is more than nothing") {
+    CHECK_THROWS_AS(contours(mask([](Vec3) { return true; }), sensitivity, {0}),
                     std::invalid_argument);
 }

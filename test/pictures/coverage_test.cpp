@@ -48,7 +48,7 @@ constexpr NodeId first{0};
 TEST_CASE("coverage: a cell has the level that the medium gives a robot there, walls and all") {
     const Scenario alone = office("");
     Built built(alone);
-    const Transmitter a = transmitter(built.network, alone, first, start_of_run);
+    const Transmitter a = transmitter(built.network, first, start_of_run);
     const CoverageMap map = coverage(a, {0, 0}, {48, 24}, 800);
     int compared = 0, walled = 0;
     for (int i = 0; i < map.columns * map.rows; i += 37) {
@@ -106,22 +106,24 @@ TEST_CASE("coverage: shadowing is off, whatever sigma is") {
     const Scenario flat =
         field("[propagation]\nmodel = \"log_distance\"\nsigma = \"0 dB\"\n" + robot);
     Built a(shadowed), b(flat);
-    const auto map = [](const Built& built, const Scenario& s) {
-        return coverage(transmitter(built.network, s, first, start_of_run), {-50, -50}, {50, 50},
-                        64)
+    const auto map = [](const Built& built) {
+        return coverage(transmitter(built.network, first, start_of_run), {-50, -50}, {50, 50}, 64)
             .dbm;
     };
-    CHECK(map(a, shadowed) == map(b, flat));
-    CHECK(has_shadowing(shadowed.propagation));
-    CHECK_FALSE(has_shadowing(flat.propagation));
-    CHECK_FALSE(has_shadowing(without_shadowing(shadowed.propagation)));
+    CHECK(map(a) == map(b));
+    const Propagation random = a.network.medium().model(first);
+    CHECK(random.is_random());
+    CHECK_FALSE(b.network.medium().model(first).is_random());
+    CHECK_FALSE(random.median().is_random());
+    CHECK(random.median().as<LogDistance>()->exponent == random.as<LogDistance>()->exponent);
+    CHECK(random.as<Friis>() == nullptr);
 }
 
 TEST_CASE("coverage: a sigma of a model that is not chosen is no shadowing") {
-    CHECK_FALSE(has_shadowing(
+    Built built(
         field("[propagation]\nmodel = \"friis\"\nsigma = \"8 dB\"\n[[robot]]\nname = \"A\"\nat = "
-              "[\"0 m\", \"0 m\"]\n")
-            .propagation));
+              "[\"0 m\", \"0 m\"]\n"));
+    CHECK_FALSE(built.network.medium().model(first).is_random());
 }
 
 TEST_CASE("coverage: a robot's own model and radio rule, also of one of many") {
@@ -132,12 +134,11 @@ TEST_CASE("coverage: a robot's own model and radio rule, also of one of many") {
         "propagation = { model = \"disc\", range = \"5 m\" }\n");
     Built built(s);
     for (std::uint32_t i = 0; i < 5; ++i) {
-        const Transmitter t = transmitter(built.network, s, NodeId{i}, start_of_run);
+        const Transmitter t = transmitter(built.network, NodeId{i}, start_of_run);
         CHECK(t.model.name() == (i < 3 ? "friis" : "disc"));
         CHECK(t.radio.power == built.network.medium().radio(NodeId{i}).power);
         CHECK(t.antenna.z == 1);
     }
-    CHECK_THROWS_AS(robot_table(s, NodeId{5}), std::invalid_argument);
 }
 
 TEST_CASE("coverage: an empty rectangle and an absurd number of cells are the caller's fault") {

@@ -4,6 +4,7 @@
 #include "experiment/toml.hpp"
 #include "mobility/waypoints.hpp"
 #include "pictures/map_layer.hpp"
+#include "pictures/picture_file.hpp"
 #include "pictures/trail.hpp"
 #include "scene/image.hpp"
 #include "sim/error.hpp"
@@ -19,6 +20,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -267,16 +270,20 @@ TEST_CASE("picture: trails remember corners and where a robot was at equal times
     walker.move = Waypoints{.path = {{10, 0}, {10, 5}}, .speed = {1}};
     const NodeId node = network.add(std::move(walker));
     network.run_until(start_of_run + 30s);
-    CHECK(trails->corners(node, start_of_run + 30s) == std::vector<Vec3>{{0, 0}, {10, 0}, {10, 5}});
-    CHECK(trails->corners(node, start_of_run + 12s) == std::vector<Vec3>{{0, 0}, {10, 0}, {10, 2}});
+    using Ways = std::vector<std::vector<Vec3>>;
+    CHECK(trails->ways(node, start_of_run + 30s) == Ways{{{0, 0}, {10, 0}, {10, 5}}});
+    CHECK(trails->ways(node, start_of_run + 12s) == Ways{{{0, 0}, {10, 0}, {10, 2}}});
     CHECK(trails->marks(node, start_of_run + 30s, 8s) ==
           std::vector<Vec3>{{0, 0}, {8, 0}, {10, 5}, {10, 5}});
-    CHECK(trails->corners(NodeId{7}, start_of_run).empty());
+    CHECK(trails->ways(NodeId{7}, start_of_run).empty());
+    network.at(start_of_run + 31s, [&] { network.place(node, {90, 5}); });  // no way leads there
+    network.run_until(start_of_run + 40s);
+    CHECK(trails->ways(node, start_of_run + 40s) == Ways{{{0, 0}, {10, 0}, {10, 5}}, {{90, 5}}});
 }
 
 TEST_CASE("picture: trails are drawn if asked for") {
     CHECK(has(draw_svg(rescue(), {.at = start_of_run + 30s, .trails = true}),
-              "trail, a dot every 10 s"));
+              "colour, a dot every 10 s"));
     CHECK_FALSE(has(draw_svg(rescue(), {.at = start_of_run + 30s}), "trail"));
 }
 
@@ -365,17 +372,85 @@ TEST_CASE("picture: links among too many robots are refused, not drawn for hours
     CHECK_THROWS_WITH_AS(draw_svg(s, {.links = true}), doctest::Contains("at most 5000"), RunError);
 }
 
+TEST_CASE("picture: the width changes how many pixels there are, and nothing in the picture") {
+    const auto body = [](const std::string& svg) { return svg.substr(svg.find("viewBox")); };
+    const std::string usual = draw_svg(rescue(), {.axes = true});
+    const std::string large = draw_svg(rescue(), {.axes = true, .width = 3000});
+    CHECK(body(usual) == body(large));
+    CHECK(number(large, "width") == 2.5 * number(usual, "width"));
+    CHECK(std::abs(number(large, "height") - 2.5 * number(usual, "height")) < rounding);
+}
+
+TEST_CASE("picture: a larger font leaves fewer points for all else in the same width") {
+    const std::string svg = draw_svg(rescue(), {.width = 600, .font_size = 24});
+    CHECK(number(svg, "width") == 600);
+    CHECK(has(svg, "viewBox=\"0 0 600 "));
+    const std::string usual = draw_svg(rescue(), {.width = 600});
+    CHECK(number(usual, "width") == 600);
+    CHECK(has(usual, "viewBox=\"0 0 1200 "));
+    CHECK_THROWS_AS(draw_svg(rescue(), {.font_size = 0}), std::invalid_argument);
+    CHECK_THROWS_AS(draw_svg(rescue(), {.font_size = 100}), std::invalid_argument);
+}
+
+TEST_CASE("picture: ticks of the axes stand at their metres") {
+    const std::string svg =
+        draw_svg(scenario(robot("a", 10, 0) + robot("b", 40, 20)), {.axes = true});
+    CHECK(has(svg, "x [m]"));
+    CHECK(has(svg, "y [m]"));
+    CHECK_FALSE(has(draw_svg(scenario(robot("a", 10, 0) + robot("b", 40, 20)), {}), "x [m]"));
+    const auto tick = [&](std::string_view text, std::string_view key) {
+        const auto end = svg.find(fmt::format(">{}</text>", text));
+        REQUIRE(end != svg.npos);
+        return number(std::string_view(svg).substr(svg.rfind("<text", end)), key);
+    };
+    CHECK(std::abs(tick("40", "x") - number(circle_of(svg, "b"), "cx")) < rounding);
+    const double baseline = 4;  // [px] from a tick down to its text's baseline
+    const double per_metre = (tick("40", "x") - tick("20", "x")) / 20;
+    const double up = number(circle_of(svg, "a"), "cy") - number(circle_of(svg, "b"), "cy");
+    CHECK(std::abs(up - 20 * per_metre) < 2 * rounding);
+    CHECK(std::abs(tick("18", "y") - baseline - number(circle_of(svg, "b"), "cy") - 2 * per_metre) <
+          2 * rounding);
+}
+
+TEST_CASE("picture: names that find no room are counted in the legend") {
+    std::string crowd;
+    for (int i = 0; i < 40; ++i) crowd += robot(fmt::format("robot number {}", i), 1 + 1e-3 * i, 1);
+    CHECK(has(draw_svg(scenario(crowd + robot("far", 500, 1)), {}), "no room for"));
+    CHECK_FALSE(has(draw_svg(rescue(), {}), "no room for"));
+}
+
+TEST_CASE("picture: a PDF is the same bytes each time, and a pixel of the picture is a point") {
+    test::TemporaryFolder folder;
+    const std::string svg = draw_svg(rescue(), {.width = 600});
+    const std::string path = folder.path("p.pdf"), again = folder.path("q.pdf");
+    try {
+        write_picture(svg, path);
+    } catch (const RunError& error) {
+        if (!has(error.what(), "librsvg2-bin")) throw;
+        MESSAGE("skipped: rsvg-convert is not installed");
+        return;
+    }
+    write_picture(svg, again);
+    const auto bytes = [](const std::string& name) {
+        std::ifstream file(name, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    CHECK(bytes(path).starts_with("%PDF"));
+    CHECK(bytes(path) == bytes(again));
+    CHECK(has(bytes(path), "/MediaBox [ 0 0 600 "));
+}
+
 TEST_CASE("picture: a PNG has the picture's size, and needs rsvg-convert") {
     test::TemporaryFolder folder;
     const std::string svg = draw_svg(rescue(), {.width = 600});
     const std::string path = folder.path("p.png");
     {
         const EmptyPath nothing;
-        CHECK_THROWS_WITH_AS(write_png(svg, path), doctest::Contains("librsvg2-bin"), RunError);
+        CHECK_THROWS_WITH_AS(write_picture(svg, path), doctest::Contains("librsvg2-bin"), RunError);
     }
-    CHECK_THROWS_AS(write_png(svg, folder.path("no/such/folder.png")), RunError);
+    CHECK_THROWS_AS(write_picture(svg, folder.path("no/such/folder.png")), RunError);
     try {
-        write_png(svg, path);
+        write_picture(svg, path);
     } catch (const RunError& error) {
         if (!has(error.what(), "librsvg2-bin")) throw;
         MESSAGE("skipped: rsvg-convert is not installed");
@@ -384,6 +459,6 @@ TEST_CASE("picture: a PNG has the picture's size, and needs rsvg-convert") {
     const Image image = read_image(path);
     CHECK(image.width == number(svg, "width"));
     CHECK(image.height == number(svg, "height"));
-    CHECK_THROWS_WITH_AS(write_png("<svg", path), doctest::Contains("failed"), RunError);
+    CHECK_THROWS_WITH_AS(write_picture("<svg", path), doctest::Contains("failed"), RunError);
     CHECK(read_image(path).width == image.width);
 }

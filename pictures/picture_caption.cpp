@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/picture_caption.hpp"
+
+#include "pictures/model_text.hpp"
+#include "pictures/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace rovernet {
+namespace {
+
+std::string time_text(Time at, Time end) {
+    std::string text = fmt::format("t = {:.6g} s", seconds(at));
+    if (at > end) text += fmt::format(", after the end of the run at {:.6g} s", seconds(end));
+    return text;
+}
+
+/// How many robots are not there: "3 robots not departed, 1 left".
+std::string absent_text(const Network& network) {
+    std::size_t to_come = 0, left = 0;
+    for (std::uint32_t i = 0; i < network.size(); ++i) {
+        const Presence presence = network.presence(NodeId{i});
+        to_come += presence == Presence::not_departed;
+        left += presence == Presence::left;
+    }
+    if (to_come + left == 0) return "";
+    std::string text;
+    if (to_come > 0) text = fmt::format("{} not departed", to_come);
+    if (left > 0) text += fmt::format("{}{} left", text.empty() ? "" : ", ", left);
+    return fmt::format("of {} robots {}", network.size(), text);
+}
+
+/// The robots' models, each once.
+std::vector<std::string> model_texts(const Network& network) {
+    std::vector<std::string> out;
+    for (std::uint32_t i = 0; i < network.size(); ++i) {
+        const Propagation& model = network.medium().model(NodeId{i});
+        if (i > 0 && model == network.medium().model(NodeId{i - 1})) continue;
+        std::string text = model_text(model);
+        if (std::find(out.begin(), out.end(), text) == out.end()) out.push_back(std::move(text));
+    }
+    return out;
+}
+
+std::string presence_text(Presence presence) {
+    switch (presence) {
+        case Presence::on: return "";
+        case Presence::off: return ", which is switched off, as if it were on";
+        case Presence::not_departed: return ", which has not departed, as if it had";
+        case Presence::left: return ", which has left, as if it were there";
+    }
+    return "";
+}
+
+void append_coverage(std::vector<std::string>& parts, const Network& network, NodeId source) {
+    constexpr std::size_t longest_name = 40;
+    const Radio& radio = network.medium().radio(source);
+    parts.push_back(fmt::format(
+        "coverage of {}{}: {} for a radio like its own, antenna {:.6g} m up",
+        shortened(network.name(source), longest_name), presence_text(network.presence(source)),
+        network.medium().model(source).is_random() ? "median level" : "level",
+        radio.antenna_height.value));
+    parts.push_back(
+        fmt::format("{:.4g} dBm at {:.6g} MHz", radio.power.value, radio.frequency.value / 1e6));
+}
+
+}  // namespace
+
+std::vector<std::string> picture_caption(const Network& network, Time at, Time end,
+                                         std::optional<NodeId> source) {
+    constexpr std::size_t most_models = 3;
+    std::vector<std::string> parts{time_text(at, end)};
+    if (std::string absent = absent_text(network); !absent.empty()) parts.push_back(absent);
+    const auto models = model_texts(network);
+    const auto shown = static_cast<std::ptrdiff_t>(std::min(models.size(), most_models));
+    parts.insert(parts.end(), models.begin(), models.begin() + shown);
+    if (models.size() > most_models) {
+        parts.push_back(fmt::format("and {} models more", models.size() - most_models));
+    }
+    if (!source) return parts;
+    append_coverage(parts, network, *source);
+    if (models.size() > 1) {
+        parts.push_back("its model is " + model_text(network.medium().model(*source)));
+    }
+    return parts;
+}
+
+}  // namespace rovernet
