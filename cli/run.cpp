@@ -50,17 +50,17 @@ std::string percent(const std::optional<double>& share) {
 void print_timeline(const Scenario& scenario, const RunResult& result) {
     std::size_t width = 1;
     for (const auto& robot : scenario.robots) width = std::max(width, robot.name.size() + 1);
-    std::size_t lines = 0;
-    for (const auto& happening : result.timeline) {
-        if (lines++ == longest_timeline) {
-            fmt::print("... and {} more; all are in {}/summary.json\n",
-                       result.timeline.size() - longest_timeline, result.folder);
-            break;
-        }
-        fmt::print("{:>11.6f} s  {:<{}} {}\n", seconds(happening.time),
-                   *happening.detail.find("robot")->string(), width, happening.text);
+    const Timeline& timeline = *result.timeline;
+    const std::size_t shown = std::min(timeline.size(), longest_timeline);
+    for (std::size_t i = 0; i < shown; ++i) {
+        const auto [time, robot, text] = timeline[i];
+        fmt::print("{:>11.6f} s  {:<{}} {}\n", seconds(time), robot, width, text);
     }
-    if (!result.timeline.empty()) fmt::print("\n");
+    if (shown < timeline.size()) {
+        fmt::print("... and {} more; all are in {}/summary.json\n", timeline.size() - shown,
+                   result.folder);
+    }
+    if (shown > 0) fmt::print("\n");
 }
 
 void print_result(const Scenario& scenario, const RunResult& result) {
@@ -69,6 +69,10 @@ void print_result(const Scenario& scenario, const RunResult& result) {
     fmt::print("messages {}, transmissions {}, receptions {}\n", m.messages, m.transmissions,
                m.receptions);
     fmt::print("delivery ratio     {}\n", percent(m.delivery_ratio));
+    if (m.cut_off > 0) {
+        fmt::print("left out of it     {} that the end of the run cut off at their senders\n",
+                   m.cut_off);
+    }
     fmt::print("reach              {} of the robots that a chain of links joined to the sender\n",
                percent(m.reach));
     if (m.latency) {
@@ -123,7 +127,8 @@ void run(const RunArguments& a) {
                                     }});
     }
     if (a.json) {
-        fmt::print("{}", to_json(run_summary(scenario, result)));
+        write_summary(run_summary(scenario, result), *result.timeline,
+                      [](std::string_view text) { fmt::print("{}", text); });
     } else {
         print_result(scenario, result);
     }

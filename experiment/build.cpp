@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace rovernet {
@@ -185,37 +186,80 @@ void Builder::react(const Built& robot, const ReactionTable& reaction, MotionBui
     }
 }
 
-/// A source of messages: sends, and sees to its own next sending.
-void send_and_repeat(Network& network, NodeId from, const TrafficTable& table, int sent) {
+/// A source of messages, that of one [[traffic]] table.
+struct Source {
+    Network& network;
+    TrafficTable table;
+    std::uint32_t flow;
+    std::optional<NodeId> to;
+    std::vector<NodeId> from;  ///< one robot, or all that a random one is drawn from
+    Key draw;                  ///< of the robot
+    int sent = 0;
+
+    NodeId sender() {
+        if (from.size() == 1) return from.front();
+        draw.index = static_cast<std::uint64_t>(sent);
+        return from[below(draw, from.size())];
+    }
+};
+
+/// Every robot that may send, in an order that depends on their names only.
+std::vector<NodeId> any_robot(const Network& network, std::optional<NodeId> but) {
+    std::vector<std::pair<std::uint64_t, NodeId>> keyed;
+    for (NodeId n{0}; n.index() < network.size(); ++n.value) {
+        if (n != but) keyed.emplace_back(name_key(network.name(n)), n);
+    }
+    std::sort(keyed.begin(), keyed.end());
+    std::vector<NodeId> robots;
+    for (const auto& [key, node] : keyed) robots.push_back(node);
+    return robots;
+}
+
+/// Sends, and sees to the next sending.
+void send_and_repeat(const std::shared_ptr<Source>& source) {
+    auto& [network, table, flow, to, from, draw, sent] = *source;
+    const NodeId sender = source->sender();
     const auto size = table.size ? std::optional(table.size->value) : std::nullopt;
-    const auto to = table.to ? network.find(*table.to) : std::nullopt;
     if (table.saturate) {
         const auto length = static_cast<std::uint32_t>(table.payload.size());
-        return network.saturate(from, to.value_or(everyone), size.value_or(length));
+        return network.saturate(sender, to.value_or(everyone), size.value_or(length), flow);
     }
     const Time end = table.stop ? start_of_run + *table.stop : never;
     if (network.now() >= end) return;  // "arrival" may come as late
     if (to) {
-        network.unicast(from, *to, table.payload, size);
+        network.unicast(sender, *to, table.payload, size, flow);
     } else {
-        network.broadcast(from, table.payload, size);
+        network.broadcast(sender, table.payload, size, flow);
     }
-    if (!table.every || sent + 1 == table.count) return;
+    if (!table.every || ++sent == table.count) return;
     const Time next = network.now() + *table.every;
     if (next >= end) return;
-    network.at(next,
-               [&network, from, table, sent] { send_and_repeat(network, from, table, sent + 1); });
+    network.at(next, [source] { send_and_repeat(source); });
 }
 
 void Builder::add_traffic() {
+    std::uint32_t flow = 0;
     for (const auto& table : scenario_.traffic) {
-        const NodeId from = *network_.find(table.from);
-        auto begin = [this_ = &network_, from, table] { send_and_repeat(*this_, from, table, 0); };
+        const auto to = table.to ? network_.find(*table.to) : std::nullopt;
+        const auto one = network_.find(table.from);
+        const auto source = std::make_shared<Source>(
+            Source{network_,
+                   table,
+                   ++flow,
+                   to,
+                   one ? std::vector{*one} : any_robot(network_, to),
+                   {.seed = scenario_.scenario.seed,
+                    .replication = static_cast<std::uint32_t>(scenario_.scenario.replication),
+                    .purpose = Purpose::traffic_source,
+                    .a = name_key(table.name)}});
+        if (source->from.empty()) {
+            throw InputError(table.from_where, "from: there is no robot to send; expected two");
+        }
         if (table.start) {
-            expect(table.from, *table.start, std::move(begin));
+            expect(table.from, *table.start, [source] { send_and_repeat(source); });
         } else {
-            network_.on_arrival(from, [begin, done = false]() mutable {
-                if (!std::exchange(done, true)) begin();
+            network_.on_arrival(*one, [source, done = false]() mutable {
+                if (!std::exchange(done, true)) send_and_repeat(source);
             });
         }
     }
@@ -250,6 +294,9 @@ NetworkSettings network_settings(const Scenario& scenario) {
         .access = scenario.access.make(),
         .propagation_delay = scenario.medium.propagation_delay,
         .event_limit = scenario.scenario.event_limit,
+        .metric_parts = {.reach = scenario.metrics.reach,
+                         .flows = scenario.metrics.flows,
+                         .robots = scenario.metrics.robots},
     };
     std::vector<std::string> notices;  // were told when the file was loaded
     settings.scene =

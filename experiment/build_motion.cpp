@@ -159,6 +159,11 @@ Movement MotionBuilder::make(Model model, const MoveTable& move, const RobotTabl
         if (plan == from_the_start) {
             located(move.where, [&] { return first_step(model, robot, name, from); });
         }
+        if constexpr (SharedMovementModel<Model>) {
+            const auto [known, is_new] = shared_.try_emplace(&move);
+            if (is_new) known->second = std::move(model);
+            return known->second;
+        }
         return model;
     }
 }

@@ -48,6 +48,7 @@ class MotionBuilder {
 
     Network& network_;
     const Scenario& scenario_;
+    std::map<const MoveTable*, Movement> shared_;     // whose copies share their parameters
     std::map<std::string, NodeId, std::less<>> ids_;  // of all robots, built or to be
 };
 

@@ -57,7 +57,8 @@ Engine::Engine(NetworkSettings settings)
         }
     }
     if (settings_.metrics) {
-        metrics_ = std::make_shared<Metrics>(start_of_run + settings_.warmup);
+        metrics_ =
+            std::make_shared<Metrics>(start_of_run + settings_.warmup, settings_.metric_parts);
         add_sink(Sink{metrics_});
     }
 }

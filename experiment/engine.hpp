@@ -8,6 +8,7 @@
 #include "experiment/overtaking.hpp"
 #include "mobility/planners.hpp"
 #include "models/on_air.hpp"
+#include "models/reachability.hpp"
 #include "sim/chunks.hpp"
 #include "sim/scheduler.hpp"
 #include "sim/slots.hpp"
@@ -63,20 +64,20 @@ class Engine final : public LinkLayer, public Air {
     NodeId add(Robot robot);
     void route(Router router);
     void add_sink(Sink sink);
-    void send(NodeId node, std::string payload, std::uint32_t bytes);
-    void send_to(NodeId node, NodeId to, std::string payload, std::uint32_t bytes);
-    void saturate(NodeId node, NodeId to, std::uint32_t bytes);
+    void send(NodeId node, std::string payload, Outgoing what);
+    void send_to(NodeId node, NodeId to, std::string payload, Outgoing what);
+    void saturate(NodeId node, NodeId to, Outgoing what);
+    void cut_off();
     void move(NodeId node, Movement movement);
     void place(NodeId node, Vec3 at);
     void switch_robot(NodeId node, bool on);
     void schedule(Time time, Action action);
     bool advance(Time end, std::uint64_t most_events);
-    void watch_links() { links_wanted_ = true; }  ///< link changes are wanted from now on
+    void watch_links() { links_wanted_ = true; }  ///< from now on
     std::optional<Db> interference_left_out() const;
     Node& node(NodeId id) { return nodes_.at(id.index()); }
     const Body& body(NodeId id) const { return bodies_[nodes_[id.index()].body]; }
-    /// The same id. @throws std::out_of_range if there is no such node
-    NodeId known(NodeId id) { return nodes_.at(id.index()), id; }
+    NodeId known(NodeId id) { return nodes_.at(id.index()), id; }  ///< @throws std::out_of_range
 
     // What the public class shows.
     NetworkSettings settings_;
@@ -139,7 +140,9 @@ class Engine final : public LinkLayer, public Air {
     void tell_stations(const Flight& flight, std::span<const Reception> receptions);
     void on_access_timer(NodeId node, std::uint32_t tag);
     void refill(NodeId node);
-    MessageId new_message(NodeId node, NodeId to, std::string payload, std::uint32_t bytes);
+    MessageId new_message(NodeId node, NodeId to, std::string payload, Outgoing what);
+    std::optional<std::uint32_t> reachable(NodeId from, NodeId to);
+    void tell_if_unheard(const Flight& flight);
     void hand_over(const Flight& flight, std::span<const Reception> receptions);
     void react(NodeId node, std::uint64_t handed_over);
     void act(std::size_t slot);
@@ -157,11 +160,11 @@ class Engine final : public LinkLayer, public Air {
     void put(NodeId id, const Leg& leg);
     Mover mover(NodeId id);
 
-    Time now_ = start_of_run;
-    Time end_of_run_ = start_of_run;  // of the current run_until
-    std::uint64_t check_at_ = 0;      // scheduled events: no limit is reached before
+    Time now_ = start_of_run, end_of_run_ = start_of_run;  // of the current run_until
+    std::uint64_t check_at_ = 0;  // scheduled events: no limit is reached before
     Scheduler<Occurrence> queue_;
     MessageTable messages_;
+    Reachability reachability_;
     std::uint64_t next_uid_ = 0;
     std::optional<Router> router_;
     std::vector<Sink> sinks_;
@@ -189,12 +192,10 @@ class Engine final : public LinkLayer, public Air {
     std::size_t begun_ = 0;              // nodes whose movement has begun
     std::vector<NodeId> set_off_;        // of them, those that something comes of ...
     bool beginning_ = false;             // ... while movements begin
-    bool links_wanted_ = false;
+    bool links_wanted_ = false, running_ = false, receiving_ = false;
     std::optional<LinkWatch> watch_;  // once links are wanted and the run has begun
     Time link_event_ = never;         // the next one queued
-    bool running_ = false;
-    bool in_steps_ = false;  // the run may stop after any event
-    bool receiving_ = false;
+    bool in_steps_ = false;           // the run may stop after any event
 };
 
 }  // namespace rovernet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/engine.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace rovernet {
@@ -64,6 +65,15 @@ void Engine::tell_stations(const Flight& flight, std::span<const Reception> rece
     }
 }
 
+/// Tells of a unicast whose destination cannot hear it, where no missing acknowledgement does.
+void Engine::tell_if_unheard(const Flight& flight) {
+    const auto all = flight.receivers.all();
+    const Frame& frame = flight.air.frame;
+    const auto is_it = [&](const Reception& r) { return r.node == frame.next_hop; };
+    if (dcf_ || std::any_of(all.begin(), all.end(), is_it)) return;
+    emit(Dropped{now_, frame.sender, frame, DropReason::unheard});
+}
+
 /// Hands a frame to the one that it is for; others only overhear it.
 void Engine::receive_unicast(Flight& flight, std::span<Reception> receptions) {
     for (Reception& r : receptions) {
@@ -80,26 +90,26 @@ void Engine::receive_unicast(Flight& flight, std::span<Reception> receptions) {
     }
 }
 
-void Engine::send_to(NodeId id, NodeId to, std::string payload, std::uint32_t bytes) {
+void Engine::send_to(NodeId id, NodeId to, std::string payload, Outgoing what) {
     if (to != everyone && (to.index() >= size() || to == id)) {
         throw std::invalid_argument("a unicast needs another robot to go to");
     }
     if (!medium_.is_on(id)) return;
-    const MessageId message = new_message(id, to, std::move(payload), bytes);
+    const MessageId message = new_message(id, to, std::move(payload), what);
     const auto robots = static_cast<std::uint32_t>(to == everyone ? size() : 2);
-    emit(Sent{now_, id, message, 1, robots, {}});
+    emit(Sent{now_, id, message, 1, robots, reachable(id, to)});
     broadcast(
         {.message = message, .sender = id, .path = key(id), .ttl = 1, .hops = 1, .next_hop = to},
         std::nullopt);
     release(message);
 }
 
-void Engine::saturate(NodeId id, NodeId to, std::uint32_t bytes) {
+void Engine::saturate(NodeId id, NodeId to, Outgoing what) {
     if (!aloha_ && !dcf_) {
         throw std::invalid_argument("saturated traffic needs an access model: aloha or csma");
     }
-    saturated_[id] = {to, bytes};
-    for (int waiting = 0; waiting < 2; ++waiting) send_to(id, to, {}, bytes);
+    saturated_[id] = {to, what};
+    for (int waiting = 0; waiting < 2; ++waiting) send_to(id, to, {}, what);
 }
 
 /// A saturated node has sent a frame: here is the next.
@@ -107,7 +117,7 @@ void Engine::refill(NodeId id) {
     const auto found = saturated_.find(id);
     if (found == saturated_.end()) return;
     auto next = std::make_shared<std::function<void()>>(
-        [this, id, traffic = found->second] { send_to(id, traffic.to, {}, traffic.bytes); });
+        [this, id, traffic = found->second] { send_to(id, traffic.to, {}, traffic.what); });
     schedule(now_ + least_reaction, {std::move(next)});
 }
 

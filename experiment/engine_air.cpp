@@ -49,6 +49,7 @@ Time Engine::transmit(const AirFrame& air) {
     if (frames_meet_) put_on_air(slot, end);
     const bool errors = medium_.radio(frame.sender).success_rate < 1;
     if (errors) garble(flight);
+    if (air.kind == AirFrame::data && frame.next_hop != everyone) tell_if_unheard(flight);
     flight.undisturbed = !errors && !frames_meet_;
     if (flight.receivers.all().empty()) {
         if (!frames_meet_) flights_.release(slot);
@@ -377,6 +378,7 @@ void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
     for (auto key = event.key;;) {
         const std::span<Reception> ended = next_of(flight, key);
         if (frames_meet_) judge(flight, ended);
+        if (flight.air.kind == AirFrame::data) messages_.arrived(flight.air.frame.message);
         receive(flight, ended);
         overtaking_.end();
         if (dcf_) tell_stations(flight, ended);

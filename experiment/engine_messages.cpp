@@ -14,7 +14,7 @@ void Engine::route(Router router) {
     router_.emplace(std::move(router));
 }
 
-MessageId Engine::new_message(NodeId id, NodeId to, std::string payload, std::uint32_t bytes) {
+MessageId Engine::new_message(NodeId id, NodeId to, std::string payload, Outgoing what) {
     Node& origin = node(id);
     const std::uint32_t number = origin.messages_sent++;
     return messages_.add({.origin = id,
@@ -22,20 +22,40 @@ MessageId Engine::new_message(NodeId id, NodeId to, std::string payload, std::ui
                           .number = number,
                           .to = to,
                           .key = combine(key(id), number),
-                          .size = bytes,
+                          .size = what.bytes,
                           .created = now_,
-                          .payload = std::move(payload)});
+                          .payload = std::move(payload),
+                          .flow = what.flow});
 }
 
-void Engine::send(NodeId id, std::string payload, std::uint32_t bytes) {
+/// Robots that a chain of links joins to the sender now, of those that a message is for; if a sink
+/// asks for it.
+std::optional<std::uint32_t> Engine::reachable(NodeId from, NodeId to) {
+    if (!(wanted_ & kind_reachable)) return std::nullopt;
+    if (to != everyone) return reachability_.reaches(medium_, from, to, now_, legs_) ? 1 : 0;
+    if (settings_.reference) return medium_.reachable(from, now_, legs_);
+    return reachability_.count(medium_, from, now_, legs_);
+}
+
+void Engine::send(NodeId id, std::string payload, Outgoing what) {
     if (!router_) throw std::invalid_argument("no routing protocol: call route() before sending");
     if (!medium_.is_on(id)) return;
-    const MessageId message = new_message(id, everyone, std::move(payload), bytes);
-    Sent sent{now_, id, message, router_->initial_ttl(), static_cast<std::uint32_t>(size()), {}};
-    if (wanted_ & kind_reachable) sent.reachable = medium_.reachable(id, now_, legs_);
-    emit(sent);
+    const MessageId message = new_message(id, everyone, std::move(payload), what);
+    emit(Sent{now_, id, message, router_->initial_ttl(), static_cast<std::uint32_t>(size()),
+              reachable(id, everyone)});
     router_->send(*this, id, message);
     release(message);
+}
+
+/// The run is over: drops the messages that have arrived nowhere and are still under way.
+void Engine::cut_off() {
+    messages_.for_each_at_its_origin([this](MessageId id) {
+        const Message& m = messages_[id];
+        emit(
+            Dropped{now_, m.origin,
+                    Frame{.message = id, .sender = m.origin, .ttl = 1, .hops = 1, .next_hop = m.to},
+                    DropReason::cut_off});
+    });
 }
 
 void Engine::timer(NodeId id, Time at, std::uint64_t tag) {

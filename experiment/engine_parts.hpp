@@ -49,10 +49,16 @@ struct Action {
     Duration period{0};
 };
 
+/// What an application says of a message.
+struct Outgoing {
+    std::uint32_t bytes;     ///< [bytes] on air
+    std::uint32_t flow = 0;  ///< see Message
+};
+
 /// A node always has something to send.
 struct Saturated {
     NodeId to;
-    std::uint32_t bytes;
+    Outgoing what;
 };
 
 /// A robot's body and how it can move; those alike that were added in a row share one.

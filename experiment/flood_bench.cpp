@@ -2,11 +2,13 @@
 #include "experiment/flood_bench.hpp"
 
 #include "experiment/network.hpp"
+#include "experiment/timeline.hpp"
 #include "mobility/random_waypoint.hpp"
 #include "models/list.hpp"
 #include "routing/flood.hpp"
 #include "sim/math.hpp"
 #include "sim/random.hpp"
+#include "traces/fingerprint.hpp"
 
 #include <fmt/format.h>
 
@@ -106,11 +108,12 @@ void add_robots(Network& network, const FloodBench& bench, std::uint32_t nodes) 
                    {.seed = bench.seed, .purpose = Purpose::placement, .a = node, .index = axis});
     };
     network.reserve(nodes);
+    const Movement move = movement(bench, length);  // its copies share the parameters
     for (std::uint32_t i = 0; i < nodes; ++i) {
         network.add({.name = fmt::format("r{}", i),
                      .at = {coordinate(i, 0), coordinate(i, 1)},
                      .radio = radio(bench),
-                     .move = movement(bench, length)});
+                     .move = move});
     }
 }
 
@@ -160,7 +163,11 @@ FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
                      .reception = ReceptionTable{.model = bench.reception}.make(),
                      .access = AccessTable{.model = bench.access, .basic_rates = {{{11e6}}}}.make(),
                      .event_limit = ~std::uint64_t{0},
-                     .metrics = false});
+                     .metrics = bench.recorded});
+    if (bench.recorded) {
+        network.add_sink(Fingerprint{});
+        network.add_sink(Timeline{network});
+    }
     add_robots(network, bench, nodes);
     const Duration jitter{bench.access == AccessModel::csma ? 50'000'000 : 10'000'000};
     network.route(Flood{.ttl = 65535, .upgrade = false, .jitter = jitter});

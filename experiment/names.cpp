@@ -89,7 +89,9 @@ void check_names(const Scenario& scenario) {
         }
     }
     for (const TrafficTable& traffic : scenario.traffic) {
-        names.check(traffic.from, "from", traffic.from_where);
+        if (traffic.from != "random" || !traffic.start) {
+            names.check(traffic.from, "from", traffic.from_where);
+        }
         if (traffic.to) names.check(*traffic.to, "to", traffic.to_where);
     }
 }

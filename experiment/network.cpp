@@ -24,18 +24,19 @@ NodeId Network::add(Robot robot) { return engine_->add(std::move(robot)); }
 void Network::route(Router router) { engine_->route(std::move(router)); }
 void Network::add_sink(Sink sink) { engine_->add_sink(std::move(sink)); }
 
-void Network::broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size) {
+void Network::broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size,
+                        std::uint32_t flow) {
     const auto bytes = size.value_or(static_cast<std::uint32_t>(payload.size()));
-    engine_->send(node, std::move(payload), bytes);
+    engine_->send(node, std::move(payload), {bytes, flow});
 }
 
 void Network::unicast(NodeId node, NodeId to, std::string payload,
-                      std::optional<std::uint32_t> size) {
+                      std::optional<std::uint32_t> size, std::uint32_t flow) {
     const auto bytes = size.value_or(static_cast<std::uint32_t>(payload.size()));
-    engine_->send_to(node, to, std::move(payload), bytes);
+    engine_->send_to(node, to, std::move(payload), {bytes, flow});
 }
-void Network::saturate(NodeId node, NodeId to, std::uint32_t size) {
-    engine_->saturate(node, to, size);
+void Network::saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow) {
+    engine_->saturate(node, to, {size, flow});
 }
 
 void Network::on_receive(NodeId node, std::function<void(const Message&)> react) {
@@ -90,6 +91,7 @@ void Network::run_until(Time end) {
 bool Network::advance(Time end, std::uint64_t most_events) {
     return engine_->advance(end, most_events);
 }
+void Network::finish() { engine_->cut_off(); }
 Time Network::now() const { return engine_->now(); }
 std::size_t Network::size() const { return engine_->size(); }
 std::uint64_t Network::events() const { return engine_->served_; }

@@ -84,8 +84,9 @@ struct NetworkSettings {
     /// For tests: looks at every pair of robots; receptions at different times are separate events.
     /// Slow, and the same to the last record.
     bool reference = false;
-    bool metrics = true;  ///< keep Metrics; off saves a search per message
-    Duration warmup{0};   ///< Metrics leave out the messages that are sent before it is over
+    bool metrics = true;            ///< keep Metrics
+    MetricParts metric_parts = {};  ///< which parts of the traffic they count one by one
+    Duration warmup{0};  ///< Metrics leave out the messages that are sent before it is over
 };
 
 class Engine;
@@ -116,14 +117,16 @@ class Network {
     /// `node` sends a message to everyone. One that is off says nothing.
     /// @param size  [bytes] on air; the payload's length if not given
     /// @throws std::invalid_argument if no protocol is set
-    void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {});
+    /// @param flow  the flow that the message belongs to, from 1; 0: none
+    void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {},
+                   std::uint32_t flow = 0);
     /// `node` sends a message to `to`, one hop, without routing: the access rung "csma" repeats it
     /// until it is acknowledged or given up. @param size  as for broadcast()
     void unicast(NodeId node, NodeId to, std::string payload,
-                 std::optional<std::uint32_t> size = {});
+                 std::optional<std::uint32_t> size = {}, std::uint32_t flow = 0);
     /// From now on `node` always has a message of `size` [bytes] to send to `to`, or to everyone in
     /// one hop. @throws std::invalid_argument without an access rung: nothing would hold it back
-    void saturate(NodeId node, NodeId to, std::uint32_t size);
+    void saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow = 0);
     /// Calls `react` whenever `node` is handed a message, 1 us after it was received.
     void on_receive(NodeId node, std::function<void(const Message&)> react);
     void on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react);
@@ -156,6 +159,10 @@ class Network {
     void run_for(Duration d) { run_until(now() + d); }
     /// Runs like run_until, but serves at most `most_events`. True once `end` is reached.
     bool advance(Time end, std::uint64_t most_events);
+
+    /// Says that the run ends now: messages that are still at their senders are told of as dropped
+    /// ("END"), so that metrics() can leave them out. Once, after the last run_until().
+    void finish();
 
     Time now() const;
     std::size_t size() const;      ///< robots

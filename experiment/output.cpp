@@ -12,9 +12,13 @@
 namespace rovernet {
 
 void write_file(const std::string& path, std::string_view text) {
+    write_file(path, [&](const Write& write) { write(text); });
+}
+
+void write_file(const std::string& path, const std::function<void(const Write&)>& make) {
     const std::string part = path + ".part";
     std::ofstream file(part, std::ios::binary | std::ios::trunc);
-    file << text;
+    make([&](std::string_view text) { file << text; });
     file.close();
     if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
         std::remove(part.c_str());

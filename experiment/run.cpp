@@ -4,7 +4,6 @@
 #include "experiment/build.hpp"
 #include "experiment/json.hpp"
 #include "experiment/located.hpp"
-#include "experiment/output.hpp"
 #include "experiment/run_folder.hpp"
 #include "experiment/toml.hpp"
 #include "experiment/version.hpp"
@@ -100,7 +99,8 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     const auto started = WallClock::now();
     NetworkSettings settings = network_settings(scenario);
     settings.warmup = warmup_of(scenario, settings);
-    Network network(settings);
+    const auto shared = std::make_shared<Network>(settings);
+    Network& network = *shared;
     populate(network, scenario);
 
     result.folder = options.folder.value_or(run_folder(scenario, {}));
@@ -109,6 +109,7 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     const auto timeline = std::make_shared<Timeline>(network);
     network.add_sink(fingerprint);
     network.add_sink(timeline);
+    const auto topology = add_topology(network, scenario, settings.warmup);
     std::shared_ptr<Ns2Trace> trace;
     const std::string trace_path = result.folder + "/trace.tr";
     if (scenario.trace.ns2 != Ns2Choice::none) {
@@ -121,6 +122,8 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
         network.trace_to(trace);
     }
     run_in_slices(network, scenario, options);
+    result.fingerprint = fingerprint->text();
+    network.finish();
 
     if (trace) {
         trace->close();
@@ -128,21 +131,25 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
         std::remove(trace_path.c_str());  // of an earlier run that is replaced now
     }
     result.metrics = network.metrics();
-    result.fingerprint = fingerprint->text();
+    append_parts(result.parts, scenario, network, result.metrics,
+                 scenario.scenario.duration - settings.warmup, topology.get());
     result.events = network.events();
+    result.network = shared;
     result.interference_left_out = network.interference_left_out();
-    result.timeline = timeline->happenings();
+    result.timeline = timeline;
     result.wall_s = std::chrono::duration<double>(WallClock::now() - started).count();
     write_file(result.folder + "/scenario.toml", to_toml(document_in(result.folder, scenario)));
     Table summary = run_summary(scenario, result);
     summary.set("scenario", to_document(scenario));
     summary.set("provenance", provenance(result));
-    write_file(result.folder + "/summary.json", to_json(summary));
+    write_file(result.folder + "/summary.json",
+               [&](const Write& write) { write_summary(summary, *timeline, write); });
     return result;
 }
 
 void append_metrics(Table& table, const MetricValues& m) {
     table.set("messages", m.messages);
+    table.set("cut_off", m.cut_off);
     table.set("transmissions", m.transmissions);
     table.set("receptions", m.receptions);
     table.set("deliveries", m.deliveries);
@@ -165,6 +172,62 @@ void append_metrics(Table& table, const MetricValues& m) {
     table.set("drops", std::move(drops));
 }
 
+namespace {
+
+Table part_table(const PartValues& part, Duration measured) {
+    Table table;
+    table.set("messages", part.messages);
+    table.set("deliveries", part.deliveries);
+    table.set("delivery_ratio", optional_value(part.delivery_ratio()));
+    const double bits = 8 * static_cast<double>(part.bytes);
+    table.set("throughput_bps", measured > Duration{0} ? Value(bits / seconds(measured)) : Value());
+    table.set("latency_mean_s", optional_value(part.latency_mean()));
+    return table;
+}
+
+}  // namespace
+
+void append_parts(Table& table, const Scenario& scenario, const Network& network,
+                  const MetricValues& metrics, Duration measured, Topology* topology) {
+    const auto part = [](const std::vector<PartValues>& all, std::size_t i) {
+        return i < all.size() ? all[i] : PartValues{};
+    };
+    if (scenario.metrics.flows && !scenario.traffic.empty()) {
+        Table flows;
+        for (std::size_t i = 0; i < scenario.traffic.size(); ++i) {
+            flows.entries.push_back(
+                {scenario.traffic[i].name, part_table(part(metrics.flows, i), measured), {}});
+        }
+        table.set("flows", std::move(flows));
+    }
+    if (scenario.metrics.robots) {
+        Table robots;
+        for (NodeId n{0}; n.index() < network.size(); ++n.value) {
+            robots.entries.push_back(
+                {network.name(n), part_table(part(metrics.robots, n.index()), measured), {}});
+        }
+        table.set("robots", std::move(robots));
+    }
+    if (!scenario.metrics.topology) return;
+    const Time end = start_of_run + scenario.scenario.duration;
+    const TopologyValues values = topology ? topology->values(end) : TopologyValues{};
+    Table list;
+    list.set("degree_mean", optional_value(values.degree_mean));
+    list.set("components_mean", optional_value(values.components_mean));
+    list.set("speed_mean_m_s", optional_value(values.speed_mean));
+    list.set("link_lifetime_mean_s", optional_value(values.link_lifetime_mean));
+    list.set("links_ended", values.links_ended);
+    table.set("topology", std::move(list));
+}
+
+std::shared_ptr<Topology> add_topology(Network& network, const Scenario& scenario,
+                                       Duration warmup) {
+    if (!scenario.metrics.topology) return nullptr;
+    auto topology = std::make_shared<Topology>(start_of_run + warmup);
+    network.add_sink(topology);
+    return topology;
+}
+
 Table run_summary(const Scenario& scenario, const RunResult& result) {
     Table table;
     table.set("name", scenario.scenario.name);
@@ -178,11 +241,27 @@ Table run_summary(const Scenario& scenario, const RunResult& result) {
         table.set("interference_left_out_db", result.interference_left_out->value);
     }
     append_metrics(table, result.metrics);
+    for (const Entry& part : result.parts.entries) table.set(part.key, part.value);
     table.set("trace", result.trace ? Value(*result.trace) : Value());
-    Array timeline;
-    for (const auto& happening : result.timeline) timeline.emplace_back(happening.detail);
-    table.set("timeline", std::move(timeline));
+    table.set("timeline", Array{});
     return table;
+}
+
+void write_summary(const Table& summary, const Timeline& timeline, const Write& write) {
+    // A line that begins so is of the outermost table: texts have no ends of line.
+    constexpr std::string_view empty = "\n  \"timeline\": []";
+    const std::string all = to_json(summary);
+    const std::size_t place = std::min(all.find(empty), all.size() - empty.size());
+    if (timeline.size() == 0) return write(all);
+    write(std::string_view(all).substr(0, place + empty.size() - 1));
+    std::string piece;
+    for (std::size_t i = 0; i < timeline.size(); ++i) {
+        piece = i == 0 ? "\n    " : ",\n    ";
+        timeline.append_json(i, piece);
+        write(piece);
+    }
+    write("\n  ");
+    write(std::string_view(all).substr(place + empty.size() - 1));
 }
 
 }  // namespace rovernet

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "experiment/network.hpp"
+#include "experiment/output.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/timeline.hpp"
 #include "experiment/value.hpp"
 #include "traces/metrics.hpp"
+#include "traces/topology.hpp"
 
 #include <functional>
 #include <memory>
@@ -33,11 +35,13 @@ struct RunResult {
     std::optional<std::string> trace;  ///< path of the ns-2 trace
     MetricValues metrics;
     std::string fingerprint;
+    Table parts;  ///< see append_parts()
     std::uint64_t events = 0;
     std::optional<Db> interference_left_out;  ///< see Network
     double wall_s = 0;                        ///< [s] of real time
     std::string started;                      ///< UTC, ISO 8601
-    std::vector<Timeline::Happening> timeline;
+    std::shared_ptr<const Timeline> timeline;
+    std::shared_ptr<const Network> network;  ///< as the run left it
 };
 
 /// Runs a scenario and writes summary.json, scenario.toml and the trace that it asks for into its
@@ -48,8 +52,19 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options);
 /// The metrics as the tables of summary.json and of `rovernet trace stats --json` show them.
 void append_metrics(Table& table, const MetricValues& metrics);
 
+/// What [metrics] asks for beside the totals, as tables by name: "flows", "robots", "topology".
+/// @param measured  what the run measured, without its warm-up
+/// @param topology  null: not measured
+void append_parts(Table& table, const Scenario& scenario, const Network& network,
+                  const MetricValues& metrics, Duration measured, Topology* topology);
+/// The sink for them that [metrics] asks for, added to the network; null: it does not.
+std::shared_ptr<Topology> add_topology(Network& network, const Scenario& scenario, Duration warmup);
+
 /// What `run --json` prints: the results; times and the machine's part are in summary.json only.
+/// Its timeline is empty: write_summary() renders that.
 Table run_summary(const Scenario& scenario, const RunResult& result);
+/// Writes such a summary as JSON, piece by piece, with the timeline.
+void write_summary(const Table& summary, const Timeline& timeline, const Write& write);
 
 /// Now, as "2025-06-30T23:59:59Z".
 std::string utc_now();

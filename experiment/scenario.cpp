@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/scenario.hpp"
 
+#include "experiment/flow_names.hpp"
 #include "experiment/located.hpp"
 #include "experiment/memory.hpp"
 #include "experiment/names.hpp"
@@ -72,6 +73,12 @@ TrafficTable read_traffic(const Value& value) {
     TableReader table(value, "[[traffic]]");
     TrafficTable traffic;
     table.read("kind", traffic.kind);
+    if (table.read("name", traffic.name) && !is_flow_name(traffic.name)) {
+        throw InputError(table.take("name")->where,
+                         fmt::format("name: found \"{}\"; expected letters without blanks and "
+                                     "commas, as it ends the names of metrics",
+                                     traffic.name));
+    }
     if (!table.read("from", traffic.from)) table.missing("from", "from = \"A\"");
     traffic.from_where = table.take("from")->where;
     if (table.read("to", traffic.to)) traffic.to_where = table.take("to")->where;
@@ -387,7 +394,9 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     });
     read_routing(document, out.routing);
     read_all_traffic(document, out);
+    name_flows(out.traffic);
     read_section(document, "trace", out.trace);
+    read_section(document, "metrics", out.metrics);
     if (const Value* study = document.take("study")) {
         out.study = read_study(*study, out.scenario.duration);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/metrics_table.hpp"
 #include "experiment/movement_table.hpp"
 #include "experiment/propagation_table.hpp"
 #include "experiment/reader.hpp"
@@ -95,7 +96,8 @@ struct EnumNames<TrafficKind> {
 /// [[traffic]]
 struct TrafficTable {
     TrafficKind kind = TrafficKind::broadcast;
-    std::string from;
+    std::string name = {};          ///< of the flow; unique, without blanks and commas
+    std::string from;               ///< "random" if there is no such robot: another one each time
     std::optional<std::string> to;  ///< of a unicast
     bool saturate = false;          ///< there is always a message to send
     std::string payload;
@@ -143,6 +145,7 @@ struct Scenario {
     RoutingTable routing;
     std::vector<TrafficTable> traffic;
     TraceTable trace;
+    MetricsTable metrics;
     StudyTable study;
     std::vector<std::string> notices;  ///< what a person should know of the files read
 };

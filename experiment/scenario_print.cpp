@@ -16,6 +16,7 @@ Table section(const T& value) {
 Table section(const TrafficTable& traffic) {
     Table table;
     table.set("kind", to_value(traffic.kind));
+    table.set("name", traffic.name);
     table.set("from", traffic.from);
     if (traffic.to) table.set("to", *traffic.to);
     if (traffic.saturate) table.set("saturate", true);
@@ -80,6 +81,7 @@ Table to_document(const Scenario& scenario) {
     for (const auto& each : scenario.traffic) traffic.emplace_back(section(each));
     if (!traffic.empty()) document.set("traffic", std::move(traffic));
     document.set("trace", section(scenario.trace));
+    document.set("metrics", section(scenario.metrics));
     document.set("study", study_document(scenario.study));
     return document;
 }

@@ -1,76 +1,141 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/timeline.hpp"
 
+#include "experiment/json.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <iterator>
 
 namespace rovernet {
+
+bool Timeline::Pairs::add(std::uint32_t words, NodeId node) {
+    const auto place = [&](std::uint64_t pair) {
+        // Fibonacci hashing: the high bits of a product with 2^64 / golden ratio.
+        std::size_t i = (pair * 0x9e3779b97f4a7c15) >> 20 & (slots_.size() - 1);
+        while (slots_[i] != none && slots_[i] != pair) i = (i + 1) & (slots_.size() - 1);
+        return i;
+    };
+    if (3 * size_ >= 2 * slots_.size()) {
+        const auto old = std::exchange(slots_, std::vector(2 * slots_.size(), none));
+        for (const std::uint64_t pair : old) {
+            if (pair != none) slots_[place(pair)] = pair;
+        }
+    }
+    const std::uint64_t pair = std::uint64_t{words} << 32 | node.value;
+    std::uint64_t& slot = slots_[place(pair)];
+    if (slot == pair) return false;
+    slot = pair;
+    ++size_;
+    return true;
+}
 
 void Timeline::on(const Record& record, const RecordContext& context) {
     std::visit([&](const auto& each) { tell(each, context); }, record);
 }
 
-Table& Timeline::add(Time time, NodeId node, std::string_view event, std::string text) {
-    Table detail;
-    detail.set("t_s", seconds(time));
-    detail.set("robot", network_->name(node));
-    detail.set("event", event);
-    happenings_.push_back({time, node, std::move(text), std::move(detail)});
-    return happenings_.back().detail;
+std::uint32_t Timeline::words_of(MessageId id, const RecordContext& context) {
+    const Message& message = context.messages[id];
+    if (id.index() >= by_message_.size()) by_message_.resize(id.index() + 1, {~0ULL, 0});
+    auto& [uid, words] = by_message_[id.index()];
+    if (std::exchange(uid, message.uid) == message.uid) return words;
+    const auto found = word_index_.find({message.origin, message.payload});
+    if (found != word_index_.end()) return words = found->second;
+    words = static_cast<std::uint32_t>(words_.size());
+    words_.push_back({message.origin, message.payload});
+    word_index_.emplace(std::pair{message.origin, std::string_view(words_.back().payload)}, words);
+    return words;
 }
 
-/// A repeated message is no news: the same words from the same robot.
-bool Timeline::is_news(NodeId node, const Message& message) {
-    if (known_.size() <= node.index()) known_.resize(node.index() + 1);
-    auto& known = known_[node.index()];
-    std::pair<NodeId, std::string> words{message.origin, message.payload};
-    if (std::find(known.begin(), known.end(), words) != known.end()) return false;
-    known.push_back(std::move(words));
-    return true;
+std::uint32_t Timeline::place(Vec3 p) {
+    places_.emplace_back(p.x, p.y);
+    return static_cast<std::uint32_t>(places_.size() - 1);
 }
 
 void Timeline::tell(const Sent& sent, const RecordContext& context) {
-    const Message& message = context.messages[sent.message];
-    if (!is_news(sent.node, message)) return;
-    auto& detail = add(sent.time, sent.node, "says", fmt::format("says \"{}\"", message.payload));
-    detail.set("payload", message.payload);
+    const std::uint32_t words = words_of(sent.message, context);
+    if (known_.add(words, sent.node)) {
+        entries_.push_back({sent.time, sent.node, words, Event::says, 0});
+    }
 }
 
+/// A repeated message is no news: the same words from the same robot.
 void Timeline::tell(const Received& received, const RecordContext& context) {
-    const Message& message = context.messages[received.frame.message];
-    const int hops = received.frame.hops;
     for (const auto& r : received.receptions) {
-        if (!r.delivered || !is_news(r.node, message)) continue;
-        const auto& from = network_->name(message.origin);
-        auto& detail = add(r.time, r.node, "hears",
-                           fmt::format("hears \"{}\" from {} over {} hop{}", message.payload, from,
-                                       hops, hops == 1 ? "" : "s"));
-        detail.set("payload", message.payload);
-        detail.set("from", from);
-        detail.set("hops", hops);
+        if (!r.delivered) continue;
+        const std::uint32_t words = words_of(received.frame.message, context);
+        if (!known_.add(words, r.node)) continue;
+        entries_.push_back({r.time, r.node, words, Event::hears, received.frame.hops});
     }
 }
 
 void Timeline::tell(const Arrived& arrived, const RecordContext& context) {
     const Vec3 p = context.legs.position(arrived.node, arrived.time);
-    auto& detail = add(arrived.time, arrived.node, "arrives",
-                       fmt::format("arrives at ({:.2f}, {:.2f}) m", p.x, p.y));
-    detail.set("x_m", p.x);
-    detail.set("y_m", p.y);
+    entries_.push_back({arrived.time, arrived.node, place(p), Event::arrives, 0});
 }
 
 void Timeline::tell(const NoWay& blocked, const RecordContext&) {
-    const Vec3 p = blocked.goal;
-    auto& detail = add(blocked.time, blocked.node, "finds no way",
-                       fmt::format("finds no way to ({:.2f}, {:.2f}) m", p.x, p.y));
-    detail.set("x_m", p.x);
-    detail.set("y_m", p.y);
+    entries_.push_back({blocked.time, blocked.node, place(blocked.goal), Event::finds_no_way, 0});
 }
 
 void Timeline::tell(const Switched& switched, const RecordContext&) {
-    add(switched.time, switched.node, switched.on ? "goes on" : "fails",
-        switched.on ? "is switched on again" : "is switched off");
+    const Event event = switched.on ? Event::goes_on : Event::fails;
+    entries_.push_back({switched.time, switched.node, 0, event, 0});
+}
+
+std::string Timeline::text(const Entry& entry) const {
+    switch (entry.event) {
+        case Event::says: return fmt::format("says \"{}\"", words_[entry.about].payload);
+        case Event::hears: {
+            const auto& [origin, payload] = words_[entry.about];
+            return fmt::format("hears \"{}\" from {} over {} hop{}", payload,
+                               network_->name(origin), entry.hops, entry.hops == 1 ? "" : "s");
+        }
+        case Event::arrives:
+        case Event::finds_no_way: {
+            const auto [x, y] = places_[entry.about];
+            const bool arrives = entry.event == Event::arrives;
+            return fmt::format("{} ({:.2f}, {:.2f}) m", arrives ? "arrives at" : "finds no way to",
+                               x, y);
+        }
+        case Event::fails: return "is switched off";
+        case Event::goes_on: return "is switched on again";
+    }
+    return {};
+}
+
+Timeline::Happening Timeline::operator[](std::size_t i) const {
+    const Entry& entry = entries_[i];
+    return {entry.time, network_->name(entry.node), text(entry)};
+}
+
+void Timeline::append_json(std::size_t i, std::string& out) const {
+    static constexpr std::string_view names[] = {"says",         "hears", "arrives",
+                                                 "finds no way", "fails", "goes on"};
+    const Entry& entry = entries_[i];
+    const auto set = [&](std::string_view key, const Value& value) {
+        fmt::format_to(std::back_inserter(out), ",\n      \"{}\": {}", key, to_json_line(value));
+    };
+    fmt::format_to(std::back_inserter(out), "{{\n      \"t_s\": {}",
+                   to_json_line(seconds(entry.time)));
+    set("robot", network_->name(entry.node));
+    set("event", names[static_cast<std::size_t>(entry.event)]);
+    switch (entry.event) {
+        case Event::says: set("payload", words_[entry.about].payload); break;
+        case Event::hears:
+            set("payload", words_[entry.about].payload);
+            set("from", network_->name(words_[entry.about].origin));
+            set("hops", static_cast<int>(entry.hops));
+            break;
+        case Event::arrives:
+        case Event::finds_no_way:
+            set("x_m", places_[entry.about].first);
+            set("y_m", places_[entry.about].second);
+            break;
+        case Event::fails:
+        case Event::goes_on: break;
+    }
+    out += "\n    }";
 }
 
 }  // namespace rovernet

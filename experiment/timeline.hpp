@@ -2,27 +2,36 @@
 #pragma once
 
 #include "experiment/network.hpp"
-#include "experiment/value.hpp"
+#include "sim/chunks.hpp"
 #include "sim/ports.hpp"
 #include "sim/record.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
 
 /// What a person wants to know of a run with few robots: who said something for the first time, who
 /// heard of it when and over how many hops, who arrived where, whose way was blocked, who failed.
+///
+/// An entry takes 24 bytes, a place 16 more, who heard what 16 or so; text is made of it when it is
+/// shown.
 class Timeline {
   public:
+    /// An entry as it is shown.
     struct Happening {
         Time time;
-        NodeId node;
+        std::string robot;
         std::string text;  ///< "hears \"F\" from A over 2 hops"
-        Table detail;      ///< the same as data
     };
 
-    /// The network must outlive the timeline's use as a sink; it knows the names.
+    /// The network must outlive the timeline; it knows the names.
     explicit Timeline(const Network& network) : network_(&network) {}
 
     KindMask kinds() const {
@@ -31,9 +40,39 @@ class Timeline {
     }
     void on(const Record& record, const RecordContext& context);
 
-    const std::vector<Happening>& happenings() const { return happenings_; }
+    std::size_t size() const { return entries_.size(); }
+    /// The i-th entry, in the order in which they happened.
+    Happening operator[](std::size_t i) const;
+    /// Appends it as a JSON object, its lines indented by four blanks but for the first.
+    void append_json(std::size_t i, std::string& out) const;
 
   private:
+    enum class Event : std::uint8_t { says, hears, arrives, finds_no_way, fails, goes_on };
+    struct Entry {
+        Time time;
+        NodeId node;
+        std::uint32_t about;  // an index into words_ or places_
+        Event event;
+        Hops hops;
+    };
+    static_assert(sizeof(Entry) == 24);
+    /// The same words from the same robot: one message or many.
+    struct Words {
+        NodeId origin;
+        std::string payload;
+    };
+    /// Pairs of words and robot, in an open-addressed table at most two thirds full.
+    class Pairs {
+      public:
+        /// False if it was there.
+        bool add(std::uint32_t words, NodeId node);
+
+      private:
+        static constexpr std::uint64_t none = ~std::uint64_t{0};
+        std::vector<std::uint64_t> slots_ = std::vector<std::uint64_t>(16, none);
+        std::size_t size_ = 0;
+    };
+
     void tell(const Sent& sent, const RecordContext& context);
     void tell(const Received& received, const RecordContext& context);
     void tell(const Arrived& arrived, const RecordContext& context);
@@ -41,12 +80,17 @@ class Timeline {
     void tell(const Switched& switched, const RecordContext& context);
     template <class Other>
     void tell(const Other&, const RecordContext&) {}
-    bool is_news(NodeId node, const Message& message);
-    Table& add(Time time, NodeId node, std::string_view event, std::string text);
+    std::uint32_t words_of(MessageId message, const RecordContext& context);
+    std::uint32_t place(Vec3 p);
+    std::string text(const Entry& entry) const;
 
     const Network* network_;
-    std::vector<Happening> happenings_;
-    std::vector<std::vector<std::pair<NodeId, std::string>>> known_;  // by node: origin, payload
+    Chunks<Entry> entries_;
+    std::deque<Words> words_;  // stable: the index refers to their payloads
+    std::map<std::pair<NodeId, std::string_view>, std::uint32_t> word_index_;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> by_message_;  // its uid and words
+    std::vector<std::pair<double, double>> places_;                    // [m]
+    Pairs known_;
 };
 
 }  // namespace rovernet

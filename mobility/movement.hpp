@@ -77,6 +77,14 @@ struct Fixed {
     Step next_leg(Mover& mover) { return standing_leg(mover); }
 };
 
+/// A movement model that keeps what it knows of a robot apart, in its Progress: copies of one
+/// Movement share its parameters, which saves their memory where there are millions of robots.
+template <class T>
+concept SharedMovementModel = MovementModel<T> &&
+    requires(const T& model, Mover& mover, typename T::Progress& progress) {
+    { model.next_leg(mover, progress) } -> std::same_as<Step>;
+};
+
 /// Any movement model, held by value. By default, and moved from, it is Fixed, which takes no
 /// memory of its own.
 class Movement {
@@ -107,6 +115,15 @@ class Movement {
         Step next_leg(Mover& mover) override { return model.next_leg(mover); }
         std::unique_ptr<Concept> clone() const override { return std::make_unique<Holder>(model); }
         T model;
+    };
+    template <SharedMovementModel T>
+    struct Holder<T> final : Concept {
+        explicit Holder(T m)
+            : progress(std::move(m.progress)), model(std::make_shared<const T>(std::move(m))) {}
+        Step next_leg(Mover& mover) override { return model->next_leg(mover, progress); }
+        std::unique_ptr<Concept> clone() const override { return std::make_unique<Holder>(*this); }
+        typename T::Progress progress;
+        std::shared_ptr<const T> model;
     };
     std::unique_ptr<Concept> self_;  // null: Fixed
 };

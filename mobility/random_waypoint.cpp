@@ -34,34 +34,35 @@ std::optional<Leg> leg_after(Way& way, Mover& at, double metres, MetersPerSecond
 
 }  // namespace
 
-Step RandomWaypoint::next_leg(Mover& mover) {
-    if (!progress.begun) check(*this);
+Step RandomWaypoint::next_leg(Mover& mover, Progress& robot) const {
+    if (!robot.begun) check(*this);
     const Area field(area, mover.scene(), name);
     const SpeedRange speeds(min_speed, max_speed, mover, name);
-    if (!std::exchange(progress.begun, true) && mover.now == start_of_run) {
-        if (start == StartState::stationary) return stationary_start(mover, field, speeds);
+    if (!std::exchange(robot.begun, true) && mover.now == start_of_run) {
+        if (start == StartState::stationary)
+            return stationary_start(mover, field, speeds, pause, robot);
         if (start == StartState::uniform) {
-            const auto place = field.free_place(mover, progress.draws);
+            const auto place = field.free_place(mover, robot.draws);
             if (!place) return Blocked{field.middle()};
             Mover at = mover;
             at.position = *place;
-            return new_trip(at, field, speeds);
+            return new_trip(at, field, speeds, robot);
         }
     }
-    if (auto leg = progress.way.next_leg(mover, progress.speed)) return *leg;
-    if (!std::exchange(progress.rested, true) && pause > Duration{0}) {
+    if (auto leg = robot.way.next_leg(mover, robot.speed)) return *leg;
+    if (!std::exchange(robot.rested, true) && pause > Duration{0}) {
         return straight_leg(mover, mover.position, mover.now + pause);
     }
-    return new_trip(mover, field, speeds);
+    return new_trip(mover, field, speeds, robot);
 }
 
 Step RandomWaypoint::stationary_start(const Mover& mover, const Area& field,
-                                      const SpeedRange& speeds) {
+                                      const SpeedRange& speeds, Duration pause, Progress& robot) {
     constexpr int most_trips = 1000;
     const double longest = field.diagonal() * (mover.scene().open_field() ? 1 : 2);
     const double rest = seconds(pause);
     const double slowness = speeds.mean_slowness();
-    Draws& draws = progress.draws;
+    Draws& draws = robot.draws;
     for (int i = 0; i < most_trips; ++i) {
         const auto from = field.free_place(mover, draws);
         const auto to = field.free_place(mover, draws);
@@ -77,28 +78,29 @@ Step RandomWaypoint::stationary_start(const Mover& mover, const Area& field,
             at.position = *to;
             return straight_leg(at, *to, at.now + from_seconds(rest * draws.uniform(mover)));
         }
-        progress.speed = {speeds.at_a_moment(draws.uniform(mover))};
-        const auto leg = leg_after(*way, at, length * draws.uniform(mover), progress.speed);
+        robot.speed = {speeds.at_a_moment(draws.uniform(mover))};
+        const auto leg = leg_after(*way, at, length * draws.uniform(mover), robot.speed);
         if (!leg) continue;
-        progress.rested = false;
-        progress.way = std::move(*way);
+        robot.rested = false;
+        robot.way = std::move(*way);
         return *leg;
     }
     return Blocked{field.middle()};
 }
 
-Step RandomWaypoint::new_trip(Mover& mover, const Area& field, const SpeedRange& speeds) {
+Step RandomWaypoint::new_trip(Mover& mover, const Area& field, const SpeedRange& speeds,
+                              Progress& robot) {
     constexpr int most_goals = 200;
-    progress.speed = {speeds.of_a_trip(progress.draws.uniform(mover))};
+    robot.speed = {speeds.of_a_trip(robot.draws.uniform(mover))};
     for (int i = 0; i < most_goals; ++i) {
-        const auto goal = field.free_place(mover, progress.draws);
+        const auto goal = field.free_place(mover, robot.draws);
         if (!goal) break;
         auto way = Way::plan(mover, *goal);
         if (!way) continue;
-        const auto leg = way->next_leg(mover, progress.speed);
+        const auto leg = way->next_leg(mover, robot.speed);
         if (!leg) continue;
-        progress.rested = false;
-        progress.way = std::move(*way);
+        robot.rested = false;
+        robot.way = std::move(*way);
         return *leg;
     }
     return Blocked{field.middle()};

@@ -60,10 +60,7 @@ struct RandomWaypoint {
                   "stationary; or with a new trip: from a uniform place, or from here"));
     }
 
-    /// @throws std::invalid_argument for a parameter out of its range
-    Step next_leg(Mover& mover);
-
-    /// Left to the model.
+    /// Left to the model: what it remembers of one robot.
     struct Progress {
         bool begun = false;
         bool rested = true;  // since the last trip
@@ -72,9 +69,15 @@ struct RandomWaypoint {
         Way way = {};
     } progress = {};
 
+    /// @throws std::invalid_argument for a parameter out of its range
+    Step next_leg(Mover& mover) { return next_leg(mover, progress); }
+    Step next_leg(Mover& mover, Progress& robot) const;
+
   private:
-    Step stationary_start(const Mover& mover, const Area& field, const SpeedRange& speeds);
-    Step new_trip(Mover& mover, const Area& field, const SpeedRange& speeds);
+    static Step stationary_start(const Mover& mover, const Area& field, const SpeedRange& speeds,
+                                 Duration pause, Progress& robot);
+    static Step new_trip(Mover& mover, const Area& field, const SpeedRange& speeds,
+                         Progress& robot);
 };
 
 }  // namespace rovernet

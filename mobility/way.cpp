@@ -3,6 +3,8 @@
 
 #include "sim/fields.hpp"
 
+#include <algorithm>
+
 namespace rovernet {
 
 std::optional<Way> Way::plan(Mover& mover, Vec3 to) {
@@ -12,13 +14,18 @@ std::optional<Way> Way::plan(Mover& mover, Vec3 to) {
     auto corners = mover.planners.of_radius(mover.radius).shortest_path(mover.position, to);
     if (!corners) return std::nullopt;
     Way way;
-    way.corners_ = std::move(*corners);
+    std::reverse(corners->begin(), corners->end());
+    if (!corners->empty()) {
+        way.corners_ = std::make_unique<std::vector<Vec3>>(std::move(*corners));
+    }
     return way;
 }
 
 std::optional<Leg> Way::next_leg(const Mover& mover, MetersPerSecond speed) {
-    while (done_ < corners_.size()) {
-        const Vec3 corner = corners_[done_++];
+    while (corners_) {
+        const Vec3 corner = corners_->back();
+        corners_->pop_back();
+        if (corners_->empty()) corners_.reset();
         if (corner != mover.position) return straight_leg(mover, corner, speed);
     }
     return std::nullopt;
@@ -27,9 +34,10 @@ std::optional<Leg> Way::next_leg(const Mover& mover, MetersPerSecond speed) {
 double Way::length_left(const Mover& mover) const {
     double length = 0;
     Vec3 at = mover.position;
-    for (std::size_t i = done_; i < corners_.size(); ++i) {
-        length += distance(at, corners_[i]);
-        at = corners_[i];
+    if (!corners_) return 0;
+    for (auto corner = corners_->rbegin(); corner != corners_->rend(); ++corner) {
+        length += distance(at, *corner);
+        at = *corner;
     }
     return length;
 }

@@ -3,16 +3,25 @@
 
 #include "mobility/movement.hpp"
 
-#include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace rovernet {
 
-/// A planned way around the walls, walked corner by corner.
+/// A planned way around the walls, walked corner by corner. Takes a pointer's size once its last
+/// corner is headed for.
 class Way {
   public:
     Way() = default;
+    Way(const Way& other)
+        : corners_(other.corners_ ? std::make_unique<std::vector<Vec3>>(*other.corners_)
+                                  : nullptr) {}
+    Way(Way&&) = default;
+    Way& operator=(Way other) {
+        corners_ = std::move(other.corners_);
+        return *this;
+    }
     /// Plans from where the mover is; nothing if there is no way.
     /// @throws std::invalid_argument unless `to` is finite
     static std::optional<Way> plan(Mover& mover, Vec3 to);
@@ -23,8 +32,7 @@ class Way {
     double length_left(const Mover& mover) const;
 
   private:
-    std::vector<Vec3> corners_;
-    std::size_t done_ = 0;  // corners reached
+    std::unique_ptr<std::vector<Vec3>> corners_;  // still to come, the next one last; null: none
 };
 
 }  // namespace rovernet

@@ -22,6 +22,7 @@ void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propa
     keys_.push_back(key);
     stations_.push_back({static_cast<std::uint32_t>(radios_.size() - 1), kind & 0x7fffffff, true});
     index_.add(kind);
+    ++changes_;
     cells_chosen_ = false;
 }
 
@@ -29,6 +30,7 @@ void Medium::switch_radio(NodeId node, bool on) {
     Station& station = stations_[node.index()];
     off_ += static_cast<std::size_t>(station.on) - static_cast<std::size_t>(on);
     station.on = on;
+    ++changes_;
 }
 
 Vec3 Medium::antenna(NodeId node, Time t, const Legs& legs) const {

@@ -3,6 +3,7 @@
 
 #include "models/arrival.hpp"
 #include "models/candidates.hpp"
+#include "models/medium_settings.hpp"
 #include "models/neighbour_index.hpp"
 #include "models/pair_cache.hpp"
 #include "models/propagation.hpp"
@@ -17,6 +18,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace rovernet {
@@ -26,18 +28,7 @@ namespace rovernet {
 /// path loss is within link_budget.
 class Medium {
   public:
-    struct Settings {
-        const Scene* scene = nullptr;   ///< not null; outlives the medium
-        Meters floor_height{3};         ///< [m] of one storey
-        bool propagation_delay = true;  ///< a frame arrives distance / c after it is sent
-        bool keep_losses = true;        ///< of pairs at rest, instead of computing them again
-        bool all_pairs = false;         ///< for tests: without the grid, nor losses kept
-        /// [dB] frames disturb others down to so much below the sensitivity (but not to more than
-        /// 10 dB below the noise floor); none: only those that are sensed do.
-        std::optional<Db> interference_cut = std::nullopt;
-        std::uint64_t seed = 0;
-        std::uint32_t replication = 0;
-    };
+    using Settings = MediumSettings;
 
     explicit Medium(const Settings& settings)
         : settings_(settings),
@@ -59,16 +50,19 @@ class Medium {
         __builtin_prefetch(keys_.data() + node.index());
         index_.prefetch(node);
     }
-    /// The same for what position() takes.
-    void prefetch_position(NodeId node) const { index_.prefetch(node); }
+    void prefetch_position(NodeId node) const { index_.prefetch(node); }  ///< what position() takes
     /// The node's leg has been replaced.
     void moved(NodeId node, const Legs& legs) {
+        ++changes_;
         index_.moved(node, legs);
         pairs_.moved(node);
         if (node.index() < measured_) measure(node.index(), node.index() + 1, legs);
     }
     void switch_radio(NodeId node, bool on);
     bool all_are_on() const { return off_ == 0; }
+    std::size_t on() const { return stations_.size() - off_; }  ///< stations that are switched on
+    bool all_are_alike() const { return kinds_.size() == 1; }   ///< links go both ways then
+    std::uint64_t changes() const { return changes_; }  ///< of legs, and stations added or switched
     bool is_on(NodeId node) const { return all_are_on() || stations_[node.index()].on; }
     /// What add() was given.
     std::uint64_t key(NodeId node) const { return keys_[node.index()]; }
@@ -133,7 +127,9 @@ class Medium {
         return found_.kept();
     }
 
-    /// Nodes other than `from` that a chain of links joins to it at `t`, which must not decrease.
+    bool hears(NodeId from, NodeId to, Time t, const Legs& legs);  ///< it is one of those
+    /// Nodes other than `from` that a chain of links joins to it at `t`, which must not decrease:
+    /// searched anew, see Reachability.
     std::uint32_t reachable(NodeId from, Time t, const Legs& legs);
 
     /// Path loss [dB] from `from` to `to` at `t`, with nothing given up.
@@ -183,7 +179,8 @@ class Medium {
     std::vector<Station> stations_;    // ... are looked at
     std::vector<Radio> radios_;        // those that differ
     std::size_t off_ = 0;              // stations that are switched off
-    PairDraws draws_;                  // of links, where tables decide
+    std::uint64_t changes_ = 0;
+    PairDraws draws_;  // of links, where tables decide
     RadioKinds kinds_;
     NeighbourIndex index_;
     std::vector<std::uint64_t> shares_;  // of draws_, by place in the index, if tables decide
@@ -192,7 +189,9 @@ class Medium {
     bool cells_chosen_ = false;
     std::size_t measured_ = 0;  // nodes whose heights the kinds know, if heights matter
 
-    Vec3 origin_;  // from here on what is under work, kept for its memory
+    // What is under work; found_ is of last_: from, strength, time and changes_.
+    std::optional<std::tuple<NodeId, Strength, Time, std::uint64_t>> last_;
+    Vec3 origin_;
     Sieve<Found> found_, sensors_;
     Candidates candidates_;
 };

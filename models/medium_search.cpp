@@ -85,6 +85,8 @@ void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use
 /// Those for whom a signal of `from` is strong enough: in found_ who can decode it, in sensors_ the
 /// others.
 void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs) {
+    const std::tuple search{from, strength, t, changes_};
+    if (std::exchange(last_, search) == search) return;  // a message is sent where it was asked for
     found_.clear();
     sensors_.clear();
     kinds_.prepare(kind(from));
@@ -284,6 +286,28 @@ double Medium::heard_within() {
     double squared = 0;
     for (const Found& f : found_.kept()) squared = std::max(squared, f.squared_distance);
     return std::sqrt(squared);
+}
+
+bool Medium::hears(NodeId from, NodeId to, Time t, const Legs& legs) {
+    if (from == to || !is_on(to) || !may_link(from, to)) return false;
+    const Kind mine = kind(from), theirs = kind(to);
+    Vec3 here = index_.position_of(from, t, legs), there = index_.position_of(to, t, legs);
+    here.z += kinds_.height(mine);
+    there.z += kinds_.height(theirs);
+    const double d2 = squared_distance(here, there);
+    measure(measured_, stations_.size(), legs);  // the reach depends on it
+    if (d2 > kinds_.squared_reach(mine, Strength::decodable)) return false;
+    kinds_.prepare(mine);
+    switch (kinds_.decision(mine)) {
+        case Decision::by_range:
+            return d2 <= kinds_.squared_range(mine, theirs, Strength::decodable);
+        case Decision::by_table:
+            return kinds_.table(mine, theirs, Strength::decodable)
+                .in_range(d2, draws_.bits(key(from), key(to)));
+        case Decision::by_loss: break;
+    }
+    const Db budget = link_budget(kinds_.radio(mine), kinds_.radio(theirs));
+    return loss(from, to, here, there, budget) <= budget.value;
 }
 
 std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {

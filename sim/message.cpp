@@ -13,7 +13,7 @@ MessageId MessageTable::add(Message message) {
         id = free_.back();
         free_.pop_back();
     }
-    slots_[id.index()] = {std::move(message), 1};
+    slots_[id.index()] = {std::move(message), 1, false};
     return id;
 }
 

@@ -22,6 +22,7 @@ struct Message {
     std::uint32_t size = 0;    ///< [bytes] on air
     Time created;
     std::string payload;
+    std::uint32_t flow = 0;  ///< of the application, from 1; 0: of none
 };
 
 /// A number of hops, such as a time-to-live.
@@ -65,6 +66,16 @@ class MessageTable {
     }
 
     const Message& operator[](MessageId id) const { return slots_[id.index()].message; }
+    /// A frame of the message has arrived somewhere.
+    void arrived(MessageId id) { slots_[id.index()].has_arrived = true; }
+    /// Calls visit(id) for every message that is held and has arrived nowhere, in order of id.
+    template <class Visit>
+    void for_each_at_its_origin(Visit visit) const {
+        for (MessageId id{0}; id.index() < slots_.size(); ++id.value) {
+            const Slot& slot = slots_[id.index()];
+            if (slot.holders > 0 && !slot.has_arrived) visit(id);
+        }
+    }
     /// Messages still held.
     std::size_t size() const { return slots_.size() - free_.size(); }
     /// Every MessageId's index is below this.
@@ -74,6 +85,7 @@ class MessageTable {
     struct Slot {
         Message message;
         std::uint32_t holders = 0;
+        bool has_arrived = false;
     };
     std::vector<Slot> slots_;
     std::vector<MessageId> free_;

@@ -18,6 +18,7 @@ enum class Purpose : std::uint16_t {
     link_success = 7,
     backoff = 8,
     bit_errors = 9,
+    traffic_source = 10,
 };
 
 /// The meaning of one draw, and all that decides it: the same key gives the same number, in any

@@ -65,7 +65,7 @@ FoundRun find_run(const Store& store, const std::string& name) {
     for (StoredPoint& point : store.points()) {
         if (point.number == result.run.point) result.point = std::move(point);
     }
-    for (const std::string& metric : metric_names()) {
+    for (const std::string& metric : store.metric_names()) {
         for (const StoredValue& v : store.values(metric, result.run.point)) {
             if (v.replication != result.run.replication) continue;
             result.run.measurement.metrics.push_back({metric, v.value});

@@ -44,6 +44,24 @@ std::vector<MetricValue> flat(const MetricValues& values, std::uint64_t events, 
     return list;
 }
 
+/// "delivery_ratio.FLOW" of the table of that flow, and so on.
+void append_flat(std::vector<MetricValue>& list, const Table& parts) {
+    for (const Entry& kind : parts.entries) {
+        const std::string_view at = kind.key == "robots" ? "at." : "";
+        for (const Entry& part : kind.value.table()->entries) {
+            const Table* values = part.value.table();
+            if (!values) {
+                list.push_back({part.key, number_of(part.value)});
+                continue;
+            }
+            for (const Entry& each : values->entries) {
+                list.push_back(
+                    {fmt::format("{}.{}{}", each.key, at, part.key), number_of(each.value)});
+            }
+        }
+    }
+}
+
 /// Cuts the text before the next `end` off the front; all of it if there is none.
 std::string_view cut(std::string_view& text, char end) {
     const std::string_view piece = text.substr(0, text.find(end));
@@ -68,6 +86,18 @@ const std::vector<std::string>& metric_names() {
     return names;
 }
 
+std::vector<std::string> metric_names(const Scenario& scenario) {
+    Network network(network_settings(scenario));
+    populate(network, scenario);
+    Table parts;
+    append_parts(parts, scenario, network, {}, scenario.scenario.duration, nullptr);
+    std::vector<MetricValue> list;
+    append_flat(list, parts);
+    std::vector<std::string> names = metric_names();
+    for (MetricValue& metric : list) names.push_back(std::move(metric.name));
+    return names;
+}
+
 Measurement measure(const Scenario& scenario, KeptPlanners& kept) {
     Measurement result;
     result.started = utc_now();
@@ -81,9 +111,16 @@ Measurement measure(const Scenario& scenario, KeptPlanners& kept) {
     populate(network, scenario);
     const auto fingerprint = std::make_shared<Fingerprint>();
     network.add_sink(fingerprint);
+    const auto topology = add_topology(network, scenario, settings.warmup);
     network.run_for(scenario.scenario.duration);
-    result.metrics = flat(network.metrics(), network.events(), settings.warmup);
     result.fingerprint = fingerprint->text();
+    network.finish();
+    const MetricValues values = network.metrics();
+    result.metrics = flat(values, network.events(), settings.warmup);
+    Table parts;
+    append_parts(parts, scenario, network, values, scenario.scenario.duration - settings.warmup,
+                 topology.get());
+    append_flat(result.metrics, parts);
     result.cpu_s = cpu_seconds() - cpu;
     result.wall_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -110,8 +147,8 @@ Measurement measurement_of(std::string_view text) {
     m.host = cut(text, '\n');
     while (!text.empty()) {
         std::string_view line = cut(text, '\n');
-        const std::string_view name = cut(line, ' ');
-        m.metrics.push_back({std::string(name), number_in(line)});
+        const std::size_t end = std::min(line.rfind(' '), line.size());  // names may have blanks
+        m.metrics.push_back({std::string(line.substr(0, end)), number_in(line.substr(end + 1))});
     }
     return m;
 }

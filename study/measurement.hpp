@@ -32,6 +32,9 @@ struct Measurement {
 /// The metrics of every run: those of summary.json, its drops as "drops.DUP" and so on, its events,
 /// and the time [s] from which on it is measured.
 const std::vector<std::string>& metric_names();
+/// Those of this scenario: beside these what its [metrics] asks for, "delivery_ratio.FLOW" and
+/// "delivery_ratio.at.ROBOT", likewise messages, deliveries, throughput_bps and latency_mean_s.
+std::vector<std::string> metric_names(const Scenario& scenario);
 
 /// Runs a scenario, without writing anything.
 /// @param kept  what does not change from run to run in one scene; the result is the same without

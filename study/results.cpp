@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -40,6 +41,17 @@ void check_known(const std::string& word, const std::vector<std::string>& known,
     throw std::invalid_argument(
         fmt::format("{} \"{}\" is not in this study; expected one of {}{}{}", what, word,
                     fmt::join(known, ", "), near.empty() ? "" : "; ", near));
+}
+
+/// Those of every run, and those of the flows and robots of its runs.
+std::vector<std::string> known_metrics(const Store& store) {
+    std::vector<std::string> names = metric_names();
+    for (std::string& name : store.metric_names()) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            names.push_back(std::move(name));
+        }
+    }
+    return names;
 }
 
 /// The points that agree in some keys.
@@ -158,7 +170,7 @@ std::vector<Answer> answers(const Store& store, const Question& given) {
     const auto paths = question.group_by.value_or(varied);
     for (const auto& path : paths) check_known(path, varied, "the key");
     const auto metrics = question.metrics.empty() ? metrics_of(store) : question.metrics;
-    for (const auto& metric : metrics) check_known(metric, metric_names(), "the metric");
+    for (const auto& metric : metrics) check_known(metric, known_metrics(store), "the metric");
     const double confidence = question.confidence.value_or(confidence_of(store));
     for (const Condition& condition : question.where) {
         check_known(condition.path, varied, "the key");

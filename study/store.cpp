@@ -336,6 +336,15 @@ std::vector<StoredValue> Store::values(const std::string& metric,
     });
 }
 
+std::vector<std::string> Store::metric_names() const {
+    return told(path_, [&] {
+        std::vector<std::string> names;
+        SQLite::Statement select(database_->sqlite, "SELECT name FROM metric_name ORDER BY key");
+        while (select.executeStep()) names.push_back(select.getColumn(0).getString());
+        return names;
+    });
+}
+
 void Store::for_each_value(
     const std::function<void(const StoredValue&, const std::string& metric)>& visit) const {
     told(path_, [&] {

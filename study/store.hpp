@@ -72,6 +72,8 @@ class Store {
     /// Keeps a run, in place of one of the same id that failed.
     void record(const StoredRun& run);
 
+    /// The metrics of its runs, in the order in which they first came.
+    std::vector<std::string> metric_names() const;
     /// The values of one metric in the finished runs (of one point), in order of point and
     /// replication.
     std::vector<StoredValue> values(const std::string& metric,

@@ -7,12 +7,20 @@ namespace rovernet {
 
 void DeliverySeries::on(const Record& record, const RecordContext& context) {
     if (const auto* sent = std::get_if<Sent>(&record)) {
-        sent_.push_back(sent->time);  // uids are given in this order
+        const std::size_t slot = sent->message.index();
+        if (slot >= known_.size()) known_.resize(slot + 1);
+        known_[slot] = {context.messages[sent->message].uid, sent_.size()};
+        sent_.push_back(sent->time);
         others_.push_back(std::max(sent->robots, 1U) - 1);
         deliveries_.push_back(0);
     } else if (const auto* received = std::get_if<Received>(&record)) {
-        std::uint32_t& deliveries = deliveries_[context.messages[received->frame.message].uid];
-        for (const Reception& rx : received->receptions) deliveries += rx.delivered ? 1 : 0;
+        const MessageId message = received->frame.message;
+        if (message.index() >= known_.size()) return;
+        const Known& known = known_[message.index()];
+        if (known.uid != context.messages[message].uid) return;
+        for (const Reception& rx : received->receptions) {
+            deliveries_[known.place] += rx.delivered ? 1 : 0;
+        }
     }
 }
 

@@ -22,6 +22,13 @@ class DeliverySeries {
     std::vector<double> delivered() const;
 
   private:
+    /// The message that a slot of the table had at its last Sent. Packets of a router have none.
+    struct Known {
+        std::uint64_t uid = ~std::uint64_t{0};
+        std::size_t place = 0;  // in the series
+    };
+
+    std::vector<Known> known_;  // by MessageId
     std::vector<Time> sent_;
     std::vector<std::uint32_t> others_;      // robots that might have got it
     std::vector<std::uint32_t> deliveries_;  // and those that did

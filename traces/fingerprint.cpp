@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 
 #define XXH_INLINE_ALL
@@ -25,44 +26,67 @@ std::int64_t micrometres(double x) {
                   : std::numeric_limits<std::int64_t>::max();
 }
 
-/// The bytes of one record, little endian.
-class Bytes {
+/// Appends integers to a text of bytes, little endian. There is room.
+class Packed {
   public:
-    explicit Bytes(KindMask kind) { put(static_cast<std::uint8_t>(std::countr_zero(kind))); }
+    explicit Packed(std::uint8_t* at) : at_(at) {}
 
     template <class Integer>
-    Bytes& put(Integer value) {
-        auto rest = static_cast<std::uint64_t>(value);
-        for (std::size_t i = 0; i < sizeof(Integer); ++i, rest >>= 8) {
-            bytes_[size_++] = static_cast<std::uint8_t>(rest);
+    Packed& put(Integer value) {
+        if constexpr (std::endian::native == std::endian::little) {
+            std::memcpy(at_, &value, sizeof value);
+        } else {
+            auto rest = static_cast<std::uint64_t>(value);
+            for (std::size_t i = 0; i < sizeof value; ++i, rest >>= 8) {
+                at_[i] = static_cast<std::uint8_t>(rest);
+            }
         }
+        at_ += sizeof value;
         return *this;
     }
-    Bytes& put(Time t) { return put(t.time_since_epoch().count()); }
-    Bytes& put(NodeId node) { return put(node.value); }
-    Bytes& put(Vec3 p) { return put(micrometres(p.x)).put(micrometres(p.y)).put(micrometres(p.z)); }
-    Bytes& put(const Frame& frame, const RecordContext& context) {
+    Packed& put(Time t) { return put(std::int64_t{t.time_since_epoch().count()}); }
+    Packed& put(NodeId node) { return put(node.value); }
+    Packed& put(Vec3 p) {
+        return put(micrometres(p.x)).put(micrometres(p.y)).put(micrometres(p.z));
+    }
+    Packed& put(const Frame& frame, const RecordContext& context) {
         return put(context.messages[frame.message].uid)
             .put(frame.sender)
             .put(frame.ttl)
             .put(frame.hops);
     }
-    void hash_into(XXH64_state_t& state) const { XXH64_update(&state, bytes_.data(), size_); }
+    std::uint8_t* end() const { return at_; }
 
   private:
-    std::array<std::uint8_t, 80> bytes_;
-    std::size_t size_ = 0;
+    std::uint8_t* at_;
 };
 
 }  // namespace
 
+/// The hash of all bytes but the last few, which wait to be hashed in one go: the same as byte by
+/// byte.
 struct Fingerprint::State {
+    static constexpr std::size_t longest = 80;  // record [bytes]
+
     State() { XXH64_reset(&hash, 0); }
-    void add(const Bytes& bytes) { bytes.hash_into(hash); }
+    /// Room for one more record of that kind.
+    Packed record(KindMask kind) {
+        if (used + longest > waiting.size()) {
+            XXH64_update(&hash, waiting.data(), used);
+            used = 0;
+        }
+        return Packed(waiting.data() + used).put(static_cast<std::uint8_t>(std::countr_zero(kind)));
+    }
+    void add(const Packed& bytes) { used = static_cast<std::size_t>(bytes.end() - waiting.data()); }
+    std::uint64_t value() const {
+        XXH64_state_t all = hash;
+        XXH64_update(&all, waiting.data(), used);
+        return XXH64_digest(&all);
+    }
 
     void on(const Sent& r, const RecordContext& context) {
         const Message& m = context.messages[r.message];
-        add(Bytes(kind_of<Sent>())
+        add(record(kind_of<Sent>())
                 .put(r.time)
                 .put(r.node)
                 .put(m.uid)
@@ -72,30 +96,34 @@ struct Fingerprint::State {
                 .put(r.robots));
     }
     void on(const Transmitted& r, const RecordContext& context) {
-        add(Bytes(kind_of<Transmitted>())
+        add(record(kind_of<Transmitted>())
                 .put(r.time)
                 .put(r.frame, context)
                 .put(r.heard_from.value_or(everyone)));
     }
     void on(const Received& r, const RecordContext& context) {
-        const Bytes start = Bytes(kind_of<Received>()).put(r.frame, context);
+        const std::uint64_t uid = context.messages[r.frame.message].uid;
         for (const Reception& rx : r.receptions) {
-            Bytes bytes = start;
-            add(bytes.put(rx.node)
+            add(record(kind_of<Received>())
+                    .put(uid)
+                    .put(r.frame.sender)
+                    .put(r.frame.ttl)
+                    .put(r.frame.hops)
+                    .put(rx.node)
                     .put(rx.time)
                     .put(static_cast<std::uint8_t>(rx.fate))
                     .put(static_cast<std::uint8_t>(rx.delivered)));
         }
     }
     void on(const Dropped& r, const RecordContext& context) {
-        add(Bytes(kind_of<Dropped>())
+        add(record(kind_of<Dropped>())
                 .put(r.time)
                 .put(r.node)
                 .put(r.frame, context)
                 .put(static_cast<std::uint8_t>(r.reason)));
     }
     void on(const Moved& r, const RecordContext&) {
-        add(Bytes(kind_of<Moved>())
+        add(record(kind_of<Moved>())
                 .put(r.time)
                 .put(r.node)
                 .put(r.leg.start)
@@ -107,6 +135,8 @@ struct Fingerprint::State {
     void on(const Other&, const RecordContext&) {}
 
     XXH64_state_t hash;
+    std::array<std::uint8_t, 8192> waiting;
+    std::size_t used = 0;
 };
 
 Fingerprint::Fingerprint() : state_(std::make_unique<State>()) {}
@@ -118,7 +148,7 @@ void Fingerprint::on(const Record& record, const RecordContext& context) {
     std::visit([&](const auto& r) { state_->on(r, context); }, record);
 }
 
-std::uint64_t Fingerprint::value() const { return XXH64_digest(&state_->hash); }
+std::uint64_t Fingerprint::value() const { return state_->value(); }
 
 std::string Fingerprint::text() const { return fmt::format("{:016x}", value()); }
 

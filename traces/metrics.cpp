@@ -6,26 +6,6 @@
 namespace rovernet {
 namespace {
 
-enum Drop : std::size_t { dup, ttl, slp, err, col, bsy, ifq, ret, end };  // as MetricValues::drops
-
-Drop drop_of(Fate loss) {
-    switch (loss) {
-        case Fate::garbled: return err;
-        case Fate::collided: return col;
-        case Fate::busy: return bsy;
-        default: return slp;
-    }
-}
-
-Drop drop_of(DropReason reason) {
-    switch (reason) {
-        case DropReason::queue_full: return ifq;
-        case DropReason::retries: return ret;
-        case DropReason::end: return end;
-        default: return slp;
-    }
-}
-
 /// The p-th percentile by nearest rank, of n > 0 sorted delays [s].
 double percentile(const std::vector<Duration>& sorted, std::size_t p) {
     const std::size_t rank = (p * sorted.size() + 99) / 100;
@@ -51,9 +31,32 @@ std::optional<double> ratio(std::uint64_t part, std::uint64_t whole) {
 
 }  // namespace
 
-Metrics::Flood& Metrics::flood(MessageId id) {
+std::optional<double> PartValues::delivery_ratio() const { return ratio(deliveries, expected); }
+std::optional<double> PartValues::latency_mean() const {
+    if (deliveries == 0) return std::nullopt;
+    return static_cast<double>(delay_ns) / static_cast<double>(deliveries) / 1e9;
+}
+
+Metrics::Flood& Metrics::flood(MessageId id, const RecordContext& context) {
     if (id.index() >= floods_.size()) floods_.resize(id.index() + 1);
-    return floods_[id.index()];
+    Flood& f = floods_[id.index()];
+    const std::uint64_t uid = context.messages[id].uid;
+    if (f.uid == uid) return f;
+    f.forwarders.clear();
+    f.uid = uid;
+    f.others = 0;
+    f.reachable.reset();
+    return f;
+}
+
+PartValues& Metrics::flow(const Message& message) {
+    if (message.flow > flows_.size()) flows_.resize(message.flow);
+    return flows_[message.flow - 1];
+}
+
+PartValues& Metrics::robot(NodeId node) {
+    if (node.index() >= robots_.size()) robots_.resize(node.index() + 1);
+    return robots_[node.index()];
 }
 
 void Metrics::on(const Record& record, const RecordContext& context) {
@@ -62,25 +65,50 @@ void Metrics::on(const Record& record, const RecordContext& context) {
     } else if (const auto* transmitted = std::get_if<Transmitted>(&record)) {
         count(*transmitted, context);
     } else if (const auto* sent = std::get_if<Sent>(&record)) {
-        count(*sent);
+        count(*sent, context);
     } else if (const auto* dropped = std::get_if<Dropped>(&record)) {
         count(*dropped, context);
     }
 }
 
-void Metrics::count(const Dropped& dropped, const RecordContext& context) {
-    if (!counts(dropped.frame, context)) return;
-    ++totals_.drops[drop_of(dropped.reason)].count;
+/// One message more for whom it is for, or one that was cut off less.
+void Metrics::count_parts(const Message& message, std::uint64_t others, bool is_cut_off) {
+    const std::uint64_t one = is_cut_off ? ~std::uint64_t{0} : 1;  // modulo 2^64
+    if (parts_.flows && message.flow > 0) {
+        flow(message).messages += is_cut_off ? 0 : 1;
+        flow(message).expected += one * others;
+    }
+    if (!parts_.robots) return;
+    if (message.to != everyone) {
+        robot(message.to).messages += one;
+        return;
+    }
+    broadcasts_ += one;
+    const std::size_t origin = message.origin.index();
+    if (origin >= own_broadcasts_.size()) own_broadcasts_.resize(origin + 1);
+    own_broadcasts_[origin] += one;
 }
 
-void Metrics::count(const Sent& sent) {
+void Metrics::count(const Dropped& dropped, const RecordContext& context) {
+    if (!counts(dropped.frame, context)) return;
+    ++drops_[dropped.reason];
+    if (dropped.reason != DropReason::cut_off) return;
+    const Flood& f = flood(dropped.frame.message, context);
+    ++totals_.cut_off;
+    others_ -= f.others;
+    reachable_ -= f.reachable.value_or(0);
+    count_parts(context.messages[dropped.frame.message], f.others, true);
+}
+
+void Metrics::count(const Sent& sent, const RecordContext& context) {
     if (sent.time < begin_) return;
     ++totals_.messages;
-    others_ += std::max(sent.robots, 1U) - 1;
-    Flood& f = flood(sent.message);
-    f.forwarders.clear();
-    f.reachable_known = sent.reachable.has_value();
+    Flood& f = flood(sent.message, context);
+    f.others = std::max(sent.robots, 1U) - 1;
+    f.reachable = sent.reachable;
+    others_ += f.others;
     reachable_ += sent.reachable.value_or(0);
+    count_parts(context.messages[sent.message], f.others, false);
 }
 
 void Metrics::count(const Transmitted& transmitted, const RecordContext& context) {
@@ -88,7 +116,7 @@ void Metrics::count(const Transmitted& transmitted, const RecordContext& context
     if (!counts(frame, context)) return;
     ++totals_.transmissions;
     if (frame.sender == context.messages[frame.message].origin) return;
-    auto& bits = flood(frame.message).forwarders;
+    auto& bits = flood(frame.message, context).forwarders;
     const std::size_t word = frame.sender.index() / 64;
     const std::uint64_t bit = std::uint64_t{1} << (frame.sender.index() % 64);
     if (word >= bits.size()) bits.resize(std::max(word + 1, context.legs.size() / 64 + 1));
@@ -99,27 +127,54 @@ void Metrics::count(const Transmitted& transmitted, const RecordContext& context
 void Metrics::count(const Received& received, const RecordContext& context) {
     if (!counts(received.frame, context)) return;
     for (const Reception& rx : received.receptions) {
-        if (!is_decoded(rx.fate)) {
-            ++totals_.drops[drop_of(rx.fate)].count;
-            continue;
-        }
-        ++totals_.receptions;
-        if (rx.fate == Fate::duplicate) ++totals_.drops[dup].count;
-        if (rx.fate == Fate::ttl) ++totals_.drops[ttl].count;
+        ++fates_[rx.fate];
         if (rx.delivered) deliver(rx, received.frame, context);
     }
 }
 
 void Metrics::deliver(const Reception& rx, const Frame& frame, const RecordContext& context) {
+    const Message& message = context.messages[frame.message];
+    const Duration delay = rx.time - message.created;
     ++totals_.deliveries;
     if (hops_.size() <= frame.hops) hops_.resize(frame.hops + std::size_t{1});
     ++hops_[frame.hops];
-    delays_.push_back(rx.time - context.messages[frame.message].created);
-    if (flood(frame.message).reachable_known) ++reached_;
+    delays_.push_back(delay);
+    if (flood(frame.message, context).reachable) ++reached_;
+    const auto add_to = [&](PartValues& part) {
+        ++part.deliveries;
+        part.bytes += message.size;
+        part.delay_ns += static_cast<std::uint64_t>(delay.count());
+    };
+    if (parts_.flows && message.flow > 0) add_to(flow(message));
+    if (parts_.robots) add_to(robot(rx.node));
+}
+
+std::vector<PartValues> Metrics::robots() const {
+    std::vector<PartValues> all = robots_;
+    all.resize(std::max(all.size(), own_broadcasts_.size()));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i].messages += broadcasts_ - (i < own_broadcasts_.size() ? own_broadcasts_[i] : 0);
+        all[i].expected = all[i].messages;
+    }
+    return all;
 }
 
 MetricValues Metrics::values() const {
     MetricValues v = totals_;
+    const auto add = [&](LossReason reason, std::uint64_t count) {
+        if (!reason.code.empty()) v.drops[loss_codes.place(reason.code)].count += count;
+    };
+    for_each_reason([&](auto reason) {
+        if constexpr (std::is_same_v<decltype(reason), Fate>) {
+            const std::uint64_t count = fates_[reason];
+            add(reason_of(reason), count);
+            if (is_decoded(reason)) v.receptions += count;
+        } else {
+            add(reason_of(reason), drops_[reason]);
+        }
+    });
+    v.flows = flows_;
+    if (parts_.robots) v.robots = robots();
     v.delivery_ratio = ratio(v.deliveries, others_);
     v.reach = ratio(reached_, reachable_);
     // As t may exceed r (a robot that relays from outside the count), not on unsigned numbers.

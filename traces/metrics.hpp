@@ -5,6 +5,7 @@
 #include "sim/record.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -29,6 +30,46 @@ struct LatencyValues {
     friend bool operator==(const LatencyValues&, const LatencyValues&) = default;
 };
 
+/// All codes of reasons for which a copy goes no further, each once: the order of
+/// MetricValues::drops. DUP comes first, then the others in the order of their table
+/// (sim/fate.hpp).
+inline constexpr auto loss_codes = [] {
+    struct Codes {
+        std::array<std::string_view, 16> of{};
+        std::size_t count = 0;
+        constexpr std::size_t place(std::string_view code) const {
+            std::size_t i = 0;
+            while (i < count && of[i] != code) ++i;
+            return i;
+        }
+        constexpr void add(std::string_view code) {
+            if (!code.empty() && place(code) == count) of[count++] = code;
+        }
+    } codes;
+    codes.add(reason_of(Fate::duplicate).code);
+    for_each_reason([&](auto reason) { codes.add(reason_of(reason).code); });
+    return codes;
+}();
+
+/// What part of the traffic comes to: the messages of one flow, or those for one robot.
+struct PartValues {
+    std::uint64_t messages = 0;    ///< sent: of the flow, or for the robot
+    std::uint64_t expected = 0;    ///< deliveries, if every message reached whom it was for
+    std::uint64_t deliveries = 0;  ///< first copies
+    std::uint64_t bytes = 0;       ///< [bytes] of the messages delivered
+    std::uint64_t delay_ns = 0;    ///< [ns] sum of their latencies
+    std::optional<double> delivery_ratio() const;  ///< [-]; nothing if none is expected
+    std::optional<double> latency_mean() const;    ///< [s]; nothing without deliveries
+    friend bool operator==(const PartValues&, const PartValues&) = default;
+};
+
+/// What Metrics measure beside the totals.
+struct MetricParts {
+    bool reach = true;    ///< costs a search of the network for every message
+    bool flows = false;   ///< messages by their flow, see Message
+    bool robots = false;  ///< messages by whom they are for
+};
+
 /// What a run, or a trace read back, amounts to. The values are computed from integers, so that
 /// they are the same to the last digit in whatever portions the records arrive.
 struct MetricValues {
@@ -37,22 +78,28 @@ struct MetricValues {
     std::uint64_t receptions = 0;     ///< decoded copies, duplicates included
     std::uint64_t deliveries = 0;     ///< first copies, handed to an application
 
-    /// Copies not forwarded, by reason: DUP suppressed as duplicates, TTL crossed their last hop
-    /// (a delivered copy can be one), SLP found the radio off; ERR bit errors, COL collisions, BSY
-    /// the receiver sending itself; IFQ a full queue, RET unicasts that were
-    /// given up; END frames queued when the radio was switched off.
-    std::array<DropCount, 9> drops{
-        {{"DUP"}, {"TTL"}, {"SLP"}, {"ERR"}, {"COL"}, {"BSY"}, {"IFQ"}, {"RET"}, {"END"}}};
+    /// Messages of which no frame had ended when the run did: nobody could have them yet. They
+    /// count in `messages` and in drops.END, and are left out of delivery_ratio and reach.
+    std::uint64_t cut_off = 0;
 
-    /// deliveries / sum over messages of (robots when it was sent - 1) [-], the packet delivery
-    /// ratio with every other robot as a destination and without duplicates; nothing if that sum
-    /// is 0. Source: for unicast, J. Broch et al., MobiCom 1998.
+    /// Copies not forwarded, by the codes of the reasons in sim/fate.hpp.
+    std::array<DropCount, loss_codes.count> drops = [] {
+        std::array<DropCount, loss_codes.count> none;
+        for (std::size_t i = 0; i < none.size(); ++i) none[i].reason = loss_codes.of[i];
+        return none;
+    }();
+
+    /// deliveries / sum over messages of (robots when it was sent - 1; of a unicast 1) [-], the
+    /// packet delivery ratio with every other robot as a destination and without duplicates;
+    /// nothing if that sum is 0. Messages that were cut off are left out. Source: for unicast, J.
+    /// Broch et al., MobiCom 1998.
     std::optional<double> delivery_ratio;
 
     /// RE = r / e [-]: r the deliveries, e the sum over messages of the robots that a chain of
-    /// links joined to the sender when it was sent. Robots that move or relay late may be reached
-    /// beyond those: it can exceed 1. Nothing if e is 0 or no message carried its part of it.
-    /// Source: S.-Y. Ni et al., The broadcast storm problem, MobiCom 1999.
+    /// links joined to the sender when it was sent; of a unicast its destination, if so. Robots
+    /// that move or relay late may be reached beyond those: it can exceed 1. Nothing if e is 0 or
+    /// no message carried its part of it. Source: S.-Y. Ni et al., The broadcast storm problem,
+    /// MobiCom 1999.
     std::optional<double> reach;
 
     /// SRB = (r - t) / r [-]: r the deliveries, t the distinct (message, robot) pairs in which the
@@ -66,6 +113,9 @@ struct MetricValues {
     std::uint32_t max_hops = 0;       ///< of the deliveries [-]
     std::vector<std::uint64_t> hops;  ///< deliveries that crossed h hops, h = 0 ... max_hops
 
+    std::vector<PartValues> flows;   ///< by flow - 1, if they are counted
+    std::vector<PartValues> robots;  ///< by robot, if they are counted
+
     friend bool operator==(const MetricValues&, const MetricValues&) = default;
 };
 
@@ -74,14 +124,15 @@ struct MetricValues {
 /// Messages sent before its begin are left out, with all that becomes of them.
 ///
 /// Memory: one bit per (message still in the table, robot), once it has been forwarded, and 8
-/// bytes per delivery, for the percentiles.
+/// bytes per delivery, for the percentiles; 40 per flow and robot that is counted.
 class Metrics {
   public:
-    explicit Metrics(Time begin = start_of_run) : begin_(begin) {}
+    explicit Metrics(Time begin = start_of_run, MetricParts parts = {})
+        : begin_(begin), parts_(parts) {}
 
     KindMask kinds() const {
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
-               kind_reachable | kind_any_order;
+               kind_any_order | (parts_.reach ? kind_reachable : 0);
     }
     void on(const Record& record, const RecordContext& context);
 
@@ -89,24 +140,41 @@ class Metrics {
     MetricValues values() const;
 
   private:
-    /// A message in the table, by its slot; a new message in the slot begins anew.
+    /// What is known of a message in the table. A slot begins anew with every message, also with
+    /// one that has no Sent, such as a router's own.
     struct Flood {
-        std::vector<std::uint64_t> forwarders;  ///< bit n: robot n has put it on air
-        bool reachable_known = false;
+        std::uint64_t uid = ~std::uint64_t{0};
+        std::vector<std::uint64_t> forwarders;   ///< bit n: robot n has put it on air
+        std::uint32_t others = 0;                ///< robots that it is for
+        std::optional<std::uint32_t> reachable;  ///< see Sent
+    };
+    /// How often each fate and each reason of a drop was seen.
+    template <class Reason, Reason last>
+    struct Counts {
+        std::array<std::uint64_t, static_cast<std::size_t>(last) + 1> of{};
+        std::uint64_t& operator[](Reason r) { return of[static_cast<std::size_t>(r)]; }
+        std::uint64_t operator[](Reason r) const { return of[static_cast<std::size_t>(r)]; }
     };
 
-    void count(const Sent&);
+    void count(const Sent&, const RecordContext&);
     void count(const Transmitted&, const RecordContext&);
     void count(const Received&, const RecordContext&);
     void deliver(const Reception&, const Frame&, const RecordContext&);
     void count(const Dropped&, const RecordContext&);
+    void count_parts(const Message&, std::uint64_t others, bool is_cut_off);
     bool counts(const Frame& frame, const RecordContext& context) const {
         return context.messages[frame.message].created >= begin_;
     }
-    Flood& flood(MessageId);
+    Flood& flood(MessageId, const RecordContext&);
+    PartValues& flow(const Message&);
+    PartValues& robot(NodeId);
+    std::vector<PartValues> robots() const;
 
     Time begin_;
-    MetricValues totals_;              ///< only its counts
+    MetricParts parts_;
+    MetricValues totals_;  ///< only its counts
+    Counts<Fate, last_fate> fates_;
+    Counts<DropReason, last_drop_reason> drops_;
     std::uint64_t others_ = 0;         ///< sum of (robots - 1)
     std::uint64_t reachable_ = 0;      ///< sum of reachable, where known ...
     std::uint64_t reached_ = 0;        ///< ... and the deliveries of those messages
@@ -114,6 +182,10 @@ class Metrics {
     std::vector<Duration> delays_;     ///< of the deliveries, in no order
     std::vector<std::uint64_t> hops_;  // deliveries by their hops
     std::vector<Flood> floods_;        ///< by MessageId
+    std::vector<PartValues> flows_;    ///< by flow - 1
+    std::vector<PartValues> robots_;   ///< by robot, but for broadcasts: ...
+    std::uint64_t broadcasts_ = 0;     ///< ... these, of everybody, ...
+    std::vector<std::uint64_t> own_broadcasts_;  ///< ... less its own
 };
 
 }  // namespace rovernet

@@ -126,22 +126,27 @@ bool is_reason(std::string_view text) {
     return std::find(std::begin(reasons), std::end(reasons), text) != std::end(reasons);
 }
 
-/// What became of a frame that the MAC dropped for a reason.
+/// What became of a frame that a MAC received in vain; a repeated unicast is dropped there, too.
 std::optional<Fate> loss_of(std::string_view reason) {
     if (reason == "DUP") return Fate::duplicate;
-    for (const Fate fate : {Fate::off, Fate::garbled, Fate::collided, Fate::busy}) {
-        if (reason == reason_of_loss(fate)) return fate;
-    }
-    return std::nullopt;
+    std::optional<Fate> found;
+    for_each_reason([&](auto each) {
+        if constexpr (std::is_same_v<decltype(each), Fate>) {
+            if (reason_of(each) == LossReason{reason, "MAC"}) found = each;
+        }
+    });
+    return found;
 }
 
-/// Why a copy was dropped before it got through.
-std::optional<DropReason> drop_of(std::string_view reason) {
-    for (const auto drop :
-         {DropReason::off, DropReason::queue_full, DropReason::retries, DropReason::end}) {
-        if (reason == reason_of(drop)) return drop;
-    }
-    return std::nullopt;
+/// Why a copy was dropped other than by the fate of its reception.
+std::optional<DropReason> drop_of(std::string_view reason, std::string_view layer) {
+    std::optional<DropReason> found;
+    for_each_reason([&](auto each) {
+        if constexpr (std::is_same_v<decltype(each), DropReason>) {
+            if (reason_of(each) == LossReason{reason, layer}) found = each;
+        }
+    });
+    return found;
 }
 
 /// What the event is, before it is known who the packet came from; nothing if it is not ours.
@@ -154,12 +159,10 @@ std::optional<Event> event_of(char op, std::string_view layer, std::string_view 
         if (op == 'r') return Event::received;
         if (reason == "TTL") return Event::ended_by_ttl;
         if (reason == "DUP") return Event::suppressed;
-        if (reason == "SLP") return Event::dropped;
-    } else if (op == 'D' && drop_of(reason) && (layer == "IFQ" || reason == "RET")) {
-        return Event::dropped;
-    } else if (layer == "MAC" && op == 'D' && loss_of(reason)) {
-        return Event::lost;
     }
+    if (op != 'D') return std::nullopt;
+    if (drop_of(reason, layer)) return Event::dropped;
+    if (layer == "MAC" && loss_of(reason)) return Event::lost;
     return std::nullopt;
 }
 
@@ -173,7 +176,7 @@ bool read_event(Ns2Packet& p, const Tokens& tokens, char op, Token layer, Token 
     const auto event = event_of(op, layer.text, reason.text);
     p.event = event.value_or(p.event);
     p.loss = loss_of(reason.text).value_or(p.loss);
-    p.drop = drop_of(reason.text).value_or(p.drop);
+    p.drop = drop_of(reason.text, layer.text).value_or(p.drop);
     return event.has_value();
 }
 

@@ -24,7 +24,7 @@ struct Ns2Packet {
         delivered,     ///< `r AGT`
         ended_by_ttl,  ///< `D RTR TTL`
         suppressed,    ///< `D RTR DUP`
-        dropped,       ///< `D RTR SLP`, `D IFQ IFQ`, `D IFQ END`, `D MAC RET`
+        dropped,       ///< `D` with layer and code of a DropReason
         lost           ///< `D MAC` with the reason: SLP, ERR, COL, BSY or DUP
     };
     Event event{};

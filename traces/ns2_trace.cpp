@@ -71,17 +71,6 @@ class PartFile {
     std::FILE* file_ = nullptr;
 };
 
-/// Where a copy that waits is lost: at the router, in the queue of its interface, or by its MAC.
-std::string_view layer_of(DropReason reason) {
-    switch (reason) {
-        case DropReason::off: return "RTR";
-        case DropReason::queue_full:
-        case DropReason::end: return "IFQ";
-        case DropReason::retries: return "MAC";
-    }
-    return {};
-}
-
 /// The PLCP preamble and header at 1 Mb/s, which ns-2 counts among a frame's bytes.
 constexpr std::uint32_t plcp_bytes = 24;
 /// [bytes] that a frame with this header of the access rung has on air beside its message.
@@ -238,7 +227,7 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
         if (repeated || !is_decoded(rx.fate)) {
             if (mac_ == MacTrace::off) continue;
             line.op = 'D';
-            line.reason = repeated ? "DUP" : reason_of_loss(rx.fate);
+            line.reason = reason_of(rx.fate).code;
             line.added = repeated ? 0 : on_air(r.header);
             packet(line, context);
             continue;
@@ -251,20 +240,18 @@ void Ns2Trace::Writer::lines(const Received& r, const RecordContext& context) {
             packet(line, context);
         }
         if (rx.fate == Fate::waiting || rx.fate == Fate::arrived) continue;
-        line.op = 'D', line.layer = "RTR";
-        line.reason = rx.fate == Fate::ttl ? "TTL" : "DUP";
+        line.op = 'D', line.layer = reason_of(rx.fate).layer;
+        line.reason = reason_of(rx.fate).code;
         packet(line, context);
     }
 }
 
 void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
-    if (r.reason == DropReason::retries && mac_ == MacTrace::off) return;
     MacHeader mac;
     if (r.frame.sender != r.node) mac = ip_header(r.frame.sender, r.frame.next_hop);
-    packet({{'D', r.time, r.node, layer_of(r.reason), reason_of(r.reason), mac},
-            r.frame.message,
-            r.frame.ttl},
-           context);
+    const auto [code, layer] = reason_of(r.reason);
+    if (layer == "MAC" && mac_ == MacTrace::off) return;
+    packet({{'D', r.time, r.node, layer, code, mac}, r.frame.message, r.frame.ttl}, context);
 }
 
 void Ns2Trace::Writer::lines(const AirSent& r, const RecordContext& context) {
@@ -279,7 +266,7 @@ void Ns2Trace::Writer::lines(const ControlReceived& r, const RecordContext& cont
     Line line{'r', r.reception.time, r.reception.node, "MAC", "---", mac_header(r.air)};
     if (!is_decoded(r.reception.fate)) {
         line.op = 'D';
-        line.reason = reason_of_loss(r.reception.fate);
+        line.reason = reason_of(r.reception.fate).code;
     }
     control(line, r.air, r.bytes, context);
 }

@@ -24,7 +24,7 @@ enum class MacTrace { off, on };
 /// | Transmitted        | `s RTR` by the message's origin, `f RTR` by anybody else            |
 /// | Received           | per decoded reception `r RTR`, then `r AGT` if delivered, then      |
 /// |                    | `D RTR TTL` or `D RTR DUP` by its fate                              |
-/// | Dropped            | `D RTR SLP`, `D IFQ IFQ` or `D IFQ END`                             |
+/// | Dropped            | `D` with layer and code of the reason, see sim/fate.hpp             |
 /// | Moved              | `M`                                                                 |
 ///
 /// With MacTrace::on also, and else the same lines:

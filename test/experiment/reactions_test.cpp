@@ -33,11 +33,10 @@ std::vector<std::string> said(const std::string& scenario) {
     const Scenario s = load_scenario(folder.write("s.toml", scenario), {});
     const RunResult result = run_scenario(s, {.folder = folder.path("out"), .speed = {}});
     std::vector<std::string> words;
-    for (const auto& happening : result.timeline) {
-        const auto& text = happening.text;
+    for (std::size_t i = 0; i < result.timeline->size(); ++i) {
+        const auto [time, robot, text] = (*result.timeline)[i];
         if (!text.starts_with("says ")) continue;
-        words.push_back(*happening.detail.find("robot")->string() + ": " +
-                        text.substr(6, text.size() - 7));
+        words.push_back(robot + ": " + text.substr(6, text.size() - 7));
     }
     return words;
 }

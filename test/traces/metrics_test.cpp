@@ -150,3 +150,36 @@ TEST_CASE("metrics: the same to the last digit however the receptions are cut") 
     RandomRecords(run, 3).run(20, 5'000);
     CHECK(run.values() == cut->values());
 }
+
+TEST_CASE("metrics: every reason of a drop is counted under its own code") {
+    for_each_reason([](auto reason) {
+        Measured run;
+        run.place(Vec3{});
+        run.place(Vec3{10, 0, 0});
+        const auto m = run.send(at(0), a, 1);
+        if constexpr (std::is_same_v<decltype(reason), DropReason>) {
+            run.emit(Dropped{at(10), a, frame(m, a, 1, 1), reason});
+        } else {
+            run.receive(frame(m, a, 1, 1), {{at(10), b, reason, false}});
+        }
+        for (const DropCount& drop : run.values().drops) {
+            CAPTURE(drop.reason);
+            CHECK(drop.count == (drop.reason == reason_of(reason).code ? 1 : 0));
+        }
+    });
+}
+
+TEST_CASE("metrics: a packet that no application sent takes over nothing from the message before") {
+    Measured run;
+    for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
+    const auto m = run.send(at(0), a, 2, 64, 2);
+    run.transmit(at(1), frame(m, b, 1, 2), a);
+    run.messages.release(m);
+    const auto own = run.messages.add({.origin = a, .uid = 77, .created = at(10), .payload = {}});
+    REQUIRE(own == m);  // it has the message's place
+    run.transmit(at(11), frame(own, b, 1, 2), a);
+    run.receive(frame(own, b, 1, 2), {{at(12), c, Fate::arrived, true}});
+    const auto v = run.values();
+    CHECK(v.reach == 0.0);                // the delivery is of no message that was sent
+    CHECK(v.saved_rebroadcasts == -1.0);  // b relayed both
+}

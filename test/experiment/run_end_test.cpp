@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/network.hpp"
+#include "models/disc.hpp"
+#include "routing/flood.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string_view>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+namespace {
+
+std::uint64_t dropped(const MetricValues& values, std::string_view code) {
+    const auto found = std::find_if(values.drops.begin(), values.drops.end(),
+                                    [&](const DropCount& d) { return d.reason == code; });
+    REQUIRE(found != values.drops.end());
+    return found->count;
+}
+
+/// Robots on a line, 10 m apart, of which each hears the next.
+struct Line : Network {
+    explicit Line(int robots, NetworkSettings settings = {}) : Network(of(std::move(settings))) {
+        route(Flood{});
+        for (int i = 0; i < robots; ++i) add({.name = "", .at = {10.0 * i, 0, 0}});
+    }
+    static NetworkSettings of(NetworkSettings settings) {
+        settings.propagation = Disc{.range = {11}};
+        return settings;
+    }
+};
+
+constexpr NodeId a{0}, b{1}, c{2};
+
+}  // namespace
+
+TEST_CASE("end of the run: a message that it cut off is left out of delivery ratio and reach") {
+    Line net(2);
+    net.broadcast(a, "first");
+    net.run_for(1s);
+    net.broadcast(a, "too late");
+    net.run_for(1us);
+    CHECK(net.metrics().delivery_ratio == 0.5);
+    net.finish();
+    const MetricValues values = net.metrics();
+    CHECK(values.messages == 2);
+    CHECK(values.cut_off == 1);
+    CHECK(dropped(values, "END") == 1);
+    CHECK(values.delivery_ratio == 1.0);
+    CHECK(values.reach == 1.0);
+}
+
+TEST_CASE("end of the run: a message that somebody has is not cut off, nor one nobody could hear") {
+    Line net(3);
+    net.run_for(1s);
+    net.broadcast(a, "on its way");
+    net.run_for(1ms);  // b has it, and waits to pass it on
+    net.finish();
+    CHECK(net.metrics().cut_off == 0);
+    CHECK(net.metrics().delivery_ratio == 0.5);
+
+    Line alone(1);
+    alone.add({.name = "far", .at = {1000, 0, 0}});
+    alone.broadcast(a, "nobody");
+    alone.finish();
+    CHECK(alone.metrics().cut_off == 0);
+    CHECK(alone.metrics().delivery_ratio == 0.0);
+}
+
+TEST_CASE("unicast: one that its destination cannot hear has a reason") {
+    Line net(3);
+    net.unicast(a, c, "too far");
+    net.run_for(1s);
+    net.finish();
+    const MetricValues values = net.metrics();
+    CHECK(values.delivery_ratio == 0.0);
+    CHECK(dropped(values, "NRTE") == 1);
+    CHECK(values.cut_off == 0);
+}
+
+TEST_CASE("unicast: reach is of its destination, if a chain of links leads there") {
+    Line net(4);
+    net.unicast(a, b, "near");
+    net.run_for(1s);
+    CHECK(net.metrics().reach == 1.0);
+    net.unicast(a, c, "reachable, if somebody relayed");
+    net.run_for(1s);
+    CHECK(net.metrics().reach == 0.5);
+    net.switch_off(b);
+    net.unicast(a, c, "not reachable: it does not count");
+    net.run_for(1s);
+    CHECK(net.metrics().reach == 0.5);
+}
+
+TEST_CASE("flows: each is counted by itself, and what each robot gets") {
+    Line net(3, {.metric_parts = {.flows = true, .robots = true}});
+    net.broadcast(a, "one", 100, 1);
+    net.run_for(1s);
+    net.unicast(a, c, "two", 50, 2);
+    net.unicast(c, b, "two", 50, 2);
+    net.broadcast(b, "of no flow");
+    net.run_for(1s);
+    const MetricValues values = net.metrics();
+    REQUIRE(values.flows.size() == 2);
+    CHECK(values.flows[0].messages == 1);
+    CHECK(values.flows[0].deliveries == 2);
+    CHECK(values.flows[0].delivery_ratio() == 1.0);
+    CHECK(values.flows[0].bytes == 200);
+    CHECK(values.flows[1].messages == 2);
+    CHECK(values.flows[1].delivery_ratio() == 0.5);
+    REQUIRE(values.robots.size() == 3);
+    CHECK(values.robots[0].messages == 1);  // what b says
+    CHECK(values.robots[0].delivery_ratio() == 1.0);
+    CHECK(values.robots[1].messages == 2);
+    CHECK(values.robots[1].delivery_ratio() == 1.0);
+    CHECK(values.robots[2].messages == 3);
+    CHECK(values.robots[2].deliveries == 2);
+}
