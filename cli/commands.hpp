@@ -148,6 +148,7 @@ void sweep(const SweepArguments& arguments);
 struct CompareArguments : StudyArguments {
     std::vector<std::string> models;
     std::string metric, baseline;
+    std::optional<double> margin;
     std::optional<std::string> picture;
 };
 void compare(const CompareArguments& arguments);
@@ -158,7 +159,7 @@ struct ResultsArguments {
     std::optional<double> confidence, quantile;
     std::optional<std::string> interval;
     std::optional<std::string> sql;
-    bool csv = false, json = false, provenance = false, failures = false;
+    bool csv = false, json = false, provenance = false, failures = false, common = false;
 };
 void results(const ResultsArguments& arguments);
 
@@ -167,7 +168,7 @@ struct PlotArguments {
     std::vector<std::string> where;
     std::optional<double> confidence, quantile;
     std::optional<std::string> interval;
-    bool log_x = false, log_y = false;
+    bool log_x = false, log_y = false, common = false;
     int width = 672;
     double font_size = 12;
 };

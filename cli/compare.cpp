@@ -7,6 +7,8 @@
 #include "cli/text_table.hpp"
 #include "experiment/json.hpp"
 #include "experiment/output.hpp"
+#include "experiment/toml.hpp"
+#include "study/explain.hpp"
 #include "study/precision.hpp"
 #include "study/study_chart.hpp"
 
@@ -40,26 +42,63 @@ class PassingStore {
     std::string path_;
 };
 
+constexpr std::string_view model_path = "propagation.model";
+
 /// What varies: the models that were asked for, or those of the file's [study].
-std::vector<Vary> models_to_vary(const CompareArguments& a) {
-    const std::string path = "propagation.model";
+Vary models_to_vary(const CompareArguments& a, const StudyTable& study) {
     const Location option{"--models " + fmt::format("{}", fmt::join(a.models, ",")), 0, 0, true};
-    Vary vary{path, option, {}};
+    Vary vary{std::string(model_path), option, {}};
     for (const std::string& model : a.models) {
         vary.values.emplace_back(model);
         vary.values.back().where = option;
     }
     if (vary.values.empty()) {
-        for (const Vary& each : ScenarioFile(a.file, options_of(a)).scenario().study.vary) {
-            if (each.path == path) vary = each;
+        for (const Vary& each : study.vary) {
+            if (each.path == model_path) vary = each;
         }
     }
-    if (vary.values.size() < 2) {
-        throw std::invalid_argument(
-            "compare needs two models: give --models disc,friis or a file "
-            "whose [study] varies propagation.model");
+    if (vary.values.size() >= 2) return vary;
+    throw std::invalid_argument(
+        "compare needs two models: give --models disc,friis or a file "
+        "whose [study] varies propagation.model");
+}
+
+std::vector<std::string> names_of(const Vary& models) {
+    std::vector<std::string> names;
+    for (const Value& model : models.values) names.push_back(plain_text(model));
+    return names;
+}
+
+/// The value at a path such as "robot.A.radio.power"; null if there is none.
+const Value* value_at(const Value& document, std::string_view path) {
+    const Value* at = &document;
+    while (at && !path.empty()) {
+        const std::string_view step = path.substr(0, path.find('.'));
+        path.remove_prefix(std::min(step.size() + 1, path.size()));
+        const Value* next = at->table() ? at->table()->find(step) : nullptr;
+        for (std::size_t i = 0; at->array() && i < at->array()->size(); ++i) {
+            const Value& item = (*at->array())[i];
+            const Value* name = item.table() ? item.table()->find("name") : nullptr;
+            const bool named = name && name->string() && *name->string() == step;
+            if (named || step == fmt::format("{}", i)) next = &item;
+        }
+        at = next;
     }
-    return {vary};
+    return at;
+}
+
+/// The other keys that the file's [study] varies, which are held as the file has them.
+std::string held_keys(const StudyTable& study, const Scenario& base) {
+    std::vector<std::string> keys;
+    const Value document(to_document(base));
+    for (const Vary& vary : study.vary) {
+        if (vary.path == model_path) continue;
+        const Value* value = value_at(document, vary.path);
+        keys.push_back(value ? fmt::format("{} = {}", vary.path, plain_text(*value)) : vary.path);
+    }
+    if (keys.empty()) return "";
+    return fmt::format("held as the file has {}: {}", keys.size() == 1 ? "it" : "them",
+                       fmt::join(keys, ", "));
 }
 
 Value optional_value(const std::optional<double>& v) {
@@ -67,22 +106,33 @@ Value optional_value(const std::optional<double>& v) {
 }
 
 Table as_table(const ComparedModel& m) {
-    const auto around = [](double middle, const std::optional<double>& half, int sign) {
-        return half ? Value(middle + sign * *half) : Value();
-    };
     Table row;
     row.set("model", m.model);
-    row.set("mean", m.summary.mean);
-    row.set("low", around(m.summary.mean, m.half_width, -1));
-    row.set("high", around(m.summary.mean, m.half_width, 1));
-    row.set("n", std::uint64_t{m.summary.n});
+    row.set("mean", optional_value(m.answer.value));
+    row.set("low", optional_value(m.answer.low));
+    row.set("high", optional_value(m.answer.high));
+    row.set("n", std::uint64_t{m.answer.values.size()});
+    row.set("failed", m.answer.gaps.failed);
+    row.set("missing", m.answer.gaps.missing);
+    row.set("undefined", m.answer.gaps.undefined);
     const auto& d = m.difference;
     row.set("difference", d ? Value(d->difference.mean) : Value());
-    row.set("difference_low", d ? around(d->difference.mean, d->half_width, -1) : Value());
-    row.set("difference_high", d ? around(d->difference.mean, d->half_width, 1) : Value());
-    row.set("holm_p", d ? Value(m.holm_p) : Value());
+    row.set("difference_low", d ? Value(d->low) : Value());
+    row.set("difference_high", d ? Value(d->high) : Value());
+    row.set("difference_n", d ? Value(std::uint64_t{d->difference.n}) : Value());
+    row.set("p", d ? Value(d->p) : Value());
     row.set("detectable", d ? optional_value(d->detectable) : Value());
-    row.set("error", m.error);
+    if (const auto& e = m.equivalence) {
+        const auto count = [](const std::optional<std::size_t>& n) {
+            return n ? Value(std::uint64_t{*n}) : Value();
+        };
+        constexpr const char* words[] = {"undecided", "within", "outside"};
+        row.set("verdict", words[static_cast<int>(e->verdict)]);
+        row.set("decided_at", count(e->decided_at));
+        row.set("needed", count(e->needed));
+    }
+    row.set("error", optional_value(m.error));
+    row.set("error_n", std::uint64_t{m.error_n});
     row.set("cpu_s", m.cpu_s);
     return row;
 }
@@ -93,6 +143,10 @@ void print_json(const Comparison& c) {
     table.set("baseline", c.baseline);
     table.set("dearest", c.dearest);
     table.set("confidence", c.confidence);
+    if (c.margin) table.set("margin", *c.margin);
+    table.set("held", c.held);
+    table.set("failed", c.runs.failed);
+    table.set("missing", c.runs.missing);
     Array rows, pairs;
     for (const ComparedModel& model : c.models) rows.emplace_back(as_table(model));
     for (const PairedVariance& pair : c.pairs) {
@@ -107,22 +161,55 @@ void print_json(const Comparison& c) {
     fmt::print("{}", to_json(table));
 }
 
-std::string interval(double mean, const std::optional<double>& half) {
-    if (!half) return fmt::format("{:.4g}", mean);
-    return fmt::format("{:.4g} ({:.4g} to {:.4g})", mean, mean - *half, mean + *half);
+std::string interval(double mean, const std::optional<double>& low,
+                     const std::optional<double>& high) {
+    if (!low || !high) return fmt::format("{:.4g}", mean);
+    return fmt::format("{:.4g} ({:.4g} to {:.4g})", mean, *low, *high);
+}
+
+void print_table(const Comparison& c) {
+    TextTable table({"model", c.metric, "n", "minus " + c.baseline, "n", "error to " + c.dearest,
+                     "n", "CPU/run"});
+    const auto count = [](std::size_t n) { return fmt::format("{}", n); };
+    for (const ComparedModel& m : c.models) {
+        const Answer& a = m.answer;
+        const auto& d = m.difference;
+        table.add({m.model, a.value ? interval(*a.value, a.low, a.high) : "none",
+                   count(a.values.size()), d ? interval(d->difference.mean, d->low, d->high) : "-",
+                   d ? count(d->difference.n) : "-",
+                   m.error ? fmt::format("{:.3g}", *m.error) : "-", count(m.error_n),
+                   fmt::format("{:.3g} ms", 1e3 * m.cpu_s)});
+    }
+    fmt::print("{}", table.text());
+}
+
+/// What the numbers are of, and what is not in them.
+void print_coverage(const Comparison& c) {
+    if (!c.held.empty()) fmt::print("{}\n", c.held);
+    const std::string lacking = incompleteness(c.runs);
+    if (!lacking.empty()) fmt::print("{}\n", lacking);
+    for (const ComparedModel& m : c.models) {
+        const std::string gaps = m.unpaired.text();
+        if (gaps.empty()) continue;
+        if (m.model == c.baseline) {
+            fmt::print("{} lacks replications: {}\n", m.model, gaps);
+        } else {
+            fmt::print("{} and {} lack pairs, as one of both lacks the replication: {}\n", m.model,
+                       c.baseline, gaps);
+        }
+    }
 }
 
 void print_text(const Comparison& c) {
-    TextTable table({"model", c.metric, "minus " + c.baseline, "error to " + c.dearest, "CPU/run"});
-    for (const ComparedModel& m : c.models) {
-        const auto& d = m.difference;
-        table.add({m.model, interval(m.summary.mean, m.half_width),
-                   d ? interval(d->difference.mean, d->half_width) : "-",
-                   fmt::format("{:.3g}", m.error), fmt::format("{:.3g} ms", 1e3 * m.cpu_s)});
-    }
-    fmt::print("{}\n", table.text());
+    print_table(c);
+    print_coverage(c);
+    fmt::print("\n");
     for (const ComparedModel& m : c.models) {
         if (!m.sentence.empty()) fmt::print("{}\n", m.sentence);
+    }
+    if (c.margin) fmt::print("\n");
+    for (const ComparedModel& m : c.models) {
+        if (!m.equivalence_sentence.empty()) fmt::print("{}\n", m.equivalence_sentence);
     }
     fmt::print("\ncommon random numbers: variance of unpaired over that of paired differences\n");
     for (const PairedVariance& pair : c.pairs) {
@@ -130,17 +217,51 @@ void print_text(const Comparison& c) {
     }
 }
 
+/// @throws InputError for a margin that every difference of the metric is within
+void check_margin(const CompareArguments& a, const std::string& metric) {
+    const Bounds range = difference_bounds(bounds_of(metric));
+    if (!a.margin || !range.closed() || *a.margin < *range.high) return;
+    throw InputError({fmt::format("--margin {}", *a.margin), 0, 0, true},
+                     fmt::format("expected a value below {}, as no two values of {} differ by more",
+                                 *range.high, metric));
+}
+
+/// @throws CommandEnd if the user has ended it: a part of a comparison is none
+void check_interrupted(const CompareArguments& a, const SweepResult& result) {
+    if (stop_requested == 0 || result.progress.left == 0) return;
+    throw CommandEnd(interrupted,
+                     a.store ? "interrupted; what was finished is kept: go on with\n  " + a.command
+                             : "interrupted; --store FILE would have kept the runs");
+}
+
+/// @throws CommandEnd if runs failed
+void check_failures(const CompareArguments& a, const Store& store, const SweepResult& result) {
+    if (a.store) return check_end(a, store, result);
+    if (result.progress.failed == 0) return;
+    throw CommandEnd(partly_failed,
+                     fmt::format("{} runs failed; the first: {}\n  {}", result.progress.failed,
+                                 result.failure->error,
+                                 run_command(store, store.points().at(result.failure->point),
+                                             result.failure->replication)));
+}
+
 }  // namespace
 
 void compare(const CompareArguments& a) {
-    Study study(a.file, study_options(a), models_to_vary(a));
+    const StudyTable given = ScenarioFile(a.file, options_of(a)).scenario().study;
+    const Vary models = models_to_vary(a, given);
+    Study study(a.file, study_options(a), std::vector<Vary>{models});
     for (const std::string& text : study.base().notices) notice(text);
+    if (!a.baseline.empty()) place_of(a.baseline, names_of(models));
+    const std::string metric = a.metric.empty() ? first_metric(study.table()) : a.metric;
+    check_metric(metric, study.base(), {"--metric " + metric, 0, 0, true});
+    check_margin(a, metric);
     const PassingStore passing;
     Store store = open_store(a.store.value_or(passing.file()), study);
     const SweepResult result = run_study(a, study, store);
-    check_end(a, store, result);
-    const std::string metric = a.metric.empty() ? first_metric(study.table()) : a.metric;
-    const Comparison comparison = compare_models(store, metric, a.baseline);
+    check_interrupted(a, result);
+    Comparison comparison = compare_models(store, metric, a.baseline, a.margin);
+    comparison.held = held_keys(given, study.base());
     if (a.picture) {
         write_file(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));
     }
@@ -149,6 +270,7 @@ void compare(const CompareArguments& a) {
     } else {
         print_text(comparison);
     }
+    check_failures(a, store, result);
     check_precision(study, result);
 }
 

@@ -54,7 +54,8 @@ void plot(const PlotArguments& a) {
                                             .quantile = a.quantile,
                                             .interval = method_named(a.interval),
                                             .log_x = a.log_x,
-                                            .log_y = a.log_y});
+                                            .log_y = a.log_y,
+                                            .common = a.common});
     if (is_picture_name(a.out)) {
         write_picture(chart_svg(std::span(&chart, 1), layout_of(a)), a.out);
     } else {

@@ -5,25 +5,56 @@ namespace rovernet::cli {
 namespace {
 
 constexpr const char* only_points = "only points with KEY=VALUE, such as ttl=6";
+constexpr const char* only_cells =
+    "where rows lack runs, average only over the cells that all of them have";
 
 void add_results(CLI::App& app) {
     const auto [results, a] = add_command(app, "results", "What a study came to", cli::results);
     results.add_option("STUDY", a.store, "store of a study, as sweep makes it")->required();
-    results.add_option("--metric", a.metrics, "which, such as delivery_ratio,latency_mean_s")
-        ->delimiter(',');
-    results.add_option("--group-by", a.group_by, "keys that vary; the others are averaged over")
-        ->delimiter(',');
-    results.add_option("--where", a.where, only_points)->allow_extra_args(false);
-    results.add_option("--confidence", a.confidence, "of the intervals, such as 0.95")
-        ->check(CLI::Range(0.5, 0.9999));
+    CLI::Option* metric =
+        results.add_option("--metric", a.metrics, "which, such as delivery_ratio,latency_mean_s")
+            ->delimiter(',');
+    CLI::Option* group_by =
+        results
+            .add_option("--group-by", a.group_by, "keys that vary; the others are averaged over")
+            ->delimiter(',');
+    CLI::Option* where = results.add_option("--where", a.where, only_points);
+    where->allow_extra_args(false);
+    CLI::Option* common = results.add_flag("--common", a.common, only_cells);
+    CLI::Option* confidence =
+        results.add_option("--confidence", a.confidence, "of the intervals, such as 0.95")
+            ->check(CLI::Range(0.5, 0.9999));
     add_interval(results, a.interval);
-    results.add_option("--quantile", a.quantile, "this quantile in place of the mean, such as 0.9")
-        ->check(CLI::Range(0.0001, 0.9999));
-    results.add_flag("--csv", a.csv, "a row per run and metric, for pandas and R");
-    results.add_flag("--provenance", a.provenance, "with --csv: a row per run, its times and host");
-    results.add_flag("--failures", a.failures, "the runs that failed, and why");
-    results.add_option("--sql", a.sql, "answer this question, such as 'SELECT * FROM result'");
+    CLI::Option* quantile =
+        results
+            .add_option("--quantile", a.quantile, "this quantile in place of the mean, such as 0.9")
+            ->check(CLI::Range(0.0001, 0.9999));
+    CLI::Option* csv = results
+                           .add_flag("--csv", a.csv,
+                                     "a row per run and metric, for pandas and R; with --group-by "
+                                     "one per row, metric and replication")
+                           ->excludes(confidence)
+                           ->excludes(results.get_option("--interval"))
+                           ->excludes(quantile);
+    CLI::Option* provenance =
+        results
+            .add_flag("--provenance", a.provenance, "with --csv: a row per run, its times and host")
+            ->needs(csv);
+    CLI::Option* failures =
+        results.add_flag("--failures", a.failures, "the runs that failed, and why")->excludes(csv);
+    CLI::Option* sql =
+        results.add_option("--sql", a.sql, "answer this question, such as 'SELECT * FROM result'")
+            ->excludes(csv)
+            ->excludes(failures)
+            ->excludes(where);
+    for (CLI::Option* of_answers : {metric, group_by, common}) {
+        for (CLI::Option* other : {provenance, failures, sql}) other->excludes(of_answers);
+    }
+    for (CLI::Option* of_values : {confidence, quantile, results.get_option("--interval")}) {
+        for (CLI::Option* other : {failures, sql}) other->excludes(of_values);
+    }
     add_json(results, a.json);
+    for (CLI::Option* text : {csv, failures, sql}) results.get_option("--json")->excludes(text);
 }
 
 void add_plot(CLI::App& app) {
@@ -33,6 +64,7 @@ void add_plot(CLI::App& app) {
     plot.add_option("-y", p.y, "metric, such as delivery_ratio")->required();
     plot.add_option("--by", p.by, "key of the lines, or of the rows of a heat map");
     plot.add_option("--where", p.where, only_points)->allow_extra_args(false);
+    plot.add_flag("--common", p.common, only_cells);
     plot.add_option("--kind", p.kind,
                     "lines, bars, cdf or heat_map (default: lines over numbers, "
                     "bars over words)");

@@ -7,6 +7,7 @@
 #include "experiment/json.hpp"
 #include "experiment/toml.hpp"
 #include "study/explain.hpp"
+#include "study/results_csv.hpp"
 #include "study/study.hpp"
 #include "study/study_chart.hpp"
 
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 namespace rovernet::cli {
 namespace {
@@ -22,7 +24,7 @@ constexpr std::size_t few_replications = 5;
 
 Value optional_value(const std::optional<double>& v) { return v ? Value(*v) : Value(); }
 
-Table as_table(const Answer& answer) {
+Table as_table(const Answer& answer, const Answers& all) {
     Table row;
     row.set("settings", answer.settings);
     row.set("metric", answer.metric);
@@ -36,7 +38,11 @@ Table as_table(const Answer& answer) {
     row.set("sd", s ? optional_value(s->standard_deviation) : Value());
     row.set("min", s ? Value(s->min) : Value());
     row.set("max", s ? Value(s->max) : Value());
-    row.set("undefined", std::uint64_t{answer.undefined});
+    row.set("averaged", Array(all.averaged.begin(), all.averaged.end()));
+    row.set("failed", answer.gaps.failed);
+    row.set("missing", answer.gaps.missing);
+    row.set("undefined", answer.gaps.undefined);
+    row.set("left_out", answer.left_out);
     return row;
 }
 
@@ -46,58 +52,94 @@ std::string cell(const Answer& answer) {
     return fmt::format("{:.4g} ({:.4g} to {:.4g})", *answer.value, *answer.low, *answer.high);
 }
 
-/// The answers as a table: a column per key and metric, a row per group.
-TextTable table_of(const std::vector<Answer>& list, std::size_t metrics) {
-    TextTable::Line head;
-    for (const Entry& entry : list.front().settings.entries) head.push_back(entry.key);
-    head.emplace_back("n");
-    for (std::size_t m = 0; m < metrics; ++m) head.push_back(list[m].metric);
-    TextTable table(std::move(head));
-    for (std::size_t g = 0; g < list.size(); g += metrics) {
-        TextTable::Line line;
-        for (const Entry& entry : list[g].settings.entries) line.push_back(plain_text(entry.value));
-        line.push_back(fmt::format("{}", list[g].values.size()));
-        for (std::size_t m = 0; m < metrics; ++m) line.push_back(cell(list[g + m]));
-        table.add(std::move(line));
-    }
-    return table;
-}
-
-/// How many metrics the answers of one group are about.
+/// How many metrics the answers of one row are about.
 std::size_t metrics_in(const std::vector<Answer>& list) {
     std::size_t metrics = 1;
     while (metrics < list.size() && list[metrics].metric != list[0].metric) ++metrics;
     return metrics;
 }
 
-void warn(const std::vector<Answer>& list, std::size_t failures, const std::string& store) {
+/// The answers as a table, a line per row: its keys, its metrics, and its runs that failed or are
+/// missing, if there are any. A column n stands before the metrics if in each row all of them are
+/// of as many replications, or else behind each.
+class AnswerTable {
+  public:
+    explicit AnswerTable(const std::vector<Answer>& list)
+        : list_(list), metrics_(metrics_in(list)) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const Answer& first = list[i - i % metrics_];
+            one_n_ = one_n_ && list[i].values.size() == first.values.size();
+            failed_ = failed_ || list[i].gaps.failed > 0;
+            missing_ = missing_ || list[i].gaps.missing > 0;
+        }
+    }
+
+    std::string text() const {
+        TextTable table(head());
+        for (std::size_t row = 0; row < list_.size(); row += metrics_) table.add(line(row));
+        return table.text();
+    }
+
+  private:
+    TextTable::Line head() const {
+        TextTable::Line head;
+        for (const Entry& entry : list_.front().settings.entries) head.push_back(entry.key);
+        if (one_n_) head.emplace_back("n");
+        for (std::size_t m = 0; m < metrics_; ++m) {
+            head.push_back(list_[m].metric);
+            if (!one_n_) head.emplace_back("n");
+        }
+        if (failed_) head.emplace_back("failed");
+        if (missing_) head.emplace_back("missing");
+        return head;
+    }
+
+    TextTable::Line line(std::size_t row) const {
+        const auto n_of = [](const Answer& a) { return fmt::format("{}", a.values.size()); };
+        const Answer& first = list_[row];
+        TextTable::Line line;
+        for (const Entry& entry : first.settings.entries) line.push_back(plain_text(entry.value));
+        if (one_n_) line.push_back(n_of(first));
+        for (std::size_t m = 0; m < metrics_; ++m) {
+            line.push_back(cell(list_[row + m]));
+            if (!one_n_) line.push_back(n_of(list_[row + m]));
+        }
+        if (failed_) line.push_back(fmt::format("{}", first.gaps.failed));
+        if (missing_) line.push_back(fmt::format("{}", first.gaps.missing));
+        return line;
+    }
+
+    const std::vector<Answer>& list_;
+    std::size_t metrics_;
+    bool one_n_ = true, failed_ = false, missing_ = false;
+};
+
+void warn_of_few(const std::vector<Answer>& list) {
     const auto few = std::count_if(list.begin(), list.end(), [](const Answer& a) {
         return a.values.size() < few_replications;
     });
-    if (few > 0) {
-        notice(
-            fmt::format("warning: {} of {} values are of fewer than {} replications: their "
-                        "intervals say little",
-                        few, list.size(), few_replications));
-    }
-    const auto skewed = std::ranges::count_if(list, &Answer::skewed);
-    if (skewed > 0) {
-        notice(
-            fmt::format("warning: {} of {} intervals are by Student's t of values that are too "
-                        "skewed for it (n <= 25 times their squared skewness): they may cover "
-                        "the truth less often than they say",
-                        skewed, list.size()));
-    }
-    if (failures > 0) {
-        notice(fmt::format("{} runs failed and are not in these: rovernet results {} --failures",
-                           failures, store));
-    }
+    if (few == 0) return;
+    notice(
+        fmt::format("warning: {} of {} values are of fewer than {} replications: their "
+                    "intervals say little",
+                    few, list.size(), few_replications));
 }
 
-std::size_t failures_in(const Store& store) {
-    const auto runs = store.runs();
-    return static_cast<std::size_t>(std::count_if(
-        runs.begin(), runs.end(), [](const StoredRun& run) { return !run.error.empty(); }));
+void warn_of_skewness(const std::vector<Answer>& list) {
+    const auto skewed = std::ranges::count_if(list, &Answer::skewed);
+    if (skewed == 0) return;
+    notice(
+        fmt::format("warning: {} of {} intervals are by Student's t of values that are too "
+                    "skewed for it (n <= 25 times their squared skewness): they may cover "
+                    "the truth less often than they say",
+                    skewed, list.size()));
+}
+
+/// Says what the whole study lacks.
+void warn_of_gaps(const RunCounts& runs, const std::string& store) {
+    const std::string text = incompleteness(runs);
+    if (!text.empty()) notice(fmt::format("{}: {}", store, text));
+    if (runs.failed > 0) notice(fmt::format("why: rovernet results {} --failures", store));
 }
 
 std::optional<std::vector<std::string>> group_by_of(const ResultsArguments& a, const Store& store) {
@@ -109,38 +151,69 @@ std::optional<std::vector<std::string>> group_by_of(const ResultsArguments& a, c
     return paths;
 }
 
-void print_answers(const ResultsArguments& a, const Store& store) {
-    const auto list = answers(store, {.metrics = a.metrics,
-                                      .group_by = group_by_of(a, store),
-                                      .where = conditions_of(varied_paths(store), a.where),
-                                      .confidence = a.confidence,
-                                      .quantile = a.quantile,
-                                      .interval = method_named(a.interval)});
-    const std::size_t failures = failures_in(store);
-    if (a.json) {
-        Array rows;
-        for (const Answer& answer : list) rows.emplace_back(as_table(answer));
-        Table table;
-        table.set("version", store.property("version"));
-        table.set("confidence", a.confidence.value_or(confidence_of(store)));
-        if (a.quantile) table.set("quantile", *a.quantile);
-        table.set("failed", std::uint64_t{failures});
-        table.set("rows", std::move(rows));
-        fmt::print("{}", to_json(table));
-    } else {
-        fmt::print("{}", table_of(list, metrics_in(list)).text());
-    }
-    warn(list, failures, a.store);
+Question question_of(const ResultsArguments& a, const Store& store) {
+    return {.metrics = a.metrics,
+            .group_by = group_by_of(a, store),
+            .where = conditions_of(varied_paths(store), a.where),
+            .confidence = a.confidence,
+            .quantile = a.quantile,
+            .interval = method_named(a.interval),
+            .common = a.common};
 }
 
-void print_failures(const Store& store) {
-    const auto points = store.points();
+void print_json(const ResultsArguments& a, const Store& store, const Answers& all) {
+    Array rows;
+    for (const Answer& answer : all.list) rows.emplace_back(as_table(answer, all));
+    Table table;
+    table.set("version", store.property("version"));
+    table.set("confidence", a.confidence.value_or(confidence_of(store)));
+    if (a.quantile) table.set("quantile", *a.quantile);
+    table.set("runs", all.runs.all());
+    table.set("failed", all.runs.failed);
+    table.set("missing", all.runs.missing);
+    if (!all.averaged.empty()) table.set("weights", "equal for each point in each replication");
+    table.set("rows", std::move(rows));
+    fmt::print("{}", to_json(table));
+}
+
+void print_answers(const ResultsArguments& a, const Store& store) {
+    const Answers all = answers(store, question_of(a, store));
+    if (a.json) {
+        print_json(a, store, all);
+    } else {
+        fmt::print("{}", AnswerTable(all.list).text());
+        const std::string covered = coverage_text(all);
+        if (!covered.empty()) fmt::print("\n{}\n", covered);
+    }
+    warn_of_few(all.list);
+    warn_of_skewness(all.list);
+    warn_of_gaps(all.runs, a.store);
+}
+
+void print_csv(const ResultsArguments& a, const Store& store) {
+    const Write write = [](std::string_view text) {
+        std::fwrite(text.data(), 1, text.size(), stdout);
+    };
+    const Question question = question_of(a, store);
+    if (a.provenance) {
+        write_provenance_csv(store, question.where, write);
+    } else {
+        write_csv(store, question, write);
+    }
+    warn_of_gaps(counts_of(inventory_of(store)), a.store);
+}
+
+void print_failures(const ResultsArguments& a, const Store& store) {
+    std::map<std::uint32_t, StoredPoint> points;
+    for (StoredPoint& p : points_where(store, conditions_of(varied_paths(store), a.where))) {
+        points[p.number] = std::move(p);
+    }
     for (const StoredRun& run : store.runs()) {
-        if (run.error.empty()) continue;
-        const StoredPoint& point = points.at(run.point);
+        const auto point = points.find(run.point);
+        if (run.error.empty() || point == points.end()) continue;
         fmt::print("{}/{}  {}\n  {}\n  {}\n", run.point, run.replication,
-                   settings_text(point.settings), run.error,
-                   run_command(store, point, run.replication));
+                   settings_text(point->second.settings), run.error,
+                   run_command(store, point->second, run.replication));
     }
 }
 
@@ -153,52 +226,11 @@ void results(const ResultsArguments& a) {
             fmt::print("{}\n", fmt::join(row, "\t"));
         });
     } else if (a.csv) {
-        write_csv(store, a.provenance,
-                  [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); });
+        print_csv(a, store);
     } else if (a.failures) {
-        print_failures(store);
+        print_failures(a, store);
     } else {
         print_answers(a, store);
-    }
-}
-
-void explain(const ExplainArguments& a) {
-    const Store store = Store::open(a.store);
-    const FoundRun found = find_run(store, a.run);
-    const StoredRun& run = found.run;
-    const Measurement& m = run.measurement;
-    const std::string command = run_command(store, found.point, run.replication);
-    Table table;
-    table.set("run", run.id);
-    table.set("point", std::uint64_t{run.point});
-    table.set("replication", std::uint64_t{run.replication});
-    table.set("settings", found.point.settings);
-    table.set("command", command);
-    table.set("version", store.property("version"));
-    table.set("fingerprint", m.fingerprint);
-    table.set("error", run.error.empty() ? Value() : Value(run.error));
-    table.set("cpu_s", m.cpu_s);
-    table.set("wall_s", m.wall_s);
-    table.set("started", m.started);
-    table.set("host", m.host);
-    Table metrics;
-    for (const MetricValue& metric : m.metrics) {
-        metrics.set(metric.name, optional_value(metric.value));
-    }
-    table.set("metrics", std::move(metrics));
-    if (a.json) {
-        fmt::print("{}", to_json(table));
-        return;
-    }
-    fmt::print(
-        "run {}: point {} ({}), replication {}\nmade by version {}, {} on {}, {:.3g} s of "
-        "CPU\n{}\nagain: {}\n",
-        run.id, run.point, settings_text(found.point.settings), run.replication,
-        store.property("version"), m.started, m.host, m.cpu_s,
-        run.error.empty() ? "fingerprint " + m.fingerprint : "failed: " + run.error, command);
-    for (const MetricValue& metric : m.metrics) {
-        fmt::print("{:<20} {}\n", metric.name,
-                   metric.value ? fmt::format("{}", *metric.value) : "none");
     }
 }
 

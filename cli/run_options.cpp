@@ -75,6 +75,10 @@ void add_compare(CLI::App& app, const std::string& typed) {
         ->delimiter(',');
     compare.add_option("--metric", a.metric, "compared (default: the study's first)");
     compare.add_option("--baseline", a.baseline, "to differ from (default: the dearest)");
+    compare
+        .add_option("--margin", a.margin,
+                    "say of each model whether its mean is this near to the baseline's")
+        ->check(CLI::PositiveNumber);
     compare.add_option("--store", a.store, "keep the runs in this file, and go on from there");
     compare.add_option("-o,--output", a.picture, "picture to write: NAME.svg");
     add_study_run(compare, a);

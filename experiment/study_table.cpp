@@ -228,6 +228,9 @@ StudyTable read_study(const Value& value, Duration duration) {
     StudyTable study;
     TableReader table(value, "[study]");
     table.read_fields(study);
+    if (const Value* metrics = table.table().find("metrics")) {
+        for (const Value& metric : *metrics->array()) study.metric_places.push_back(metric.where);
+    }
     if (const Value* warmup = table.take("warmup")) read_warmup(*warmup, duration, study.warmup);
     if (const Value* vary = table.take("vary")) study.vary = read_vary(*vary);
     if (const Value* zip = table.take("zip")) read_zip(*zip, study);

@@ -37,6 +37,7 @@ struct StudyTable {
     int max_replications = 1000;
     Warmup warmup;
     std::vector<std::string> metrics;
+    std::vector<Location> metric_places;  ///< where each of them is named
     std::vector<Vary> vary;
     std::vector<std::vector<std::string>> zip;  ///< paths that vary together, value by value
     std::vector<Exclusion> exclude;

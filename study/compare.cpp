@@ -3,46 +3,38 @@
 
 #include "models/list.hpp"
 #include "sim/error.hpp"
-#include "study/results.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
+#include <functional>
 #include <stdexcept>
 
 namespace rovernet {
 namespace {
 
-/// The values of each model in the replications that all of them have.
-using ValuesOfModels = std::vector<std::vector<double>>;
-
-std::vector<std::string> models_of(const Store& store) {
-    std::vector<std::string> models;
-    for (const StoredPoint& point : store.points()) {
-        const Value* model = point.settings.find("propagation.model");
-        if (model && model->string()) models.push_back(*model->string());
-    }
-    return models;
+std::string model_of(const Answer& answer) {
+    const Value* model = answer.settings.find("propagation.model");
+    if (model && model->string()) return *model->string();
+    throw std::invalid_argument("compare: the store's study does not vary propagation.model");
 }
 
-ValuesOfModels paired_values(const Store& store, const std::string& metric) {
-    const auto list = answers(store, {.metrics = {metric}});
-    ValuesOfModels values(list.size());
-    for (const auto& [replication, ignored] : list.front().values) {
-        const bool all = std::all_of(list.begin(), list.end(), [r = replication](const Answer& a) {
-            return a.values.contains(r);
-        });
-        for (std::size_t i = 0; all && i < list.size(); ++i) {
-            values[i].push_back(list[i].values.at(replication));
-        }
+/// The values of two models in the replications in which both have one.
+struct Pairs {
+    std::vector<double> a, b;
+};
+
+Pairs pairs_of(const Answer& a, const Answer& b) {
+    Pairs pairs;
+    for (const auto& [replication, value] : a.values) {
+        const auto other = b.values.find(replication);
+        if (other == b.values.end()) continue;
+        pairs.a.push_back(value);
+        pairs.b.push_back(other->second);
     }
-    if (values.front().empty()) {
-        throw std::invalid_argument(
-            fmt::format("there is no replication in which {} has a value for every model", metric));
-    }
-    return values;
+    return pairs;
 }
 
 /// The last on the ladder.
@@ -52,15 +44,6 @@ std::string dearest_of(const std::vector<std::string>& models) {
         if (std::find(models.begin(), models.end(), M::name) != models.end()) dearest = M::name;
     });
     return dearest;
-}
-
-std::size_t place_of(const std::string& model, const std::vector<std::string>& models) {
-    const auto found = std::find(models.begin(), models.end(), model);
-    if (found != models.end()) return static_cast<std::size_t>(found - models.begin());
-    const std::string near = did_you_mean(model, models);
-    throw std::invalid_argument(
-        fmt::format("--baseline: \"{}\" is not compared; expected one of {}{}{}", model,
-                    fmt::join(models, ", "), near.empty() ? "" : "; ", near));
 }
 
 std::vector<double> mean_cpu(const Store& store, std::size_t points) {
@@ -74,61 +57,112 @@ std::vector<double> mean_cpu(const Store& store, std::size_t points) {
     return sum;
 }
 
-/// Differences to the baseline, with p-values adjusted for their number.
-void compare_with_baseline(Comparison& comparison, const ValuesOfModels& values,
-                           std::size_t baseline) {
-    std::vector<double> p;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (i == baseline) continue;
-        auto& difference = comparison.models[i].difference;
-        difference = compare_pairs(values[i], values[baseline], comparison.confidence,
-                                   std::max<std::size_t>(values.size() - 1, 1));
-        if (difference) p.push_back(difference->p);
+/// Why replications are in no pair of two models: a run of one of them failed or is missing, or
+/// has no value.
+Gaps unpaired(const Inventory& inventory, const Answer& a, const Answer& b, std::uint32_t point_a,
+              std::uint32_t point_b) {
+    Gaps gaps;
+    const auto &of_a = inventory.at(point_a), &of_b = inventory.at(point_b);
+    const auto is = [](const std::vector<RunState>& states, std::size_t r, RunState state) {
+        return (r < states.size() ? states[r] : RunState::missing) == state;
+    };
+    for (std::uint32_t r = 0; r < std::max(of_a.size(), of_b.size()); ++r) {
+        if (a.values.contains(r) && b.values.contains(r)) continue;
+        if (is(of_a, r, RunState::failed) || is(of_b, r, RunState::failed)) {
+            ++gaps.failed;
+        } else if (is(of_a, r, RunState::missing) || is(of_b, r, RunState::missing)) {
+            ++gaps.missing;
+        } else {
+            ++gaps.undefined;
+        }
     }
-    const std::vector<double> adjusted = holm(p);
-    auto next = adjusted.begin();
-    for (ComparedModel& model : comparison.models) {
-        if (!model.difference) continue;
-        model.holm_p = *next++;
-        model.sentence =
-            comparison_text(model.model, comparison.baseline, *model.difference, model.holm_p);
+    return gaps;
+}
+
+void add_error(ComparedModel& model, const Answer& dearest, const std::string& metric,
+               double confidence, std::optional<IntervalMethod> wish) {
+    const Pairs pairs = pairs_of(model.answer, dearest);
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < pairs.a.size(); ++i) {
+        distances.push_back(std::abs(pairs.a[i] - pairs.b[i]));
+    }
+    model.error_n = distances.size();
+    const auto summary = summary_of(distances);
+    if (!summary) return;
+    model.error = summary->mean;
+    model.error_interval = interval_of(distances, bounds_of(metric), confidence, wish);
+}
+
+/// Differences to the baseline, which hold together.
+void compare_with_baseline(Comparison& comparison, const ComparedModel& baseline,
+                           std::optional<IntervalMethod> wish) {
+    const Bounds bounds = bounds_of(comparison.metric);
+    std::size_t family = 0;
+    const auto differs = [&](const ComparedModel& m, const Pairs& pairs) {
+        return &m != &baseline && pairs.a.size() >= 2;
+    };
+    for (const ComparedModel& m : comparison.models) {
+        if (differs(m, pairs_of(m.answer, baseline.answer))) ++family;
+    }
+    for (ComparedModel& m : comparison.models) {
+        const Pairs pairs = pairs_of(m.answer, baseline.answer);
+        if (!differs(m, pairs)) continue;
+        m.difference = compare_pairs(pairs.a, pairs.b, bounds, comparison.confidence, family, wish);
+        m.sentence = comparison_text(m.model, comparison.baseline, *m.difference);
+        if (!comparison.margin) continue;
+        std::vector<double> differences(pairs.a.size());
+        std::ranges::transform(pairs.a, pairs.b, differences.begin(), std::minus<>{});
+        m.equivalence = equivalence_of(differences, *comparison.margin, bounds,
+                                       1 - comparison.confidence, family);
+        m.equivalence_sentence = equivalence_text(m.model, comparison.baseline, *comparison.margin,
+                                                  *m.equivalence, *m.difference);
     }
 }
 
 }  // namespace
 
+std::size_t place_of(const std::string& model, const std::vector<std::string>& models) {
+    const auto found = std::find(models.begin(), models.end(), model);
+    if (found != models.end()) return static_cast<std::size_t>(found - models.begin());
+    const std::string near = did_you_mean(model, models);
+    throw std::invalid_argument(
+        fmt::format("--baseline: \"{}\" is not compared; expected one of {}{}{}", model,
+                    fmt::join(models, ", "), near.empty() ? "" : "; ", near));
+}
+
 Comparison compare_models(const Store& store, const std::string& metric,
-                          const std::string& baseline) {
-    const std::vector<std::string> names = models_of(store);
-    const ValuesOfModels values = paired_values(store, metric);
-    const std::vector<double> cpu = mean_cpu(store, names.size());
+                          const std::string& baseline, std::optional<double> margin) {
+    Answers all = answers(store, {.metrics = {metric}});
+    const Inventory inventory = inventory_of(store);
+    const std::vector<double> cpu = mean_cpu(store, all.list.size());
+    std::vector<std::string> names;
+    for (const Answer& answer : all.list) names.push_back(model_of(answer));
     Comparison comparison{.metric = metric,
                           .baseline = baseline.empty() ? dearest_of(names) : baseline,
                           .dearest = dearest_of(names),
                           .confidence = confidence_of(store),
+                          .margin = margin,
                           .models = {},
+                          .runs = all.runs,
                           .pairs = {}};
-    const std::vector<double>& dearest = values[place_of(comparison.dearest, names)];
+    const std::size_t base = place_of(comparison.baseline, names);
+    const Answer& dearest = all.list[place_of(comparison.dearest, names)];
     for (std::size_t i = 0; i < names.size(); ++i) {
-        std::vector<double> errors;
-        for (std::size_t r = 0; r < dearest.size(); ++r) {
-            errors.push_back(std::abs(values[i][r] - dearest[r]));
-        }
         ComparedModel model;
         model.model = names[i];
-        model.summary = *summary_of(values[i]);
-        model.half_width = half_width(model.summary, comparison.confidence);
+        model.answer = all.list[i];
         model.cpu_s = cpu[i];
-        model.error = summary_of(errors)->mean;
-        model.error_half_width = half_width(*summary_of(errors), comparison.confidence);
+        model.unpaired = unpaired(inventory, all.list[i], all.list[base],
+                                  static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(base));
+        add_error(model, dearest, metric, comparison.confidence, interval_method_of(store));
         comparison.models.push_back(std::move(model));
     }
-    compare_with_baseline(comparison, values, place_of(comparison.baseline, names));
+    compare_with_baseline(comparison, comparison.models[base], interval_method_of(store));
     for (std::size_t i = 0; i < names.size(); ++i) {
         for (std::size_t j = i + 1; j < names.size(); ++j) {
-            const auto pair = compare_pairs(values[i], values[j], comparison.confidence);
+            const Pairs pairs = pairs_of(all.list[i], all.list[j]);
             comparison.pairs.push_back(
-                {names[i], names[j], pair ? pair->variance_ratio : std::nullopt});
+                {names[i], names[j], paired_variance_ratio(pairs.a, pairs.b)});
         }
     }
     return comparison;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "study/comparison.hpp"
+#include "study/equivalence.hpp"
+#include "study/interval.hpp"
+#include "study/results.hpp"
 #include "study/store.hpp"
-#include "study/summary.hpp"
 
 #include <optional>
 #include <string>
@@ -11,41 +13,53 @@
 
 namespace rovernet {
 
-/// One propagation model among those that are compared over the same replications.
+/// One propagation model among those that are compared over common random numbers.
 struct ComparedModel {
     std::string model;
-    Summary summary;                   ///< of the metric
-    std::optional<double> half_width;  ///< of its interval; nothing for one replication
-    double cpu_s = 0;                  ///< [s] mean per run
-    /// Mean over the replications of the distance to the dearest model's value, in the metric's
-    /// unit, and half the width of its interval.
-    double error = 0;
-    std::optional<double> error_half_width;
-    /// This one less the baseline; nothing for the baseline itself or fewer than 2 replications.
+    Answer answer;     ///< the metric of all its replications, as results have it
+    double cpu_s = 0;  ///< [s] mean per run
+    /// Mean distance to the dearest model's value over the replications in which both have one, in
+    /// the metric's unit, its interval, and how many replications these are.
+    std::optional<double> error;
+    std::optional<MeanInterval> error_interval;
+    std::size_t error_n = 0;
+    /// This one less the baseline, over the replications in which both have a value; nothing for
+    /// the baseline itself or fewer than 2 of them.
     std::optional<PairedComparison> difference;
-    double holm_p = 1;     ///< of the difference, adjusted for all that are compared
+    Gaps unpaired;  ///< replications that are not in the difference, as one of both lacks them
     std::string sentence;  ///< the difference in words; empty without one
+    /// Whether the difference lies within the margin, if one was asked for; and in words.
+    std::optional<EquivalenceVerdict> equivalence;
+    std::string equivalence_sentence;
 };
 
 /// By how much common random numbers pay between two models.
 struct PairedVariance {
     std::string a, b;
-    std::optional<double> ratio;  ///< see PairedComparison::variance_ratio
+    std::optional<double> ratio;  ///< see paired_variance_ratio()
 };
 
 struct Comparison {
     std::string metric, baseline, dearest;
     double confidence = 0.95;
+    std::optional<double> margin;       ///< in the metric's unit
     std::vector<ComparedModel> models;  ///< as in the study
+    RunCounts runs;                     ///< of all models
+    std::string held = {};  ///< other keys that the study varies, at the values that were run
     std::vector<PairedVariance> pairs;
 };
 
-/// Compares the models of a store whose study varies propagation.model alone, over the replications
-/// in which all of them have a value. The dearest model is the last of them on the ladder of
+/// The place of a baseline among the models that are compared.
+/// @throws std::invalid_argument if it is none of them
+std::size_t place_of(const std::string& baseline, const std::vector<std::string>& models);
+
+/// Compares the models of a store whose study varies propagation.model alone, each pair over the
+/// replications in which both have a value. The dearest model is the last of them on the ladder of
 /// `rovernet models`: what is said of errors does not depend on how fast a machine is.
-/// @param baseline  one of the models; the dearest if empty
-/// @throws std::invalid_argument if a model has no value, or the baseline is none of them
+/// @param  baseline  one of the models; the dearest if empty
+/// @param  margin    > 0, in the metric's unit: whether models are as good as the baseline
+/// @throws std::invalid_argument if the metric or the baseline is unknown
 Comparison compare_models(const Store& store, const std::string& metric,
-                          const std::string& baseline);
+                          const std::string& baseline, std::optional<double> margin = {});
 
 }  // namespace rovernet

@@ -4,6 +4,7 @@
 #include "sim/math.hpp"
 #include "study/arguments.hpp"
 #include "study/distributions.hpp"
+#include "study/interval.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 namespace rovernet {
@@ -19,8 +19,8 @@ namespace {
 
 constexpr double power = 0.8;
 
-void check_pairs(std::span<const double> a, std::span<const double> b, double confidence,
-                 std::size_t family) {
+/// The differences of pairs. @throws std::invalid_argument
+std::vector<double> differences_of(std::span<const double> a, std::span<const double> b) {
     constexpr std::string_view owner = "compare_pairs";
     if (a.size() != b.size()) {
         throw std::invalid_argument(
@@ -28,8 +28,9 @@ void check_pairs(std::span<const double> a, std::span<const double> b, double co
     }
     check_finite(a, owner);
     check_finite(b, owner);
-    check_open_unit(confidence, "confidence", owner);
-    if (family == 0) throw std::invalid_argument(fmt::format("{}: family must be > 0", owner));
+    std::vector<double> differences(a.size());
+    std::ranges::transform(a, b, differences.begin(), std::minus<>{});
+    return differences;
 }
 
 /// Of n >= 2 values.
@@ -56,12 +57,20 @@ std::optional<double> detectable(const Summary& difference, double level) {
     return *shift * standard_error(difference);
 }
 
-std::optional<double> variance_ratio(std::span<const double> a, std::span<const double> b,
-                                     const Summary& difference) {
-    const double unpaired = variance(*summary_of(a)) + variance(*summary_of(b));
-    if (unpaired == 0) return std::nullopt;
-    const double paired = variance(difference);
-    return paired == 0 ? std::numeric_limits<double>::infinity() : unpaired / paired;
+/// By betting: the least level at which the interval leaves 0 out, between 1e-6 and 1.
+double betting_p(std::span<const double> differences, const Bounds& bounds) {
+    const auto leaves_out = [&](double level) {
+        const auto interval = interval_of(differences, bounds, 1 - level);
+        return interval->low > 0 || interval->high < 0;
+    };
+    constexpr double least = 1e-6, precision = 1.0001;  // ratio
+    double no = least, yes = 1;
+    if (leaves_out(least)) return least;
+    while (yes / no > precision) {
+        const double middle = std::sqrt(no * yes);
+        (leaves_out(middle) ? yes : no) = middle;
+    }
+    return yes;
 }
 
 /// With as many decimals as show two digits of a half-width; without a half-width, six digits.
@@ -85,12 +94,15 @@ class Decimals {
     std::optional<int> decimals_;
 };
 
-/// "95 % 0.180 to 0.246, n = 30, Holm p < 0.001", around `middle`.
-std::string evidence_text(const PairedComparison& c, double middle, double holm_p) {
-    const Decimals text(c.half_width);
-    return fmt::format("{:.6g} % {} to {}, n = {}, Holm p {}", 100 * c.confidence,
-                       text(middle - c.half_width), text(middle + c.half_width), c.difference.n,
-                       holm_p < 0.001 ? "< 0.001" : fmt::format("= {:.3f}", holm_p));
+double half_width_of(const PairedComparison& c) { return (c.high - c.low) / 2; }
+
+/// "95 % 0.180 to 0.246, n = 30, p < 0.001"; with the sign of everything changed if `turned`.
+std::string evidence_text(const PairedComparison& c, bool turned) {
+    const Decimals text(half_width_of(c));
+    return fmt::format("{:.6g} %{} {} to {}, n = {}, p {}", 100 * c.confidence,
+                       c.family > 1 ? fmt::format(" for all {}:", c.family) : "",
+                       text(turned ? -c.high : c.low), text(turned ? -c.low : c.high),
+                       c.difference.n, c.p < 0.001 ? "< 0.001" : fmt::format("= {:.3f}", c.p));
 }
 
 std::string_view side(double difference) { return difference > 0 ? "above" : "below"; }
@@ -106,57 +118,77 @@ std::string constant_text(std::string_view a, std::string_view b, const Summary&
 }  // namespace
 
 std::optional<PairedComparison> compare_pairs(std::span<const double> a, std::span<const double> b,
-                                              double confidence, std::size_t family) {
-    check_pairs(a, b, confidence, family);
-    if (a.size() < 2) return std::nullopt;
-    std::vector<double> differences(a.size());
-    std::ranges::transform(a, b, differences.begin(), std::minus<>{});
+                                              const Bounds& bounds, double confidence,
+                                              std::size_t family,
+                                              std::optional<IntervalMethod> wish) {
+    const std::vector<double> differences = differences_of(a, b);
+    check_open_unit(confidence, "confidence", "compare_pairs");
+    if (family == 0) throw std::invalid_argument("compare_pairs: family must be > 0");
+    if (differences.size() < 2) return std::nullopt;
     const Summary difference = *summary_of(differences);
     const double level = (1 - confidence) / static_cast<double>(family);
-    return PairedComparison{.difference = difference,
-                            .confidence = confidence,
-                            .half_width = *half_width(difference, confidence),
-                            .p = p_value(difference),
-                            .detectable = detectable(difference, level),
-                            .variance_ratio = variance_ratio(a, b, difference)};
+    const Bounds limits = difference_bounds(bounds);
+    const auto interval = interval_of(differences, limits, 1 - level, wish);
+    PairedComparison c{.difference = difference,
+                       .confidence = confidence,
+                       .family = family,
+                       .low = interval ? interval->low : difference.mean,
+                       .high = interval ? interval->high : difference.mean,
+                       .method = method_for(differences, limits, wish),
+                       .p = 1,
+                       .detectable = {}};
+    const bool by_t = c.method == IntervalMethod::t;
+    const double p = by_t ? p_value(difference) : betting_p(differences, limits);
+    c.p = std::min(1.0, static_cast<double>(family) * p);
+    if (by_t) c.detectable = detectable(difference, level);
+    return c;
 }
 
-std::vector<double> holm(std::span<const double> p) {
-    for (const double each : p) {
-        if (each >= 0 && each <= 1) continue;
-        throw std::invalid_argument(fmt::format("holm: p must be from 0 to 1, got {}", each));
-    }
-    std::vector<std::size_t> order(p.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t i, std::size_t j) { return p[i] < p[j]; });  // ties adjust alike
-    std::vector<double> adjusted(p.size());
-    double greatest = 0;
-    for (std::size_t step = 0; step < order.size(); ++step) {
-        const auto left = static_cast<double>(order.size() - step);
-        greatest = std::max(greatest, std::min(1.0, left * p[order[step]]));
-        adjusted[order[step]] = greatest;
-    }
-    return adjusted;
+std::optional<double> paired_variance_ratio(std::span<const double> a, std::span<const double> b) {
+    const std::vector<double> differences = differences_of(a, b);
+    if (differences.size() < 2) return std::nullopt;
+    const double unpaired = variance(*summary_of(a)) + variance(*summary_of(b));
+    if (unpaired == 0) return std::nullopt;
+    const double paired = variance(*summary_of(differences));
+    return paired == 0 ? std::numeric_limits<double>::infinity() : unpaired / paired;
 }
 
-std::string comparison_text(std::string_view a, std::string_view b, const PairedComparison& c,
-                            double holm_p) {
+std::string comparison_text(std::string_view a, std::string_view b, const PairedComparison& c) {
     const double mean = c.difference.mean;
-    if (c.half_width == 0) return constant_text(a, b, c.difference);
-    const Decimals text(c.half_width);
-    if (holm_p <= 1 - c.confidence) {
-        const double size = std::abs(mean);
-        return fmt::format("{} is {} {} {} ({})", a, text(size), side(mean), b,
-                           evidence_text(c, size, holm_p));
+    if (c.low == c.high) return constant_text(a, b, c.difference);
+    const Decimals text(half_width_of(c));
+    if (c.found()) {
+        return fmt::format("{} is {} {} {} ({})", a, text(std::abs(mean)), side(mean), b,
+                           evidence_text(c, mean < 0));
     }
     std::string sentence = fmt::format("no detectable difference between {} and {} ({}, {})", a, b,
-                                       text(mean), evidence_text(c, mean, holm_p));
+                                       text(mean), evidence_text(c, false));
     if (c.detectable) {
-        sentence += fmt::format("; a difference of {} would have been detected with {:.0f} % power",
-                                text(*c.detectable), 100 * power);
+        sentence += fmt::format(
+            "; at this level a difference of {} would have been detected with {:.0f} % power",
+            text(*c.detectable), 100 * power);
     }
     return sentence;
+}
+
+std::string equivalence_text(std::string_view a, std::string_view b, double margin,
+                             const EquivalenceVerdict& verdict,
+                             const PairedComparison& comparison) {
+    const std::size_t n = comparison.difference.n;
+    const std::string level =
+        fmt::format("{:.6g} %{}", 100 * comparison.confidence,
+                    comparison.family > 1 ? fmt::format(" for all {}", comparison.family) : "");
+    if (verdict.verdict != Equivalence::undecided) {
+        return fmt::format("{} is {}within {:.6g} of {} ({}, decided by {} of {} replications)", a,
+                           verdict.verdict == Equivalence::within ? "" : "not ", margin, b, level,
+                           verdict.decided_at.value_or(n), n);
+    }
+    const std::string more =
+        verdict.needed
+            ? fmt::format("about {} would decide, if they are as these are", *verdict.needed)
+            : "how many would decide, these do not tell";
+    return fmt::format("not decided by {} replications whether {} is within {:.6g} of {} ({}); {}",
+                       n, a, margin, b, level, more);
 }
 
 }  // namespace rovernet

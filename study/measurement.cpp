@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <ctime>
@@ -96,6 +97,16 @@ std::vector<std::string> metric_names(const Scenario& scenario) {
     std::vector<std::string> names = metric_names();
     for (MetricValue& metric : list) names.push_back(std::move(metric.name));
     return names;
+}
+
+void check_metric(const std::string& name, const Scenario& scenario, const Location& where) {
+    const std::vector<std::string>& usual = metric_names();
+    if (std::find(usual.begin(), usual.end(), name) != usual.end()) return;
+    const std::vector<std::string> names = metric_names(scenario);
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    const std::string near = did_you_mean(name, names);
+    throw InputError(where, fmt::format("there is no metric \"{}\"; expected one of {}{}{}", name,
+                                        fmt::join(names, ", "), near.empty() ? "" : "; ", near));
 }
 
 Measurement measure(const Scenario& scenario, KeptPlanners& kept) {

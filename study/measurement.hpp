@@ -36,6 +36,9 @@ const std::vector<std::string>& metric_names();
 /// "delivery_ratio.at.ROBOT", likewise messages, deliveries, throughput_bps and latency_mean_s.
 std::vector<std::string> metric_names(const Scenario& scenario);
 
+/// @throws InputError at `where` unless a metric of the scenario has this name
+void check_metric(const std::string& name, const Scenario& scenario, const Location& where);
+
 /// Runs a scenario, without writing anything.
 /// @param kept  what does not change from run to run in one scene; the result is the same without
 /// @throws InputError, RunError

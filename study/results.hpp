@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "study/cells.hpp"
 #include "study/interval.hpp"
 #include "study/quantile.hpp"
 #include "study/store.hpp"
@@ -22,21 +23,24 @@ struct Condition {
 /// What a study is asked for.
 struct Question {
     std::vector<std::string> metrics = {};  ///< those of [study] metrics if empty, or the usual
-    /// Paths that vary; all of them if not given, none: everything in one group.
+    /// Paths that vary; all of them if not given, none: everything in one row.
     std::optional<std::vector<std::string>> group_by = {};
     std::vector<Condition> where = {};      ///< of the points that meet all of these
     std::optional<double> confidence = {};  ///< as in [study] if not given
     std::optional<double> quantile = {};    ///< this one, in place of the mean
     /// How intervals of means are made: as in [study] if not given, else see method_for().
     std::optional<IntervalMethod> interval = {};
+    bool common = false;  ///< only of the cells that every row has
 };
 
 /// One metric of the points that agree in what a question groups by.
 struct Answer {
     Table settings;                          ///< path -> value, of the keys that it groups by
     std::string metric;                      ///< its name
-    std::map<std::uint32_t, double> values;  ///< by replication: the mean over the group's points
-    std::size_t undefined = 0;               ///< finished runs in which the metric has no value
+    std::map<std::uint32_t, double> values;  ///< by replication: the mean over the row's points
+    Gaps gaps;                               ///< the row's runs that are not in the values
+    std::uint64_t cells = 0;                 ///< of each row of this metric: see Cells
+    std::uint64_t left_out = 0;              ///< of them, by Question::common
     std::optional<Summary> summary;          ///< of the values; nothing without any
     std::optional<double> value;             ///< the mean or the quantile
     std::optional<double> low, high;         ///< its interval, if there are enough values for one
@@ -44,11 +48,28 @@ struct Answer {
     bool skewed = false;                     ///< see MeanInterval
 };
 
-/// Answers group by group, in the order of their points, and in it metric by metric. The
-/// replication is the unit: points that a group joins are averaged in each replication first.
-/// @throws std::invalid_argument for a metric or path that the study does not have, or if no point
-///         meets the conditions
-std::vector<Answer> answers(const Store& store, const Question& question);
+/// What a study answers.
+struct Answers {
+    std::vector<Answer> list;           ///< row by row, and in each metric by metric
+    std::vector<std::string> averaged;  ///< keys that a row has several values of
+    std::vector<std::string> along;     ///< keys that go with a row, such as those of a zip
+    RunCounts runs;                     ///< of the whole study, whatever the question
+};
+
+/// Answers a question about a study.
+///
+/// The replication is the unit: points that a row joins are averaged in each replication first, and
+/// each counts the same. A row that joins points is of the same cells (a combination of the keys
+/// averaged over, in one replication) as every other row, or it would differ from them by what it
+/// lacks: runs that failed, are missing or have no value.
+/// @throws std::invalid_argument for a metric or path that the study does not have, if no point
+///         meets the conditions, or if rows that join points are of different cells and the
+///         question does not say `common`
+Answers answers(const Store& store, const Question& question);
+
+/// What was averaged over and what is not in the numbers, in words: "averaged over routing.ttl".
+/// Empty if each row is one point and nothing failed, is undefined or missing.
+std::string coverage_text(const Answers& answers);
 
 /// The paths that vary in the store's study.
 std::vector<std::string> varied_paths(const Store& store);
@@ -59,12 +80,10 @@ double confidence_of(const Store& store);
 /// [study] interval of the study, if given.
 std::optional<IntervalMethod> interval_method_of(const Store& store);
 
-/// What every result is, as comma-separated values (RFC 4180) with a head: a row per finished run
-/// and metric, sorted by point, replication and metric: point, the varied keys, replication,
-/// metric, value (empty if undefined). The same bytes for the same results.
-/// @param write  gets the text piece by piece
-/// @param provenance  a row per run instead, failed ones too: its id, fingerprint, times, host
-void write_csv(const Store& store, bool provenance,
-               const std::function<void(std::string_view)>& write);
+/// The points that meet all conditions. @throws std::invalid_argument if none does
+std::vector<StoredPoint> points_where(const Store& store, const std::vector<Condition>& where);
+
+/// The metrics that a question asks for. @throws std::invalid_argument for an unknown one
+std::vector<std::string> metrics_of(const Store& store, const Question& question);
 
 }  // namespace rovernet

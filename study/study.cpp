@@ -3,6 +3,7 @@
 
 #include "experiment/toml.hpp"
 #include "experiment/unlikely.hpp"
+#include "study/measurement.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 namespace rovernet {
@@ -56,6 +58,19 @@ bool is_excluded(const StudyTable& study, const Table& settings) {
     });
 }
 
+/// @throws InputError if the values of an axis are the same at two of its places
+void check_differ(const Axis& axis) {
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < axis.front()->values.size(); ++i) {
+        Table values;
+        for (const Vary* vary : axis) values.set(vary->path, vary->values[i]);
+        if (seen.insert(to_toml(values)).second) continue;
+        throw InputError(axis.front()->values[i].where,
+                         fmt::format("vary: {} is listed twice; expected values that differ",
+                                     settings_text(values)));
+    }
+}
+
 /// The walls as bytes: where they are and what they are made of.
 std::string wall_bytes(const Scene& scene) {
     std::string bytes;
@@ -93,6 +108,7 @@ std::vector<Table> study_points(const StudyTable& study, const Location& where) 
     const std::vector<Axis> axes = axes_of(study);
     std::size_t total = 1;
     for (const Axis& axis : axes) {
+        check_differ(axis);
         total *= axis.front()->values.size();
         if (total <= most_points) continue;
         throw InputError(
@@ -143,6 +159,10 @@ Study::Study(const std::string& path, const ScenarioOptions& options,
         base_.study.exclude.clear();
     }
     note_own_models(base_);
+    const StudyTable& study = base_.study;
+    for (std::size_t i = 0; i < study.metric_places.size(); ++i) {
+        check_metric(study.metrics[i], base_, study.metric_places[i]);
+    }
     const Location where = base_.study.vary.empty() ? Location{path} : base_.study.vary[0].where;
     for (Table& settings : study_points(base_.study, where)) {
         std::string identity_text;
@@ -159,6 +179,25 @@ Study::Study(const std::string& path, const ScenarioOptions& options,
                                                         settings_text(settings)));
         }
         points_.push_back({std::move(settings), hash(identity_text)});
+    }
+    check_points_differ();
+}
+
+void Study::check_points_differ() const {
+    std::map<std::string, const StudyPoint*> known;
+    for (const StudyPoint& point : points_) {
+        const auto [found, is_new] = known.try_emplace(point.id, &point);
+        if (is_new) continue;
+        const Table& other = found->second->settings;
+        const Entry* differs = &point.settings.entries.front();
+        for (std::size_t i = point.settings.entries.size(); i-- > 0;) {
+            const Entry& entry = point.settings.entries[i];
+            if (!same(entry.value, other.entries[i].value)) differs = &entry;
+        }
+        const Location& where = differs->value.where;
+        throw InputError(
+            where, fmt::format("vary: {} is the same scenario as {}; expected values that differ",
+                               settings_text(point.settings), settings_text(other)));
     }
 }
 

@@ -20,7 +20,7 @@ struct StudyPoint {
 
 /// The settings of every point: all combinations of the values that vary, those of the last key
 /// first, with keys in `zip` going together and without those in `exclude`.
-/// @throws InputError if that leaves none, or makes more than a million
+/// @throws InputError if that leaves none, makes more than a million, or a value is listed twice
 std::vector<Table> study_points(const StudyTable& study, const Location& where);
 
 /// "radio.power=15 dBm, robot.r.count=20"; "the scenario as it is" if nothing varies.
@@ -56,6 +56,7 @@ class Study {
         std::string digest;
     };
 
+    void check_points_differ() const;
     Scenario at(const Table& settings);
     const Walls& walls(const Scenario& scenario);
 

@@ -97,17 +97,38 @@ std::string methods_text(const std::vector<Answer>& list) {
     return text;
 }
 
-std::string note_of(const std::vector<Answer>& list, const ChartQuestion& q, double confidence) {
+std::string note_of(const Answers& all, const ChartQuestion& q, double confidence) {
     std::string where;
     for (const Condition& condition : q.where) {
         where += fmt::format("{} = {}; ", condition.path, condition.value);
     }
     const std::string what = where + (q.quantile ? percent(*q.quantile) + " quantiles" : "means");
-    const std::string of = replications_text(list);
-    if (q.kind == ChartKind::cdf) return fmt::format("{}of {} replications", where, of);
-    if (q.kind == ChartKind::heat_map) return fmt::format("{} of {} replications", what, of);
-    return fmt::format("{} of {} replications, with {} intervals{}", what, of, percent(confidence),
-                       methods_text(list));
+    const std::string of = replications_text(all.list);
+    const std::string covered = coverage_text(all);
+    const std::string rest = covered.empty() ? "" : "; " + covered;
+    if (q.kind == ChartKind::cdf) return fmt::format("{}of {} replications{}", where, of, rest);
+    if (q.kind == ChartKind::heat_map)
+        return fmt::format("{} of {} replications{}", what, of, rest);
+    return fmt::format("{} of {} replications, with {} intervals{}{}", what, of,
+                       percent(confidence), methods_text(all.list), rest);
+}
+
+/// A chart of no points, with its axes.
+Chart frame_of(const ChartQuestion& q, const std::string& unit) {
+    Chart chart{.kind = *q.kind, .log_x = q.log_x, .log_y = q.log_y};
+    switch (chart.kind) {
+        case ChartKind::cdf:
+            chart.x_label = metric_label(q.y);
+            chart.y_label = "share of replications";
+            break;
+        case ChartKind::heat_map:
+            chart.x_label = label_of(q.x, unit);
+            chart.y_label = q.by;
+            chart.value_label = metric_label(q.y);
+            break;
+        default: chart.x_label = label_of(q.x, unit); chart.y_label = metric_label(q.y);
+    }
+    return chart;
 }
 
 ChartSeries& series_named(Chart& chart, const std::string& name) {
@@ -178,23 +199,21 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
         *word = varied_path(paths, *word);
         group_by.push_back(*word);
     }
-    const auto list = answers(store, {.metrics = {q.y},
-                                      .group_by = group_by,
-                                      .where = q.where,
-                                      .confidence = q.confidence,
-                                      .quantile = q.quantile,
-                                      .interval = q.interval});
+    const Answers all = answers(store, {.metrics = {q.y},
+                                        .group_by = group_by,
+                                        .where = q.where,
+                                        .confidence = q.confidence,
+                                        .quantile = q.quantile,
+                                        .interval = q.interval,
+                                        .common = q.common});
+    const std::vector<Answer>& list = all.list;
     const auto numbers = q.x.empty() ? std::nullopt : numbers_of(list, q.x);
     if (!q.kind) q.kind = numbers ? ChartKind::lines : ChartKind::bars;
 
-    Chart chart{.kind = *q.kind, .log_x = q.log_x, .log_y = q.log_y};
-    chart.x_label = cdf ? metric_label(q.y) : label_of(q.x, numbers ? numbers->unit : "");
-    chart.y_label = cdf                             ? "share of replications"
-                    : q.kind == ChartKind::heat_map ? q.by
-                                                    : metric_label(q.y);
-    if (q.kind == ChartKind::heat_map) chart.value_label = metric_label(q.y);
+    Chart chart = frame_of(q, numbers ? numbers->unit : "");
+    if (*q.kind != ChartKind::heat_map) chart.legend_title = question.by;
     (cdf ? chart.x_limits : chart.y_limits) = limits_of(q.y);
-    chart.note = note_of(list, q, q.confidence.value_or(confidence_of(store)));
+    chart.note = note_of(all, q, q.confidence.value_or(confidence_of(store)));
     for (std::size_t i = 0; i < list.size(); ++i) {
         const Answer& answer = list[i];
         ChartSeries& series =
@@ -215,9 +234,6 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
 }
 
 std::vector<Chart> comparison_charts(const Comparison& comparison) {
-    const auto around = [](double middle, const std::optional<double>& half, int sign) {
-        return half ? std::optional(middle + sign * *half) : std::nullopt;
-    };
     Chart values{.kind = ChartKind::bars,
                  .x_label = "propagation model",
                  .y_label = metric_label(comparison.metric),
@@ -230,22 +246,26 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
                  .y_limits = {.low = 0}};
     ChartSeries& bars = values.series.emplace_back(ChartSeries{});
     ChartSeries& dots = errors.series.emplace_back(ChartSeries{});
+    std::vector<Answer> list;
     for (const ComparedModel& m : comparison.models) {
-        const double mean = m.summary.mean;
-        bars.points.push_back({.category = m.model,
-                               .y = mean,
-                               .low = around(mean, m.half_width, -1),
-                               .high = around(mean, m.half_width, 1),
-                               .n = m.summary.n});
+        list.push_back(m.answer);
+        ChartPoint point = point_of(m.answer);
+        point.category = m.model;
+        const auto& e = m.error_interval;
+        bars.points.push_back(std::move(point));
         dots.points.push_back({.x = 1e3 * m.cpu_s,
-                               .y = m.error,
-                               .low = around(m.error, m.error_half_width, -1),
-                               .high = around(m.error, m.error_half_width, 1),
+                               .y = m.error.value_or(std::nan("")),
+                               .low = e ? std::optional(e->low) : std::nullopt,
+                               .high = e ? std::optional(e->high) : std::nullopt,
                                .label = m.model,
-                               .n = m.summary.n});
+                               .n = m.error_n});
     }
-    values.note = fmt::format("means of {} replications, with {} intervals",
-                              comparison.models.front().summary.n, percent(comparison.confidence));
+    values.note =
+        fmt::format("means of {} replications, with {} intervals{}", replications_text(list),
+                    percent(comparison.confidence), methods_text(list));
+    for (const std::string& text : {comparison.held, incompleteness(comparison.runs)}) {
+        if (!text.empty()) values.note += "; " + text;
+    }
     return {values, errors};
 }
 

@@ -21,6 +21,7 @@ struct ChartQuestion {
     std::optional<double> quantile = {};
     std::optional<IntervalMethod> interval = {};  ///< as in Question
     bool log_x = false, log_y = false;
+    bool common = false;  ///< only of the cells that every place of the chart has
 };
 
 /// The key that a word means: the whole path, or its last part if no other path ends so, or
@@ -33,7 +34,9 @@ std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
                                      const std::vector<std::string>& texts);
 
 /// What a study came to, as a chart: a value with its interval per x and series, or, as cdf, the
-/// distribution over the replications. Keys that are neither x nor by are averaged over.
+/// distribution over the replications. Keys that are neither x nor by are averaged over, as
+/// answers() does; its note names them, n, and the runs that are not in it.
+/// @throws std::invalid_argument as answers()
 Chart study_chart(const Store& store, const ChartQuestion& question);
 
 /// A comparison as two charts: the metric of each model with its interval, and its error to the

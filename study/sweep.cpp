@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <filesystem>
 #include <map>
@@ -55,7 +56,8 @@ void flatten(const Value& value, const std::string& path, std::map<std::string, 
     }
 }
 
-/// What differs between the scenario that a store was made for and that of now, in words.
+/// What differs between the scenario that a store was made for and that of now, in words; empty if
+/// nothing does.
 std::string difference(const Value& then, const Table& now) {
     std::map<std::string, std::string> old_keys, new_keys;
     if (then.table()) flatten(then, "", old_keys);
@@ -68,7 +70,22 @@ std::string difference(const Value& then, const Table& now) {
     for (const auto& [path, text] : new_keys) {
         if (!old_keys.contains(path)) return fmt::format("{} was nothing and is {}", path, text);
     }
-    return "its map or its movement file has changed";
+    return "";
+}
+
+/// Why a study no longer has a point that a store has runs of.
+std::string why_gone(const StoredPoint& gone, const Study& study, const Value& then,
+                     const Table& now) {
+    std::vector<std::string> reasons;
+    const std::string settings = settings_text(gone.settings);
+    const auto& points = study.points();
+    const bool listed = std::any_of(points.begin(), points.end(), [&](const StudyPoint& point) {
+        return settings_text(point.settings) == settings;
+    });
+    if (!listed) reasons.emplace_back("[study] no longer asks for it");
+    if (std::string changed = difference(then, now); !changed.empty()) reasons.push_back(changed);
+    if (reasons.empty()) reasons.emplace_back("its map or its movement file has changed");
+    return fmt::format("{}", fmt::join(reasons, ", and "));
 }
 
 std::vector<StoredPoint> stored_points(const Study& study) {
@@ -255,11 +272,12 @@ Store open_store(const std::string& path, Study& study) {
     for (const StoredPoint& point : points) ids.insert(point.id);
     for (const StoredPoint& point : store.points()) {
         if (ids.contains(point.id)) continue;
-        throw InputError({path}, fmt::format("it has the point {} of another scenario ({}); "
-                                             "expected --fresh, which throws its runs away, or "
-                                             "another --store",
-                                             settings_text(point.settings),
-                                             difference(store.document("scenario"), scenario)));
+        throw InputError(
+            {path},
+            fmt::format("it has runs of the point {}, which this study does not have: {}; expected "
+                        "--fresh, which throws its runs away, or another --store",
+                        settings_text(point.settings),
+                        why_gone(point, study, store.document("scenario"), scenario)));
     }
     store.set_points(points);
     store.set_property("version", code_version());

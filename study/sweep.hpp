@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "study/inventory.hpp"
 #include "study/store.hpp"
 #include "study/study.hpp"
 #include "study/workers.hpp"
@@ -63,9 +64,6 @@ Store open_store(const std::string& path, Study& study);
 
 /// The ids of a store's finished runs.
 std::set<std::string> finished_runs(const Store& store);
-
-/// What a store has of one run.
-enum class RunState { missing, failed, finished };
 
 /// What a store has of every run of a study, in the order that shards divide. Of a study with a
 /// precision, only of the runs that every point is asked for.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <random>
 #include <sstream>
@@ -319,4 +320,77 @@ TEST_CASE("sweep: runs that fail end it with 4, and are listed with their comman
     const Ended failures = command(place.folder, {"results", place.store(), "--failures"});
     CHECK(failures.out.find("propagation.range=30 m\n") != std::string::npos);
     CHECK(failures.out.find("--replication 1\n") != std::string::npos);
+}
+
+TEST_CASE("results: an unfinished study says so, and a failed run is in its row") {
+    const Place place;
+    const std::string plan = "study.replications=3";
+    command(place.folder, {"sweep", place.file, "--set", plan, "--shard", "0", "--chunk", "12"});
+    const Ended table = command(place.folder, {"results", place.store()});
+    CHECK(table.out.find("missing") != std::string::npos);
+    CHECK(table.out.find("\nunfinished: 3 runs are missing\n") != std::string::npos);
+    const std::string said = "unfinished: 3 of 15 runs are missing";
+    CHECK(table.err.find(said) != std::string::npos);
+    CHECK(command(place.folder, {"results", place.store(), "--csv"}).err.find(said) !=
+          std::string::npos);
+    CHECK(command(place.folder, {"explain", place.store(), "0/0"}).err.find(said) !=
+          std::string::npos);
+    const std::string picture = place.folder.path("p.vl.json");
+    command(place.folder,
+            {"plot", place.store(), "-x", "range", "-y", "delivery_ratio", "-o", picture});
+    std::ifstream file(picture);
+    CHECK(std::string(std::istreambuf_iterator<char>(file), {}).find("unfinished: ") !=
+          std::string::npos);
+    const Json json = json_of(place.folder, {"results", place.store()});
+    CHECK(json["missing"] == 3);
+    CHECK(json["rows"][0]["missing"] == 0);
+    CHECK(json["rows"].back()["missing"] == 1);
+}
+
+TEST_CASE("results: options that cannot be meant together are refused") {
+    const Place place;
+    command(place.folder, {"sweep", place.file, "--replications", "1"});
+    for (const char* other : {"--quantile=0.5", "--confidence=0.9", "--json", "--failures"}) {
+        CAPTURE(other);
+        CHECK(command(place.folder, {"results", place.store(), "--csv", other}).exit == 2);
+    }
+    CHECK(command(place.folder, {"results", place.store(), "--provenance"}).exit == 2);
+    const Ended csv = command(place.folder, {"results", place.store(), "--csv", "--metric", "reach",
+                                             "--where", "range=20 m"});
+    CHECK(std::count(csv.out.begin(), csv.out.end(), '\n') == 2);
+}
+
+TEST_CASE("compare: other keys of the study are held, and what cannot be compared ends at once") {
+    const Place place(chatter + "vary.routing.ttl = [1, 2]\n");
+    const std::vector<std::string> models = {"compare", place.file, "--replications", "5"};
+    const auto with = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = models;
+        words.insert(words.end(), more.begin(), more.end());
+        return command(place.folder, words);
+    };
+    const Ended made = with({"--models", "disc,friis"});
+    CHECK(made.exit == 0);
+    CHECK(made.out.find("held as the file has them: propagation.range = 30 m, routing.ttl = ") !=
+          std::string::npos);
+    const Ended twice = with({"--models", "disc,disc"});
+    CHECK(twice.exit == 2);
+    CHECK(twice.err.find("propagation.model=disc is listed twice") != std::string::npos);
+    CHECK(
+        with({"--models", "disc,friis", "--metric", "reech"}).err.find("did you mean \"reach\"?") !=
+        std::string::npos);
+    CHECK(with({"--models", "disc,friis", "--baseline", "two_ray"})
+              .err.find("expected one of disc, friis") != std::string::npos);
+}
+
+TEST_CASE("compare: with failed runs it compares what is there, and ends with 4") {
+    const Place place;
+    const Ended ended =
+        command(place.folder, {"compare", place.file, "--models", "disc,friis", "--replications",
+                               "6", "--set", "scenario.event_limit=3000"});
+    CAPTURE(ended.out);
+    CAPTURE(ended.err);
+    CHECK(ended.exit == 4);
+    CHECK(ended.out.find("lack pairs, as one of both lacks the replication: 6 failed") !=
+          std::string::npos);
+    CHECK(ended.err.find("compare.db") == std::string::npos);  // it is gone
 }

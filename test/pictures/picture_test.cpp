@@ -119,7 +119,7 @@ TEST_CASE("picture: the caption says the scenario, the time and the model with i
     const std::string svg = draw_svg(rescue(), {.at = start_of_run + 1500ms});
     CHECK(has(svg, ">rescue</text>"));
     CHECK(has(svg, "t = 1.5 s"));
-    CHECK(has(svg, "raytrace_2007: coefficient 30, wall_factor 0.3"));
+    CHECK(has(svg, "raytrace_2007: coefficient 20, wall_factor 0.3"));
 }
 
 TEST_CASE("picture: the caption names the models that robots have, each once") {

@@ -52,44 +52,61 @@ TEST_CASE("compare: differences are paired, errors are distances to the dearest 
     CHECK(c.baseline == "disc");
     REQUIRE(c.models.size() == 3);
     const ComparedModel& ray = c.models[0];
-    CHECK(std::abs(ray.summary.mean - 0.4) < rounding);
+    CHECK(std::abs(*ray.answer.value - 0.4) < rounding);
     CHECK(ray.error == 0);
     CHECK(ray.cpu_s == 1);
     CHECK(std::abs(ray.difference->difference.mean - (-0.1)) < rounding);
     CHECK(ray.sentence.find("between raytrace_2007 and disc") != std::string::npos);
     CHECK_FALSE(c.models[1].difference);
     CHECK(c.models[1].sentence.empty());
-    CHECK(std::abs(c.models[1].error - (0.1 + 0.1 + 0.3) / 3) < rounding);
-    const auto adjusted = holm(std::vector{ray.difference->p, c.models[2].difference->p});
-    CHECK(ray.holm_p == adjusted[0]);
-    CHECK(c.models[2].holm_p == adjusted[1]);
-    CHECK(adjusted[0] != adjusted[1]);
+    CHECK(std::abs(*c.models[1].error - (0.1 + 0.1 + 0.3) / 3) < rounding);
+    CHECK(ray.difference->family == 2);
+    CHECK(c.models[2].difference->family == 2);
     // var(ray) = 0.04, var(disc) = 0.12, var(ray - disc) = 0.04
     REQUIRE(c.pairs.size() == 3);
     CHECK(std::abs(*c.pairs[0].ratio - (0.04 + 0.12) / 0.04) < 1e-9);
 }
 
-TEST_CASE("compare: only replications in which all models have a value count") {
+TEST_CASE("compare: a mean is of all replications of its model, a pair of those that both have") {
     const TemporaryFolder folder;
-    const Store store =
-        made(folder.path("s.db"), {"disc", "friis"}, {{0.2, {}, 0.6, 0.9}, {1.0, 1.0, 0.8}});
-    const Comparison c = compare_models(store, "reach", "");
-    CHECK(c.baseline == "friis");
-    CHECK(c.models[0].summary.n == 2);
-    CHECK(std::abs(c.models[0].summary.mean - 0.4) < rounding);
+    const Store store = made(folder.path("s.db"), {"disc", "friis", "itu_indoor"},
+                             {{0.2, {}, 0.6, 0.9}, {1.0, 1.0, 0.8}, {0.1, 0.2, 0.3, 0.5}});
+    const Comparison c = compare_models(store, "reach", "friis");
+    const Answers results = answers(store, {.metrics = {"reach"}});
+    const std::vector<std::size_t> n = {3, 3, 4};
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(c.models[i].answer.value == results.list[i].value);
+        CHECK(c.models[i].answer.low == results.list[i].low);
+        CHECK(c.models[i].answer.values.size() == n[i]);
+    }
+    CHECK(c.models[0].difference->difference.n == 2);
+    CHECK(std::abs(c.models[0].difference->difference.mean - (0.4 - 0.9)) < rounding);
+    CHECK(c.models[0].unpaired.undefined == 1);
+    CHECK(c.models[0].unpaired.missing == 1);
+    CHECK(c.models[2].difference->difference.n == 3);
+    CHECK(c.models[2].unpaired.missing == 1);
+    CHECK(c.models[0].error_n == 3);  // to itu_indoor
     CHECK_THROWS_WITH_AS(compare_models(store, "reach", "disk"),
                          doctest::Contains("did you mean \"disc\"?"), std::invalid_argument);
-    const Store none = made(folder.path("n.db"), {"disc", "friis"}, {{{}, 1.0}, {1.0, {}}});
-    CHECK_THROWS_WITH_AS(compare_models(none, "reach", ""), doctest::Contains("no replication"),
-                         std::invalid_argument);
+}
+
+TEST_CASE("compare: models without a replication in common have means and no difference") {
+    const TemporaryFolder folder;
+    const Store store = made(folder.path("n.db"), {"disc", "friis"}, {{{}, 1.0}, {0.5, {}}});
+    const Comparison c = compare_models(store, "reach", "");
+    CHECK(c.models[0].answer.value == 1.0);
+    CHECK_FALSE(c.models[0].difference);
+    CHECK_FALSE(c.models[0].error);
+    CHECK(c.models[0].sentence.empty());
+    CHECK(c.models[0].unpaired.undefined == 2);
 }
 
 TEST_CASE("compare: one replication gives means and no more") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"disc", "friis"}, {{0.5}, {1.0}});
     const Comparison c = compare_models(store, "reach", "");
-    CHECK(c.models[0].summary.mean == 0.5);
-    CHECK_FALSE(c.models[0].half_width);
+    CHECK(c.models[0].answer.value == 0.5);
+    CHECK_FALSE(c.models[0].answer.low);
     CHECK_FALSE(c.models[0].difference);
     CHECK(c.models[0].error == 0.5);
 }
@@ -120,7 +137,7 @@ TEST_CASE("compare: common random numbers halve the variance of every difference
         const auto varies = [&](const std::string& name) {
             const auto found = std::find_if(c.models.begin(), c.models.end(),
                                             [&](const auto& m) { return m.model == name; });
-            return *found->summary.standard_deviation > 0;
+            return *found->answer.summary->standard_deviation > 0;
         };
         if (!varies(pair.a) || !varies(pair.b)) continue;
         CAPTURE(pair.a);
@@ -129,4 +146,26 @@ TEST_CASE("compare: common random numbers halve the variance of every difference
         ++compared;
     }
     CHECK(compared == 3);
+}
+
+TEST_CASE("compare: with a margin, each model is within it, outside, or not decided") {
+    const TemporaryFolder folder;
+    std::vector<std::vector<std::optional<double>>> values(4);
+    for (int r = 0; r < 400; ++r) {
+        const double friis = 0.5 + 0.001 * (r % 7);
+        values[0].push_back(friis + 0.002 * (r % 3 - 1));        // as good
+        values[1].push_back(friis + 0.3);                        // not so
+        values[2].push_back(friis + (r % 2 == 0 ? 0.4 : -0.4));  // who knows
+        values[3].push_back(friis);
+    }
+    const Store store =
+        made(folder.path("s.db"), {"disc", "two_ray", "log_distance", "friis"}, values);
+    const Comparison c = compare_models(store, "reach", "friis", 0.05);
+    CHECK(c.models[0].equivalence->verdict == Equivalence::within);
+    CHECK(c.models[1].equivalence->verdict == Equivalence::outside);
+    CHECK(c.models[2].equivalence->verdict == Equivalence::undecided);
+    CHECK_FALSE(c.models[3].equivalence);
+    CHECK(c.models[0].equivalence_sentence.starts_with(
+        "disc is within 0.05 of friis (95 % for all 3"));
+    CHECK_FALSE(compare_models(store, "reach", "friis").models[0].equivalence);
 }

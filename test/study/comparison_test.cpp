@@ -24,7 +24,8 @@ namespace {
 
 // Relative: a - b is rounded like b, so that small differences have fewer digits.
 constexpr double vector_accuracy = 1e-13;
-constexpr double rounding = 1e-14;  // relative: of some operations
+constexpr double end_accuracy = 1e-10;  // of a half-width from the ends, which are far larger
+constexpr double rounding = 1e-14;      // relative: of some operations
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -44,45 +45,16 @@ struct Pairs {
     }
 };
 
-/// Holm's procedure itself: which hypotheses fall at this level.
-std::vector<bool> rejected(const std::vector<double>& p, double level) {
-    std::vector<bool> fallen(p.size());
-    for (std::size_t left = p.size(); left > 0; --left) {
-        std::size_t smallest = p.size();
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            if (!fallen[i] && (smallest == p.size() || p[i] < p[smallest])) smallest = i;
-        }
-        if (static_cast<double>(left) * p[smallest] > level) break;
-        fallen[smallest] = true;
-    }
-    return fallen;
-}
-
-/// The least level at which each falls, of all at which anything changes; 1 if there is none.
-std::vector<double> brute_force_holm(const std::vector<double>& p) {
-    std::vector<double> levels{1};
-    for (const double each : p) {
-        for (std::size_t left = 1; left <= p.size(); ++left) {
-            levels.push_back(std::min(1.0, static_cast<double>(left) * each));
-        }
-    }
-    std::sort(levels.begin(), levels.end(), std::greater<>{});
-    std::vector<double> adjusted(p.size(), 1);
-    for (const double level : levels) {
-        const auto fallen = rejected(p, level);
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            if (fallen[i]) adjusted[i] = level;
-        }
-    }
-    return adjusted;
-}
+double half_width_of(const PairedComparison& c) { return (c.high - c.low) / 2; }
 
 /// A comparison of 30 pairs as the sentences need it.
-PairedComparison comparison(double mean, double half_width) {
+PairedComparison comparison(double mean, double half_width, double p) {
     PairedComparison c;
     c.difference = {.n = 30, .mean = mean, .standard_deviation = 1, .min = -1, .max = 1};
     c.confidence = 0.95;
-    c.half_width = half_width;
+    c.low = mean - half_width;
+    c.high = mean + half_width;
+    c.p = p;
     return c;
 }
 
@@ -101,7 +73,7 @@ TEST_CASE("comparison: means, deviations, half-widths and p are those of R (vect
         CHECK(is_close(c->difference.mean, vectors.number(i, "mean"), vector_accuracy));
         CHECK(
             is_close(*c->difference.standard_deviation, vectors.number(i, "sd"), vector_accuracy));
-        CHECK(is_close(c->half_width, vectors.number(i, "half_width"), vector_accuracy));
+        CHECK(is_close(half_width_of(*c), vectors.number(i, "half_width"), end_accuracy));
         CHECK(is_close(c->p, vectors.number(i, "p"), vector_accuracy));
     }
 }
@@ -113,8 +85,8 @@ TEST_CASE("comparison: Student's ten patients slept 1.58 h more on the other dru
     const double t = c->difference.mean * std::sqrt(10) / *c->difference.standard_deviation;
     CHECK(std::abs(t - -4.0621) < 0.5e-4);  // half the last printed digit
     CHECK(std::abs(c->p - 0.002833) < 0.5e-6);
-    CHECK(comparison_text("the first drug", "the second", *c, c->p) ==
-          "the first drug is 1.58 below the second (95 % 0.70 to 2.46, n = 10, Holm p = 0.003)");
+    CHECK(comparison_text("the first drug", "the second", *c) ==
+          "the first drug is 1.58 below the second (95 % 0.70 to 2.46, n = 10, p = 0.003)");
 }
 
 TEST_CASE("comparison: fewer than two pairs are none") {
@@ -128,49 +100,62 @@ TEST_CASE("comparison: exchanging a and b changes the sign and nothing else") {
     const auto forth = compare_pairs(pairs.a, pairs.b), back = compare_pairs(pairs.b, pairs.a);
     CHECK(forth->difference.mean == -back->difference.mean);
     CHECK(forth->difference.standard_deviation == back->difference.standard_deviation);
-    CHECK(forth->half_width == back->half_width);
+    CHECK(forth->low == -back->high);
+    CHECK(forth->high == -back->low);
     CHECK(forth->p == back->p);
     CHECK(forth->detectable == back->detectable);
-    CHECK(forth->variance_ratio == back->variance_ratio);
 }
 
-TEST_CASE("comparison: p is at most the level when the interval leaves 0 out") {
+TEST_CASE("comparison: p is at most the level exactly when the interval leaves 0 out") {
     int found = 0;
     for (std::uint32_t study = 0; study < 300; ++study) {
         const Pairs pairs(8, study, 1);
         for (const double confidence : {0.8, 0.95, 0.99}) {
-            const auto c = compare_pairs(pairs.a, pairs.b, confidence);
-            CHECK((c->p <= 1 - confidence) == (std::abs(c->difference.mean) >= c->half_width));
-            if (c->p <= 1 - confidence) ++found;
+            for (const std::size_t family : {1, 4}) {
+                const auto c = compare_pairs(pairs.a, pairs.b, {}, confidence, family);
+                CHECK(c->found() == (c->low >= 0 || c->high <= 0));
+                if (c->found()) ++found;
+            }
         }
     }
     CHECK(found > 300);  // both kinds occur
-    CHECK(found < 800);
+    CHECK(found < 1500);
+}
+
+TEST_CASE(
+    "comparison: an interval of a family is that of one comparison at a level divided by it") {
+    const Pairs pairs(8, 1, 1);
+    const auto together = compare_pairs(pairs.a, pairs.b, {}, 0.95, 5);
+    const auto alone = compare_pairs(pairs.a, pairs.b, {}, 0.99);
+    CHECK(is_close(together->low, alone->low, end_accuracy));
+    CHECK(is_close(together->high, alone->high, end_accuracy));
+    CHECK(is_close(together->p, 5 * alone->p, rounding));
+    CHECK(together->confidence == 0.95);
 }
 
 TEST_CASE("comparison: equal differences are certain if not 0, and none if 0") {
     const std::array a{1.0, 2.0, 4.0}, less{0.5, 1.5, 3.5}, constant{3.0, 3.0, 3.0};
     const auto apart = compare_pairs(a, less);
     CHECK(apart->difference.mean == 0.5);
-    CHECK(apart->half_width == 0);
+    CHECK(apart->low == apart->high);
     CHECK(apart->p == 0);
     CHECK(apart->detectable == 0.0);
-    CHECK(apart->variance_ratio == infinity);
+    CHECK(paired_variance_ratio(a, less) == infinity);
     const auto same = compare_pairs(a, a);
     CHECK(same->difference.mean == 0);
     CHECK(same->p == 1);
-    CHECK(same->variance_ratio == infinity);
-    CHECK(!compare_pairs(constant, constant)->variance_ratio);
-    CHECK(compare_pairs(constant, a)->variance_ratio == 1);
+    CHECK(paired_variance_ratio(a, a) == infinity);
+    CHECK(!paired_variance_ratio(constant, constant));
+    CHECK(paired_variance_ratio(constant, a) == 1);
+    CHECK(!paired_variance_ratio(std::array{1.0}, std::array{2.0}));
 }
 
 TEST_CASE("comparison: the variance ratio is 1 / (1 - correlation) for equal variances") {
     // var(a - b) = 2 var(a) (1 - r)
     const std::array a{1.0, 2.0, 3.0, 4.0, 5.0}, b{2.0, 1.0, 4.0, 3.0, 5.0};
-    const auto c = compare_pairs(a, b);  // variances 2.5, covariance 2
-    CHECK(is_close(*c->variance_ratio, 1 / (1 - 0.8), rounding));
+    CHECK(is_close(*paired_variance_ratio(a, b), 1 / (1 - 0.8), rounding));  // 2.5, covariance 2
     const std::array opposite{-1.0, -2.0, -3.0, -4.0, -5.0};
-    CHECK(is_close(*compare_pairs(a, opposite)->variance_ratio, 0.5, rounding));
+    CHECK(is_close(*paired_variance_ratio(a, opposite), 0.5, rounding));
 }
 
 TEST_CASE("comparison: the detectable difference is the shift in standard errors") {
@@ -181,12 +166,12 @@ TEST_CASE("comparison: the detectable difference is the shift in standard errors
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         if (vectors.number(i, "n") != 3) continue;
         const auto family = static_cast<std::size_t>(vectors.number(i, "family"));
-        const auto c = compare_pairs(a, b, vectors.number(i, "confidence"), family);
+        const auto c = compare_pairs(a, b, {}, vectors.number(i, "confidence"), family);
         CHECK(is_close(*c->detectable, vectors.number(i, "d") / std::sqrt(3), rounding));
         ++compared;
     }
     CHECK(compared == 6);
-    CHECK(!compare_pairs(std::array{0.0, 1.0}, std::array{0.0, 0.0}, 0.95, 1000)->detectable);
+    CHECK(!compare_pairs(std::array{0.0, 1.0}, std::array{0.0, 0.0}, {}, 0.95, 1000)->detectable);
 }
 
 TEST_CASE("comparison: a true difference of the detectable size is found in 80 % of studies") {
@@ -219,84 +204,51 @@ TEST_CASE("comparison: what is not pairs of numbers is refused") {
                          "compare_pairs: needs pairs, got 2 and 1 values", std::invalid_argument);
     CHECK_THROWS_WITH(compare_pairs(two, bad), "compare_pairs: values must be finite, got nan");
     CHECK_THROWS_WITH(compare_pairs(bad, two), "compare_pairs: values must be finite, got nan");
-    CHECK_THROWS_WITH(compare_pairs(two, two, 1),
+    CHECK_THROWS_WITH(compare_pairs(two, two, {}, 1),
                       "compare_pairs: confidence must be above 0 and below 1, got 1");
-    CHECK_THROWS_WITH_AS(compare_pairs(two, two, 0.95, 0), "compare_pairs: family must be > 0",
+    CHECK_THROWS_WITH_AS(compare_pairs(two, two, {}, 0.95, 0), "compare_pairs: family must be > 0",
                          std::invalid_argument);
 }
 
-TEST_CASE("holm: adjusted p-values are those of R (vectors holm)") {
-    const test::Vectors vectors("holm.csv");
-    for (std::size_t i = 0; i < vectors.size(); ++i) {
-        const auto adjusted = holm(test::listed_numbers(vectors.text(i, "p")));
-        const auto expected = test::listed_numbers(vectors.text(i, "adjusted"));
-        REQUIRE(adjusted.size() == expected.size());
-        for (std::size_t j = 0; j < expected.size(); ++j) {
-            CHECK(is_close(adjusted[j], expected[j], rounding));
-        }
-    }
-}
-
-TEST_CASE("holm: an adjusted p is the least level at which the step-down procedure rejects") {
-    for (std::uint32_t family = 0; family < 300; ++family) {
-        std::vector<double> p;
-        for (std::size_t i = 0; i < family % 9; ++i) {
-            const Key key{.replication = family, .purpose = Purpose::order, .index = i};
-            // some ties, and small ones as well as large ones
-            p.push_back(family % 2 ? static_cast<double>(below(key, 8)) / 7
-                                   : std::pow(uniform(key), 4));
-        }
-        const auto adjusted = holm(p);
-        CHECK(adjusted == brute_force_holm(p));
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            CHECK(adjusted[i] >= p[i]);
-            CHECK(adjusted[i] <= std::min(1.0, static_cast<double>(p.size()) * p[i]));
-        }
-    }
-}
-
-TEST_CASE("holm: a p that is no probability is refused") {
-    for (const double bad : {-0.1, 1.1, not_a_number}) {
-        CHECK_THROWS_AS(holm(std::array{0.5, bad}), std::invalid_argument);
-    }
-}
-
 TEST_CASE("sentence: a difference that is found") {
-    CHECK(comparison_text("friis", "disc", comparison(0.2131, 0.0332), 1e-5) ==
-          "friis is 0.213 above disc (95 % 0.180 to 0.246, n = 30, Holm p < 0.001)");
-    CHECK(comparison_text("friis", "disc", comparison(-0.2131, 0.0332), 0.05) ==
-          "friis is 0.213 below disc (95 % 0.180 to 0.246, n = 30, Holm p = 0.050)");
+    CHECK(comparison_text("friis", "disc", comparison(0.2131, 0.0332, 1e-5)) ==
+          "friis is 0.213 above disc (95 % 0.180 to 0.246, n = 30, p < 0.001)");
+    CHECK(comparison_text("friis", "disc", comparison(-0.2131, 0.0332, 0.05)) ==
+          "friis is 0.213 below disc (95 % 0.180 to 0.246, n = 30, p = 0.050)");
 }
 
 TEST_CASE("sentence: no detectable difference, and which one would have been") {
-    PairedComparison c = comparison(0.0021, 0.0119);
-    CHECK(comparison_text("friis", "disc", c, 0.0501) ==
+    PairedComparison c = comparison(0.0021, 0.0119, 0.0501);
+    CHECK(comparison_text("friis", "disc", c) ==
           "no detectable difference between friis and disc (0.002, 95 % -0.010 to 0.014, n = 30, "
-          "Holm p = 0.050)");
+          "p = 0.050)");
     c.detectable = 0.0209;
     c.confidence = 0.999;
-    CHECK(comparison_text("friis", "disc", c, 0.0012) ==
-          "no detectable difference between friis and disc (0.002, 99.9 % -0.010 to 0.014, n = 30, "
-          "Holm p = 0.001); a difference of 0.021 would have been detected with 80 % power");
+    c.family = 4;
+    c.p = 0.0012;
+    CHECK(comparison_text("friis", "disc", c) ==
+          "no detectable difference between friis and disc (0.002, 99.9 % for all 4: -0.010 to "
+          "0.014, n = 30, p = 0.001); at this level a difference of 0.021 would have been detected "
+          "with 80 % power");
 }
 
 TEST_CASE("sentence: replications that all say the same") {
     const std::array a{1.0, 2.0, 4.0}, less{0.9, 1.9, 3.9}, equal{1.0, 2.0, 4.0};
-    CHECK(comparison_text("a", "b", *compare_pairs(a, equal), 1) ==
+    CHECK(comparison_text("a", "b", *compare_pairs(a, equal)) ==
           "a and b are equal in each of 3 replications");
     const std::array even{0.5, 1.5, 3.5};
-    CHECK(comparison_text("a", "b", *compare_pairs(a, even), 0) ==
+    CHECK(comparison_text("a", "b", *compare_pairs(a, even)) ==
           "a is 0.5 above b in each of 3 replications");
-    CHECK(comparison_text("a", "b", *compare_pairs(even, a), 0) ==
+    CHECK(comparison_text("a", "b", *compare_pairs(even, a)) ==
           "a is 0.5 below b in each of 3 replications");
     // Equal but for rounding is not equal; what is printed is.
-    CHECK(comparison_text("a", "b", *compare_pairs(a, less), 0) ==
-          "a is 0.1 above b (95 % 0.1 to 0.1, n = 3, Holm p < 0.001)");
+    CHECK(comparison_text("a", "b", *compare_pairs(a, less)) ==
+          "a is 0.1 above b (95 % 0.1 to 0.1, n = 3, p < 0.001)");
 }
 
 TEST_CASE("sentence: the half-width has two digits, and never are there decimals of nothing") {
     const auto found = [](double mean, double half_width) {
-        return comparison_text("a", "b", comparison(mean, half_width), 0);
+        return comparison_text("a", "b", comparison(mean, half_width, 0));
     };
     CHECK(found(12.34, 1.0).starts_with("a is 12.3 above b (95 % 11.3 to 13.3,"));
     CHECK(found(12.34, 0.999).starts_with("a is 12.34 above b (95 % 11.34 to 13.34,"));
@@ -306,8 +258,27 @@ TEST_CASE("sentence: the half-width has two digits, and never are there decimals
 }
 
 TEST_CASE("sentence: a number that rounds to 0 has no sign") {
-    CHECK(comparison_text("a", "b", comparison(-0.01, 0.5), 0.9)
+    CHECK(comparison_text("a", "b", comparison(-0.01, 0.5, 0.9))
               .starts_with("no detectable difference between a and b (-0.01, 95 % -0.51 to 0.49,"));
-    CHECK(comparison_text("a", "b", comparison(-0.004, 0.5), 0.9)
+    CHECK(comparison_text("a", "b", comparison(-0.004, 0.5, 0.9))
               .starts_with("no detectable difference between a and b (0.00, 95 % -0.50 to 0.50,"));
+}
+
+TEST_CASE("sentence: whether one is as good as another") {
+    PairedComparison c = comparison(0.01, 0.02, 0.5);
+    EquivalenceVerdict verdict;
+    verdict.verdict = Equivalence::within;
+    verdict.decided_at = 17;
+    CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
+          "disc is within 0.05 of friis (95 %, decided by 17 of 30 replications)");
+    c.family = 4;
+    verdict.verdict = Equivalence::outside;
+    CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
+          "disc is not within 0.05 of friis (95 % for all 4, decided by 17 of 30 replications)");
+    verdict.verdict = Equivalence::undecided;
+    verdict.decided_at = {};
+    verdict.needed = 800;
+    CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
+          "not decided by 30 replications whether disc is within 0.05 of friis (95 % for all 4); "
+          "about 800 would decide, if they are as these are");
 }

@@ -3,6 +3,7 @@
 #include "study/explain.hpp"
 #include "study/merge.hpp"
 #include "study/results.hpp"
+#include "study/results_csv.hpp"
 #include "study/study_chart.hpp"
 #include "study/sweep.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -100,8 +101,8 @@ class Workshop {
     std::vector<std::string> errors(const std::string& path) const {
         const std::vector<std::function<void()>> readers = {
             [&] { answers(Store::open(path), {}); },
-            [&] { write_csv(Store::open(path), false, [](std::string_view) {}); },
-            [&] { write_csv(Store::open(path), true, [](std::string_view) {}); },
+            [&] { write_csv(Store::open(path), {}, [](std::string_view) {}); },
+            [&] { write_provenance_csv(Store::open(path), {}, [](std::string_view) {}); },
             [&] {
                 study_chart(Store::open(path), {.x = "propagation.model", .y = "delivery_ratio"});
             },
@@ -207,6 +208,8 @@ TEST_CASE("damaged stores: the error names table, row and column, and both types
     has(error("UPDATE metric SET value = 9e999", 0), "expected a finite number");
     has(error("UPDATE study SET value = 5 WHERE key = 'study'", 0),
         "table study at key study, column value: found the number 5");
+    has(error("UPDATE study SET value = '{\"metrics\":5}' WHERE key = 'study'", 0),
+        "table study at key study, column value: metrics: found the number 5");
     has(error("UPDATE study SET value = '{}' WHERE key = 'options'", 4),
         "table study at key options, column value: found a table, expected a list");
     has(error("UPDATE study SET value = '[1]' WHERE key = 'options'", 4),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/results.hpp"
 
+#include "study/results_csv.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -45,7 +46,7 @@ constexpr double rounding = 1e-9;  // of sums of a few numbers below 1e3
 
 TEST_CASE("results: a group is of one point if nothing else is asked, with mean and interval") {
     const TemporaryFolder folder;
-    const auto list = answers(made(folder.path("s.db")), {});
+    const auto list = answers(made(folder.path("s.db")), {}).list;
     REQUIRE(list.size() == 4);
     CHECK(list[2].metric == "reach");
     CHECK(list[2].values.size() == 3);
@@ -69,21 +70,22 @@ TEST_CASE(
         store.record(run);
     }
     const std::vector<std::string> metrics = {"delivery_ratio", "latency_mean_s"};
-    const auto list = answers(store, {.metrics = metrics});
+    const auto list = answers(store, {.metrics = metrics}).list;
     CHECK(list[0].method == IntervalMethod::betting);
     CHECK(*list[0].low < 0.9);
     CHECK(*list[0].high == 1);
     CHECK(list[1].method == IntervalMethod::t);
-    const auto by_t = answers(store, {.metrics = metrics, .interval = IntervalMethod::t});
+    const auto by_t = answers(store, {.metrics = metrics, .interval = IntervalMethod::t}).list;
     CHECK_FALSE(by_t[0].low);
     store.set_property("study", R"({"interval":"t"})");
-    CHECK_FALSE(answers(store, {.metrics = metrics})[0].low);
+    CHECK_FALSE(answers(store, {.metrics = metrics}).list[0].low);
 }
 
 TEST_CASE("results: points that a group joins are averaged in each replication first") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")),
-                              {.group_by = std::vector<std::string>{"propagation.model"}});
+                              {.group_by = std::vector<std::string>{"propagation.model"}})
+                          .list;
     REQUIRE(list.size() == 2);
     CHECK(list[0].settings.entries.size() == 1);
     CHECK(list[0].values == std::map<std::uint32_t, double>{{0, 5}, {1, 6}, {2, 7}});
@@ -95,7 +97,7 @@ TEST_CASE("results: conditions choose points, and one that no point meets is an 
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"));
     const auto list =
-        answers(store, {.where = {{"propagation.model", "disc"}, {"radio.power", "1"}}});
+        answers(store, {.where = {{"propagation.model", "disc"}, {"radio.power", "1"}}}).list;
     REQUIRE(list.size() == 1);
     CHECK(list[0].values.at(0) == 10);
     CHECK_THROWS_WITH_AS(answers(store, {.where = {{"radio.power", "2"}}}),
@@ -105,15 +107,15 @@ TEST_CASE("results: conditions choose points, and one that no point meets is an 
 
 TEST_CASE("results: a metric without a value is counted, and is nothing") {
     const TemporaryFolder folder;
-    const auto list = answers(made(folder.path("s.db")), {.metrics = {"hops_mean"}});
-    CHECK(list[0].undefined == 3);
+    const auto list = answers(made(folder.path("s.db")), {.metrics = {"hops_mean"}}).list;
+    CHECK(list[0].gaps.undefined == 3);
     CHECK_FALSE(list[0].value);
     CHECK_FALSE(list[0].summary);
 }
 
 TEST_CASE("results: a quantile stands in place of the mean, if it is asked for") {
     const TemporaryFolder folder;
-    const auto list = answers(made(folder.path("s.db")), {.quantile = 0.5});
+    const auto list = answers(made(folder.path("s.db")), {.quantile = 0.5}).list;
     CHECK(*list[0].value == 1);
     CHECK_FALSE(list[0].low);  // three values are too few for an interval
 }
@@ -130,10 +132,33 @@ TEST_CASE("results: what a study does not have is an error with what is near") {
 TEST_CASE("results: CSV has a row per run and metric, quotes what needs it, and a head") {
     const TemporaryFolder folder;
     std::string text;
-    write_csv(made(folder.path("s.db")), false, [&](std::string_view piece) { text += piece; });
+    write_csv(made(folder.path("s.db")), {}, [&](std::string_view piece) { text += piece; });
     CHECK(
         text.starts_with("point,propagation.model,radio.power,replication,metric,value\n"
                          "0,disc,0,0,hops_mean,\n0,disc,0,0,reach,0\n"));
     CHECK(text.ends_with("3,\"friis, \"\"free\"\"\",1,2,reach,112\n"));
     CHECK(std::count(text.begin(), text.end(), '\n') == 25);
+}
+
+TEST_CASE("results: CSV obeys conditions, metrics and groups") {
+    const TemporaryFolder folder;
+    const Store store = made(folder.path("s.db"));
+    const auto csv = [&](const Question& question) {
+        std::string text;
+        write_csv(store, question, [&](std::string_view piece) { text += piece; });
+        return text;
+    };
+    CHECK(csv({.metrics = {"reach"}, .where = {{"radio.power", "1"}}}) ==
+          "point,propagation.model,radio.power,replication,metric,value\n"
+          "1,disc,1,0,reach,10\n1,disc,1,1,reach,11\n1,disc,1,2,reach,12\n"
+          "3,\"friis, \"\"free\"\"\",1,0,reach,110\n3,\"friis, \"\"free\"\"\",1,1,reach,111\n"
+          "3,\"friis, \"\"free\"\"\",1,2,reach,112\n");
+    CHECK(csv({.group_by = std::vector<std::string>{"radio.power"}}) ==
+          "radio.power,replication,metric,value\n"
+          "0,0,reach,50\n0,1,reach,51\n0,2,reach,52\n1,0,reach,60\n1,1,reach,61\n1,2,reach,62\n");
+    std::string text;
+    write_provenance_csv(store, {{"propagation.model", "disc"}},
+                         [&](std::string_view piece) { text += piece; });
+    CHECK(std::count(text.begin(), text.end(), '\n') == 1 + 6);
+    CHECK_THROWS_AS(csv({.metrics = {"reech"}}), std::invalid_argument);
 }

@@ -55,7 +55,8 @@ TEST_CASE("study chart: numbers on x are lines, and other keys are averaged over
     CHECK(chart.kind == ChartKind::lines);
     CHECK(chart.x_label == "robot.r.count");
     CHECK(chart.y_label == "latency_mean [s]");
-    CHECK(chart.note == "means of 3 replications, with 95 % intervals by Student's t");
+    CHECK(chart.note ==
+          "means of 3 replications, with 95 % intervals by Student's t; averaged over routing.ttl");
     REQUIRE(chart.series.size() == 1);
     REQUIRE(chart.series[0].points.size() == 2);
     CHECK(chart.series[0].points[1].x == 20);
@@ -72,6 +73,7 @@ TEST_CASE("study chart: a series for each value of the key that it is drawn by")
     CHECK(chart.x_label == "radio.power [dBm]");
     REQUIRE(chart.series.size() == 2);
     CHECK(chart.series[1].name == "friis");
+    CHECK(chart.legend_title == "model");
     CHECK(chart.series[1].points[1].x == 10);
     CHECK(std::abs(chart.series[1].points[1].y - 11.1) < rounding);
     const Chart words = study_chart(store, {.x = "model", .y = "latency_mean_s", .by = "power"});

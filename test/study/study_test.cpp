@@ -139,6 +139,33 @@ TEST_CASE("study: a mistake in what varies is an error before anything runs, at 
         std::string::npos);
 }
 
+TEST_CASE("study: a value that is listed twice is an error at its place") {
+    const auto wrong = [](const std::string& keys) {
+        return error_of(two_robots + "[study]\n" + keys);
+    };
+    CHECK(wrong("vary.radio.power = [\"5 dBm\", \"6 dBm\", \"5 dBm\"]")
+              .ends_with("s.toml:17:39: vary: radio.power=5 dBm is listed twice; expected values "
+                         "that differ"));
+    CHECK(
+        wrong("vary.robot.r.count = [2, 3]\nvary.radio.power = [\"0 dBm\", \"1 mW\"]")
+            .ends_with("s.toml:18:30: vary: robot.r.count=2, radio.power=1 mW is the same scenario "
+                       "as robot.r.count=2, radio.power=0 dBm; expected values that differ"));
+    CHECK(wrong("vary.scenario.name = [\"a\", \"b\"]").find("is the same scenario as") !=
+          std::string::npos);
+    // In a zip a value may come again, as long as the others differ.
+    const std::string twice = "vary.radio.power = [\"5 dBm\", \"5 dBm\"]\nvary.robot.r.count = ";
+    const std::string zip = "zip = [[\"radio.power\", \"robot.r.count\"]]";
+    CHECK(wrong(twice + "[2, 3]\n" + zip) == "no error");
+    CHECK(wrong(twice + "[2, 2]\n" + zip).find("s.toml:17:30: ") != std::string::npos);
+}
+
+TEST_CASE("study: a metric that no run has is an error at its place, with what is near") {
+    const std::string text =
+        error_of(two_robots + "[study]\nmetrics = [\"reach\", \"delivery_ration\"]");
+    CHECK(text.find("s.toml:17:21: there is no metric \"delivery_ration\"") != std::string::npos);
+    CHECK(text.ends_with("did you mean \"delivery_ratio\"?"));
+}
+
 TEST_CASE("study: what changes a result changes a point's id, and nothing else does") {
     const std::string id = id_of(two_robots);
     CHECK(id.size() == 16);

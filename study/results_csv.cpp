@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "study/results_csv.hpp"
+
+#include "experiment/toml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rovernet {
+namespace {
+
+std::string cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"') quoted += c;
+        quoted += c;
+    }
+    return quoted + '"';
+}
+
+std::string cell(const Value* value) { return value ? cell(plain_text(*value)) : ""; }
+
+/// The cells of each point: its number and its settings.
+class PointCells {
+  public:
+    PointCells(const Store& store, const std::vector<Condition>& where) {
+        const std::vector<std::string> paths = varied_paths(store);
+        for (const std::string& path : paths) head += "," + cell(path);
+        for (const StoredPoint& point : points_where(store, where)) {
+            std::string& text = of[point.number] = fmt::format("{}", point.number);
+            for (const std::string& path : paths) text += "," + cell(point.settings.find(path));
+        }
+    }
+    std::string head = "point";
+    std::map<std::uint32_t, std::string> of;  // by the number of a point that meets the conditions
+};
+
+void write_rows(const Store& store, const Question& question, const Write& write) {
+    std::string head;
+    for (const std::string& path : *question.group_by) head += cell(path) + ",";
+    write(head + "replication,metric,value\n");
+    for (const Answer& answer : answers(store, question).list) {
+        std::string settings;
+        for (const std::string& path : *question.group_by) {
+            settings += cell(answer.settings.find(path)) + ",";
+        }
+        for (const auto& [replication, value] : answer.values) {
+            write(fmt::format("{}{},{},{}\n", settings, replication, answer.metric, value));
+        }
+    }
+}
+
+}  // namespace
+
+void write_csv(const Store& store, const Question& question, const Write& write) {
+    if (question.group_by) return write_rows(store, question, write);
+    const std::vector<std::string> metrics = metrics_of(store, question);
+    const auto asked = [&](const std::string& metric) {
+        return question.metrics.empty() ||
+               std::find(metrics.begin(), metrics.end(), metric) != metrics.end();
+    };
+    const PointCells points(store, question.where);
+    write(points.head + ",replication,metric,value\n");
+    store.for_each_value([&](const StoredValue& v, const std::string& metric) {
+        const auto point = points.of.find(v.point);
+        if (point == points.of.end() || !asked(metric)) return;
+        write(fmt::format("{},{},{},{}\n", point->second, v.replication, metric,
+                          v.value ? fmt::format("{}", *v.value) : ""));
+    });
+}
+
+void write_provenance_csv(const Store& store, const std::vector<Condition>& where,
+                          const Write& write) {
+    const PointCells points(store, where);
+    write(points.head + ",replication,run,fingerprint,error,cpu_s,wall_s,started,host\n");
+    for (const StoredRun& run : store.runs()) {
+        const auto point = points.of.find(run.point);
+        if (point == points.of.end()) continue;
+        const Measurement& m = run.measurement;
+        write(fmt::format("{},{},{},{},{},{},{},{},{}\n", point->second, run.replication, run.id,
+                          m.fingerprint, cell(run.error), m.cpu_s, m.wall_s, m.started,
+                          cell(m.host)));
+    }
+}
+
+}  // namespace rovernet
