@@ -8,6 +8,7 @@
 #include "experiment/json.hpp"
 #include "experiment/output.hpp"
 #include "experiment/toml.hpp"
+#include "study/compare_cost.hpp"
 #include "study/explain.hpp"
 #include "study/precision.hpp"
 #include "study/study_chart.hpp"
@@ -134,6 +135,10 @@ Table as_table(const ComparedModel& m) {
     row.set("error", optional_value(m.error));
     row.set("error_n", std::uint64_t{m.error_n});
     row.set("cpu_s", m.cpu_s);
+    row.set("cost_s", m.cost ? Value(m.cost->median_s) : Value());
+    row.set("cost_low_s", m.cost ? Value(m.cost->low_s) : Value());
+    row.set("cost_high_s", m.cost ? Value(m.cost->high_s) : Value());
+    row.set("radio_share", optional_value(m.radio_share));
     return row;
 }
 
@@ -156,6 +161,7 @@ void print_json(const Comparison& c) {
         row.set("variance_ratio", optional_value(pair.ratio));
         pairs.emplace_back(std::move(row));
     }
+    table.set("cost", c.cost_text);
     table.set("rows", std::move(rows));
     table.set("pairs", std::move(pairs));
     fmt::print("{}", to_json(table));
@@ -167,9 +173,15 @@ std::string interval(double mean, const std::optional<double>& low,
     return fmt::format("{:.4g} ({:.4g} to {:.4g})", mean, *low, *high);
 }
 
+std::string cost_text(const std::optional<MediumCost>& cost) {
+    if (!cost) return "-";
+    return fmt::format("{:.3g} us ({:.3g} to {:.3g})", 1e6 * cost->median_s, 1e6 * cost->low_s,
+                       1e6 * cost->high_s);
+}
+
 void print_table(const Comparison& c) {
     TextTable table({"model", c.metric, "n", "minus " + c.baseline, "n", "error to " + c.dearest,
-                     "n", "CPU/run"});
+                     "n", "CPU/frame", "of run"});
     const auto count = [](std::size_t n) { return fmt::format("{}", n); };
     for (const ComparedModel& m : c.models) {
         const Answer& a = m.answer;
@@ -178,7 +190,8 @@ void print_table(const Comparison& c) {
                    count(a.values.size()), d ? interval(d->difference.mean, d->low, d->high) : "-",
                    d ? count(d->difference.n) : "-",
                    m.error ? fmt::format("{:.3g}", *m.error) : "-", count(m.error_n),
-                   fmt::format("{:.3g} ms", 1e3 * m.cpu_s)});
+                   cost_text(m.cost),
+                   m.radio_share ? fmt::format("{:.2g} %", 100 * *m.radio_share) : "-"});
     }
     fmt::print("{}", table.text());
 }
@@ -202,6 +215,7 @@ void print_coverage(const Comparison& c) {
 
 void print_text(const Comparison& c) {
     print_table(c);
+    if (!c.cost_text.empty()) fmt::print("{}\n", c.cost_text);
     print_coverage(c);
     fmt::print("\n");
     for (const ComparedModel& m : c.models) {
@@ -261,6 +275,7 @@ void compare(const CompareArguments& a) {
     const SweepResult result = run_study(a, study, store);
     check_interrupted(a, result);
     Comparison comparison = compare_models(store, metric, a.baseline, a.margin);
+    add_costs(comparison, study, store, [] { return stop_requested != 0; });
     comparison.held = held_keys(given, study.base());
     if (a.picture) {
         write_file(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));

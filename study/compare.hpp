@@ -4,6 +4,7 @@
 #include "study/comparison.hpp"
 #include "study/equivalence.hpp"
 #include "study/interval.hpp"
+#include "study/medium_cost.hpp"
 #include "study/results.hpp"
 #include "study/store.hpp"
 
@@ -16,8 +17,10 @@ namespace rovernet {
 /// One propagation model among those that are compared over common random numbers.
 struct ComparedModel {
     std::string model;
-    Answer answer;     ///< the metric of all its replications, as results have it
-    double cpu_s = 0;  ///< [s] mean per run
+    Answer answer;                      ///< the metric of all its replications, as results have it
+    double cpu_s = 0;                   ///< [s] mean per run
+    std::optional<MediumCost> cost;     ///< of the medium; see add_costs()
+    std::optional<double> radio_share;  ///< [-] of the runs' CPU time, about: that cost
     /// Mean distance to the dearest model's value over the replications in which both have one, in
     /// the metric's unit, its interval, and how many replications these are.
     std::optional<double> error;
@@ -47,6 +50,7 @@ struct Comparison {
     RunCounts runs;                     ///< of all models
     std::string held = {};  ///< other keys that the study varies, at the values that were run
     std::vector<PairedVariance> pairs;
+    std::string cost_text = {};  ///< how costs were measured, and whether they matter
 };
 
 /// The place of a baseline among the models that are compared.

@@ -234,16 +234,19 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
 }
 
 std::vector<Chart> comparison_charts(const Comparison& comparison) {
+    const bool costs = std::all_of(comparison.models.begin(), comparison.models.end(),
+                                   [](const ComparedModel& m) { return m.cost.has_value(); });
     Chart values{.kind = ChartKind::bars,
                  .x_label = "propagation model",
                  .y_label = metric_label(comparison.metric),
                  .y_limits = limits_of(comparison.metric)};
-    Chart errors{.kind = ChartKind::scatter,
-                 .x_label = "CPU time per run [ms]",
-                 .y_label = "mean distance to " + comparison.dearest,
-                 .x_from_zero = true,
-                 .x_limits = {.low = 0},
-                 .y_limits = {.low = 0}};
+    Chart errors{
+        .kind = ChartKind::scatter,
+        .x_label = costs ? "CPU time of the medium per frame [us]" : "CPU time per run [ms]",
+        .y_label = "mean distance to " + comparison.dearest,
+        .x_from_zero = true,
+        .x_limits = {.low = 0},
+        .y_limits = {.low = 0}};
     ChartSeries& bars = values.series.emplace_back(ChartSeries{});
     ChartSeries& dots = errors.series.emplace_back(ChartSeries{});
     std::vector<Answer> list;
@@ -253,7 +256,7 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
         point.category = m.model;
         const auto& e = m.error_interval;
         bars.points.push_back(std::move(point));
-        dots.points.push_back({.x = 1e3 * m.cpu_s,
+        dots.points.push_back({.x = costs ? 1e6 * m.cost->median_s : 1e3 * m.cpu_s,
                                .y = m.error.value_or(std::nan("")),
                                .low = e ? std::optional(e->low) : std::nullopt,
                                .high = e ? std::optional(e->high) : std::nullopt,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sim/error.hpp"
+#include "study/compare.hpp"
 #include "study/explain.hpp"
 #include "study/merge.hpp"
 #include "study/results.hpp"
@@ -106,6 +107,7 @@ class Workshop {
             [&] {
                 study_chart(Store::open(path), {.x = "propagation.model", .y = "delivery_ratio"});
             },
+            [&] { compare_models(Store::open(path), "delivery_ratio", ""); },
             [&] {
                 const Store store = Store::open(path);
                 const FoundRun found = find_run(store, "0/1");
@@ -156,7 +158,7 @@ TEST_CASE("damaged stores: one that is whole, its columns untyped, is read witho
     std::vector<std::string> errors = workshop.errors(workshop.whole());
     CHECK(joined(errors) == std::string(errors.size(), '\n'));
     errors = workshop.errors(workshop.tampered(""));
-    errors[5] = "";  // who writes misses the tables' constraints
+    errors[6] = "";  // who writes misses the tables' constraints
     CHECK(joined(errors) == std::string(errors.size(), '\n'));
 }
 
@@ -210,9 +212,9 @@ TEST_CASE("damaged stores: the error names table, row and column, and both types
         "table study at key study, column value: found the number 5");
     has(error("UPDATE study SET value = '{\"metrics\":5}' WHERE key = 'study'", 0),
         "table study at key study, column value: metrics: found the number 5");
-    has(error("UPDATE study SET value = '{}' WHERE key = 'options'", 4),
+    has(error("UPDATE study SET value = '{}' WHERE key = 'options'", 5),
         "table study at key options, column value: found a table, expected a list");
-    has(error("UPDATE study SET value = '[1]' WHERE key = 'options'", 4),
+    has(error("UPDATE study SET value = '[1]' WHERE key = 'options'", 5),
         "found the number 1, expected texts");
     const std::string deep(200'000, '[');
     has(error("UPDATE point SET settings = '" + deep + "'", 0), "more than 100 levels");
