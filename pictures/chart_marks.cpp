@@ -200,7 +200,7 @@ std::vector<double> shifts(const ChartView& view, const ChartFrame& frame) {
 
 /// Where the points of a scatter stand: at their x, or as near as none hides one before it.
 std::vector<Places> apart(const ChartView& view, const ChartFrame& frame) {
-    constexpr int most_steps = 6;
+    constexpr int most_steps = 2;  // a measured x is not moved farther than 18 px
     std::vector<Places> out;
     std::vector<Box> taken;
     for (const auto& points : view.series) {

@@ -155,6 +155,7 @@ Comparison compare_models(const Store& store, const std::string& metric,
         model.unpaired = unpaired(inventory, all.list[i], all.list[base],
                                   static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(base));
         add_error(model, dearest, metric, comparison.confidence, interval_method_of(store));
+        if (model.model == comparison.dearest) model.error_interval.reset();  // 0 by definition
         comparison.models.push_back(std::move(model));
     }
     compare_with_baseline(comparison, comparison.models[base], interval_method_of(store));

@@ -144,9 +144,11 @@ TEST_CASE("reactions: an answer goes to who sent the message, or to a robot by n
             load_scenario(folder.write("s.toml", line_of_three(reaction, a_says)), {});
         const RunResult result = run_scenario(s, {.folder = folder.path("out"), .speed = {}});
         std::vector<std::string> heard;
-        for (const auto& happening : result.timeline) {
-            if (happening.text.find("hears \"yes\"") == std::string::npos) continue;
-            heard.push_back(*happening.detail.find("robot")->string());
+        for (std::size_t i = 0; i < result.timeline->size(); ++i) {
+            const Timeline::Happening happening = (*result.timeline)[i];
+            if (happening.text.find("hears \"yes\"") != std::string::npos) {
+                heard.push_back(happening.robot);
+            }
         }
         return heard;
     };
