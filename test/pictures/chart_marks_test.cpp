@@ -310,9 +310,9 @@ TEST_CASE("chart: a map without a missing cell says nothing of one") {
 
 TEST_CASE("chart: values are printed in cells that hold them, and in no others") {
     Chart heat = one_series(ChartKind::heat_map, {{.x = 0, .y = 0.25}, {.x = 1, .y = 0.875}});
-    CHECK(has(drawn(heat), ">0.25</text>"));
+    CHECK(has(drawn(heat), ">0.250</text>"));
     for (int i = 2; i < 60; ++i) heat.series[0].points.push_back({.x = double(i), .y = 0.5});
-    CHECK_FALSE(has(drawn(heat), ">0.25</text>"));
+    CHECK_FALSE(has(drawn(heat), ">0.250</text>"));
 }
 
 TEST_CASE("chart: a value is dark on light cells and white on dark ones") {

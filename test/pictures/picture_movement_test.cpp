@@ -28,7 +28,7 @@ constexpr const char* two_nodes =
     "$node_(0) set X_ 0\n$node_(0) set Y_ 0\n$node_(1) set X_ 30\n$node_(1) set Y_ 0\n"
     "$ns_ at 1.0 \"$node_(1) setdest 80 0 5\"\n";
 
-/// A vehicle from the start to 2 s, another from 2 s on, which then stands elsewhere.
+/// A vehicle from the start to 1 s, another from 2 s to 3 s.
 constexpr const char* two_vehicles =
     "<fcd-export>\n"
     "<timestep time=\"0\"><vehicle id=\"early\" x=\"0\" y=\"0\"/></timestep>\n"
@@ -99,7 +99,7 @@ TEST_CASE("picture: the coverage of a movement file's robot is that of its radio
 TEST_CASE("picture: vehicles that have not departed or have left are counted and not drawn") {
     Files files;
     const Scenario s = load_scenario(files.vehicles, {});
-    const std::string before = draw_svg(s, {.at = start_of_run + 1s});
+    const std::string before = draw_svg(s, {.at = start_of_run + 500ms});
     CHECK(circles(before) == 1);
     CHECK(has(before, "of 2 robots 1 not departed"));
     CHECK(has(before, ">early</text>"));
