@@ -4,7 +4,6 @@
 #include "experiment/flood_bench.hpp"
 #include "experiment/scenario.hpp"
 
-#include <csignal>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -35,9 +34,6 @@ class CommandEnd : public std::runtime_error {
   private:
     ExitCode code_;
 };
-
-/// How often Ctrl-C was pressed.
-extern volatile std::sig_atomic_t stop_requested;
 
 /// FILE and what may be said over it: a scenario, a Stage world or a movement file.
 struct FileArguments {

@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/stop.hpp"
 #include "cli/study_run.hpp"
 #include "cli/text_table.hpp"
 #include "experiment/json.hpp"
@@ -242,7 +243,7 @@ void check_margin(const CompareArguments& a, const std::string& metric) {
 
 /// @throws CommandEnd if the user has ended it: a part of a comparison is none
 void check_interrupted(const CompareArguments& a, const SweepResult& result) {
-    if (stop_requested == 0 || result.progress.left == 0) return;
+    if (stops_asked() == 0 || result.progress.left == 0) return;
     throw CommandEnd(interrupted,
                      a.store ? "interrupted; what was finished is kept: go on with\n  " + a.command
                              : "interrupted; --store FILE would have kept the runs");
@@ -270,12 +271,13 @@ void compare(const CompareArguments& a) {
     const std::string metric = a.metric.empty() ? first_metric(study.table()) : a.metric;
     check_metric(metric, study.base(), {"--metric " + metric, 0, 0, true});
     check_margin(a, metric);
+    const HeldStop until_gone;
     const PassingStore passing;
     Store store = open_store(a.store.value_or(passing.file()), study);
     const SweepResult result = run_study(a, study, store);
     check_interrupted(a, result);
     Comparison comparison = compare_models(store, metric, a.baseline, a.margin);
-    add_costs(comparison, study, store, [] { return stop_requested != 0; });
+    add_costs(comparison, study, store, [] { return stops_asked() > 0; });
     comparison.held = held_keys(given, study.base());
     if (a.picture) {
         write_file(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/options.hpp"
+#include "cli/stop.hpp"
 #include "experiment/version.hpp"
 #include "sim/error.hpp"
 #include "study/command_words.hpp"
@@ -33,7 +34,9 @@ std::vector<std::string> options_of(const CLI::App& command) {
 
 std::vector<std::string> commands_of(const CLI::App& command) {
     std::vector<std::string> names;
-    for (const CLI::App* sub : command.get_subcommands(nullptr)) names.push_back(sub->get_name());
+    for (const CLI::App* sub : command.get_subcommands(nullptr)) {
+        if (!sub->get_group().empty()) names.push_back(sub->get_name());
+    }
     return names;
 }
 
@@ -71,9 +74,7 @@ std::string command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto stop = [](int) { cli::stop_requested = cli::stop_requested + 1; };
-    std::signal(SIGINT, stop);
-    std::signal(SIGTERM, stop);
+    cli::end_on_signals();
     std::signal(SIGPIPE, SIG_IGN);
 
     CLI::App app{"rovernet: wireless networks of moving robots, event by event", "rovernet"};
@@ -89,7 +90,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::RuntimeError& end) {
         return end.get_exit_code();
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? ok : usage;
+        return app.exit(error) == 0 ? cli::end_output() : usage;
     }
     return ok;
 }

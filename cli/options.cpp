@@ -50,6 +50,22 @@ CLI::Validator whole_number() {
                                       [](std::int64_t v) { return v >= 0; });
 }
 
+void print_completion(const ManualArguments& a) {
+    fmt::print("{}", completion_script(*a.app, a.shell));
+}
+
+void print_man_page(const ManualArguments& a) { fmt::print("{}", man_page(*a.app)); }
+
+void add_verbosity(CLI::App& command) {
+    CLI::Option* quiet = command.add_flag_callback(
+        "-q,--quiet", [] { set_verbosity(Verbosity::errors); }, "say errors only");
+    command
+        .add_flag_callback(
+            "-v,--verbose", [] { set_verbosity(Verbosity::everything); },
+            "say also what takes how long")
+        ->excludes(quiet);
+}
+
 void add_study_file(CLI::App& command, FileArguments& a, const char* what) {
     command.add_option("FILE", a.file, what)->required();
     command.add_option("--seed", a.seed, "seed of every random draw")->check(whole_number());

@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/manual.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -15,6 +16,9 @@
 /// tells in its --help. What it does stands in commands.hpp.
 namespace rovernet::cli {
 
+/// --quiet and --verbose, which every command has.
+void add_verbosity(CLI::App& command);
+
 /// Adds a command below `parent`. Its arguments live as long as it does; `run` gets them once the
 /// command line is read. CLI::RuntimeError then carries an exit code other than 0.
 /// @return the command and its arguments, for its options
@@ -23,12 +27,21 @@ std::pair<CLI::App&, Arguments&> add_command(CLI::App& parent, const char* name,
                                              void (*run)(const Arguments&)) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command = parent.add_subcommand(name, what);
+    add_verbosity(*command);
     command->callback([arguments, run] {
         const int code = guarded([&] { run(*arguments); });
         if (code != ok) throw CLI::RuntimeError(code);
     });
     return {*command, *arguments};
 }
+
+/// What is made from the commands as they are declared.
+struct ManualArguments {
+    const CLI::App* app = nullptr;
+    std::string shell;
+};
+void print_completion(const ManualArguments& arguments);
+void print_man_page(const ManualArguments& arguments);
 
 /// FILE and the options that go over it, but for those of one run.
 void add_study_file(CLI::App& command, FileArguments& arguments, const char* what);
@@ -53,7 +66,7 @@ void add_run_commands(CLI::App& app, const std::string& typed);
 void add_scene_commands(CLI::App& app);
 /// results, plot, explain.
 void add_result_commands(CLI::App& app);
-/// models, loss, trace, bench, version.
+/// models, loss, trace, bench, version, completion.
 void add_tool_commands(CLI::App& app);
 
 }  // namespace rovernet::cli

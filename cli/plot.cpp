@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
-#include "experiment/output.hpp"
+#include "cli/stop.hpp"
 #include "pictures/picture_file.hpp"
 #include "sim/error.hpp"
 #include "study/study_chart.hpp"
@@ -57,9 +57,10 @@ void plot(const PlotArguments& a) {
                                             .log_y = a.log_y,
                                             .common = a.common});
     if (is_picture_name(a.out)) {
-        write_picture(chart_svg(std::span(&chart, 1), layout_of(a)), a.out);
+        const std::string svg = chart_svg(std::span(&chart, 1), layout_of(a));
+        write_whole({{a.out, picture_bytes(svg, a.out)}});
     } else {
-        write_file(a.out, writes(".gp") ? chart_gnuplot(chart) : chart_vega_lite(chart));
+        write_whole({{a.out, writes(".gp") ? chart_gnuplot(chart) : chart_vega_lite(chart)}});
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/waiting.hpp"
 #include "experiment/json.hpp"
 #include "experiment/loss_table.hpp"
 #include "experiment/run.hpp"
@@ -28,6 +29,8 @@ Table as_table(const LinkReport& report) {
         crossing.set("exit_m", report.walls[i].exit);
         crossing.set("length_m", report.walls[i].length);
         crossing.set("material", report.materials[i]);
+        const bool counts = !report.wall_losses.empty();
+        crossing.set("loss_db", counts ? report.wall_losses[i].value : 0.0);
         walls.emplace_back(std::move(crossing));
     }
     table.set("walls", std::move(walls));
@@ -36,6 +39,7 @@ Table as_table(const LinkReport& report) {
     table.set("rx_power_dbm", report.received.value);
     table.set("margin_db", report.margin.value);
     table.set("up", report.up);
+    table.set("why_down", report.up ? Value() : Value(report.why_down));
     return table;
 }
 
@@ -43,10 +47,15 @@ void print_budget(const LinkReport& r) {
     fmt::print("{} -> {} at {:.9g} s: {:.3f} m, model {}\n\n", r.from, r.to, seconds(r.at),
                r.distance_m, r.model);
     for (std::size_t i = 0; i < r.walls.size(); ++i) {
-        fmt::print("  {} from {:8.3f} m to {:8.3f} m: {:.3f} m\n", r.materials[i], r.walls[i].entry,
+        fmt::print("  {} from {:8.3f} m to {:8.3f} m: {:.3f} m", r.materials[i], r.walls[i].entry,
                    r.walls[i].exit, r.walls[i].length);
+        if (!r.wall_losses.empty()) fmt::print(", {:.3f} dB", r.wall_losses[i].value);
+        fmt::print("\n");
     }
-    if (!r.walls.empty()) fmt::print("  {:.3f} m of wall in all\n\n", r.wall_m);
+    if (!r.walls.empty()) {
+        fmt::print("  {:.3f} m of wall in all{}\n\n", r.wall_m,
+                   r.wall_losses.empty() ? "; model " + r.model + " does not see walls" : "");
+    }
     const auto line = [](std::string_view what, double value, std::string_view unit) {
         fmt::print("  {:<28} {:+10.3f} {}\n", what, value, unit);
     };
@@ -59,7 +68,7 @@ void print_budget(const LinkReport& r) {
     line("received power", r.received.value, "dBm");
     line("receiver's sensitivity", r.receiver.sensitivity.value, "dBm");
     line("margin", r.margin.value, "dB");
-    fmt::print("\n{} -> {} is {}\n", r.from, r.to, r.up ? "up" : "down");
+    fmt::print("\n{} -> {} is {}\n", r.from, r.to, r.up ? "up" : "down: " + r.why_down);
 }
 
 std::string text_of(const Value& value) {
@@ -98,7 +107,11 @@ void loss(const LossArguments& a) {
 
 void link(const LinkArguments& a) {
     const Scenario scenario = scenario_of(a);
-    const auto report = report_link(scenario, a.from, a.to, time_in(scenario, a.at));
+    const Time at = time_in(scenario, a.at);
+    const auto report = [&] {
+        const Waiting playing(fmt::format("playing {} until {:g} s", a.file, seconds(at)));
+        return report_link(scenario, a.from, a.to, at);
+    }();
     if (a.json) {
         fmt::print("{}", to_json(as_table(report)));
     } else {
@@ -128,7 +141,7 @@ void models(const PrintArguments& a) {
 void trace_stats(const TraceArguments& a) {
     const MetricValues metrics = trace_metrics(a.file);
     if (metrics.messages == 0) {
-        notice(a.file + ": no message is sent in it; stats reads the traces that rovernet writes");
+        notice(a.file + ": no message is sent in it");
     }
     Table table;
     append_metrics(table, metrics);

@@ -10,6 +10,9 @@ constexpr const char* only_cells =
 
 void add_results(CLI::App& app) {
     const auto [results, a] = add_command(app, "results", "What a study came to", cli::results);
+    add_examples(results, {"rovernet results patrol.db --metric delivery_ratio",
+                           "rovernet results patrol.db --sql 'SELECT * FROM result'",
+                           "rovernet results patrol.db --csv > patrol.csv"});
     results.add_option("STUDY", a.store, "store of a study, as sweep makes it")->required();
     CLI::Option* metric =
         results.add_option("--metric", a.metrics, "which, such as delivery_ratio,latency_mean_s")
@@ -59,6 +62,8 @@ void add_results(CLI::App& app) {
 
 void add_plot(CLI::App& app) {
     const auto [plot, p] = add_command(app, "plot", "Draw what a study came to", cli::plot);
+    add_examples(plot,
+                 {"rovernet plot density.db -x robot.r.count -y delivery_ratio -o density.svg"});
     plot.add_option("STUDY", p.store, "store of a study, as sweep makes it")->required();
     plot.add_option("-x", p.x, "key that varies, such as robots or radio.power");
     plot.add_option("-y", p.y, "metric, such as delivery_ratio")->required();
@@ -91,6 +96,7 @@ void add_plot(CLI::App& app) {
 void add_explain(CLI::App& app) {
     const auto [explain, e] =
         add_command(app, "explain", "How one run of a study came about", cli::explain);
+    add_examples(explain, {"rovernet explain patrol.db 0/2"});
     explain.add_option("STUDY", e.store, "store of a study, as sweep makes it")->required();
     explain.add_option("RUN", e.run, "POINT/REPLICATION, or the beginning of its id")->required();
     add_json(explain, e.json);

@@ -191,9 +191,7 @@ void print_answers(const ResultsArguments& a, const Store& store) {
 }
 
 void print_csv(const ResultsArguments& a, const Store& store) {
-    const Write write = [](std::string_view text) {
-        std::fwrite(text.data(), 1, text.size(), stdout);
-    };
+    const Write write = [](std::string_view text) { fmt::print("{}", text); };
     const Question question = question_of(a, store);
     if (a.provenance) {
         write_provenance_csv(store, question.where, write);

@@ -3,6 +3,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/stop.hpp"
+#include "cli/waiting.hpp"
 #include "experiment/json.hpp"
 #include "experiment/run_folder.hpp"
 #include "experiment/toml.hpp"
@@ -11,11 +13,10 @@
 
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <unistd.h>
 
 namespace rovernet::cli {
-
-volatile std::sig_atomic_t stop_requested = 0;
 
 namespace {
 
@@ -25,7 +26,7 @@ constexpr std::size_t longest_timeline = 100;  // lines
 class ProgressBar {
   public:
     ~ProgressBar() {
-        if (shown_) fmt::print(stderr, "\r\033[K");
+        if (shown_) to_terminal("\r\033[K");
     }
     void show(double share) {
         const auto now = std::chrono::steady_clock::now();
@@ -34,11 +35,12 @@ class ProgressBar {
         shown_ = true;
         constexpr int width = 40;
         const int full = static_cast<int>(share * width);
-        fmt::print(stderr, "\r[{:=<{}}{: <{}}] {:3.0f} %", "", full, "", width - full, 100 * share);
+        to_terminal(
+            fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} %", "", full, "", width - full, 100 * share));
     }
 
   private:
-    bool on_terminal_ = isatty(STDERR_FILENO) != 0;
+    bool on_terminal_ = shows_progress();
     bool shown_ = false;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
@@ -86,10 +88,10 @@ void print_result(const Scenario& scenario, const RunResult& result) {
     }
     fmt::print("fingerprint        {}\n", result.fingerprint);
     if (const auto db = result.interference_left_out) {
-        fmt::print(stderr, "interference left out: at most {:.2f} dB\n", db->value);
+        notice(fmt::format("interference left out: at most {:.2f} dB", db->value));
     }
-    fmt::print(stderr, "{} events, {:.2f} s; results in {}\n", result.events, result.wall_s,
-               result.folder);
+    notice(fmt::format("{} events, {:.2f} s; results in {}", result.events, result.wall_s,
+                       result.folder));
 }
 
 }  // namespace
@@ -103,8 +105,23 @@ ScenarioOptions options_of(const FileArguments& a) {
     return options;
 }
 
+namespace {
+
+void tell_of(const Scenario& scenario) {
+    const Table document = to_document(scenario);
+    detail(fmt::format("{} tables of robots, model {}, {:g} s", scenario.robots.size(),
+                       *document.find("propagation")->table()->find("model")->string(),
+                       seconds(scenario.scenario.duration)));
+}
+
+}  // namespace
+
 Scenario scenario_of(const FileArguments& a) {
-    Scenario scenario = load_scenario(a.file, options_of(a));
+    Scenario scenario = [&] {
+        const Waiting reading("reading " + a.file);
+        return load_scenario(a.file, options_of(a));
+    }();
+    if (tells_details()) tell_of(scenario);
     for (const std::string& text : scenario.notices) notice(text);
     return scenario;
 }
@@ -116,16 +133,21 @@ void run(const RunArguments& a) {
         return;
     }
     RunResult result;
+    std::optional<Waiting> setting_up("setting up the network of " + a.file);
+    std::optional<HeldStop> writing;  // not while the network is set up
     {
         ProgressBar bar;
         result =
             run_scenario(scenario, {.folder = a.out ? *a.out : run_folder(scenario, a.options.set),
                                     .speed = a.speed,
                                     .progress = [&](double share) {
+                                        setting_up.reset();
+                                        if (!writing) writing.emplace();
                                         bar.show(share);
-                                        return stop_requested == 0;
+                                        return stops_asked() == 0;
                                     }});
     }
+    writing.reset();
     if (a.json) {
         write_summary(run_summary(scenario, result), *result.timeline,
                       [](std::string_view text) { fmt::print("{}", text); });

@@ -6,6 +6,10 @@ namespace {
 
 void add_run(CLI::App& app) {
     const auto [run, a] = add_command(app, "run", "Run a scenario", cli::run);
+    add_examples(run,
+                 {"rovernet run examples/patrol/patrol.toml",
+                  "rovernet run examples/rescue/rescue.toml --seed 7 --out rescue-7",
+                  "rovernet run examples/rescue/rescue.toml --set propagation.model=friis --json"});
     add_file(run, a, any_file);
     run.add_option(
         "--out", a.out,
@@ -34,7 +38,8 @@ void add_study_run(CLI::App& command, StudyArguments& a) {
         ->check(CLI::Range(1, 1'000'000));
     add_interval(command, a.interval);
     command.add_option("--timeout", a.timeout, "of one run, in real time, such as 60s");
-    command.add_option("--memory", a.memory, "of one run, such as 2GB");
+    command.add_option("--memory", a.memory,
+                       "of one run, such as 2GB (default: what the machine has, over the workers)");
     command.add_flag("--fail-fast", a.fail_fast, "begin nothing new once a run has failed");
     add_json(command, a.json);
 }
@@ -42,6 +47,9 @@ void add_study_run(CLI::App& command, StudyArguments& a) {
 void add_sweep(CLI::App& app, const std::string& typed) {
     const auto [sweep, a] =
         add_command(app, "sweep", "Run a study: every point, every replication", cli::sweep);
+    add_examples(sweep,
+                 {"rovernet sweep examples/density/density.toml --dry-run",
+                  "rovernet sweep examples/patrol/patrol.toml --replications 3 --store patrol.db"});
     a.command = typed;
     add_study_file(sweep, a, any_file);
     sweep.add_flag("--dry-run", a.dry_run, "list the points and runs, and run nothing");
@@ -69,6 +77,8 @@ void add_sweep(CLI::App& app, const std::string& typed) {
 void add_compare(CLI::App& app, const std::string& typed) {
     const auto [compare, a] = add_command(
         app, "compare", "Propagation models beside each other on one scenario", cli::compare);
+    add_examples(compare, {"rovernet compare examples/patrol/patrol.toml --models "
+                           "friis,log_distance --replications 3"});
     a.command = typed;
     add_study_file(compare, a, any_file);
     compare.add_option("--models", a.models, "which (default: those of [study] vary)")

@@ -7,6 +7,7 @@ namespace {
 void add_link(CLI::App& app) {
     const auto [link, a] =
         add_command(app, "link", "The budget of the link from robot A to robot B", cli::link);
+    add_examples(link, {"rovernet link examples/rescue/rescue.toml A B --at 10s"});
     add_file(link, a, any_file);
     link.add_option("A", a.from, "transmitting robot")->required();
     link.add_option("B", a.to, "receiving robot")->required();
@@ -16,6 +17,8 @@ void add_link(CLI::App& app) {
 
 void add_links(CLI::App& app) {
     const auto [links, a] = add_command(app, "links", "What every robot's radio hears", cli::links);
+    add_examples(links, {"rovernet links examples/rescue/rescue.toml --robot A",
+                         "rovernet links examples/rescue/rescue.toml --history"});
     add_file(links, a, any_file);
     links.add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
     links.add_option("--robot", a.robot, "of this robot only");
@@ -27,6 +30,8 @@ void add_links(CLI::App& app) {
 void add_scene(CLI::App& app) {
     const auto [scene, a] =
         add_command(app, "scene", "The map, the robots and how links join them", cli::scene);
+    add_examples(scene, {"rovernet scene examples/rescue/rescue.toml",
+                         "rovernet scene examples/rescue/office.png --size 48x24"});
     add_file(scene, a, "as for run; or a map alone: map.yaml, or a picture with --size");
     scene.add_option("--size", a.size, "of a picture, in metres: 16x16");
     scene.add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
@@ -35,6 +40,7 @@ void add_scene(CLI::App& app) {
 
 void add_where(CLI::App& app) {
     const auto [where, a] = add_command(app, "where", "Where every robot is", cli::where);
+    add_examples(where, {"rovernet where examples/rescue/rescue.toml --at 10s,31.25s"});
     add_file(where, a, any_file);
     where.add_option("--at", a.at, "times of the run, such as 10s,31.25s")
         ->delimiter(',')
@@ -44,6 +50,8 @@ void add_where(CLI::App& app) {
 
 void add_draw(CLI::App& app) {
     const auto [draw, a] = add_command(app, "draw", "Draw map, robots and radio", cli::draw);
+    add_examples(draw, {"rovernet draw examples/rescue/rescue.toml --links --at 10s -o rescue.svg",
+                        "rovernet draw examples/rescue/rescue.toml --coverage A -o coverage.svg"});
     add_file(draw, a, any_file);
     draw.add_option("--at", a.at, "time of the run, such as 12.5s")->capture_default_str();
     draw.add_option("--coverage", a.coverage, "robot whose received power is shown");
@@ -67,6 +75,7 @@ void add_move(CLI::App& app) {
     const auto [convert, a] =
         add_command(*move, "convert", "Write the motion of a scenario or movement file for others",
                     cli::convert_movements);
+    add_examples(convert, {"rovernet move convert examples/patrol/patrol.toml patrol.tcl"});
     add_file(convert, a, any_file);
     convert.add_option("OUT", a.out, "NAME.tcl (ns-2) or NAME.movements (BonnMotion)")->required();
 }

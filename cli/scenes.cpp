@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/stop.hpp"
+#include "cli/waiting.hpp"
 #include "experiment/json.hpp"
 #include "experiment/link_table.hpp"
 #include "experiment/loss_table.hpp"
@@ -14,6 +16,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 namespace rovernet::cli {
 namespace {
@@ -129,6 +133,21 @@ void print_robots(const Table& report) {
                std::get<std::int64_t>(c.find("diameter_hops")->data));
 }
 
+std::string playing(const std::string& file, Time until) {
+    return fmt::format("playing {} until {:g} s", file, seconds(until));
+}
+
+std::unique_ptr<Network> played(const std::string& file, const Scenario& scenario, Time until) {
+    const Waiting waiting(playing(file, until));
+    return network_at(scenario, until);
+}
+
+/// Draws or converts, with a word for who waits.
+auto with_patience(const std::string& what, auto&& work) {
+    const Waiting waiting(what);
+    return work();
+}
+
 }  // namespace
 
 Time time_in(const Scenario& scenario, const std::string& text) {
@@ -144,16 +163,18 @@ Time time_in(const Scenario& scenario, const std::string& text) {
 void links(const LinksArguments& a) {
     const Scenario scenario = scenario_of(a);
     if (a.history) {
-        fmt::print("{}", link_history(scenario));
+        write_link_history(scenario, [](std::string_view line) { fmt::print("{}", line); });
         return;
     }
     const Time at = time_in(scenario, a.at);
-    const auto tables = link_tables(*network_at(scenario, at), a.robot);
-    if (a.json) {
-        fmt::print("{}", to_json(link_tables_document(tables, at)));
-        return;
-    }
-    for (const LinkTable& table : tables) print_table(table);
+    const auto network = played(a.file, scenario, at);
+    if (!a.json) return for_each_link_table(*network, a.robot, print_table);
+    fmt::print("{{\n  \"time_s\": {},\n  \"robots\": [", to_json_line(seconds(at)));
+    const char* between = "\n";
+    for_each_link_table(*network, a.robot, [&](const LinkTable& table) {
+        fmt::print("{}{}", std::exchange(between, ",\n"), to_json_line(link_table_document(table)));
+    });
+    fmt::print("\n  ]\n}}\n");
 }
 
 void scene(const SceneArguments& a) {
@@ -162,7 +183,7 @@ void scene(const SceneArguments& a) {
         report = map_report(a);
     } else {
         const Scenario scenario = scenario_of(a);
-        const auto network = network_at(scenario, time_in(scenario, a.at));
+        const auto network = played(a.file, scenario, time_in(scenario, a.at));
         report = scene_report(network->scene(), a.json);
         append_robots(report, *network);
     }
@@ -178,7 +199,8 @@ void where(const WhereArguments& a) {
     const Scenario scenario = scenario_of(a);
     std::vector<Time> times;
     for (const std::string& text : a.at) times.push_back(time_in(scenario, text));
-    const auto all = whereabouts(scenario, times);
+    const auto all = with_patience(playing(a.file, *std::max_element(times.begin(), times.end())),
+                                   [&] { return whereabouts(scenario, times); });
     Array list;
     for (const Whereabouts& now : all) {
         Array robots;
@@ -216,16 +238,22 @@ void draw(const DrawArguments& a) {
                          "expected a name that ends in .svg, .png or .pdf; for example office.svg");
     }
     const Scenario scenario = scenario_of(a);
-    write_picture(draw_svg(scenario, {.at = time_in(scenario, a.at),
-                                      .coverage = a.coverage,
-                                      .links = a.links,
-                                      .trails = a.trails,
-                                      .axes = a.axes,
-                                      .width = a.width,
-                                      .font_size = a.font_size}),
-                  a.out);
+    const PictureOptions options{.at = time_in(scenario, a.at),
+                                 .coverage = a.coverage,
+                                 .links = a.links,
+                                 .trails = a.trails,
+                                 .axes = a.axes,
+                                 .width = a.width,
+                                 .font_size = a.font_size};
+    const std::string svg =
+        with_patience("drawing " + a.file, [&] { return draw_svg(scenario, options); });
+    write_whole({{a.out, picture_bytes(svg, a.out)}});
 }
 
-void convert_movements(const ConvertArguments& a) { write_movements(scenario_of(a), a.out); }
+void convert_movements(const ConvertArguments& a) {
+    const Scenario scenario = scenario_of(a);
+    write_whole(with_patience(playing(a.file, start_of_run + scenario.scenario.duration),
+                              [&] { return movement_files(scenario, a.out); }));
+}
 
 }  // namespace rovernet::cli

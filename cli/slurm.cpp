@@ -2,6 +2,7 @@
 #include "cli/slurm.hpp"
 
 #include "cli/diagnostics.hpp"
+#include "cli/stop.hpp"
 #include "experiment/json.hpp"
 #include "experiment/output.hpp"
 #include "experiment/toml.hpp"
@@ -172,13 +173,15 @@ void submit_sweep(const SweepArguments& a, Study& study, const std::string& stor
     if (slurm.chunks.empty()) return print_nothing(a, slurm);
     write_scripts(slurm);
     if (a.dry_run) return print_scripts(a, slurm);
+    const HeldStop until_told;  // of the jobs, or nobody knows them
     const std::string job = submit(slurm.submit_job());
     print_jobs(a, slurm, job, submit_merge(slurm, job));
 }
 
 void merge_shards(const SweepArguments& a, const Study& study, Store& store) {
+    const HeldStop until_moved;
     for (const std::string& path : a.merge) {
-        if (stop_requested > 0) throw CommandEnd(interrupted, "interrupted; call it again");
+        if (stops_asked() > 0) throw CommandEnd(interrupted, "interrupted; call it again");
         try {
             merge_and_remove(store, path);
         } catch (const std::exception& error) {

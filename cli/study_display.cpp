@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/study_display.hpp"
 
+#include "cli/diagnostics.hpp"
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -38,10 +40,10 @@ std::string progress_text(const SweepProgress& p, double elapsed_s) {
     return text;
 }
 
-SweepDisplay::SweepDisplay() : on_terminal_(isatty(STDERR_FILENO) != 0) {}
+SweepDisplay::SweepDisplay() : on_terminal_(shows_progress()) {}
 
 SweepDisplay::~SweepDisplay() {
-    if (shown_ && on_terminal_) fmt::print(stderr, "\r\033[K");
+    if (shown_ && on_terminal_) to_terminal("\r\033[K");
 }
 
 void SweepDisplay::show(const SweepProgress& progress) {
@@ -53,11 +55,10 @@ void SweepDisplay::show(const SweepProgress& progress) {
     const std::string text =
         progress_text(progress, std::chrono::duration<double>(now - started_).count());
     if (on_terminal_) {
-        fmt::print(stderr, "\r\033[K{} {}", bar(progress), text);
+        to_terminal(fmt::format("\r\033[K{} {}", bar(progress), text));
     } else {
-        fmt::print(stderr, "{}\n", text);
+        notice(text);
     }
-    std::fflush(stderr);
 }
 
 }  // namespace rovernet::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/study_run.hpp"
 
+#include "cli/stop.hpp"
 #include "cli/study_display.hpp"
 #include "experiment/quantity.hpp"
 #include "study/explain.hpp"
@@ -11,11 +12,25 @@
 #include <algorithm>
 #include <span>
 #include <thread>
+#include <unistd.h>
 
 namespace rovernet::cli {
 namespace {
 
-WorkerLimits limits_of(const StudyArguments& a) {
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool limits_memory = false;  // the sanitizer takes more addresses than any machine has
+#else
+constexpr bool limits_memory = true;
+#endif
+
+/// What the machine has [bytes], in equal parts; nothing if that cannot be known.
+std::optional<std::uint64_t> share_of_memory(std::size_t workers) {
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGE_SIZE);
+    if (!limits_memory || pages <= 0 || page <= 0) return std::nullopt;
+    return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) / workers;
+}
+
+WorkerLimits limits_of(const StudyArguments& a, std::size_t workers) {
     const auto amount = [](const char* option, const std::string& text, Dimension dimension) {
         Value value(text);
         value.where = {fmt::format("--{} {}", option, text), 0, 0, true};
@@ -23,7 +38,7 @@ WorkerLimits limits_of(const StudyArguments& a) {
         if (v > 0) return v;
         throw InputError(value.where, "expected a value > 0");
     };
-    WorkerLimits limits;
+    WorkerLimits limits{.timeout_s = {}, .memory = share_of_memory(workers)};
     if (a.timeout) limits.timeout_s = amount("timeout", *a.timeout, Dimension::time);
     if (a.memory) {
         limits.memory = static_cast<std::uint64_t>(amount("memory", *a.memory, Dimension::size));
@@ -55,19 +70,20 @@ ScenarioOptions study_options(const StudyArguments& a) {
 
 SweepResult run_study(const StudyArguments& a, Study& study, Store& store, SweepOptions options) {
     options.workers = a.workers > 0 ? a.workers : std::max(1U, std::thread::hardware_concurrency());
-    options.limits = limits_of(a);
+    options.limits = limits_of(a, options.workers);
     options.fail_fast = a.fail_fast;
     SweepDisplay display;
     options.progress = [&](const SweepProgress& progress) { display.show(progress); };
     options.stop = [] {
-        if (stop_requested == 0) return Stop::no;
-        return stop_requested == 1 ? Stop::when_idle : Stop::at_once;
+        if (stops_asked() == 0) return Stop::no;
+        return stops_asked() == 1 ? Stop::when_idle : Stop::at_once;
     };
+    const HeldStop until_kept;
     return rovernet::sweep(study, store, options);
 }
 
 void check_end(const StudyArguments& a, const Store& store, const SweepResult& result) {
-    if (stop_requested > 0 && result.progress.left > 0) {
+    if (stops_asked() > 0 && result.progress.left > 0) {
         throw CommandEnd(
             interrupted,
             fmt::format("interrupted; what was finished is kept: go on with\n  {}", a.command));

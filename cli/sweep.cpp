@@ -7,12 +7,14 @@
 #include "cli/study_run.hpp"
 #include "experiment/json.hpp"
 #include "experiment/toml.hpp"
+#include "study/write_lock.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <unistd.h>
 
 namespace rovernet::cli {
@@ -53,11 +55,13 @@ void begin_afresh(const SweepArguments& a, const std::string& path) {
         if (isatty(STDIN_FILENO) == 0) {
             throw std::invalid_argument("--fresh: " + question + " Say so with --yes");
         }
-        fmt::print(stderr, "{} [y/N] ", question);
+        to_terminal(question + " [y/N] ");
         std::string answer;
         std::getline(std::cin, answer);
         if (answer != "y" && answer != "yes") throw std::invalid_argument("nothing was changed");
     }
+    std::optional<WriteLock> nobody_else_writes;  // or what they write is lost with its file
+    if (std::filesystem::exists(path)) nobody_else_writes.emplace(path);
     for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path + ending);
     std::filesystem::remove_all(shards);
 }

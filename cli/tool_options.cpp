@@ -7,6 +7,7 @@ namespace {
 void add_models(CLI::App& app) {
     const auto [models, a] =
         add_command(app, "models", "List the propagation models and their parameters", cli::models);
+    add_examples(models, {"rovernet models"});
     add_json(models, a.json);
 }
 
@@ -14,6 +15,8 @@ void add_loss(CLI::App& app) {
     const auto [loss, a] = add_command(
         app, "loss", "Median path loss of a model over distance, antennas 1 m above the ground",
         cli::loss);
+    add_examples(loss, {"rovernet loss friis --distance 1,10,100",
+                        "rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5"});
     loss.add_option("MODEL", a.model, "its name; see rovernet models")->required();
     loss.add_option("PARAMETERS", a.parameters, "param=value ...");
     loss.add_option("--frequency", a.frequency, "such as \"2450 MHz\"")->capture_default_str();
@@ -29,6 +32,7 @@ void add_bench(CLI::App& app) {
     bench->require_subcommand(1);
     const auto [flood, a] =
         add_command(*bench, "flood", "CPU time of floods, per reception", cli::bench_flood);
+    add_examples(flood, {"rovernet bench flood --nodes 1000 --cpu 0.1"});
     flood.add_option("--nodes", a.bench.nodes, "sizes of network, such as 1000,10000")
         ->delimiter(',')
         ->check(CLI::Range(2, 10'000'000))
@@ -56,6 +60,7 @@ void add_trace(CLI::App& app) {
     trace->require_subcommand(1);
     const auto [stats, a] = add_command(
         *trace, "stats", "The metrics of an ns-2 trace written by rovernet", cli::trace_stats);
+    add_examples(stats, {"rovernet trace stats runs/patrol-s3/trace.tr"});
     stats.add_option("FILE", a.file, "trace file (.tr)")->required();
     add_json(stats, a.json);
 }
@@ -63,7 +68,23 @@ void add_trace(CLI::App& app) {
 void add_version(CLI::App& app) {
     const auto [version, a] =
         add_command(app, "version", "Print the version and how it was built", cli::print_version);
+    add_examples(version, {"rovernet version --json"});
     add_json(version, a.json);
+}
+
+/// Scripts and pages that are made from the commands themselves.
+void add_completion(CLI::App& app) {
+    const auto [completion, a] =
+        add_command(app, "completion", "Print a shell's completion script", cli::print_completion);
+    completion.add_option("SHELL", a.shell, "bash, zsh or fish")->required();
+    add_examples(completion,
+                 {"source <(rovernet completion bash)",
+                  "rovernet completion fish > ~/.config/fish/completions/rovernet.fish"});
+    a.app = &app;
+    const auto [man, m] =
+        add_command(app, "man", "Print the page rovernet(1)", cli::print_man_page);
+    man.group("");
+    m.app = &app;
 }
 
 }  // namespace
@@ -74,6 +95,7 @@ void add_tool_commands(CLI::App& app) {
     add_trace(app);
     add_bench(app);
     add_version(app);
+    add_completion(app);
 }
 
 }  // namespace rovernet::cli

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace rovernet {
 
@@ -22,12 +23,84 @@ NodeId robot_named(const Network& network, const std::string& name) {
         network.size() > most_listed ? " ..." : "", near.empty() ? "" : "; ", near));
 }
 
+Scenario without_idle_traffic(const Scenario& scenario) {
+    Scenario quiet = scenario;
+    const bool somebody_reacts =
+        std::any_of(quiet.robots.begin(), quiet.robots.end(),
+                    [](const RobotTable& robot) { return !robot.reactions.empty(); });
+    if (!somebody_reacts) quiet.traffic.clear();
+    return quiet;
+}
+
 std::unique_ptr<Network> network_at(const Scenario& scenario, Time at) {
-    auto network = std::make_unique<Network>(network_settings(scenario));
-    populate(*network, scenario);
+    const Scenario played = without_idle_traffic(scenario);
+    auto network = std::make_unique<Network>(network_settings(played));
+    populate(*network, played);
     network->run_until(at);
     return network;
 }
+
+namespace {
+
+/// What each wall of a link takes [dB]. A material with a loss of its own takes that; what the
+/// propagation model takes for the rest is in proportion to their lengths.
+std::vector<Db> wall_losses(const Network& network, const Scenario& scenario, NodeId from,
+                            NodeId to, const LinkReport& link, Vec3 here, Vec3 there) {
+    const Medium& medium = network.medium();
+    const std::uint64_t to_key = medium.key(to);
+    const Scene open_field;
+    LinkBatch batch{.frequency = link.sender.frequency,
+                    .from = here,
+                    .to = {&there, 1},
+                    .from_key = medium.key(from),
+                    .to_keys = {&to_key, 1},
+                    .scene = &open_field,
+                    .floor_height = scenario.scene.floor_height,
+                    .seed = scenario.scenario.seed,
+                    .replication = static_cast<std::uint32_t>(scenario.scenario.replication)};
+    double without_walls = 0;
+    medium.model(from).loss(batch, Db{std::numeric_limits<double>::infinity()},
+                            {&without_walls, 1});
+
+    const auto& materials = network.scene().materials();
+    std::vector<Db> losses;
+    double left = link.path_loss.value - without_walls, plain_m = 0;
+    for (const Crossing& wall : link.walls) {
+        const Material& material = materials[wall.material];
+        const WallRate rate = wall_rate(material, batch.frequency, 0);
+        losses.push_back({rate.per_crossing + rate.per_metre * wall.length});
+        left -= losses.back().value;
+        if (material.follows_model()) plain_m += wall.length;
+    }
+    for (std::size_t i = 0; i < losses.size(); ++i) {
+        const Crossing& wall = link.walls[i];
+        if (materials[wall.material].follows_model())
+            losses[i].value = left * wall.length / plain_m;
+    }
+    return losses;
+}
+
+std::string why_down(const Network& network, NodeId from, NodeId to, const LinkReport& link) {
+    const Medium& medium = network.medium();
+    for (const NodeId node : {from, to}) {
+        if (!medium.is_on(node)) return network.name(node) + " is off";
+    }
+    if (!medium.may_link(from, to)) {
+        const Radio &a = link.sender, &b = link.receiver;
+        const std::string gate = "they are in different networks: ";
+        if (a.frequency != b.frequency) {
+            return gate + fmt::format("frequency {:g} MHz and {:g} MHz", a.frequency.value / 1e6,
+                                      b.frequency.value / 1e6);
+        }
+        if (a.channel != b.channel) {
+            return gate + fmt::format("channel {} and {}", a.channel, b.channel);
+        }
+        return gate + fmt::format("essid \"{}\" and \"{}\"", a.essid, b.essid);
+    }
+    return "the received power is below the receiver's sensitivity";
+}
+
+}  // namespace
 
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
                        Time at) {
@@ -46,16 +119,22 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
                       .distance_m = distance(pa, pb),
                       .walls = network.scene().crossings(pa, pb),
                       .materials = {},
+                      .wall_losses = {},
                       .wall_m = network.scene().wall_length(pa, pb),
                       .sender = medium.radio(a),
                       .receiver = medium.radio(b),
                       .path_loss = medium.path_loss(a, b, at, network.legs()),
                       .received = {},
                       .margin = {},
-                      .up = false};
+                      .up = false,
+                      .why_down = {}};
     report.received = received_power(report.sender, report.receiver, report.path_loss);
     report.margin = link_budget(report.sender, report.receiver) - report.path_loss;
     report.up = medium.link_up(a, b, at, network.legs());
+    if (!report.up) report.why_down = why_down(network, a, b, report);
+    if (medium.model(a).shape() == LossShape::by_walls) {
+        report.wall_losses = wall_losses(network, scenario, a, b, report, pa, pb);
+    }
     for (const Crossing& wall : report.walls) {
         report.materials.push_back(network.scene().materials()[wall.material].name);
     }

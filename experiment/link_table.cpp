@@ -59,10 +59,10 @@ Table device_document(const Device& device) {
     return table;
 }
 
-/// Writes link records down as lines.
+/// Writes link records as lines.
 struct History {
     const Network* network;
-    std::string text = "time_s,from,to,event\n";
+    std::function<void(std::string_view)> write;
 
     KindMask kinds() const { return kind_links; }
     void on(const Record& record, const RecordContext&) {
@@ -81,8 +81,8 @@ struct History {
     }
     void add(Time t, NodeId from, NodeId to, std::string_view event) {
         const std::int64_t ns = t.time_since_epoch().count();
-        text += fmt::format("{}.{:09},{},{},{}\n", ns / 1'000'000'000, ns % 1'000'000'000,
-                            quoted(network->name(from)), quoted(network->name(to)), event);
+        write(fmt::format("{}.{:09},{},{},{}\n", ns / 1'000'000'000, ns % 1'000'000'000,
+                          quoted(network->name(from)), quoted(network->name(to)), event));
     }
 };
 
@@ -100,10 +100,9 @@ std::vector<Device> devices(const Network& network) {
     return all;
 }
 
-std::vector<LinkTable> link_tables(const Network& network,
-                                   const std::optional<std::string>& robot) {
+void for_each_link_table(const Network& network, const std::optional<std::string>& robot,
+                         const std::function<void(const LinkTable&)>& visit) {
     const auto all = devices(network);
-    std::vector<LinkTable> tables;
     const auto only = robot ? std::optional(robot_named(network, *robot)) : std::nullopt;
     for (std::uint32_t i = 0; i < network.size(); ++i) {
         const NodeId node{i};
@@ -112,39 +111,32 @@ std::vector<LinkTable> link_tables(const Network& network,
         for (const Neighbour& n : network.links(node, network.now())) {
             table.rows.push_back({all[n.node.index()], n.quality, n.level, n.noise});
         }
-        tables.push_back(std::move(table));
+        visit(table);
     }
-    return tables;
 }
 
-Table link_tables_document(const std::vector<LinkTable>& tables, Time at) {
-    Array robots;
-    for (const LinkTable& table : tables) {
-        Table robot = device_document(table.device);
-        Array links;
-        for (const LinkTable::Row& row : table.rows) {
-            Table link = device_document(row.neighbour);
-            link.set("quality", row.quality);
-            link.set("level_dbm", row.level.value);
-            link.set("noise_dbm", row.noise.value);
-            links.emplace_back(std::move(link));
-        }
-        robot.set("links", std::move(links));
-        robots.emplace_back(std::move(robot));
+Table link_table_document(const LinkTable& table) {
+    Table robot = device_document(table.device);
+    Array links;
+    for (const LinkTable::Row& row : table.rows) {
+        Table link = device_document(row.neighbour);
+        link.set("quality", row.quality);
+        link.set("level_dbm", row.level.value);
+        link.set("noise_dbm", row.noise.value);
+        links.emplace_back(std::move(link));
     }
-    Table document;
-    document.set("time_s", seconds(at));
-    document.set("robots", std::move(robots));
-    return document;
+    robot.set("links", std::move(links));
+    return robot;
 }
 
-std::string link_history(const Scenario& scenario) {
-    Network network(network_settings(scenario));
-    populate(network, scenario);
-    const auto history = std::make_shared<History>(History{&network});
-    network.add_sink(history);
-    network.run_until(start_of_run + scenario.scenario.duration);
-    return history->text;
+void write_link_history(const Scenario& scenario,
+                        const std::function<void(std::string_view)>& write) {
+    const Scenario played = without_idle_traffic(scenario);
+    Network network(network_settings(played));
+    populate(network, played);
+    write("time_s,from,to,event\n");
+    network.add_sink(std::make_shared<History>(History{&network, write}));
+    network.run_until(start_of_run + played.scenario.duration);
 }
 
 }  // namespace rovernet

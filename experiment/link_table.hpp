@@ -5,8 +5,10 @@
 #include "experiment/scenario.hpp"
 #include "experiment/value.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rovernet {
@@ -35,13 +37,16 @@ struct LinkTable {
 /// and so on, mac 02:00:00:00:00:01; a number that a robot has been given is passed over.
 std::vector<Device> devices(const Network& network);
 
-/// The tables of all robots now, or of `robot` only.
-std::vector<LinkTable> link_tables(const Network& network, const std::optional<std::string>& robot);
+/// Visits the tables of all robots now, or of `robot` only, one after the other: the memory is that
+/// of one table, n rows for n robots.
+void for_each_link_table(const Network& network, const std::optional<std::string>& robot,
+                         const std::function<void(const LinkTable&)>& visit);
 
-/// The same as data: {"time_s", "robots": [{"robot", ..., "links": [...]}]}.
-Table link_tables_document(const std::vector<LinkTable>& tables, Time at);
+/// A table as data: {"robot", ..., "links": [...]}.
+Table link_table_document(const LinkTable& table);
 
-/// Every link change of the scenario's run as CSV: time_s,from,to,event.
-std::string link_history(const Scenario& scenario);
+/// Writes every link change of the scenario's run as CSV: time_s,from,to,event.
+void write_link_history(const Scenario& scenario,
+                        const std::function<void(std::string_view)>& write);
 
 }  // namespace rovernet

@@ -2,31 +2,27 @@
 #include "experiment/output.hpp"
 
 #include "sim/error.hpp"
+#include "sim/part_file.hpp"
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 namespace rovernet {
 
-void write_file(const std::string& path, std::string_view text) {
-    write_file(path, [&](const Write& write) { write(text); });
+void write_files(const std::vector<OutputFile>& files) {
+    std::vector<PartFile> parts;
+    for (const OutputFile& file : files) {
+        parts.emplace_back(file.path).write(file.bytes);
+        parts.back().close();
+    }
+    for (PartFile& part : parts) part.give_name();
 }
 
-void write_file(const std::string& path, const std::function<void(const Write&)>& make) {
-    const std::string part = path + ".part";
-    std::ofstream file(part, std::ios::binary | std::ios::trunc);
-    make([&](std::string_view text) { file << text; });
-    file.close();
-    if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
-        std::remove(part.c_str());
-        throw RunError(
-            fmt::format("{}: cannot be written; check the folder's permissions and the "
-                        "space on its disk",
-                        path));
-    }
+void write_file(const std::string& path, std::string_view bytes) {
+    PartFile part(path);
+    part.write(bytes);
+    part.give_name();
 }
 
 void make_folder(const std::string& path) {

@@ -8,6 +8,7 @@
 #include "experiment/toml.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
+#include "sim/part_file.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/ns2_trace.hpp"
 
@@ -45,7 +46,7 @@ namespace {
 
 /// Runs to the scenario's end in slices, so that progress is told and a stop is heard soon.
 void run_in_slices(Network& network, const Scenario& scenario, const RunOptions& options) {
-    constexpr std::uint64_t events_a_slice = 20'000;
+    constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
     constexpr double longest_wait_s = 0.05;
     const Time end = start_of_run + scenario.scenario.duration;
     const auto started = WallClock::now();
@@ -91,6 +92,38 @@ Table provenance(const RunResult& result) {
     return table;
 }
 
+Table whole_summary(const Scenario& scenario, const RunResult& result) {
+    Table summary = run_summary(scenario, result);
+    summary.set("scenario", to_document(scenario));
+    summary.set("provenance", provenance(result));
+    return summary;
+}
+
+void write_summary(const Table& summary, const Timeline& timeline, PartFile& file) {
+    constexpr std::size_t portion = 65536;  // [bytes] that one call of the system writes
+    std::string bytes;
+    write_summary(summary, timeline, [&](std::string_view piece) {
+        bytes += piece;
+        if (bytes.size() >= portion) file.write(std::exchange(bytes, {}));
+    });
+    file.write(bytes);
+}
+
+constexpr const char* trace_name = "/trace.tr";
+
+/// Puts the results in the place of those of an earlier run, of which nothing is left.
+void name_results(const std::string& folder, Ns2Trace* trace,
+                  std::initializer_list<PartFile*> files) {
+    for (PartFile* file : files) file->close();
+    const FolderLock lock(folder);
+    if (trace) {
+        trace->close();
+    } else {
+        std::remove((folder + trace_name).c_str());
+    }
+    for (PartFile* file : files) file->give_name();
+}
+
 }  // namespace
 
 RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
@@ -104,6 +137,7 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     populate(network, scenario);
 
     result.folder = options.folder.value_or(run_folder(scenario, {}));
+    if (options.progress && !options.progress(0)) throw Interrupted();
     make_folder(result.folder);
     const auto fingerprint = std::make_shared<Fingerprint>();
     const auto timeline = std::make_shared<Timeline>(network);
@@ -111,9 +145,8 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     network.add_sink(timeline);
     const auto topology = add_topology(network, scenario, settings.warmup);
     std::shared_ptr<Ns2Trace> trace;
-    const std::string trace_path = result.folder + "/trace.tr";
     if (scenario.trace.ns2 != Ns2Choice::none) {
-        result.trace = trace_path;
+        result.trace = result.folder + trace_name;
         trace = std::make_shared<Ns2Trace>(*result.trace,
                                            scenario.trace.ns2 == Ns2Choice::old_format
                                                ? Ns2Format::old_format
@@ -125,11 +158,6 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     result.fingerprint = fingerprint->text();
     network.finish();
 
-    if (trace) {
-        trace->close();
-    } else {
-        std::remove(trace_path.c_str());  // of an earlier run that is replaced now
-    }
     result.metrics = network.metrics();
     append_parts(result.parts, scenario, network, result.metrics,
                  scenario.scenario.duration - settings.warmup, topology.get());
@@ -138,12 +166,10 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     result.interference_left_out = network.interference_left_out();
     result.timeline = timeline;
     result.wall_s = std::chrono::duration<double>(WallClock::now() - started).count();
-    write_file(result.folder + "/scenario.toml", to_toml(document_in(result.folder, scenario)));
-    Table summary = run_summary(scenario, result);
-    summary.set("scenario", to_document(scenario));
-    summary.set("provenance", provenance(result));
-    write_file(result.folder + "/summary.json",
-               [&](const Write& write) { write_summary(summary, *timeline, write); });
+    PartFile document(result.folder + "/scenario.toml"), summary(result.folder + "/summary.json");
+    document.write(to_toml(document_in(result.folder, scenario)));
+    write_summary(whole_summary(scenario, result), *timeline, summary);
+    name_results(result.folder, trace.get(), {&document, &summary});
     return result;
 }
 

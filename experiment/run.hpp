@@ -74,7 +74,11 @@ std::string host_name();
 /// The robot of that name. @throws std::invalid_argument, naming some that there are
 NodeId robot_named(const Network& network, const std::string& name);
 
-/// A network as the scenario's is at `at`, its traffic and reactions included.
+/// The scenario for somebody who looks at robots and links only: without its traffic, unless a
+/// robot reacts to messages.
+Scenario without_idle_traffic(const Scenario& scenario);
+
+/// A network whose robots and links are as the scenario's at `at`.
 std::unique_ptr<Network> network_at(const Scenario& scenario, Time at);
 
 /// The link from A to B at a time.
@@ -84,12 +88,14 @@ struct LinkReport {
     double distance_m;
     std::vector<Crossing> walls;
     std::vector<std::string> materials;  ///< of the walls, one each
+    std::vector<Db> wall_losses;         ///< what each wall takes; part of the path loss
     double wall_m;
     Radio sender, receiver;
     Db path_loss;
     Dbm received;
     Db margin;
-    bool up;  ///< and both robots are on
+    bool up;               ///< and both robots are on
+    std::string why_down;  ///< "B is off", say; empty if it is up
 };
 
 /// Runs the scenario until `at`, then looks at one link.

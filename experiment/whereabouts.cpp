@@ -2,7 +2,7 @@
 #include "experiment/whereabouts.hpp"
 
 #include "experiment/build.hpp"
-#include "experiment/output.hpp"
+#include "experiment/run.hpp"
 
 #include <fmt/format.h>
 
@@ -60,8 +60,9 @@ std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
-    Network network(network_settings(scenario));
-    populate(network, scenario);
+    const Scenario played = without_idle_traffic(scenario);
+    Network network(network_settings(played));
+    populate(network, played);
     std::vector<Whereabouts> all(times.size());
     for (const std::size_t i : order) {
         network.run_until(times[i]);
@@ -71,8 +72,9 @@ std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector
 }
 
 std::vector<Track> tracks(const Scenario& scenario) {
-    Network network(network_settings(scenario));
-    populate(network, scenario);
+    const Scenario played = without_idle_traffic(scenario);
+    Network network(network_settings(played));
+    populate(network, played);
     const auto recorder = std::make_shared<Recorder>();
     network.add_sink(recorder);
     network.run_until(start_of_run + scenario.scenario.duration);
@@ -84,12 +86,12 @@ std::vector<Track> tracks(const Scenario& scenario) {
     return all;
 }
 
-void write_movements(const Scenario& scenario, const std::string& path) {
+std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path) {
     const std::filesystem::path out(path);
     const std::string ending = out.extension().string();
     const Time end = start_of_run + scenario.scenario.duration;
     if (ending == ".tcl" || ending == ".ns_movements") {
-        return write_file(path, setdest_text(tracks(scenario), end));
+        return {{path, setdest_text(tracks(scenario), end)}};
     }
     if (ending != ".movements") {
         throw std::invalid_argument(
@@ -98,9 +100,9 @@ void write_movements(const Scenario& scenario, const std::string& path) {
                         path, ending));
     }
     const auto all = tracks(scenario);
-    write_file(path, bonnmotion_text(all, end));
     std::filesystem::path params(out);
-    write_file(params.replace_extension(".params").string(), bonnmotion_params(all, end));
+    return {{path, bonnmotion_text(all, end)},
+            {params.replace_extension(".params").string(), bonnmotion_params(all, end)}};
 }
 
 }  // namespace rovernet

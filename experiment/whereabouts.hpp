@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/network.hpp"
+#include "experiment/output.hpp"
 #include "experiment/scenario.hpp"
 #include "mobility/movement_writer.hpp"
 #include "sim/time.hpp"
@@ -30,9 +31,9 @@ std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector
 /// Everybody's legs of the scenario's run.
 std::vector<Track> tracks(const Scenario& scenario);
 
-/// Writes the scenario's motion as a movement file: NAME.movements (and NAME.params beside it) for
+/// The scenario's motion as a movement file: NAME.movements (and NAME.params beside it) for
 /// BonnMotion, NAME.tcl or NAME.ns_movements for ns-2.
 /// @throws std::invalid_argument for another ending
-void write_movements(const Scenario& scenario, const std::string& path);
+std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path);
 
 }  // namespace rovernet

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/picture_file.hpp"
 
-#include "experiment/output.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
 #include <memory>
 #include <spawn.h>
@@ -36,13 +35,23 @@ File unnamed_file() {
     return file;
 }
 
+/// What the program wrote.
+std::string content(std::FILE* file) {
+    std::string all;
+    char portion[65536];
+    std::rewind(file);
+    while (const std::size_t n = std::fread(portion, 1, sizeof portion, file)) {
+        all.append(portion, n);
+    }
+    return all;
+}
+
 /// What the program said, on one line.
 std::string complaint(std::FILE* file) {
-    char text[400] = {};
-    std::rewind(file);
-    std::size_t size = std::fread(text, 1, sizeof text - 1, file);
-    while (size > 0 && text[size - 1] == '\n') text[--size] = 0;
-    for (char& c : text) c = c == '\n' ? ' ' : c;
+    constexpr std::size_t longest = 400;  // bytes
+    std::string text = content(file).substr(0, longest);
+    while (text.ends_with('\n')) text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
 }
 
@@ -64,14 +73,15 @@ std::vector<char*> variables() {
     return out;
 }
 
-/// Runs the program from `in` to the file `out`; its exit status, 127 if it is not there.
-int convert(std::FILE* in, const std::string& format, const std::string& out, std::FILE* errors) {
+/// Runs the program from `in` to `out`; its exit status, 127 if it is not there.
+int convert(std::FILE* in, const std::string& format, std::FILE* out, std::FILE* errors) {
     FileActions files;
     posix_spawn_file_actions_adddup2(&files.actions, fileno(in), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files.actions, fileno(out), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files.actions, fileno(errors), STDERR_FILENO);
     // A pixel of the picture becomes a pixel, and of a PDF a point.
-    std::vector<std::string> words{program,      "--unlimited", "--format=" + format,
-                                   "--dpi-x=72", "--dpi-y=72",  "--output=" + out};
+    std::vector<std::string> words{program, "--unlimited", "--format=" + format, "--dpi-x=72",
+                                   "--dpi-y=72"};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -96,14 +106,14 @@ std::string format_of(const std::string& path) {
     return "";
 }
 
-void write_converted(const std::string& svg, const std::string& format, const std::string& path) {
-    const std::string part = path + ".part";
-    const File in = unnamed_file(), errors = unnamed_file();
+/// The picture in a format; `path` is for messages.
+std::string converted(const std::string& svg, const std::string& format, const std::string& path) {
+    const File in = unnamed_file(), out = unnamed_file(), errors = unnamed_file();
     const bool written = std::fwrite(svg.data(), 1, svg.size(), in.get()) == svg.size() &&
                          std::fflush(in.get()) == 0;
     if (!written) throw RunError("the picture cannot be stored; check the space on the disk");
     std::rewind(in.get());
-    const int status = convert(in.get(), format, part, errors.get());
+    const int status = convert(in.get(), format, out.get(), errors.get());
     if (status == 127) {
         throw RunError(
             fmt::format("{}: a .{} needs the program {}, which is not there; install "
@@ -111,13 +121,9 @@ void write_converted(const std::string& svg, const std::string& format, const st
                         path, format, program));
     }
     if (status != 0) {
-        std::remove(part.c_str());
         throw RunError(fmt::format("{}: {} failed: {}", path, program, complaint(errors.get())));
     }
-    if (std::rename(part.c_str(), path.c_str()) != 0) {
-        std::remove(part.c_str());
-        throw RunError(fmt::format("{}: cannot be written ({})", path, std::strerror(errno)));
-    }
+    return content(out.get());
 }
 
 }  // namespace
@@ -126,10 +132,9 @@ bool is_picture_name(const std::string& path) {
     return path.ends_with(".svg") || !format_of(path).empty();
 }
 
-void write_picture(const std::string& svg, const std::string& path) {
+std::string picture_bytes(const std::string& svg, const std::string& path) {
     const std::string format = format_of(path);
-    if (format.empty()) return write_file(path, svg);
-    write_converted(svg, format, path);
+    return format.empty() ? svg : converted(svg, format, path);
 }
 
 }  // namespace rovernet

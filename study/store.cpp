@@ -3,6 +3,7 @@
 
 #include "experiment/json.hpp"
 #include "sim/error.hpp"
+#include "study/only_reading.hpp"
 #include "study/stored_row.hpp"
 #include "study/write_lock.hpp"
 
@@ -364,6 +365,7 @@ void Store::for_each_value(
 
 void Store::query(const std::string& sql,
                   const std::function<void(const std::vector<std::string>&)>& row) const {
+    const OnlyReading guard(database_->sqlite.getHandle());
     try {
         SQLite::Statement select(database_->sqlite, sql);
         std::vector<std::string> cells;
@@ -376,10 +378,10 @@ void Store::query(const std::string& sql,
             row(cells);
         }
     } catch (const SQLite::Exception& error) {
-        throw std::invalid_argument(
-            fmt::format("--sql: {}; the tables are study, point, run, metric_name, metric and the "
-                        "view result",
-                        error.what()));
+        const bool denied = error.getErrorCode() == SQLITE_AUTH;
+        throw std::invalid_argument(fmt::format(
+            "--sql: {}; the tables are study, point, run, metric_name, metric and the view result",
+            denied ? "only reading is allowed; expected SELECT ..." : error.what()));
     }
 }
 

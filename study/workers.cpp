@@ -143,7 +143,8 @@ void Workers::serve(int socket) const {
         try {
             text = work_(task);
         } catch (const std::bad_alloc&) {
-            constexpr std::string_view words = "out of memory\n";
+            constexpr std::string_view words =
+                "out of memory; --memory says how much a run may use\n";
             (void)!write(STDERR_FILENO, words.data(), words.size());
             _exit(1);
         } catch (const std::exception& error) {

@@ -261,19 +261,35 @@ void Replay::flush() {
 
 }  // namespace
 
-void read_ns2_trace(const std::string& path, Sink sink) {
+std::optional<Location> read_ns2_trace(const std::string& path, Sink sink) {
     Lines lines(path);
     Replay replay(std::move(sink), lines.where());
-    while (const auto line = lines.next()) {
-        std::visit([&](const auto& l) { replay.on(l); }, parse_ns2_line(*line, lines.where()));
+    std::optional<Location> skipped;
+    while (const auto text = lines.next()) {
+        const Ns2Line line = parse_ns2_line(*text, lines.where());
+        const std::size_t begin = text->find_first_not_of(" \t");
+        const bool says_something = begin != text->npos && (*text)[begin] != '#';
+        if (line.index() == 0 && says_something && !skipped) {
+            skipped = lines.where();
+            skipped->column = 1;
+        }
+        std::visit([&](const auto& l) { replay.on(l); }, line);
     }
     replay.flush();
+    return skipped;
 }
 
 MetricValues trace_metrics(const std::string& path) {
     const auto metrics = std::make_shared<Metrics>();
-    read_ns2_trace(path, metrics);
-    return metrics->values();
+    const std::optional<Location> skipped = read_ns2_trace(path, metrics);
+    MetricValues values = metrics->values();
+    if (skipped && values.messages == 0) {
+        throw InputError(*skipped,
+                         "found a line of another trace, and no message that a robot sends; "
+                         "expected a trace that rovernet writes: those of other programs, and of "
+                         "other traffic than messages, cannot be counted yet");
+    }
+    return values;
 }
 
 }  // namespace rovernet

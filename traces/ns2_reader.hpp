@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/error.hpp"
 #include "sim/ports.hpp"
 #include "traces/metrics.hpp"
 
+#include <optional>
 #include <string>
 
 namespace rovernet {
@@ -22,11 +24,12 @@ namespace rovernet {
 ///
 /// The file is streamed: memory grows with robots and messages, not with lines.
 ///
+/// @return where the first line stands that was skipped, if one was
 /// @throws InputError naming file:line:column, what was found and what was expected
-void read_ns2_trace(const std::string& path, Sink sink);
+std::optional<Location> read_ns2_trace(const std::string& path, Sink sink);
 
 /// The metrics of a trace: equal to the last digit to those of the run that wrote it.
-/// @throws InputError as read_ns2_trace()
+/// @throws InputError as read_ns2_trace(), and if it has no message and lines of somebody else's
 MetricValues trace_metrics(const std::string& path);
 
 }  // namespace rovernet

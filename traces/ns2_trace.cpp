@@ -2,74 +2,19 @@
 #include "traces/ns2_trace.hpp"
 
 #include "sim/error.hpp"
+#include "sim/part_file.hpp"
 #include "traces/decimal.hpp"
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <exception>
-#include <filesystem>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 namespace rovernet {
 namespace {
-
-/// A file that has its final name only once it is whole.
-class PartFile {
-  public:
-    explicit PartFile(std::string path) : path_(std::move(path)), part_(path_ + ".part") {
-        std::error_code ignored;
-        const auto status = std::filesystem::status(path_, ignored);
-        // A rename would replace a device by a file.
-        if (exists(status) && !is_regular_file(status)) fail("it exists and is no regular file");
-        file_ = std::fopen(part_.c_str(), "wb");
-        if (!file_) fail(std::strerror(errno));
-        std::setvbuf(file_, nullptr, _IONBF, 0);  // the writer has its own buffer
-    }
-    PartFile(const PartFile&) = delete;
-    PartFile& operator=(const PartFile&) = delete;
-    ~PartFile() { discard(); }
-
-    void write(std::string_view bytes) {
-        if (!file_) fail("an earlier write has failed");
-        if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
-            fail(std::strerror(errno));
-        }
-    }
-
-    void close() {
-        if (!file_) fail("an earlier write has failed");
-        const bool whole = std::fclose(file_) == 0;
-        const int close_error = errno;
-        file_ = nullptr;
-        if (whole && std::rename(part_.c_str(), path_.c_str()) == 0) return;
-        const int error = whole ? errno : close_error;
-        std::remove(part_.c_str());
-        fail(std::strerror(error));
-    }
-
-  private:
-    void discard() {
-        if (!file_) return;
-        std::fclose(file_);
-        file_ = nullptr;
-        std::remove(part_.c_str());
-    }
-    [[noreturn]] void fail(std::string_view why) {
-        const std::string message = fmt::format("{}: cannot write the trace: {}", path_, why);
-        discard();
-        throw RunError(message);
-    }
-
-    std::string path_;
-    std::string part_;
-    std::FILE* file_ = nullptr;
-};
 
 /// The PLCP preamble and header at 1 Mb/s, which ns-2 counts among a frame's bytes.
 constexpr std::uint32_t plcp_bytes = 24;
@@ -141,7 +86,7 @@ class Ns2Trace::Writer {
     void close() {
         if (closed_) return;
         flush();
-        file_.close();
+        file_.give_name();
         closed_ = true;
     }
 

@@ -50,7 +50,7 @@ enum class MacTrace { off, on };
 /// Source: the output of ns-2.35, and its cmu-trace.cc.
 class Ns2Trace {
   public:
-    /// Opens `path` + ".part"; `path` itself appears at the end, whole or not at all.
+    /// Begins the file; `path` itself appears at the end, whole or not at all, see PartFile.
     /// @throws RunError if it cannot be written
     explicit Ns2Trace(const std::string& path, Ns2Format format = Ns2Format::new_format,
                       MacTrace mac = MacTrace::off);

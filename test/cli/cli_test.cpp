@@ -237,6 +237,7 @@ TEST_CASE("link --json: the budget and its walls") {
     CHECK(std::abs(link["walls"][0]["entry_m"].get<double>() - 3) < rounding_m);
     CHECK(std::abs(link["walls"][0]["exit_m"].get<double>() - 4) < rounding_m);
     CHECK(std::abs(link["wall_m"].get<double>() - 1) < rounding_m);
+    CHECK(std::abs(link["walls"][0]["loss_db"].get<double>() - 100) < rounding_m);  // 1 dB/cm
     const double margin = link["margin_db"], received = link["rx_power_dbm"];
     CHECK(std::abs(received + 75 - margin) < rounding_m);
     CHECK(link["up"] == (margin >= 0));
@@ -245,7 +246,50 @@ TEST_CASE("link --json: the budget and its walls") {
     CHECK(json_of(folder, clear)["up"] == true);
     clear.insert(clear.end(), {"--at", "6"});
     CHECK(json_of(folder, clear)["up"] == false);
+    CHECK(json_of(folder, clear)["why_down"] == "B is off");
     CHECK(json_of(folder, clear)["at_s"] == 6.0);
+}
+
+TEST_CASE("link says why it is down, and what each wall takes") {
+    const TemporaryFolder folder;
+    const png_byte w = 255;
+    folder.write(
+        "walls.png",
+        png_bytes(
+            {.width = 8, .height = 1, .rows = {std::vector<png_byte>{w, w, 0, w, w, 60, w, w}}}));
+    const std::string file = folder.write("s.toml", R"([scene]
+map = "walls.png"
+size = ["8 m", "2 m"]
+[scene.materials]
+door = { grey = 60, per_crossing = "3 dB" }
+[propagation]
+model = "raytrace_2007"
+wall_factor = 0.1
+[[robot]]
+name = "A"
+at = ["1 m", "1 m"]
+[[robot]]
+name = "B"
+at = ["7 m", "1 m"]
+[[robot]]
+name = "deaf"
+at = ["7 m", "1 m"]
+radio = { sensitivity = "0 dBm" }
+)");
+    constexpr double rounding_db = 1e-9;
+    const Json link = json_of(folder, {"link", file, "A", "B"});
+    REQUIRE(link["walls"].size() == 2);
+    CHECK(std::abs(link["walls"][0]["loss_db"].get<double>() - 10) < rounding_db);
+    CHECK(std::abs(link["walls"][1]["loss_db"].get<double>() - 3) < rounding_db);
+    CHECK(link["why_down"].is_null());
+    const auto why = [&](const std::string& to, const std::string& set) -> std::string {
+        return json_of(folder, {"link", file, "A", to, "--set", set})["why_down"];
+    };
+    CHECK(why("B", "robot.B.radio.frequency=5.2 GHz") ==
+          "they are in different networks: frequency 2450 MHz and 5200 MHz");
+    CHECK(why("B", "robot.B.radio.channel=7") == "they are in different networks: channel 0 and 7");
+    CHECK(why("deaf", "scenario.seed=2") ==
+          "the received power is below the receiver's sensitivity");
 }
 
 TEST_CASE("models --json lists every model with its parameters") {
@@ -285,7 +329,7 @@ TEST_CASE("Ctrl-C ends a run with 130 and leaves no trace, whole or half") {
     const std::string out = folder.path("out");
     const Process run(
         folder, {"run", folder.write("s.toml", relay), "--out", out, "--speed", "0.01", "--json"});
-    for (int i = 0; i < 2000 && !fs::exists(out + "/trace.tr.part"); ++i) {
+    for (int i = 0; i < 2000 && !(fs::exists(out) && names_in(out).size() == 1); ++i) {
         std::this_thread::sleep_for(5ms);
     }
     run.interrupt();

@@ -210,6 +210,32 @@ TEST_CASE("store: a question in SQL is answered, and may not change anything") {
     CHECK(store.runs().size() == 1);
 }
 
+TEST_CASE("store: a question reads, and writes no file, attaches none, and sets nothing") {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("s.db"), other = folder.path("other.db");
+    { two_points(path); }
+    const Store store = Store::open(path);
+    const auto ignore = [](const std::vector<std::string>&) {};
+    for (const std::string& question :
+         {"VACUUM INTO '" + other + "'", "ATTACH '" + other + "' AS o", std::string("VACUUM"),
+          std::string("PRAGMA user_version = 9"), std::string("PRAGMA journal_mode = WAL"),
+          std::string("CREATE TEMP TABLE t (x)"), std::string("INSERT INTO study VALUES (1, 2)"),
+          std::string("SELECT load_extension('x')"), std::string("BEGIN IMMEDIATE")}) {
+        CAPTURE(question);
+        CHECK_THROWS_WITH_AS(store.query(question, ignore),
+                             doctest::Contains("only reading is allowed"), std::invalid_argument);
+        CHECK_FALSE(std::filesystem::exists(other));
+    }
+    for (const char* question :
+         {"WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 3) SELECT * FROM n",
+          "EXPLAIN SELECT * FROM result", "PRAGMA table_info(run)",
+          "SELECT group_concat(value) FROM study"}) {
+        CAPTURE(question);
+        CHECK_NOTHROW(store.query(question, ignore));
+    }
+    CHECK(store.points().size() == 2);
+}
+
 TEST_CASE("merge: takes what is missing or failed here, and leaves what is finished") {
     const TemporaryFolder folder;
     const std::string shard = folder.path("shard.db");

@@ -254,8 +254,7 @@ TEST_CASE("reader: what ns-2 writes and we do not is passed over") {
         "32 \n"
         "d -t 1.0 -Hs 1 -Hd -2 -Ni 1 -Nx 1.00 -Ny 1.00 -Nz 0.00 -Ne -1.000000 -Nl MAC -Nw SLP -Ma "
         "0 -Md 1 -Ms 0 -Mt 0 \n";
-    CHECK(error_of(foreign) == "");
-    CHECK(metrics_of(foreign) == MetricValues{});
+    CHECK(error_of(foreign).starts_with("run.tr:3:1: found a line of another trace"));
     CHECK(metrics_of(foreign + old_lines) == metrics_of(old_lines));
 }
 
@@ -356,4 +355,22 @@ TEST_CASE("reader: a damaged trace is read or refused, never more") {
     }
     CHECK(refused > 100);
     CHECK(refused < 400);
+}
+
+TEST_CASE("reader: a trace of another program, or of other traffic, is no trace of nothing") {
+    const std::string moves = "M 0.00000 0 (1.00, 2.00, 0.00), (1.00, 2.00), 0.00\n";
+    const std::string found = ":1: found a line of another trace, and no message";
+    const auto refused_at = [&](const std::string& text, const std::string& place) {
+        CAPTURE(text);
+        CHECK(error_of(text).starts_with("run.tr:" + place + found));
+    };
+    refused_at(moves + "s 1.000000000 _0_ AGT  --- 0 cbr 512 [0 0 0 0] ------- [0:0 1:0 32 0] \n",
+               "2");
+    refused_at("s 0.003769945 _0_ RTR  --- 0 message 32 [0 0 0 0] ------- [0:255 -1:255 32 0] \n",
+               "1");
+    refused_at("+ 0.1 0 2 cbr 210 ------- 0 0.0 3.1 0 0\n" + moves, "1");
+    refused_at("\n# by hand\nN -t 1.000000 -n 0 -e 999.999\n", "3");
+    // A run in which nobody says anything leaves a trace as well.
+    CHECK(metrics_of(moves + "\n# by hand\n").messages == 0);
+    CHECK(metrics_of("").messages == 0);
 }

@@ -35,6 +35,13 @@ class TempFolder {
     ~TempFolder() { std::filesystem::remove_all(path_); }
     std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     bool has(const std::string& name) const { return exists(path_ / name); }
+    std::vector<std::string> names() const {
+        std::vector<std::string> all;
+        for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+            all.push_back(entry.path().filename());
+        }
+        return all;
+    }
 
   private:
     std::filesystem::path path_;

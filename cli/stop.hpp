@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/output.hpp"
+
+#include <vector>
+
+namespace rovernet::cli {
+
+/// From now on Ctrl-C (SIGINT) and SIGTERM end the process at once, with exit code 130.
+void end_on_signals();
+
+/// While one of these lives, signals to stop are counted only, for a command that has something to
+/// finish or to put away; the fifth ends the process all the same.
+class HeldStop {
+  public:
+    HeldStop();
+    ~HeldStop();
+    HeldStop(const HeldStop&) = delete;
+    HeldStop& operator=(const HeldStop&) = delete;
+};
+
+/// Writes files with the stop held: none is written by half.
+/// @throws RunError as write_files()
+void write_whole(const std::vector<OutputFile>& files);
+
+/// How often the process was asked to stop while that was held.
+int stops_asked();
+
+}  // namespace rovernet::cli

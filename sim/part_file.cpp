@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "sim/part_file.hpp"
+
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The lock on a part says that its writer lives.
+constexpr int mine = LOCK_EX;
+
+/// A new file, locked; -1 and errno if there can be none.
+int create_locked(const std::string& part) {
+    for (;;) {
+        const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file < 0) return file;
+        struct stat status {};
+        // Between open and flock somebody may have taken it for an orphan.
+        if (flock(file, mine) != 0 || fstat(file, &status) != 0 || status.st_nlink > 0) return file;
+        ::close(file);
+    }
+}
+
+/// Whether `name` is `whole`.N.part.
+bool is_part_of(std::string_view whole, std::string_view name) {
+    constexpr std::string_view ending = ".part";
+    if (name.size() <= whole.size() + 1 + ending.size()) return false;
+    if (!name.starts_with(whole) || !name.ends_with(ending)) return false;
+    name.remove_prefix(whole.size());
+    name.remove_suffix(ending.size());
+    return name[0] == '.' &&
+           std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
+PartFile::PartFile(std::string path) : path_(std::move(path)) {
+    std::error_code ignored;
+    const auto status = fs::status(path_, ignored);
+    // A rename would replace a device by a file.
+    if (exists(status) && !is_regular_file(status)) fail("it exists and is no regular file");
+    remove_orphans();
+    for (auto n = static_cast<std::uint64_t>(getpid());; ++n) {
+        const std::string part = fmt::format("{}.{}.part", path_, n);
+        file_ = create_locked(part);
+        if (file_ >= 0) part_ = part;
+        if (file_ >= 0 || errno != EEXIST) break;
+    }
+    if (file_ < 0) fail(std::strerror(errno));
+}
+
+PartFile::PartFile(PartFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      part_(std::exchange(other.part_, {})),
+      file_(std::exchange(other.file_, -1)) {}
+
+/// Removes the parts of this name whose writers are dead.
+void PartFile::remove_orphans() const {
+    const fs::path path(path_);
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    std::error_code ignored;
+    for (fs::directory_iterator entry(folder, ignored), end; entry != end;
+         entry.increment(ignored)) {
+        const fs::path& other = entry->path();
+        if (!is_part_of(path.filename().native(), other.filename().native())) continue;
+        const int file = open(other.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+        if (file < 0) continue;
+        if (flock(file, mine | LOCK_NB) == 0) unlink(other.c_str());
+        ::close(file);
+    }
+}
+
+void PartFile::write(std::string_view bytes) {
+    if (file_ < 0) fail("an earlier write has failed");
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(file_, bytes.data(), bytes.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail(std::strerror(errno));
+        bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+}
+
+void PartFile::close() {
+    if (file_ < 0) fail("an earlier write has failed");
+    // Some file systems tell only now that the disk is full; the copy keeps the lock.
+    const int copy = fcntl(file_, F_DUPFD_CLOEXEC, 0);
+    if (copy < 0 || ::close(std::exchange(file_, copy)) != 0) fail(std::strerror(errno));
+}
+
+void PartFile::give_name() {
+    close();
+    if (std::rename(part_.c_str(), path_.c_str()) != 0) fail(std::strerror(errno));
+    part_.clear();
+    discard();
+}
+
+void PartFile::discard() {
+    if (!part_.empty()) unlink(part_.c_str());
+    part_.clear();
+    if (file_ >= 0) ::close(std::exchange(file_, -1));
+}
+
+void PartFile::fail(std::string_view why) {
+    const std::string message = fmt::format("{}: cannot be written: {}", path_, why);
+    discard();
+    throw RunError(message);
+}
+
+FolderLock::FolderLock(const std::string& folder)
+    : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (folder_ >= 0 && flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+}
+
+FolderLock::~FolderLock() {
+    if (folder_ >= 0) close(folder_);
+}
+
+}  // namespace rovernet

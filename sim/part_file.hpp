@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace rovernet {
+
+/// A file that gets its name once it is whole.
+///
+/// Until then it is NAME.N.part in the same folder, with a number of its own, so that processes
+/// that write NAME at the same time do not meet: the last to name it wins. A part that is not named
+/// is removed with its object. A process that is killed leaves its part; who writes NAME next
+/// removes it.
+class PartFile {
+  public:
+    /// @throws RunError if `path` cannot be written, or is there and no regular file
+    explicit PartFile(std::string path);
+    PartFile(PartFile&& other) noexcept;
+    PartFile& operator=(PartFile&&) = delete;
+    ~PartFile() { discard(); }
+
+    /// Adds bytes to the end. @throws RunError (disk full, say); the part is removed then
+    void write(std::string_view bytes);
+    /// Ends the writing; give_name() cannot fail for want of space then. @throws RunError as
+    /// write()
+    void close();
+    /// Closes it, and puts it in the place of whatever has the name. @throws RunError as write()
+    void give_name();
+
+  private:
+    void remove_orphans() const;
+    void discard();
+    [[noreturn]] void fail(std::string_view why);
+
+    std::string path_;
+    std::string part_;  // empty: named, or removed
+    int file_ = -1;     // open for as long as nobody may take the part for an orphan
+};
+
+/// The right to name several files of a folder with nobody else's between them. Processes that ask
+/// for it wait for one another. Where the file system has no locks it does nothing.
+class FolderLock {
+  public:
+    explicit FolderLock(const std::string& folder);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+  private:
+    int folder_;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+struct sqlite3;
+
+namespace rovernet {
+
+/// While it lives, statements of a connection may read, and nothing else: whatever is asked, no
+/// file is attached or written, no setting changed, no library loaded.
+class OnlyReading {
+  public:
+    explicit OnlyReading(sqlite3* database);
+    ~OnlyReading();
+    OnlyReading(const OnlyReading&) = delete;
+    OnlyReading& operator=(const OnlyReading&) = delete;
+
+  private:
+    sqlite3* database_;
+};
+
+}  // namespace rovernet

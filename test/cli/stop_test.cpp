@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "test/cli/process.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace rovernet::test;
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Robots that would walk about, and talk, for years.
+const std::string endless = R"([scenario]
+duration = "100000000 s"
+event_limit = 1000000000000000
+[[robot]]
+name = "r"
+count = 50
+place = { area = [["0 m", "0 m"], ["50 m", "50 m"]] }
+move = { model = "random_waypoint", area = [["0 m", "0 m"], ["50 m", "50 m"]], min_speed = "1 m/s", max_speed = "20 m/s" }
+[[traffic]]
+from = "r0"
+payload = "F"
+every = "1 ms"
+[trace]
+ns2 = "new"
+)";
+
+/// A map whose walls take long to find: every second cell is one.
+std::string slow_map(const TemporaryFolder& folder) {
+    constexpr std::size_t side = 5000;
+    std::string bytes = "P5 5000 5000 255\n";
+    for (std::size_t i = 0; i < side * side; ++i) {
+        bytes += (i + i / side) % 2 == 0 ? '\0' : '\377';
+    }
+    return folder.write("map.pgm", bytes);
+}
+
+bool handles_signals(pid_t pid) {
+    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+    for (std::string line; std::getline(status, line);) {
+        if (!line.starts_with("SigCgt:")) continue;
+        return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1) != 0;
+    }
+    return false;
+}
+
+/// Sends SIGTERM to a command in the midst of its work.
+Ended stopped(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+    const Process process(folder, arguments);
+    for (int i = 0; i < 2000 && !handles_signals(process.pid()); ++i) {
+        std::this_thread::sleep_for(5ms);
+    }
+    std::this_thread::sleep_for(300ms);
+    kill(process.pid(), SIGTERM);
+    return process.wait();
+}
+
+std::vector<std::string> parts_in(const std::string& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const std::string name = entry.path().filename();
+        if (name.ends_with(".part")) names.push_back(name);
+    }
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a signal ends every command that is long at work with 130, and no file is half written") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", endless);
+    const std::string end = "100000000 s";
+    const std::vector<std::vector<std::string>> commands = {
+        {"run", file, "--out", folder.path("out")},
+        {"link", file, "r0", "r1", "--at", end},
+        {"links", file, "--at", end},
+        {"links", file, "--history"},
+        {"where", file, "--at", end},
+        {"scene", file, "--at", end},
+        {"draw", file, "--trails", "--at", end, "-o", folder.path("picture.svg")},
+        {"move", "convert", file, folder.path("moves.tcl")},
+        {"bench", "flood", "--cpu", "100"},
+    };
+    for (const auto& arguments : commands) {
+        CAPTURE(arguments[0]);
+        const Ended ended = stopped(folder, arguments);
+        CHECK(ended.exit == 130);
+        CHECK(ended.err.find("interrupted") != std::string::npos);
+        CHECK(parts_in(folder.path("")).empty());
+    }
+    for (const char* written : {"picture.svg", "moves.tcl", "out/summary.json", "out/trace.tr"}) {
+        CHECK_FALSE(fs::exists(folder.path(written)));
+    }
+}
+
+TEST_CASE("a signal ends a command that reads a map, and a run that is being set up") {
+    const TemporaryFolder folder;
+    const std::string map = slow_map(folder);
+    CHECK(stopped(folder, {"scene", map, "--size", "500x500"}).exit == 130);
+    const std::string file = folder.write("s.toml", R"([scene]
+map = "map.pgm"
+size = ["500 m", "500 m"]
+[[robot]]
+name = "a"
+at = ["1 m", "1 m"]
+)");
+    CHECK(stopped(folder, {"run", file, "--out", folder.path("out")}).exit == 130);
+    CHECK_FALSE(fs::exists(folder.path("out")));
+}
+
+TEST_CASE("a signal ends a question in SQL") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", R"([study]
+replications = 1
+[[robot]]
+name = "a"
+at = ["0 m", "0 m"]
+)");
+    REQUIRE(command(folder, {"sweep", file}).exit == 0);
+    const std::string endless_sum =
+        "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT sum(i) FROM n";
+    CHECK(stopped(folder, {"results", folder.path("s.db"), "--sql", endless_sum}).exit == 130);
+    CHECK(command(folder, {"results", folder.path("s.db"), "--sql", "SELECT 1"}).exit == 0);
+}
+
+TEST_CASE("two runs into one folder at once: its files are all of the one or all of the other") {
+    const TemporaryFolder folder;
+    const std::string out = folder.path("out");
+    const std::string file = folder.write("s.toml", R"([scenario]
+duration = "2 s"
+[[robot]]
+name = "r"
+count = 10
+place = { area = [["0 m", "0 m"], ["50 m", "50 m"]] }
+[[traffic]]
+from = "r0"
+payload = "F"
+every = "10 ms"
+[trace]
+ns2 = "new"
+)");
+    const TemporaryFolder first_words, second_words;
+    const Process first(first_words, {"run", file, "--out", out, "--speed", "2", "--seed", "1"});
+    const Process second(second_words, {"run", file, "--out", out, "--speed", "2", "--seed", "2"});
+    CHECK(first.wait().exit == 0);
+    CHECK(second.wait().exit == 0);
+    CHECK(parts_in(out).empty());
+    const Json summary = Json::parse(content(out + "/summary.json"));
+    Json of_trace = json_of(folder, {"trace", "stats", out + "/trace.tr"});
+    CHECK(of_trace["receptions"] == summary["receptions"]);
+    CHECK(of_trace["latency_mean_s"] == summary["latency_mean_s"]);
+    const std::string seed = "seed = " + summary["seed"].dump();
+    CHECK(content(out + "/scenario.toml").find(seed) != std::string::npos);
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "sim/part_file.hpp"
+
+#include "sim/error.hpp"
+#include "test/scene/temporary_folder.hpp"
+#include "test/sim/no_room.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+using namespace rovernet;
+using test::TemporaryFolder;
+
+namespace {
+
+std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> names_in(const TemporaryFolder& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path(""))) {
+        names.push_back(entry.path().filename());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// A process that begins a file and is killed.
+void write_and_die(const std::string& path) {
+    const pid_t child = fork();
+    if (child == 0) {
+        PartFile file(path);
+        file.write("half");
+        std::raise(SIGKILL);
+    }
+    waitpid(child, nullptr, 0);
+}
+
+}  // namespace
+
+TEST_CASE("part file: it has its name only once it is whole") {
+    const TemporaryFolder folder;
+    const std::string path = folder.write("f", "yesterday's");
+    PartFile file(path);
+    file.write("to");
+    file.write("day's");
+    file.close();
+    CHECK(content(path) == "yesterday's");
+    CHECK(names_in(folder).size() == 2);
+    file.give_name();
+    CHECK(content(path) == "today's");
+    CHECK(names_in(folder) == std::vector<std::string>{"f"});
+}
+
+TEST_CASE("part file: what is not named leaves what was there before, and no half file") {
+    const TemporaryFolder folder;
+    const std::string path = folder.write("f", "yesterday's");
+    { PartFile(path).write("half"); }
+    CHECK(content(path) == "yesterday's");
+    CHECK(names_in(folder) == std::vector<std::string>{"f"});
+}
+
+TEST_CASE("part file: of two at once the second to be named wins, whole") {
+    const TemporaryFolder folder;
+    PartFile first(folder.path("f")), second(folder.path("f"));
+    first.write("first");
+    second.write("second");
+    CHECK(names_in(folder).size() == 2);
+    second.give_name();
+    CHECK(content(folder.path("f")) == "second");
+    first.give_name();
+    CHECK(content(folder.path("f")) == "first");
+    CHECK(names_in(folder) == std::vector<std::string>{"f"});
+}
+
+TEST_CASE("part file: the part of a process that was killed is removed by the next, others stay") {
+    const TemporaryFolder folder;
+    write_and_die(folder.path("f"));
+    REQUIRE(names_in(folder).size() == 1);
+    for (const char* other : {"f.part", "f.1x.part", "ff.1.part", "f.1.parts"}) {
+        folder.write(other, "");
+    }
+    const PartFile alive(folder.path("f"));
+    std::optional<PartFile> file(folder.path("f"));
+    CHECK(names_in(folder).size() == 6);
+    file.reset();
+    CHECK(names_in(folder).size() == 5);
+}
+
+TEST_CASE("part file: a full disk is reported, not swallowed, and leaves nothing") {
+    const TemporaryFolder folder;
+    const test::NoRoom none;
+    PartFile file(folder.path("f"));
+    CHECK_THROWS_WITH_AS(file.write("x"),
+                         (folder.path("f") + ": cannot be written: File too large").c_str(),
+                         RunError);
+    CHECK(names_in(folder).empty());
+    CHECK_THROWS_AS(file.write("x"), RunError);
+    CHECK_THROWS_AS(file.give_name(), RunError);
+}
+
+TEST_CASE("part file: a place that cannot be written is reported at once") {
+    const TemporaryFolder folder;
+    CHECK_THROWS_WITH_AS(
+        PartFile(folder.path("no/f")),
+        (folder.path("no/f") + ": cannot be written: No such file or directory").c_str(), RunError);
+    CHECK_THROWS_WITH_AS(PartFile("/dev/null"),
+                         "/dev/null: cannot be written: it exists and is no regular file",
+                         RunError);
+}
