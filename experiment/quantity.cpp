@@ -126,7 +126,7 @@ double within(const Value& value, std::string_view key, const Kind& kind, double
 double in_base_unit(const Value& value, std::string_view key, const Kind& kind, double number,
                     const Unit& unit) {
     if (unit.factor != 0) return within(value, key, kind, number * unit.factor);
-    if (number <= 0) {
+    if (!(number > 0)) {
         reject(value, key, kind, fmt::format("found {} {}, which has no level", number, unit.name),
                fmt::format("did you mean \"{} dBm\"?", number));
     }

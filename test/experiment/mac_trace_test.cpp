@@ -204,7 +204,7 @@ std::string row(const AccessRung& access, const std::function<void(Network&)>& a
     trace->close();
     std::string packets;
     for (const std::string& line : lines_of(content(folder / "run.tr"))) {
-        if (!line.starts_with("M ")) packets += line + "\n";
+        if (!line.starts_with("M ") && !line.starts_with("v ")) packets += line + "\n";
     }
     return packets;
 }

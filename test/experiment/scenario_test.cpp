@@ -140,6 +140,7 @@ upgrade = false
 jitter = "7 ms"
 
 [[traffic]]
+name = "warning"
 kind = "broadcast"
 from = "A"
 payload = "F"
@@ -150,9 +151,16 @@ stop = "11 s"
 count = 4
 
 [[traffic]]
+name = "beacon"
 from = "r2"
 size = "5 B"
 start = "arrival"
+
+[metrics]
+reach = false
+flows = false
+robots = true
+topology = true
 
 [trace]
 ns2 = "old"

@@ -178,13 +178,13 @@ TEST_CASE("stage world: each of the five models has its name and its parameters"
     for (const Row& row : {
              Row{"model \"friis\"", "friis", "coefficient", "none"},
              Row{"model \"ITU indoor\" plc 22.5", "itu_indoor", "coefficient", "22.5"},
-             Row{"model \"log distance\" ple 4", "log_distance", "exponent", "4"},
+             Row{"model \"log distance\" ple 4", "log_distance", "exponent", "4.0"},
              Row{"model \"log distance\" sigma 3.5", "log_distance", "sigma", "3.5 dB"},
-             Row{"model \"raytrace\" wall_factor 10", "raytrace_2007", "wall_factor", "10"},
-             Row{"model \"raytrace\" plc 28", "raytrace_2007", "coefficient", "28"},
+             Row{"model \"raytrace\" wall_factor 10", "raytrace_2007", "wall_factor", "10.0"},
+             Row{"model \"raytrace\" plc 28", "raytrace_2007", "coefficient", "28.0"},
              Row{"model \"simple\" range 3.5", "disc", "range", "3.5 m"},
              Row{"model \"friis\" range 6", "friis", "range", "6 m"},
-             Row{"model \"friis\" plc 30 ple 3 sigma 2 wall_factor 1", "friis", "exponent", "3"},
+             Row{"model \"friis\" plc 30 ple 3 sigma 2 wall_factor 1", "friis", "exponent", "3.0"},
          }) {
         CAPTURE(row.stage);
         const Read world = read(robot_with + row.stage + " ) )\n");
@@ -200,7 +200,7 @@ TEST_CASE("stage world: a wifi without a model follows [propagation], an unknown
         read("position ( name \"a\" wifi ( ) )\nposition ( name \"b\"\nwifi ( plc 22 ) )\n");
     CHECK(none.robot(0).find("propagation") == nullptr);
     CHECK(none.propagation(1).entries.size() == 1);
-    CHECK(value(none.propagation(1), "coefficient") == "22");
+    CHECK(value(none.propagation(1), "coefficient") == "22.0");
     REQUIRE(none.notices.size() == 1);
     CHECK(none.notices[0] ==
           "a.world:1: a wifi without a model uses that of [propagation], friis by default: a, b");
