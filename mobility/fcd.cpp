@@ -255,7 +255,8 @@ std::optional<MovementCommand> FcdReader::next() {
         }
         while (next_now_ < now_.size()) {
             const Sighting& s = now_[next_now_++];
-            const bool was_there = states_[s.robot].before + 1 == step_;
+            const auto seen = states_[s.robot].before;  // the step; 0: in none
+            const bool was_there = seen > 0 && seen + 1 == step_;
             if (was_there || time_ == start_of_run) continue;
             return MovementCommand{
                 .time = time_, .robot = s.robot, .kind = Kind::appear, .to = s.at};

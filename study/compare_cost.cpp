@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/compare_cost.hpp"
 
+#include "sim/error.hpp"
 #include "study/medium_cost.hpp"
 
 #include <fmt/format.h>
@@ -54,7 +55,12 @@ void add_costs(Comparison& comparison, Study& study, const Store& store,
         scenarios.push_back(study.scenario(i, 0));
         if (comparison.models[i].model == comparison.dearest) dearest = i;
     }
-    const MediumRecord record = record_medium(scenarios[dearest], stopped);
+    MediumRecord record;
+    try {
+        record = record_medium(scenarios[dearest], stopped);
+    } catch (const RunError&) {  // that run failed in the study, too, and is told of there
+        return;
+    }
     const CostTurns turns{.total_s = std::min(CostTurns{}.total_s, cpu_s(store))};
     const MediumCosts costs = measure_medium(record, scenarios, turns, stopped);
     if (costs.models.empty()) return;

@@ -14,8 +14,11 @@ class OnlyReading {
     OnlyReading(const OnlyReading&) = delete;
     OnlyReading& operator=(const OnlyReading&) = delete;
 
+    bool denied() const { return denied_; }  ///< something but reading was asked for
+
   private:
     sqlite3* database_;
+    bool denied_ = false;
 };
 
 }  // namespace rovernet

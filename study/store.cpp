@@ -378,10 +378,9 @@ void Store::query(const std::string& sql,
             row(cells);
         }
     } catch (const SQLite::Exception& error) {
-        const bool denied = error.getErrorCode() == SQLITE_AUTH;
         throw std::invalid_argument(fmt::format(
             "--sql: {}; the tables are study, point, run, metric_name, metric and the view result",
-            denied ? "only reading is allowed; expected SELECT ..." : error.what()));
+            guard.denied() ? "only reading is allowed; expected SELECT ..." : error.what()));
     }
 }
 

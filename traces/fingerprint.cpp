@@ -11,7 +11,6 @@
 #include <cstring>
 #include <limits>
 
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 namespace rovernet {

@@ -145,7 +145,7 @@ TEST_CASE("sweep: the runs of a study come to a table, to CSV, and to an explana
     const Json made = json_of(place.folder, {"sweep", place.file, "--replications", "6"});
     CHECK(made["finished"] == 30);
     const Ended table = command(place.folder, {"results", place.store()});
-    CHECK(table.out.starts_with("propagation.range  n  delivery_ratio"));
+    CHECK(table.out.starts_with("propagation.range  delivery_ratio"));
     CHECK(table.err.empty());
     const Json json =
         json_of(place.folder, {"results", place.store(), "--metric", "delivery_ratio,events"});
@@ -328,7 +328,7 @@ TEST_CASE("results: an unfinished study says so, and a failed run is in its row"
     command(place.folder, {"sweep", place.file, "--set", plan, "--shard", "0", "--chunk", "12"});
     const Ended table = command(place.folder, {"results", place.store()});
     CHECK(table.out.find("missing") != std::string::npos);
-    CHECK(table.out.find("\nunfinished: 3 runs are missing\n") != std::string::npos);
+    CHECK(table.out.find("unfinished: 3 runs are missing\n") != std::string::npos);
     const std::string said = "unfinished: 3 of 15 runs are missing";
     CHECK(table.err.find(said) != std::string::npos);
     CHECK(command(place.folder, {"results", place.store(), "--csv"}).err.find(said) !=

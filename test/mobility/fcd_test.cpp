@@ -91,6 +91,13 @@ TEST_CASE("fcd: robots appear, vanish after their last timestep and may come bac
     CHECK(near(p.position("b", 4), {9, 9, 0}));
 }
 
+TEST_CASE("fcd: who is in a first timestep after the start appears at its time") {
+    const auto p = played(fcd(step("1", at("a", "5", "0")) + step("2", at("a", "9", "0"))));
+    CHECK_FALSE(p.present("a", 0.5));
+    CHECK(p.present("a", 1.5));
+    CHECK(near(p.position("a", 1.5), {7, 0, 0}));
+}
+
 TEST_CASE("fcd: persons and containers are robots; z counts; a parked car has nothing to do") {
     const auto p = played(
         fcd(step("0",
