@@ -111,7 +111,7 @@ TEST_CASE("movement file: makes the robots that it names, and moves those that a
     CHECK(network->medium().radio(n0).power == Dbm{3});
     // At 7 s it was at (1, 5); from there 2 s at 2 m/s.
     CHECK(distance(network->position(n0), {5, 5, 0}) < 1e-9);
-    CHECK(network->metrics().messages == 1);
+    CHECK(run_scenario(s, {.folder = folder.path("out"), .speed = {}}).metrics.messages == 1);
     CHECK(to_document(s).find("movement")->table()->find("file"));
 }
 

@@ -76,10 +76,19 @@ TEST_CASE("run: the same scenario has the same fingerprint, with and without a t
 
 TEST_CASE("run: one that is stopped leaves none of its files") {
     const TemporaryFolder folder;
+    const RunOptions options{.folder = folder.path("out"),
+                             .speed = {},
+                             .progress = [](double share) { return share == 0; }};
+    CHECK_THROWS_AS(run_scenario(three_robots("new"), options), Interrupted);
+    CHECK(std::filesystem::is_empty(folder.path("out")));
+}
+
+TEST_CASE("run: one that is stopped before its first event makes no folder") {
+    const TemporaryFolder folder;
     const RunOptions options{
         .folder = folder.path("out"), .speed = {}, .progress = [](double) { return false; }};
     CHECK_THROWS_AS(run_scenario(three_robots("new"), options), Interrupted);
-    CHECK(std::filesystem::is_empty(folder.path("out")));
+    CHECK_FALSE(std::filesystem::exists(folder.path("out")));
 }
 
 TEST_CASE("run: one that needs more events than allowed fails and leaves none of its files") {
