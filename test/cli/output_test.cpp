@@ -62,7 +62,7 @@ TEST_CASE("messages that cannot be written fail nothing") {
     if (!std::filesystem::exists("/dev/full")) return;
     const TemporaryFolder folder;
     const std::string file =
-        "'" + folder.write("s.toml", "[[robot]]\nname = \"r\"\nat = [0, 0]\n") + "'";
+        "'" + folder.write("s.toml", "[[robot]]\nname = \"r\"\nat = [\"0 m\", \"0 m\"]\n") + "'";
     const std::string out = " --out '" + folder.path("out") + "'";
     CHECK(shell(folder, quoted + "run " + file + out + " 2> /dev/full").exit == 0);
 }
