@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "cli/diagnostics.hpp"
 #include "cli/options.hpp"
 #include "cli/stop.hpp"
 #include "experiment/version.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -90,7 +92,9 @@ int main(int argc, char** argv) {
     } catch (const CLI::RuntimeError& end) {
         return end.get_exit_code();
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? cli::end_output() : usage;
+        std::ostringstream text;  // std::cout would lose why it cannot be written
+        if (app.exit(error, text) != 0) return usage;
+        return cli::guarded([&] { fmt::print("{}", text.str()); });
     }
     return ok;
 }
