@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 
+#define XXH_STATIC_LINKING_ONLY  // the state as a value
 #include <xxhash.h>
 
 namespace rovernet {
