@@ -18,9 +18,11 @@ Ended shell(const TemporaryFolder& folder, const std::string& line) {
     return Process(folder, {"-c", line}, "/bin/bash").wait();
 }
 
-/// Robots enough that every list of them is longer than a pipe holds.
+/// Robots enough that every list of them is longer than a pipe holds, with few links: joining many
+/// takes `scene` long.
 std::string crowd(const TemporaryFolder& folder) {
-    return "'" + folder.write("s.toml", R"([[robot]]
+    return "'" + folder.write("s.toml", R"(propagation = { model = "disc", range = "1 m" }
+[[robot]]
 name = "r"
 count = 2000
 place = { area = [["0 m", "0 m"], ["1000 m", "1000 m"]] }
