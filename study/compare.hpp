@@ -22,8 +22,8 @@ struct ComparedModel {
     std::optional<MediumCost> cost;     ///< of the medium; see add_costs()
     std::optional<double> radio_share;  ///< [-] of the runs' CPU time, about: that cost
     /// Mean distance to the dearest model's value over the replications in which both have one, in
-    /// the metric's unit, its interval (none for the dearest model, whose error is 0 by definition),
-    /// and how many replications these are.
+    /// the metric's unit, its interval (none for the dearest model, whose error is 0 by
+    /// definition), and how many replications these are.
     std::optional<double> error;
     std::optional<MeanInterval> error_interval;
     std::size_t error_n = 0;
