@@ -182,7 +182,7 @@ struct TraceArguments {
 };
 void trace_stats(const TraceArguments& arguments);
 
-/// Of a command that takes nothing else.
+/// Arguments of a command whose only option is --json.
 struct PrintArguments {
     bool json = false;
 };

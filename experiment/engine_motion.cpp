@@ -88,8 +88,8 @@ Mover Engine::mover(NodeId id) {
                       .b = robot.movements}};
 }
 
-/// Of robots that begin together, what comes of it at one time comes in the order of their keys:
-/// their numbers decide nothing.
+/// Movements that begin at one time are scheduled in the order of the robots' keys: the order in
+/// which robots were added decides nothing.
 void Engine::begin_movements() {
     beginning_ = true;
     while (begun_ < nodes_.size()) {

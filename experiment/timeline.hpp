@@ -56,7 +56,7 @@ class Timeline {
         Hops hops;
     };
     static_assert(sizeof(Entry) == 24);
-    /// The same words from the same robot: one message or many.
+    /// Words that a robot says: in one message, or again in later ones.
     struct Words {
         NodeId origin;
         std::string payload;

@@ -21,8 +21,8 @@ namespace rovernet {
 /// cut), then pulled tight by line of sight. Start and goal join the cells near them by any
 /// straight line that is passable, so they may lie where no cell centre is free. Near the shortest
 /// way, not the shortest: corners stand about a cell off. Every part of a path is Scene::passable.
-/// The same question has the same answer, whatever was asked before: see CellSearch for ties. The
-/// last answers are kept, so ways between places of a list are searched once.
+/// A path depends on its two ends alone, not on what was asked before: see CellSearch for ties. The
+/// last paths are kept, so ways between places of a list are searched once.
 class Planner {
   public:
     /// Prepares the free cells once. The scene must outlive the planner.

@@ -66,9 +66,9 @@ class Dcf {
     void switch_off(Air& air, NodeId node);
 
     const Csma& settings() const { return settings_; }
-    /// Of broadcasts and RTS.
+    /// The bit rate of broadcasts and RTS.
     BitRate lowest_basic_rate() const { return settings_.basic_rates.front(); }
-    /// Of a CTS or an ACK. @param rate  of what it answers
+    /// The bit rate of a CTS or an ACK. @param rate  of the frame that it answers
     BitRate answer_rate(BitRate rate) const;
 
   private:

@@ -105,7 +105,7 @@ void Reachability::list_open(const Now& now) {
 void Reachability::expand(const Now& now, NodeId node) {
     const auto take = [&](NodeId to) {
         if (state(to) == State::reached) return;
-        // Whom the sender itself reaches may have a parent that lasts longer.
+        // A robot that the sender reaches keeps its other parent: that link may last longer.
         if (node != now.from || parents_[to.index()] == to) parents_[to.index()] = node;
         reach(to);
     };

@@ -73,7 +73,7 @@ struct ChartLayout {
     double scale = 1;     ///< pixels of the document to one of these pixels, > 0
 
     static constexpr double margin = 16;  ///< [px] around the picture, and twice between charts
-    /// Of a picture with so many charts side by side [px].
+    /// Width of a picture with so many charts side by side [px].
     double picture_width(int charts = 1) const { return charts * (width + 2 * margin); }
 };
 

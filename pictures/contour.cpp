@@ -122,7 +122,8 @@ void Tracer::cross(int column, int row) {
     }
     if (ins == 0) return;
     if (ins == 2) {
-        // Of two lines each cuts off a corner: one that is above if the middle is below.
+        // Two lines cross this square, and each cuts off a corner: the corners above the level if
+        // the middle is below it, else those below.
         const bool middle = corner[0] + corner[1] + corner[2] + corner[3] >= 0;
         const bool first_above = corner[0] >= 0;
         if (first_above != middle) std::swap(out[0], out[1]);

@@ -43,7 +43,7 @@ class Margin {
 
     /// Rows above the rectangle, and below it, that have such cells.
     int rows() const { return static_cast<int>(columns_.size()) - 1; }
-    /// Such columns on each side, in the row that lies `beyond` rows beyond the rectangle's side.
+    /// Columns on each side that have such cells, in the row `beyond` rows beyond the rectangle.
     int columns(int beyond) const { return columns_[static_cast<std::size_t>(beyond)]; }
 
   private:

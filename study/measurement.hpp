@@ -32,8 +32,9 @@ struct Measurement {
 /// The metrics of every run: those of summary.json, its drops as "drops.DUP" and so on, its events,
 /// and the time [s] from which on it is measured.
 const std::vector<std::string>& metric_names();
-/// Those of this scenario: beside these what its [metrics] asks for, "delivery_ratio.FLOW" and
-/// "delivery_ratio.at.ROBOT", likewise messages, deliveries, throughput_bps and latency_mean_s.
+/// Metrics of this scenario's runs: those of every run, and what its [metrics] asks for besides,
+/// "delivery_ratio.FLOW" and "delivery_ratio.at.ROBOT", likewise messages, deliveries,
+/// throughput_bps and latency_mean_s.
 std::vector<std::string> metric_names(const Scenario& scenario);
 
 /// @throws InputError at `where` unless a metric of the scenario has this name

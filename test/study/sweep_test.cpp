@@ -294,7 +294,7 @@ TEST_CASE("sweep: a point that does not reach its precision is told, with what i
     CHECK(result.imprecise[1].point == 1);
     CHECK(result.imprecise[1].values == 8);
     CHECK(*result.imprecise[1].half_width > 0.01);
-    // The same when nothing is left to run.
+    // A sweep with nothing left to run tells it again.
     CHECK(bench.sweep({}, wanted).imprecise.size() == 2);
     CHECK(bench.sweep({}, {"study.precision=0.9"}).imprecise.empty());
     CHECK(bench.sweep({}).imprecise.empty());
