@@ -241,9 +241,9 @@ void check_margin(const CompareArguments& a, const std::string& metric) {
                                  *range.high, metric));
 }
 
-/// @throws CommandEnd if the user has ended it: a part of a comparison is none
-void check_interrupted(const CompareArguments& a, const SweepResult& result) {
-    if (stops_asked() == 0 || result.progress.left == 0) return;
+/// @throws CommandEnd if the user has ended it before it was done: a part of a comparison is none
+void check_interrupted(const CompareArguments& a, bool done) {
+    if (stops_asked() == 0 || done) return;
     throw CommandEnd(interrupted,
                      a.store ? "interrupted; what was finished is kept: go on with\n  " + a.command
                              : "interrupted; --store FILE would have kept the runs");
@@ -275,9 +275,10 @@ void compare(const CompareArguments& a) {
     const PassingStore passing;
     Store store = open_store(a.store.value_or(passing.file()), study);
     const SweepResult result = run_study(a, study, store);
-    check_interrupted(a, result);
+    check_interrupted(a, result.progress.left == 0);
     Comparison comparison = compare_models(store, metric, a.baseline, a.margin);
     add_costs(comparison, study, store, [] { return stops_asked() > 0; });
+    check_interrupted(a, false);
     comparison.held = held_keys(given, study.base());
     if (a.picture) {
         write_file(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));
