@@ -265,10 +265,12 @@ void check_failures(const CompareArguments& a, const Store& store, const SweepRe
 void compare(const CompareArguments& a) {
     const StudyTable given = ScenarioFile(a.file, options_of(a)).scenario().study;
     const Vary models = models_to_vary(a, given);
-    Study study(a.file, study_options(a), std::vector<Vary>{models});
+    const std::string metric = a.metric.empty() ? first_metric(given) : a.metric;
+    ScenarioOptions options = study_options(a);
+    if (metric == "reach") options.set.push_back("metrics.reach=true");
+    Study study(a.file, options, std::vector<Vary>{models});
     for (const std::string& text : study.base().notices) notice(text);
     if (!a.baseline.empty()) place_of(a.baseline, names_of(models));
-    const std::string metric = a.metric.empty() ? first_metric(study.table()) : a.metric;
     check_metric(metric, study.base(), {"--metric " + metric, 0, 0, true});
     check_margin(a, metric);
     const HeldStop until_gone;

@@ -75,8 +75,15 @@ void print_result(const Scenario& scenario, const RunResult& result) {
         fmt::print("left out of it     {} that the end of the run cut off at their senders\n",
                    m.cut_off);
     }
-    fmt::print("reach              {} of the robots that a chain of links joined to the sender\n",
-               percent(m.reach));
+    if (m.reach_known) {
+        fmt::print(
+            "reach              {} of the robots that a chain of links joined to the sender\n",
+            percent(m.reach));
+    } else if (!scenario.metrics.reach) {
+        fmt::print(
+            "reach              not looked for, as that takes longer than all the rest; "
+            "[metrics] reach = true does\n");
+    }
     if (m.latency) {
         fmt::print("latency            {:.3f} ms mean, {:.3f} ms at most\n", 1e3 * m.latency->mean,
                    1e3 * m.latency->max);

@@ -165,6 +165,7 @@ class Engine final : public LinkLayer, public Air {
     Scheduler<Occurrence> queue_;
     MessageTable messages_;
     Reachability reachability_;
+    std::uint64_t transmissions_ = 0;  // so far
     std::uint64_t next_uid_ = 0;
     std::optional<Router> router_;
     std::vector<Sink> sinks_;

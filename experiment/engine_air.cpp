@@ -33,6 +33,7 @@ void sort_by_counting(std::span<Reception> all, Time first) {
 
 Time Engine::transmit(const AirFrame& air) {
     const Frame& frame = air.frame;
+    ++transmissions_;
     if (air.kind == AirFrame::data) emit(Transmitted{now_, frame, air.heard_from});
     if (wanted_ & kind_of<AirSent>()) emit(AirSent{now_, air, bytes(air)});
     const std::size_t slot = flights_.take();

@@ -29,9 +29,12 @@ MessageId Engine::new_message(NodeId id, NodeId to, std::string payload, Outgoin
 }
 
 /// Robots that a chain of links joins to the sender now, of those that a message is for; if a sink
-/// asks for it.
+/// asks for it. Sinks that want it only while it is cheap never get it again once it was not.
 std::optional<std::uint32_t> Engine::reachable(NodeId from, NodeId to) {
-    if (!(wanted_ & kind_reachable)) return std::nullopt;
+    if (reachability_.searches() > Reachability::cheap_searches + transmissions_) {
+        wanted_ &= ~kind_cheap_reachable;
+    }
+    if (!(wanted_ & (kind_reachable | kind_cheap_reachable))) return std::nullopt;
     if (to != everyone) return reachability_.reaches(medium_, from, to, now_, legs_) ? 1 : 0;
     if (settings_.reference) return medium_.reachable(from, now_, legs_);
     return reachability_.count(medium_, from, now_, legs_);

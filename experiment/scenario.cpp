@@ -400,6 +400,9 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     if (const Value* study = document.take("study")) {
         out.study = read_study(*study, out.scenario.duration);
     }
+    const std::vector<std::string>& asked = out.study.metrics;
+    const bool asks_reach = std::find(asked.begin(), asked.end(), "reach") != asked.end();
+    if (asks_reach && !out.metrics.reach) out.metrics.reach = true;
     document.reject_unknown();
     check_robots(document, out);
     check_memory(out, available_memory());

@@ -103,6 +103,7 @@ void Reachability::list_open(const Now& now) {
 
 /// Reaches those that hear a node that is reached.
 void Reachability::expand(const Now& now, NodeId node) {
+    ++searches_;
     const auto take = [&](NodeId to) {
         if (state(to) == State::reached) return;
         // A robot that the sender reaches keeps its other parent: that link may last longer.
@@ -131,6 +132,7 @@ void Reachability::look_back(const Now& now) {
         bool joined = false;
         for (std::size_t next = 0; next < path_.size() && !joined; ++next) {
             const NodeId node = path_[next];
+            ++searches_;
             for (const Medium::Found& found : now.medium.hearers(node, now.t, now.legs)) {
                 if (state(found.node) == State::cut) continue;
                 if (state(found.node) == State::reached) {

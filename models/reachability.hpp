@@ -24,11 +24,16 @@ namespace rovernet {
 /// exact. Memory: 12 bytes a robot, once it is asked for.
 class Reachability {
   public:
+    /// Searches for those who hear a robot that are cheap, beside one for each frame sent: a run
+    /// then spends on this number 0.1 s or so, and no more than on its frames.
+    static constexpr std::uint64_t cheap_searches = 10'000;
+
     /// Nodes other than `from` that a chain of links joins to it at `t`, which must not decrease.
     /// @param medium, legs  always the same
     std::uint32_t count(Medium& medium, NodeId from, Time t, const Legs& legs);
     /// A chain of links joins `to` to `from` at `t`, which must not decrease.
     bool reaches(Medium& medium, NodeId from, NodeId to, Time t, const Legs& legs);
+    std::uint64_t searches() const { return searches_; }  ///< for those who hear a robot, so far
 
   private:
     /// The network at the time of the question.
@@ -68,6 +73,7 @@ class Reachability {
     std::vector<NodeId> parents_;       // by node: who reached it last; itself: nobody yet
     std::vector<std::uint32_t> marks_;  // by node: 4 x round + State
     std::uint32_t round_ = 0;
+    std::uint64_t searches_ = 0;
     std::vector<NodeId> reached_;  // in the order in which they were ...
     std::size_t expanded_ = 0;     // ... the first of them have been looked from
     std::vector<NodeId> open_;     // nodes that are not reached

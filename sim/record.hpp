@@ -36,7 +36,7 @@ struct Sent {
     Hops ttl;              ///< hops that the message may cross
     std::uint32_t robots;  ///< robots in the network now, the sender included
     /// Robots that a chain of links joins to the sender now, the sender not included; present only
-    /// if a sink asks for it (see kind_reachable).
+    /// if a sink asks for it (see kind_reachable, kind_cheap_reachable).
     std::optional<std::uint32_t> reachable;
 };
 
@@ -186,7 +186,9 @@ inline constexpr KindMask kind_reachable = 1U << 31;
 /// Not a record: the receptions of a Received may come in any order, and up to 1 us before records
 /// of that time that are about other nodes, which saves sorting them.
 inline constexpr KindMask kind_any_order = 1U << 30;
-inline constexpr KindMask kind_all = 0x3fffffff;
+/// Not a record: as kind_reachable, as long as that is cheap (Reachability::cheap_searches).
+inline constexpr KindMask kind_cheap_reachable = 1U << 29;
+inline constexpr KindMask kind_all = 0x1fffffff;
 
 /// What a sink may look up while it handles a record.
 struct RecordContext {

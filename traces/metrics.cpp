@@ -106,6 +106,7 @@ void Metrics::count(const Sent& sent, const RecordContext& context) {
     Flood& f = flood(sent.message, context);
     f.others = std::max(sent.robots, 1U) - 1;
     f.reachable = sent.reachable;
+    if (!sent.reachable) totals_.reach_known = false;
     others_ += f.others;
     reachable_ += sent.reachable.value_or(0);
     count_parts(context.messages[sent.message], f.others, false);
@@ -176,7 +177,7 @@ MetricValues Metrics::values() const {
     v.flows = flows_;
     if (parts_.robots) v.robots = robots();
     v.delivery_ratio = ratio(v.deliveries, others_);
-    v.reach = ratio(reached_, reachable_);
+    if (v.reach_known) v.reach = ratio(reached_, reachable_);
     // As t may exceed r (a robot that relays from outside the count), not on unsigned numbers.
     const auto saved = static_cast<double>(v.deliveries) - static_cast<double>(forwarders_);
     if (v.deliveries > 0) v.saved_rebroadcasts = saved / static_cast<double>(v.deliveries);

@@ -65,7 +65,8 @@ struct PartValues {
 
 /// What Metrics measure beside the totals.
 struct MetricParts {
-    bool reach = true;    ///< costs a search of the network for every message
+    /// Costs a search of the network for every message; nothing: only while that is cheap.
+    std::optional<bool> reach = {};
     bool flows = false;   ///< messages by their flow, see Message
     bool robots = false;  ///< messages by whom they are for
 };
@@ -98,9 +99,10 @@ struct MetricValues {
     /// RE = r / e [-]: r the deliveries, e the sum over messages of the robots that a chain of
     /// links joined to the sender when it was sent; of a unicast its destination, if so. Robots
     /// that move or relay late may be reached beyond those: it can exceed 1. Nothing if e is 0 or
-    /// no message carried its part of it. Source: S.-Y. Ni et al., The broadcast storm problem,
-    /// MobiCom 1999.
+    /// a message did not carry its part of it. Source: S.-Y. Ni et al., The broadcast storm
+    /// problem, MobiCom 1999.
     std::optional<double> reach;
+    bool reach_known = true;  ///< every message carried its part of reach
 
     /// SRB = (r - t) / r [-]: r the deliveries, t the distinct (message, robot) pairs in which the
     /// robot, not being the message's origin, put it on air. Nothing without deliveries.
@@ -131,8 +133,11 @@ class Metrics {
         : begin_(begin), parts_(parts) {}
 
     KindMask kinds() const {
+        const KindMask reach = !parts_.reach   ? kind_cheap_reachable
+                               : *parts_.reach ? kind_reachable
+                                               : 0;
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
-               kind_any_order | (parts_.reach ? kind_reachable : 0);
+               kind_any_order | reach;
     }
     void on(const Record& record, const RecordContext& context);
 
@@ -176,8 +181,8 @@ class Metrics {
     Counts<Fate, last_fate> fates_;
     Counts<DropReason, last_drop_reason> drops_;
     std::uint64_t others_ = 0;         ///< sum of (robots - 1)
-    std::uint64_t reachable_ = 0;      ///< sum of reachable, where known ...
-    std::uint64_t reached_ = 0;        ///< ... and the deliveries of those messages
+    std::uint64_t reachable_ = 0;      ///< sum of reachable ...
+    std::uint64_t reached_ = 0;        ///< ... and the deliveries of messages that carried it
     std::uint64_t forwarders_ = 0;     ///< distinct (message, robot other than the origin)
     std::vector<Duration> delays_;     ///< of the deliveries, in no order
     std::vector<std::uint64_t> hops_;  // deliveries by their hops

@@ -84,7 +84,7 @@ TEST_CASE("metrics: a new message in the slot of an old one has relays of its ow
     run.transmit(at(9'900), frame(m, b, 1, 2), a);
     const auto v = run.values();
     CHECK(v.saved_rebroadcasts == 1.0 / 3);  // (3 - 2) / 3
-    CHECK(v.reach == 2.0 / 3);               // the second message did not say how many it could
+    CHECK_FALSE(v.reach);                    // the second message did not say how many it could
     CHECK(v.delivery_ratio == 3.0 / 6);
 }
 
@@ -129,7 +129,13 @@ TEST_CASE("metrics: percentiles of 1 ... 20 ns by nearest rank, in whatever orde
 }
 
 TEST_CASE("metrics: asks the network for what can be reached") {
-    CHECK((Metrics{}.kinds() & kind_reachable) != 0);
+    constexpr KindMask both = kind_reachable | kind_cheap_reachable;
+    const auto asks = [](std::optional<bool> reach) {
+        return Metrics(start_of_run, {.reach = reach}).kinds() & both;
+    };
+    CHECK(asks({}) == kind_cheap_reachable);
+    CHECK(asks(true) == kind_reachable);
+    CHECK(asks(false) == 0);
 }
 
 TEST_CASE("metrics: the same to the last digit however the receptions are cut") {
