@@ -44,8 +44,6 @@ void add_bench(CLI::App& app) {
     flood.add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")
         ->check(not_negative())
         ->capture_default_str();
-    flood.add_flag("--in-order", a.bench.in_order,
-                   "look at all receptions in their order, as a trace does");
     flood.add_flag("--recorded", a.bench.recorded,
                    "keep metrics, fingerprint and timeline, as `rovernet run` does");
     flood.add_option("--cpu", a.bench.cpu_s, "seconds of CPU for each size, at least")

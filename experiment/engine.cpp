@@ -67,8 +67,6 @@ void Engine::add_sink(Sink sink) {
     const KindMask kinds = sink.kinds();
     wanted_ |= kinds;
     links_wanted_ = links_wanted_ || (kinds & kind_links) != 0;
-    const bool any_order = (kinds & kind_any_order) != 0;
-    order_wanted_ = order_wanted_ || ((kinds & kind_of<Received>()) != 0 && !any_order);
     sinks_.push_back(std::move(sink));
 }
 
@@ -142,9 +140,7 @@ bool Engine::advance(Time end, std::uint64_t most_events) {
     end_of_run_ = end;
     begin_movements();
     if (links_wanted_ && !watch_) start_watch();
-    in_steps_ = most_events != std::numeric_limits<std::uint64_t>::max();
     for (;;) {
-        queue_timers(queue_.next_key());
         const auto next = queue_.next_time();
         if (!next || *next > end) break;
         if (most_events-- == 0) return false;

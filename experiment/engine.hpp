@@ -5,7 +5,6 @@
 #include "experiment/link_watch.hpp"
 #include "experiment/name_table.hpp"
 #include "experiment/network.hpp"
-#include "experiment/overtaking.hpp"
 #include "mobility/planners.hpp"
 #include "models/on_air.hpp"
 #include "models/reachability.hpp"
@@ -109,7 +108,7 @@ class Engine final : public LinkLayer, public Air {
     BitRate rate_of(const AirFrame& frame) const;
     std::uint32_t header() const { return dcf_ ? dcf_->settings().header : 0; }  // [bytes]
     void transmit_sensed(Flight& flight, Time end);
-    static void sort(Flight& flight);
+    static void sort(Medium::Receivers& receivers);
     void put_on_air(std::size_t slot, Time end);
     void forget_frames();
     void keep_past(NodeId id, bool on);
@@ -126,10 +125,6 @@ class Engine final : public LinkLayer, public Air {
     std::optional<Arrival> arrival(const Emission& frame, NodeId node);
     static Lock* lock_of(Flight& flight, NodeId node);
     Time served_until(EventKey key) const;
-    bool leaves_alone(const Occurrence& other, const Flight& flight) const;
-    bool overtake(const Flight& flight, std::span<const Reception> rest, EventKey key);
-    void queue_timers(EventKey key);
-    std::size_t split(Flight& flight, std::span<Reception> rest, Time until);
     std::span<Reception> next_of(Flight& flight, EventKey key);
     void arrive(const Scheduler<Occurrence>::Event& event);
     void receive(Flight& flight, std::span<Reception> receptions);
@@ -170,10 +165,7 @@ class Engine final : public LinkLayer, public Air {
     std::optional<Router> router_;
     std::vector<Sink> sinks_;
     KindMask wanted_ = 0;
-    bool order_wanted_ = false;  // of receptions, by a sink or the router
     Slots<Flight> flights_;
-    Sieve<Reception> later_;            // those of a flight that are not served yet
-    Overtaking overtaking_;             // of a flight that does not wait for its turn
     std::vector<Reception> heard_;      // of a flight: that are handed up ...
     std::vector<std::size_t> places_;   // ... and where they belong
     bool frames_meet_;                  // the rung is above threshold
@@ -196,7 +188,6 @@ class Engine final : public LinkLayer, public Air {
     bool links_wanted_ = false, running_ = false, receiving_ = false;
     std::optional<LinkWatch> watch_;  // once links are wanted and the run has begun
     Time link_event_ = never;         // the next one queued
-    bool in_steps_ = false;           // the run may stop after any event
 };
 
 }  // namespace rovernet

@@ -40,12 +40,12 @@ Time Engine::transmit(const AirFrame& air) {
     Flight& flight = flights_[slot];
     flight.air = air;
     flight.arrived = 0;
-    flight.in_order = false;
     const Time end = now_ + airtime(air);
     if (dcf_) {
         transmit_sensed(flight, end);
     } else {
         medium_.find_receivers(frame.sender, now_, end, legs_, flight.receivers);
+        sort(flight.receivers);
     }
     if (frames_meet_) put_on_air(slot, end);
     const bool errors = medium_.radio(frame.sender).success_rate < 1;
@@ -66,7 +66,7 @@ Time Engine::transmit(const AirFrame& air) {
 void Engine::transmit_sensed(Flight& flight, Time end) {
     const NodeId sender = flight.air.frame.sender;
     const auto sensors = medium_.find_sensors(sender, now_, end, legs_, flight.receivers);
-    sort(flight);
+    sort(flight.receivers);
     const Duration airtime = end - now_;
     for (const Reception& r : flight.receivers.all()) {
         dcf_->energy(r.node, r.time - airtime, r.time);
@@ -77,15 +77,15 @@ void Engine::transmit_sensed(Flight& flight, Time end) {
     }
 }
 
-/// Puts the receptions of a flight that are still to come in order.
-void Engine::sort(Flight& flight) {
-    const auto all = flight.receivers.all().subspan(flight.arrived);
-    if (std::exchange(flight.in_order, true) || all.empty()) return;
+/// Puts the receptions of a frame in order.
+void Engine::sort(Medium::Receivers& receivers) {
+    const std::span<Reception> all = receivers.all();
+    if (all.empty()) return;
     constexpr Duration longest{std::numeric_limits<std::int32_t>::max()};
-    if (all.size() > most_counted || flight.receivers.last - flight.receivers.first > longest) {
+    if (all.size() > most_counted || receivers.last - receivers.first > longest) {
         std::sort(all.begin(), all.end());
     } else {
-        sort_by_counting(all, flight.receivers.first);
+        sort_by_counting(all, receivers.first);
     }
 }
 
@@ -95,7 +95,6 @@ void Engine::put_on_air(std::size_t slot, Time end) {
     const NodeId sender = flight.air.frame.sender;
     if (std::holds_alternative<Sinr>(settings_.reception)) {
         count_on_air(end);
-        sort(flight);  // for good: its locks lie beside it
         flight.locks.assign(flight.receivers.all().size(), Lock::open);
         flight.number = node(sender).transmissions++;
     }
@@ -284,88 +283,28 @@ Lock* Engine::lock_of(Flight& flight, NodeId node) {
     return &flight.locks[static_cast<std::size_t>(found - all.begin())];
 }
 
-/// Until when receptions can be served in a row, the first of which is now, by `key`: what it sets
-/// off happens no sooner than least_reaction after it, and whatever is queued takes its turn.
+/// The last time up to which receptions can be served in a row, the first of which is now, by
+/// `key`: what a reception sets off happens no sooner than least_reaction after it, and whatever is
+/// queued takes its turn.
 Time Engine::served_until(EventKey key) const {
+    if (settings_.reference) return key.time();
     const Time most = std::min(key.time() + least_reaction, end_of_run_);
-    const EventKey next = std::min(queue_.next_key(), overtaking_.next_turn());
+    const EventKey next = queue_.next_key();
     if (next.time() > most) return most;
     return key.at(next.time()) < next ? next.time() : next.time() - Duration{1};
 }
 
-/// Brings those of a flight's `rest` that end by `until` to its front, in no order. @return how
-/// many
-std::size_t Engine::split(Flight& flight, std::span<Reception> rest, Time until) {
-    // Without a branch: it would be mispredicted for many.
-    later_.clear();
-    Reception* later = later_.room(rest.size());
-    std::size_t count = 0;
-    Time latest = Time::min(), next = Time::max();
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-        const Reception each = rest[i];
-        const bool now = each.time <= until;
-        rest[count] = *later = each;
-        count += now;
-        later += !now;
-        latest = std::max(latest, now ? each.time : Time::min());
-        next = std::min(next, now ? Time::max() : each.time);
-    }
-    later_.keep_to(later);
-    const std::span<Reception> others = later_.kept();
-    std::copy(others.begin(), others.end(), rest.subspan(count).begin());
-    now_ = latest;
-    flight.receivers.first = next;
-    return count;
-}
-
-/// What happens before the last of a flight's receptions has nothing to do with them: with none of
-/// their nodes, nor can what it sends meet the frame.
-bool Engine::leaves_alone(const Occurrence& other, const Flight& flight) const {
-    if (other.kind == Occurrence::Kind::router_timer) {
-        if (overtaking_.concerns(other.node)) return false;
-        // What it sends may be over before the last of them, unless that takes longer than they do.
-        if (medium_.radio(other.node).preamble <= least_reaction) return false;
-        if (!frames_meet_) return true;
-        const Vec3 place = medium_.position(other.node, now_, legs_);
-        return !on_air_.may_meet(on_air_[flight.emission], place, now_, flight.receivers.last);
-    }
-    if (other.kind != Occurrence::Kind::frame) return false;
-    const Flight& others = flights_[other.data];
-    const auto theirs = others.receivers.all().subspan(others.arrived);
-    return std::none_of(theirs.begin(), theirs.end(),
-                        [this](const Reception& r) { return overtaking_.concerns(r.node); });
-}
-
-/// Lets the `rest` of a flight's receptions be served at once, although other events come before
-/// the last of them, if nobody can tell: the order is not looked at, and those leave them alone.
-bool Engine::overtake(const Flight& flight, std::span<const Reception> rest, EventKey key) {
-    const bool watched = order_wanted_ || has_reactions_ || settings_.reference || in_steps_;
-    if (watched || dcf_ || rest.size() > Overtaking::most) return false;
-    const Time last = flight.receivers.last;
-    if (last > std::min(key.time() + least_reaction, end_of_run_)) return false;
-    overtaking_.begin(key, rest);
-    const bool alone = queue_.all_before(
-        key.at(last), [&](const Occurrence& other) { return leaves_alone(other, flight); });
-    if (!alone) overtaking_.end();
-    return alone;
-}
-
-/// The receptions that are served next, by `key`, and all by its time: now is when the last ends.
+/// The receptions that are served next, by `key`; now is when the last of them ends.
 std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
     const auto rest = flight.receivers.all().subspan(flight.arrived);
     const Time until = served_until(key);
     std::size_t count = 1;
-    if ((!settings_.reference && flight.receivers.last <= until) || overtake(flight, rest, key)) {
+    if (flight.receivers.last <= until) {
         count = rest.size();
-        now_ = flight.receivers.last;
-    } else if (!flight.in_order) {
-        count = split(flight, rest, until);
     } else {
-        const Time last = settings_.reference ? rest.front().time : until;
-        while (count < rest.size() && rest[count].time <= last) ++count;
-        now_ = rest[count - 1].time;
-        if (count < rest.size()) flight.receivers.first = rest[count].time;
+        while (rest[count].time <= until) ++count;
     }
+    now_ = rest[count - 1].time;
     flight.arrived += count;
     return rest.first(count);
 }
@@ -375,22 +314,19 @@ std::span<Reception> Engine::next_of(Flight& flight, EventKey key) {
 /// its old place among equal times.
 void Engine::arrive(const Scheduler<Occurrence>::Event& event) {
     Flight& flight = flights_[event.payload.data];
-    if (order_wanted_ || has_reactions_ || settings_.reference) sort(flight);
     for (auto key = event.key;;) {
         const std::span<Reception> ended = next_of(flight, key);
         if (frames_meet_) judge(flight, ended);
         if (flight.air.kind == AirFrame::data) messages_.arrived(flight.air.frame.message);
         receive(flight, ended);
-        overtaking_.end();
         if (dcf_) tell_stations(flight, ended);
         if (flight.arrived == flight.receivers.all().size()) break;
-        key = event.key.at(flight.receivers.first);
+        key = event.key.at(flight.receivers.all()[flight.arrived].time);
         const bool is_next = key.time() <= end_of_run_ && queue_.runs_before_next(key);
         if (settings_.reference || !is_next) {
             queue_.requeue(key, event.payload);
             return;
         }
-        queue_timers(key);
     }
     const AirFrame air = flight.air;
     if (!frames_meet_) flights_.release(event.payload.data);  // else once it is off the air

@@ -10,7 +10,6 @@ namespace rovernet {
 
 void Engine::route(Router router) {
     if (router_) throw std::invalid_argument("this network has a routing protocol already");
-    order_wanted_ = order_wanted_ || !router.takes_any_order();
     router_.emplace(std::move(router));
 }
 
@@ -63,17 +62,7 @@ void Engine::cut_off() {
 
 void Engine::timer(NodeId id, Time at, std::uint64_t tag) {
     if (at < now_) throw std::invalid_argument("a router set a timer in the past");
-    if (overtaking_.active()) return overtaking_.set_timer(id, at, tag);
     queue_.schedule(at, Priority::timer, {Occurrence::Kind::router_timer, id, tag});
-}
-
-/// Queues the timers of receptions that overtook others, if their turn comes before that of `key`.
-void Engine::queue_timers(EventKey key) {
-    if (!overtaking_.has_timers()) return;
-    overtaking_.take_timers(key, [this](const Overtaking::Timer& timer) {
-        queue_.schedule(timer.at, Priority::timer,
-                        {Occurrence::Kind::router_timer, timer.node, timer.tag});
-    });
 }
 
 void Engine::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {

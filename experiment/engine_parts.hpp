@@ -34,7 +34,6 @@ struct Flight {
     std::uint32_t number = 0;    // among those of its sender, at the rung "sinr"
     std::uint64_t emission = 0;  // its serial on air, at rungs above threshold
     Medium::Receivers receivers;
-    bool in_order = false;    // they are sorted
     std::vector<Lock> locks;  // of the receptions, at the rung "sinr"
     std::size_t arrived = 0;
     bool undisturbed = false;  // who hears it gets it without errors

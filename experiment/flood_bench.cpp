@@ -45,13 +45,9 @@ double side(std::uint32_t nodes) {
 
 /// Counts what a flood does.
 struct Count {
-    bool in_order;
     std::uint64_t transmissions = 0, attempts = 0, decoded = 0;
 
-    KindMask kinds() const {
-        const KindMask kinds = kind_of<Transmitted>() | kind_of<Received>();
-        return in_order ? kinds : kinds | kind_any_order;
-    }
+    KindMask kinds() const { return kind_of<Transmitted>() | kind_of<Received>(); }
     void on(const Record& record, const RecordContext&) {
         if (std::holds_alternative<Transmitted>(record)) {
             ++transmissions;
@@ -171,7 +167,7 @@ FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
     add_robots(network, bench, nodes);
     const Duration jitter{bench.access == AccessModel::csma ? 50'000'000 : 10'000'000};
     network.route(Flood{.ttl = 65535, .upgrade = false, .jitter = jitter});
-    const auto count = std::make_shared<Count>(Count{bench.in_order});
+    const auto count = std::make_shared<Count>();
     network.add_sink(Sink{count});
     network.run_for(Duration{0});
 

@@ -25,7 +25,6 @@ struct FloodBench {
     AccessModel access = AccessModel::none;         ///< csma: jitter of 50 ms instead of 10 ms
     BenchMobility mobility = BenchMobility::fixed;  ///< random waypoint: 1-20 m/s, no rest
     Db shadowing{0};                                ///< of each link; 0: links go by distance alone
-    bool in_order = false;  ///< somebody looks at the order of all receptions
     bool recorded = false;  ///< with metrics, fingerprint and timeline, as `rovernet run`
     double cpu_s = 2;       ///< [s] of CPU that each row takes, at least
     std::uint64_t seed = 1;

@@ -69,16 +69,6 @@ std::span<const Emission* const> OnAir::near(const Emission& frame, Time since, 
     return {near_.data(), count};
 }
 
-bool OnAir::may_meet(const Emission& frame, Vec3 place, Time now, Time until) const {
-    if (!changes_.empty()) return true;  // a receiver may have jumped
-    constexpr double rounding = 1;       // [m] of delays, and more
-    const double under_way = speed_of_light * seconds(until - now);
-    const double both_moved = 2 * fastest_ * seconds(until - frame.begin);
-    const double reach = frame.heard_within + under_way + both_moved + rounding;
-    const Vec3 between = place - frame.origin;
-    return between.x * between.x + between.y * between.y <= reach * reach;
-}
-
 std::uint64_t OnAir::add(Emission frame) {
     frame.serial = first_ + frames_.size();
     longest_ = std::max(longest_, frame.end - frame.begin);

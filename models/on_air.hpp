@@ -55,10 +55,6 @@ class OnAir {
     /// changed lately may meet further ones.
     std::span<const Emission* const> near(const Emission& frame, Time since, Time until, Time now);
 
-    /// Whether what a node that is at `place` [m] at `now` sends until `until` may arrive at a
-    /// receiver of `frame` before `until`.
-    bool may_meet(const Emission& frame, Vec3 place, Time now, Time until) const;
-
     /// A node before it changed.
     struct Before {
         Leg leg;

@@ -51,8 +51,6 @@ struct Flood {
 /// it, and four bytes more if a copy after the first may matter.
 class FloodRouter {
   public:
-    static constexpr bool takes_any_order = true;
-
     /// @throws std::invalid_argument if a parameter is out of its range
     explicit FloodRouter(const Flood& flood);
 

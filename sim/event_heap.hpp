@@ -3,7 +3,6 @@
 
 #include "sim/time.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -73,29 +72,6 @@ class EventHeap {
     void push(EventKey key);
     /// Removes top(); there must be one.
     void pop();
-    /// Calls visit(key) for the keys before `end`, in no order, as long as it returns true. @return
-    /// whether it did for all; not if they are more than a few
-    template <class Visit>
-    bool visit_before(EventKey end, Visit visit) const {
-        std::array<std::size_t, most_visited> places;
-        std::size_t found = 0;
-        const auto find = [&](std::size_t place) {
-            if (!(keys_[place] < end)) return true;
-            if (found == places.size()) return false;
-            places[found++] = place;
-            return true;
-        };
-        if (!find(root)) return false;
-        for (std::size_t i = 0; i < found; ++i) {
-            if (!visit(keys_[places[i]])) return false;
-            const std::size_t child = line * (places[i] - 2);
-            if (child >= end_) continue;
-            for (std::size_t k = child; k < child + line; ++k) {
-                if (!find(k)) return false;
-            }
-        }
-        return true;
-    }
     /// Removes every key that `keep` refuses.
     template <class Keep>
     void filter(Keep keep) {
@@ -111,7 +87,6 @@ class EventHeap {
     // end_ on hold the default key, so that a line can always be searched whole.
     static constexpr std::size_t root = 3;
     static constexpr std::size_t line = 4;
-    static constexpr std::size_t most_visited = 16;
     using Keys = std::vector<EventKey, LineAllocator<EventKey>>;
 
     void sift_up(std::size_t hole, EventKey key);

@@ -38,15 +38,6 @@ class EventLine {
     void append(std::span<const EventKey> group, Time first, int bits);
     /// Removes front(), if `remove`; there must be one then.
     void pop_if(bool remove) { front_ += remove; }
-    /// Calls visit(key) for the keys before `end`, in order, as long as it returns true. @return
-    /// whether it did for all
-    template <class Visit>
-    bool visit_before(EventKey end, Visit visit) const {
-        for (std::size_t i = front_; keys_[i] < end; ++i) {
-            if (!visit(keys_[i])) return false;
-        }
-        return true;
-    }
     /// Removes every key that `keep` refuses.
     template <class Keep>
     void filter(Keep keep) {

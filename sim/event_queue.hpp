@@ -55,13 +55,6 @@ class EventQueue {
         find_top();
     }
 
-    /// Calls visit(key) for the keys before `end`, in no order, as long as it returns true. @return
-    /// whether it did for all; not if they are many, or some may lie in buckets
-    template <class Visit>
-    bool visit_before(EventKey end, Visit visit) const {
-        return rank(end) <= near_end_ && near_.visit_before(end, visit) &&
-               ends_.visit_before(end, visit) && heap_.visit_before(end, visit);
-    }
     /// Removes every key that `keep` refuses.
     template <class Keep>
     void filter(Keep keep) {

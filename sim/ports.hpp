@@ -76,20 +76,12 @@ concept TellsOfUnicasts = requires(T router, LinkLayer& link, const Frame& frame
     {router.on_sent(link, frame, received)};
 };
 
-/// A protocol each of whose nodes acts on its own timers and receptions and on their times only. It
-/// may be given a transmission's receptions in any order and, where that makes no difference to a
-/// node, before timers and receptions of other nodes that come earlier. In answer to a reception it
-/// sets timers of that node only.
-template <class T>
-concept TakesAnyOrder = T::takes_any_order;
-
 /// Any routing protocol, held by value.
 class Router {
   public:
     template <class T>
     requires(!std::same_as<T, Router> && RouterProtocol<T>) Router(T protocol)
-        : takes_any_order_(TakesAnyOrder<T>),
-          self_(std::make_unique<Holder<T>>(std::move(protocol))) {}
+        : self_(std::make_unique<Holder<T>>(std::move(protocol))) {}
 
     void send(LinkLayer& link, NodeId node, MessageId m) { self_->send(link, node, m); }
     void on_receive(LinkLayer& link, const Frame& f, std::span<Reception> r) {
@@ -103,7 +95,6 @@ class Router {
     }
     void forget(MessageId m) { self_->forget(m); }
     Hops initial_ttl() const { return self_->initial_ttl(); }
-    bool takes_any_order() const { return takes_any_order_; }
 
   private:
     struct Concept {
@@ -132,7 +123,6 @@ class Router {
         Hops initial_ttl() const override { return protocol.initial_ttl(); }
         T protocol;
     };
-    bool takes_any_order_;
     std::unique_ptr<Concept> self_;
 };
 

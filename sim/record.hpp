@@ -48,7 +48,7 @@ struct Transmitted {
 };
 
 /// A transmission (or a part of it) arrives: receptions in order of time, then of node, after all
-/// earlier records, unless no sink wants the order (see kind_any_order).
+/// earlier records.
 struct Received {
     Frame frame;
     std::span<const Reception> receptions;
@@ -183,12 +183,9 @@ inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();
 
 /// Not a record: asks that Sent carries `reachable`, which costs a search of the network.
 inline constexpr KindMask kind_reachable = 1U << 31;
-/// Not a record: the receptions of a Received may come in any order, and up to 1 us before records
-/// of that time that are about other nodes, which saves sorting them.
-inline constexpr KindMask kind_any_order = 1U << 30;
 /// Not a record: as kind_reachable, as long as that is cheap (Reachability::cheap_searches).
-inline constexpr KindMask kind_cheap_reachable = 1U << 29;
-inline constexpr KindMask kind_all = 0x1fffffff;
+inline constexpr KindMask kind_cheap_reachable = 1U << 30;
+inline constexpr KindMask kind_all = 0x3fffffff;
 
 /// What a sink may look up while it handles a record.
 struct RecordContext {

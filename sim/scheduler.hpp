@@ -91,15 +91,6 @@ class Scheduler {
         return event;
     }
 
-    /// Whether `holds` is true of what every event is about that is served before one with this
-    /// key; perhaps not, if they are many.
-    template <class Holds>
-    bool all_before(Key key, Holds holds) const {
-        return queue_.visit_before(key, [&](Key each) {
-            return (dead_ > 0 && !is_live(each)) || holds(slots_[each.slot()].payload);
-        });
-    }
-
     /// The key of the event that is served next; if there is none, one after every event.
     Key next_key() const { return queue_.top(); }
     /// The time of the event that is served next.

@@ -27,7 +27,7 @@ class Recorder {
 
     KindMask kinds() const {
         return kind_of<Moved>() | kind_of<Arrived>() | kind_of<NoWay>() | kind_of<Switched>() |
-               kind_of<AirSent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_any_order;
+               kind_of<AirSent>() | kind_of<Transmitted>() | kind_of<Received>();
     }
     void on(const Record& record, const RecordContext& context) {
         if (record_->frames == most_frames) return;

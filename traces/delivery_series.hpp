@@ -13,7 +13,7 @@ namespace rovernet {
 /// tell the beginning of a run from its steady state.
 class DeliverySeries {
   public:
-    KindMask kinds() const { return kind_of<Sent>() | kind_of<Received>() | kind_any_order; }
+    KindMask kinds() const { return kind_of<Sent>() | kind_of<Received>(); }
     void on(const Record& record, const RecordContext& context);
 
     /// When each message was sent, ascending.

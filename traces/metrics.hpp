@@ -137,7 +137,7 @@ class Metrics {
                                : *parts_.reach ? kind_reachable
                                                : 0;
         return kind_of<Sent>() | kind_of<Transmitted>() | kind_of<Received>() | kind_of<Dropped>() |
-               kind_any_order | reach;
+               reach;
     }
     void on(const Record& record, const RecordContext& context);
 

@@ -26,20 +26,6 @@ TEST_CASE("many robots: one that stands takes less than 256 bytes, flooded or no
     CHECK(row.bytes_per_node < 256);
 }
 
-TEST_CASE(
-    "many robots: a flood bench counts the same, whether somebody looks at the order or not") {
-    for (const auto reception : {ReceptionModel::threshold, ReceptionModel::collision}) {
-        FloodBench bench{.reception = reception, .cpu_s = 1e-9};
-        const auto unordered = flood_bench(bench, 3000);
-        bench.in_order = true;
-        const auto in_order = flood_bench(bench, 3000);
-        CHECK(in_order.transmissions == unordered.transmissions);
-        CHECK(in_order.receptions == unordered.receptions);
-        CHECK(in_order.attempts == unordered.attempts);
-        CHECK(in_order.events > unordered.events);  // receptions do not overtake
-    }
-}
-
 TEST_CASE("many robots: a reaction may add them, and its robot's other reactions still run") {
     Network net({.propagation = Disc{.range = {100}}});
     net.route(Flood{});

@@ -27,19 +27,15 @@ inline bool in_order(std::span<const Reception> receptions) {
 struct ReceptionLog {
     using Entry = std::tuple<std::uint64_t, std::uint64_t, Time, NodeId, Fate, bool>;
 
-    KindMask kinds_wanted;
     std::vector<Entry> receptions{};
     std::vector<std::pair<Time, NodeId>> sendings{};
     bool always_in_order = true;
-    Time latest = start_of_run;  // of the receptions so far
-    std::size_t overtaken = 0;   // frames that were sent before it
     Time end_of_run = never;
 
-    KindMask kinds() const { return kinds_wanted; }
+    KindMask kinds() const { return kind_of<Transmitted>() | kind_of<Received>(); }
     void on(const Record& record, const RecordContext& context) {
         if (const auto* sent = std::get_if<Transmitted>(&record)) {
             sendings.emplace_back(sent->time, sent->frame.sender);
-            overtaken += sent->time < latest;
             return;
         }
         const auto& received = std::get<Received>(record);
@@ -48,14 +44,8 @@ struct ReceptionLog {
         const std::uint64_t uid = context.messages[received.frame.message].uid;
         for (const Reception& r : received.receptions) {
             REQUIRE(r.time <= end_of_run);
-            latest = std::max(latest, r.time);
             receptions.emplace_back(uid, received.frame.path, r.time, r.node, r.fate, r.delivered);
         }
-    }
-    std::vector<Entry> sorted() const {
-        auto all = receptions;
-        std::sort(all.begin(), all.end());
-        return all;
     }
 };
 
@@ -68,9 +58,6 @@ struct Setting {
     Radio radio = {.sensitivity = {-90}};
     bool reference = false;
 };
-
-inline constexpr KindMask ordered = kind_of<Transmitted>() | kind_of<Received>();
-inline constexpr KindMask any_order = ordered | kind_any_order;
 
 /// Every rung and every way to flood.
 inline std::vector<Setting> settings() {

@@ -99,50 +99,6 @@ TEST_CASE("on air: looks as much farther as the fastest can have moved since") {
     CHECK(near(on_air, here, at(1000)).count(far.serial));
 }
 
-TEST_CASE("on air: what is sent far off, or late, does not meet a frame") {
-    OnAir on_air;
-    on_air.goes(rest({-1e6, 0, 0}), Meters{0});
-    on_air.goes(rest({1e6, 0, 0}), Meters{0});
-    const Emission old{.begin = at(0),
-                       .end = at(1),
-                       .origin = {},
-                       .from = {},
-                       .heard_within = 0,
-                       .squared_reach = 1,
-                       .flight = 0};
-    Emission frame{.begin = at(1000),
-                   .end = at(1100),
-                   .origin = {500, 300, 2},
-                   .from = NodeId{0},
-                   .heard_within = 200,
-                   .squared_reach = 1e6,
-                   .flight = 1};
-    on_air.add(old);
-    frame.serial = on_air.add(frame);
-    const Time now = at(1100) + Duration{400}, until = now + Duration{500};
-    const auto meets = [&](double far) {
-        const double dx = 0.6 * far, dy = -0.8 * far;
-        return on_air.may_meet(frame, {500 + dx, 300 + dy, 50}, now, until);
-    };
-    const double light = 500e-9 * 299'792'458;  // how far it gets in the time between [m]
-    CHECK(meets(0));
-    CHECK(meets(200 + light));
-    CHECK_FALSE(meets(202 + light));
-    CHECK_FALSE(on_air.may_meet(frame, {500 + 202, 300, 0}, now, now));
-    CHECK(on_air.may_meet(frame, {500 + 200, 300, 0}, now, now));
-
-    Leg fast = rest({});
-    fast.velocity = {0, 1e6, 0};  // 100.9 m between the frame's begin and the end
-    on_air.goes(fast, Meters{0});
-    CHECK(meets(400 + light));
-    CHECK_FALSE(meets(405 + light));
-
-    on_air.changes(NodeId{5}, fast, true);  // perhaps a receiver, which jumps
-    CHECK(meets(1e5));
-    on_air.forget(at(1), [](const Emission&) {});
-    CHECK(meets(1e5));
-}
-
 TEST_CASE("on air: frames are forgotten from the first on, as long as they are over") {
     OnAir on_air;
     on_air.goes(rest({}), Meters{0});

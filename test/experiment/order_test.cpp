@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Receptions are put in order only for those who look at it, and nothing else may come of that.
+// Receptions come in order of time, then of node, in whatever portions they are served.
 #include "experiment/network.hpp"
 #include "mobility/random_waypoint.hpp"
 #include "models/list.hpp"
@@ -26,14 +26,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A flood that counts on the order.
-struct OrderedFlood {
+/// A flood that looks at the order of its receptions, and at the clock: it shows when the last of
+/// those that are served together came.
+struct WatchedFlood {
     FloodRouter flood{Flood{.jitter = 100us}};
     std::shared_ptr<bool> always_in_order;
-
     Hops initial_ttl() const { return flood.initial_ttl(); }
     void send(LinkLayer& link, NodeId node, MessageId m) { flood.send(link, node, m); }
     void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+        REQUIRE(!receptions.empty());
+        REQUIRE(link.now() == receptions.back().time);
         *always_in_order = *always_in_order && in_order(receptions);
         flood.on_receive(link, frame, receptions);
     }
@@ -41,19 +43,6 @@ struct OrderedFlood {
         flood.on_timer(link, node, tag);
     }
     void forget(MessageId message) { flood.forget(message); }
-};
-
-/// A flood that takes any order, and looks at the clock: it is when the last of them came.
-struct TimedFlood : OrderedFlood {
-    static constexpr bool takes_any_order = true;
-
-    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
-        REQUIRE(!receptions.empty());
-        Time last = Time::min();
-        for (const Reception& r : receptions) last = std::max(last, r.time);
-        REQUIRE(link.now() == last);
-        OrderedFlood::on_receive(link, frame, receptions);
-    }
 };
 
 constexpr int robots = 60;
@@ -84,8 +73,8 @@ struct Playground {
     }
     /// Floods from robots of the grid that stand still. Some begin together, so that frames come in
     /// between the receptions of others.
-    std::shared_ptr<ReceptionLog> run(Router router, KindMask kinds, Duration step = 1s) {
-        auto log = std::make_shared<ReceptionLog>(ReceptionLog{kinds});
+    std::shared_ptr<ReceptionLog> run(Router router, Duration step = 1s) {
+        auto log = std::make_shared<ReceptionLog>();
         net.add_sink(Sink{log});
         net.route(std::move(router));
         for (std::uint32_t i = 0; i < robots; i += 6) {
@@ -100,61 +89,43 @@ struct Playground {
     }
 };
 
-std::shared_ptr<ReceptionLog> run(const Setting& setting, std::uint32_t seed, KindMask kinds) {
-    return Playground(setting, seed).run(setting.flood, kinds);
+std::shared_ptr<ReceptionLog> run(const Setting& setting, std::uint32_t seed) {
+    return Playground(setting, seed).run(setting.flood);
 }
 
 }  // namespace
 
-TEST_CASE("any order: the same happens as when each reception is an event, whoever looks") {
-    std::size_t unordered = 0;
+TEST_CASE("order: the same happens as when each reception is an event") {
     for (Setting setting : settings()) {
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             CAPTURE(seed);
             setting.reference = true;
-            const auto expected = run(setting, seed, ordered);
+            const auto expected = run(setting, seed);
             setting.reference = false;
-            const auto all = run(setting, seed, any_order);
-            const auto in_order = run(setting, seed, ordered);
+            const auto served_together = run(setting, seed);
             REQUIRE(expected->receptions.size() > 300);
-            REQUIRE(all->sorted() == expected->sorted());
-            REQUIRE(all->sendings == expected->sendings);
-            REQUIRE(in_order->receptions == expected->receptions);
-            REQUIRE(in_order->sendings == expected->sendings);
-            CHECK(in_order->always_in_order);
-            unordered += !all->always_in_order;
+            REQUIRE(served_together->receptions == expected->receptions);
+            REQUIRE(served_together->sendings == expected->sendings);
+            CHECK(served_together->always_in_order);
         }
     }
-    CHECK(unordered > 10);  // or this tests nothing
 }
 
-TEST_CASE("any order: a router that does not say that it takes any gets receptions in order") {
+TEST_CASE("order: a router gets its receptions in order, when the last of them has come") {
     const auto always_in_order = std::make_shared<bool>(true);
-    Playground ground({}, 1);
-    ground.run(OrderedFlood{.always_in_order = always_in_order}, any_order);
+    Playground({}, 1).run(WatchedFlood{.always_in_order = always_in_order});
     CHECK(*always_in_order);
 }
 
-TEST_CASE("any order: the clock shows when the last of those that are served together came") {
-    const auto always_in_order = std::make_shared<bool>(true);
-    Playground ground({}, 1);
-    TimedFlood flood;
-    flood.always_in_order = always_in_order;
-    ground.run(std::move(flood), any_order);
-    CHECK(!*always_in_order);
+TEST_CASE("order: a run that stops between receptions and goes on is the same run") {
+    const auto whole = Playground({}, 1).run(Flood{.jitter = 100us});
+    const auto in_steps = Playground({}, 1).run(Flood{.jitter = 100us}, 1'777ns);
+    CHECK(in_steps->receptions == whole->receptions);
+    CHECK(in_steps->sendings == whole->sendings);
+    CHECK(in_steps->always_in_order);
 }
 
-TEST_CASE("any order: a run that stops between receptions and goes on is the same run") {
-    for (const KindMask kinds : {ordered, any_order}) {
-        const auto whole = Playground({}, 1).run(Flood{.jitter = 100us}, kinds);
-        const auto in_steps = Playground({}, 1).run(Flood{.jitter = 100us}, kinds, 1'777ns);
-        CHECK(in_steps->sorted() == whole->sorted());
-        CHECK(in_steps->sendings == whole->sendings);
-        CHECK(in_steps->always_in_order == (kinds == ordered));
-    }
-}
-
-TEST_CASE("any order: in reference mode receptions at different times are events of their own") {
+TEST_CASE("order: in reference mode receptions at different times are events of their own") {
     Network net({.propagation = Disc{.range = {150}}, .reference = true, .metrics = false});
     net.route(Flood{.ttl = 1});
     for (const double x : {0.0, 10.0, 10.0, 20.0}) net.add({.name = {}, .at = {x, 0, 0}});
@@ -163,19 +134,7 @@ TEST_CASE("any order: in reference mode receptions at different times are events
     CHECK(net.events() == 2);  // those of one time are one: no order of numbers is among them
 }
 
-TEST_CASE("any order: one sink that wants the order gets it beside others that do not") {
-    for (const bool first : {true, false}) {
-        Playground ground({}, 1);
-        auto wants = std::make_shared<ReceptionLog>(ReceptionLog{ordered});
-        if (first) ground.net.add_sink(Sink{wants});
-        if (!first) ground.net.at(start_of_run + 1ms, [&] { ground.net.add_sink(Sink{wants}); });
-        ground.run(Flood{.jitter = 100us}, any_order);
-        CHECK(wants->receptions.size() > 300);
-        CHECK(wants->always_in_order);
-    }
-}
-
-TEST_CASE("any order: few and many receivers are in order, spread, in rings or all in one place") {
+TEST_CASE("order: few and many receivers are in order, spread, in rings or all in one place") {
     test::Draw draw(17);
     for (const bool delayed : {true, false}) {
         for (const int count : {2, 13, 60, 64, 65, 66, 67, 130, 400}) {
@@ -183,7 +142,7 @@ TEST_CASE("any order: few and many receivers are in order, spread, in rings or a
                 Network net({.propagation = Disc{.range = 1000_m},
                              .propagation_delay = delayed,
                              .metrics = false});
-                auto log = std::make_shared<ReceptionLog>(ReceptionLog{ordered});
+                auto log = std::make_shared<ReceptionLog>();
                 net.add_sink(Sink{log});
                 net.route(Flood{.ttl = 1});
                 for (int i = 0; i < count; ++i) {
@@ -200,9 +159,9 @@ TEST_CASE("any order: few and many receivers are in order, spread, in rings or a
     }
 }
 
-TEST_CASE("any order: receivers that are light seconds away are in order, too") {
+TEST_CASE("order: receivers that are light seconds away are in order, too") {
     Network net({.propagation = Disc{.range = Meters{1e10}}});
-    auto log = std::make_shared<ReceptionLog>(ReceptionLog{ordered});
+    auto log = std::make_shared<ReceptionLog>();
     net.add_sink(Sink{log});
     net.route(Flood{.ttl = 1});
     for (const double x : {0.0, 3e9, 2e9, 2e9, 10.0}) net.add({.name = {}, .at = {x, 0, 0}});
