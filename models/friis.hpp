@@ -5,17 +5,17 @@
 #include "sim/math.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace rovernet {
 
 inline constexpr double speed_of_light = 299'792'458;  ///< [m/s], exact by definition of the metre
-inline constexpr double pi = 3.14159265358979323846;
 
 /// Free-space loss [dB] between isotropic antennas at distance d [m] > 0 and frequency f [Hz]:
 /// 20 log10(4 pi d f / c). Negative below d = c / (4 pi f), where it means nothing.
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 inline double free_space_db(double d, Hertz f) {
-    return 20 * math::log10(4 * pi / speed_of_light * d * f.value);
+    return 20 * math::log10(4 * std::numbers::pi / speed_of_light * d * f.value);
 }
 
 /// Free space (Friis):  L(d) = max(0, 20 log10(4 pi d f / c)), and 0 dB at d = 0.
@@ -31,7 +31,7 @@ struct Friis {
     LossShape shape() const { return LossShape::by_distance; }
 
     Meters reach(Db loss, Hertz f) const {
-        return {speed_of_light / (4 * pi * f.value) * math::exp10(loss.value / 20)};
+        return {speed_of_light / (4 * std::numbers::pi * f.value) * math::exp10(loss.value / 20)};
     }
 
     void loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {

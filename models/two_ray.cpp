@@ -5,6 +5,7 @@
 #include "sim/math.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace rovernet {
 
@@ -19,7 +20,8 @@ void TwoRay::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_
     const double ht = height(links.from);
     for (std::size_t i = 0; i < out_db.size(); ++i) {
         const double d = links.distance(i);
-        const double crossover = 4 * pi / speed_of_light * f.value * (ht * height(links.to[i]));
+        const double crossover =
+            4 * std::numbers::pi / speed_of_light * f.value * (ht * height(links.to[i]));
         out_db[i] = std::max(0.0, free_space_db(d * std::max(1.0, d / crossover), f));
     }
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 
 namespace rovernet {
@@ -182,7 +183,7 @@ bool is_speck(const ContourLine& line, Meters smoothing) {
         area += (a.x * b.y - b.x * a.y) / 2;
         length += distance(a, b);
     }
-    const double least = pi * 4 * smoothing.value * smoothing.value;
+    const double least = std::numbers::pi * 4 * smoothing.value * smoothing.value;
     return std::abs(area) < std::max(least, length * smoothing.value / 2);
 }
 

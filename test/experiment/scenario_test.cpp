@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 using namespace rovernet;
@@ -258,9 +259,9 @@ TEST_CASE("scenario: every key of the file arrives in its field") {
     CHECK(a.reactions[2].stop);
     CHECK(a.reactions[3].trigger == Trigger::on_link_lost);
     CHECK(a.reactions[4].time == Duration{3s});
-    CHECK(a.heading == Radians{pi / 2});
+    CHECK(a.heading == Radians{std::numbers::pi / 2});
     CHECK(a.top_speed == MetersPerSecond{2});
-    CHECK(a.turn_rate == RadiansPerSecond{pi / 4});
+    CHECK(a.turn_rate == RadiansPerSecond{std::numbers::pi / 4});
     CHECK(s.radio.gate == Gate::none);
     CHECK(s.radio.range_db == Dbm{-60});
     CHECK(s.links.tolerance == 1us);

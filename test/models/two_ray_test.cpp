@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 using namespace rovernet;
@@ -95,7 +96,7 @@ TEST_CASE("two-ray: ns-2's radio of 914 MHz receives at 250 m and senses at 550 
 }
 
 TEST_CASE("two-ray: free space up to the crossover, and no step there") {
-    const double crossover = 4 * pi * 1.5 * 1.5 / (speed_of_light / 914e6);  // 86.2 m
+    const double crossover = 4 * std::numbers::pi * 1.5 * 1.5 / (speed_of_light / 914e6);  // 86.2 m
     for (const double d : {0.0, 1.0, 40.0, 0.999999 * crossover}) {
         CHECK(loss_over_ground(1.5, 1.5, d, 914_MHz) == test::loss_at(Friis{}, d, 914_MHz));
     }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -79,7 +80,7 @@ TEST_CASE("contour: in free space it is the circle of the model's reach, counter
         CHECK(p.z == 1);
     }
     constexpr double of_smoothing = 0.02;  // sigma^2 / radius^2
-    CHECK(std::abs(area(lines[0]) / (pi * reach * reach) - 1) < of_smoothing);
+    CHECK(std::abs(area(lines[0]) / (std::numbers::pi * reach * reach) - 1) < of_smoothing);
 }
 
 TEST_CASE("contour: around a hole it goes clockwise") {
