@@ -9,8 +9,6 @@
 
 namespace rovernet {
 
-inline constexpr double speed_of_light = 299'792'458;  ///< [m/s], exact by definition of the metre
-
 /// Free-space loss [dB] between isotropic antennas at distance d [m] > 0 and frequency f [Hz]:
 /// 20 log10(4 pi d f / c). Negative below d = c / (4 pi f), where it means nothing.
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.

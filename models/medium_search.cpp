@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who is within reach: what every transmission asks.
-#include "models/friis.hpp"
 #include "models/medium.hpp"
+#include "sim/units.hpp"
 
 #include <algorithm>
 #include <cmath>

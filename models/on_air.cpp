@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/on_air.hpp"
 
-#include "models/friis.hpp"
+#include "sim/units.hpp"
 
 #include <bit>
 

@@ -44,6 +44,8 @@ Dbm to_dbm(MilliWatts p);
 /// A level as a power: 10^(level / 10) mW.
 MilliWatts to_milliwatts(Dbm level);
 
+inline constexpr double speed_of_light = 299'792'458;  ///< [m/s], exact by definition of the metre
+
 inline namespace literals {
 constexpr Dbm operator""_dBm(long double v) { return {static_cast<double>(v)}; }
 constexpr Dbm operator""_dBm(unsigned long long v) { return {static_cast<double>(v)}; }
