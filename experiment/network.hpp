@@ -32,9 +32,6 @@
 
 namespace rovernet {
 
-/// [rad/s] of robots that turn in place: half a turn ends well before the clock does.
-inline constexpr Range turn_rates{.low = 1e-8, .text = ">= 1e-8 rad/s"};
-
 /// A robot as it joins a Network.
 struct Robot {
     std::string name;    ///< unique; its random draws depend on it. Empty: "r" and its number

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/robot_table.hpp"
 
-#include "experiment/network.hpp"
 #include "experiment/scenario.hpp"
+#include "mobility/movement.hpp"
 
 #include <fmt/format.h>
 

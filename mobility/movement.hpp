@@ -3,6 +3,7 @@
 
 #include "mobility/planners.hpp"
 #include "scene/scene.hpp"
+#include "sim/fields.hpp"
 #include "sim/geometry.hpp"
 #include "sim/legs.hpp"
 #include "sim/random.hpp"
@@ -16,6 +17,9 @@
 #include <variant>
 
 namespace rovernet {
+
+/// [rad/s] of robots that turn in place: half a turn ends well before the clock does.
+inline constexpr Range turn_rates{.low = 1e-8, .text = ">= 1e-8 rad/s"};
 
 /// A robot that asks for its next leg, and what its movement model may know.
 struct Mover {
