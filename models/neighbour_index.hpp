@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/wrapped_axis.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/time.hpp"
+#include "sim/wrapped_axis.hpp"
 
 #include <algorithm>
 #include <cmath>

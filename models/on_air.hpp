@@ -2,12 +2,12 @@
 #pragma once
 
 #include "models/arrival.hpp"
-#include "models/wrapped_axis.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
+#include "sim/wrapped_axis.hpp"
 
 #include <algorithm>
 #include <array>
