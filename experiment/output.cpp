@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/output.hpp"
 
+#include "files/part_file.hpp"
 #include "sim/error.hpp"
-#include "sim/part_file.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include "experiment/toml.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
-#include "sim/part_file.hpp"
+#include "files/part_file.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/ns2_trace.hpp"
 

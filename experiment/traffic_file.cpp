@@ -2,8 +2,8 @@
 #include "experiment/traffic_file.hpp"
 
 #include "experiment/located.hpp"
-#include "mobility/text_source.hpp"
-#include "mobility/word.hpp"
+#include "files/text_source.hpp"
+#include "files/word.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/bonnmotion.hpp"
 
+#include "files/word.hpp"
 #include "mobility/bonnmotion_waypoints.hpp"
-#include "mobility/word.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/fcd.hpp"
 
-#include "mobility/word.hpp"
+#include "files/word.hpp"
 #include "mobility/xml_tags.hpp"
 
 #include <fmt/format.h>

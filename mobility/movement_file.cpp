@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/movement_file.hpp"
 
+#include "files/text_source.hpp"
+#include "files/word.hpp"
 #include "mobility/bonnmotion.hpp"
 #include "mobility/fcd.hpp"
 #include "mobility/movement_reader.hpp"
 #include "mobility/setdest.hpp"
-#include "mobility/text_source.hpp"
-#include "mobility/word.hpp"
 
 #include <fmt/format.h>
 

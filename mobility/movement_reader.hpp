@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "files/text_source.hpp"
 #include "mobility/movement_file.hpp"
-#include "mobility/text_source.hpp"
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/setdest_line.hpp"
 
-#include "mobility/word.hpp"
+#include "files/word.hpp"
 
 #include <fmt/format.h>
 

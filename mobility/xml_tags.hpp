@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mobility/text_source.hpp"
-#include "mobility/word.hpp"
+#include "files/text_source.hpp"
+#include "files/word.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "traces/ns2_trace.hpp"
 
+#include "files/part_file.hpp"
 #include "sim/error.hpp"
-#include "sim/part_file.hpp"
 #include "traces/decimal.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "traces/ns2_trace.hpp"
 
 #include "sim/error.hpp"
-#include "test/sim/no_room.hpp"
+#include "test/files/no_room.hpp"
 #include "test/traces/record_stream.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/part_file.hpp"
+#include "files/part_file.hpp"
 
 #include "sim/error.hpp"
 

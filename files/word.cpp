@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/word.hpp"
+#include "files/word.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "sim/part_file.hpp"
+#include "files/part_file.hpp"
 
 #include "sim/error.hpp"
+#include "test/files/no_room.hpp"
 #include "test/scene/temporary_folder.hpp"
-#include "test/sim/no_room.hpp"
 
 #include <doctest/doctest.h>
 

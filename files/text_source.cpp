@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/text_source.hpp"
+#include "files/text_source.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
