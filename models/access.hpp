@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/wifi.hpp"
+#include "models/phy/wifi.hpp"
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
 #include "sim/record.hpp"

@@ -3,7 +3,7 @@
 
 #include "models/access.hpp"
 #include "models/backoff.hpp"
-#include "models/wifi.hpp"
+#include "models/phy/wifi.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "models/arrival.hpp"
-#include "models/error_rate.hpp"
+#include "models/phy/error_rate.hpp"
 #include "sim/math.hpp"
 #include "sim/record.hpp"
 
@@ -24,8 +24,8 @@ namespace rovernet {
 /// locked on when it begins to send. Errors are those of the payload. Frames weaker than the
 /// sensitivity by `interference_cut`, or than the noise floor by 10 dB, are left out: each of them
 /// would change the interference by less than that (see Network::interference_left_out).
-/// Sources: models/error_rate.hpp; IEEE 802.11-2020, clauses 15-18, for what a receiver does; the
-/// threshold and the time of ns-3.37's ThresholdPreambleDetectionModel.
+/// Sources: models/phy/error_rate.hpp; IEEE 802.11-2020, clauses 15-18, for what a receiver does;
+/// the threshold and the time of ns-3.37's ThresholdPreambleDetectionModel.
 struct Sinr {
     Db interference_cut{20};   ///< [dB] >= 0
     Db preamble_threshold{4};  ///< [dB] the least SINR at which a preamble is found

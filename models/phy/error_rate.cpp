@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/error_rate.hpp"
+#include "models/phy/error_rate.hpp"
 
 #include "sim/math.hpp"
 #include "sim/polynomial.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/wifi.hpp"
+#include "models/phy/wifi.hpp"
 
 #include <cmath>
 
