@@ -13,7 +13,7 @@
 #include "mobility/movement_writer.hpp"
 #include "mobility/straight.hpp"
 #include "mobility/waypoints.hpp"
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "pictures/chart.hpp"
 #include "pictures/picture.hpp"
 #include "routing/flood.hpp"

@@ -5,7 +5,7 @@
 #include "bench/aloha.hpp"
 #include "bench/bianchi.hpp"
 #include "experiment/network.hpp"
-#include "models/disc.hpp"
+#include "models/propagation/disc.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/network.hpp"
-#include "models/disc.hpp"
+#include "models/propagation/disc.hpp"
 #include "sim/random.hpp"
 
 #include <chrono>

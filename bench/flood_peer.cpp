@@ -13,9 +13,9 @@
 #include "experiment/movement_play.hpp"
 #include "experiment/network.hpp"
 #include "mobility/movement_file.hpp"
-#include "models/disc.hpp"
-#include "models/log_distance.hpp"
-#include "models/two_ray.hpp"
+#include "models/propagation/disc.hpp"
+#include "models/propagation/log_distance.hpp"
+#include "models/propagation/two_ray.hpp"
 #include "routing/flood.hpp"
 
 #include <fmt/format.h>

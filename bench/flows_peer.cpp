@@ -7,7 +7,7 @@
 
 #include "bench/peers/peer.hpp"
 #include "experiment/network.hpp"
-#include "models/two_ray.hpp"
+#include "models/propagation/two_ray.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 //   loss      LogDistance::loss against the budget
 //   philox    the same, with a draw by bits(Key) for each link
 #include "bench/least.hpp"
-#include "models/log_distance.hpp"
+#include "models/propagation/log_distance.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

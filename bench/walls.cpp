@@ -6,7 +6,7 @@
 
 #include "experiment/network.hpp"
 #include "mobility/random_waypoint.hpp"
-#include "models/raytrace_2007.hpp"
+#include "models/propagation/raytrace_2007.hpp"
 #include "routing/flood.hpp"
 #include "sim/random.hpp"
 

@@ -4,7 +4,7 @@
 #include "experiment/network.hpp"
 #include "experiment/timeline.hpp"
 #include "mobility/random_waypoint.hpp"
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "routing/flood.hpp"
 #include "sim/math.hpp"
 #include "sim/random.hpp"

@@ -3,11 +3,11 @@
 
 #include "mobility/movement.hpp"
 #include "models/access_rung.hpp"
-#include "models/friis.hpp"
 #include "models/link_changes.hpp"
 #include "models/medium.hpp"
 #include "models/neighbour.hpp"
-#include "models/propagation.hpp"
+#include "models/propagation/friis.hpp"
+#include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
 #include "models/reception.hpp"
 #include "sim/fields.hpp"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "experiment/value.hpp"
-#include "models/list.hpp"
-#include "models/propagation.hpp"
+#include "models/propagation/list.hpp"
+#include "models/propagation/propagation.hpp"
 
 #include <cstddef>
 

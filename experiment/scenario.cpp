@@ -7,8 +7,8 @@
 #include "experiment/names.hpp"
 #include "experiment/traffic_file.hpp"
 #include "experiment/unlikely.hpp"
-#include "models/disc.hpp"
 #include "models/phy/error_rate.hpp"
+#include "models/propagation/disc.hpp"
 #include "sim/math.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "models/pair_cache.hpp"
-#include "models/propagation.hpp"
+#include "models/propagation/propagation.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/units.hpp"

@@ -6,7 +6,7 @@
 #include "models/medium_settings.hpp"
 #include "models/neighbour_index.hpp"
 #include "models/pair_cache.hpp"
-#include "models/propagation.hpp"
+#include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
 #include "models/radio_kinds.hpp"
 #include "sim/ids.hpp"

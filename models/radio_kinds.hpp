@@ -4,9 +4,9 @@
 #include "models/link_range.hpp"
 #include "models/loss_bounds.hpp"
 #include "models/membership.hpp"
-#include "models/propagation.hpp"
+#include "models/propagation/propagation.hpp"
+#include "models/propagation/shadowed_range.hpp"
 #include "models/radio.hpp"
-#include "models/shadowed_range.hpp"
 #include "sim/random.hpp"
 #include "sim/units.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/network.hpp"
-#include "models/propagation.hpp"
+#include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
 #include "sim/geometry.hpp"
 #include "sim/time.hpp"

@@ -2,7 +2,7 @@
 #include "pictures/model_text.hpp"
 
 #include "experiment/reader.hpp"
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 
 #include <fmt/format.h>
 

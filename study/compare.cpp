@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/compare.hpp"
 
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

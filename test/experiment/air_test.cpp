@@ -3,7 +3,7 @@
 // network keeps them.
 #include "experiment/network.hpp"
 #include "mobility/waypoints.hpp"
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "routing/flood.hpp"
 #include "test/scene/drawn_map.hpp"
 

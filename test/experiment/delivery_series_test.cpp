@@ -2,7 +2,7 @@
 #include "traces/delivery_series.hpp"
 
 #include "experiment/network.hpp"
-#include "models/disc.hpp"
+#include "models/propagation/disc.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/link_watch.hpp"
 
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "sim/error.hpp"
 #include "test/scene/drawn_map.hpp"
 

@@ -3,8 +3,8 @@
 // What is bounded is counted: receptions, events, bytes; never a time.
 #include "experiment/network.hpp"
 #include "mobility/waypoints.hpp"
-#include "models/disc.hpp"
-#include "models/log_distance.hpp"
+#include "models/propagation/disc.hpp"
+#include "models/propagation/log_distance.hpp"
 #include "routing/flood.hpp"
 #include "sim/error.hpp"
 

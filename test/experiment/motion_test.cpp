@@ -3,7 +3,7 @@
 #include "experiment/network.hpp"
 #include "mobility/patrol.hpp"
 #include "mobility/waypoints.hpp"
-#include "models/disc.hpp"
+#include "models/propagation/disc.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

@@ -2,8 +2,8 @@
 #include "experiment/network.hpp"
 
 #include "mobility/waypoints.hpp"
-#include "models/disc.hpp"
-#include "models/log_distance.hpp"
+#include "models/propagation/disc.hpp"
+#include "models/propagation/log_distance.hpp"
 #include "routing/flood.hpp"
 #include "sim/error.hpp"
 #include "test/scene/drawn_map.hpp"

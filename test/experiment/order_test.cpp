@@ -2,7 +2,7 @@
 // Receptions come in order of time, then of node, in whatever portions they are served.
 #include "experiment/network.hpp"
 #include "mobility/random_waypoint.hpp"
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "routing/flood.hpp"
 #include "test/experiment/reception_log.hpp"
 #include "test/scene/drawn_map.hpp"

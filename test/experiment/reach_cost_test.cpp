@@ -2,7 +2,7 @@
 // `reach` is looked for as long as that costs no more than the frames, or if somebody asks for it.
 #include "experiment/network.hpp"
 #include "mobility/waypoints.hpp"
-#include "models/disc.hpp"
+#include "models/propagation/disc.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

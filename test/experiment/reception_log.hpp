@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/network.hpp"
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

@@ -4,7 +4,7 @@
 #include "experiment/build.hpp"
 #include "experiment/network.hpp"
 #include "experiment/toml.hpp"
-#include "models/disc.hpp"
+#include "models/propagation/disc.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

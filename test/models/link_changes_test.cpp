@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/link_changes.hpp"
 
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "sim/random.hpp"
 #include "test/models/moving_pair.hpp"
 #include "test/models/vectors.hpp"

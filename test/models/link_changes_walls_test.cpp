@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "models/link_changes.hpp"
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "test/models/moving_pair.hpp"
 
 #include <doctest/doctest.h>

@@ -2,7 +2,7 @@
 #include "models/loss_bounds.hpp"
 
 #include "models/link_range.hpp"
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

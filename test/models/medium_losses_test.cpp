@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/medium.hpp"
-#include "models/raytrace_2007.hpp"
-#include "models/two_ray.hpp"
+#include "models/propagation/raytrace_2007.hpp"
+#include "models/propagation/two_ray.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/medium.hpp"
 
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <boost/graph/adjacency_list.hpp>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "models/reachability.hpp"
 
-#include "models/disc.hpp"
-#include "models/friis.hpp"
-#include "models/log_distance.hpp"
 #include "models/medium.hpp"
-#include "models/raytrace_2007.hpp"
-#include "models/two_ray.hpp"
+#include "models/propagation/disc.hpp"
+#include "models/propagation/friis.hpp"
+#include "models/propagation/log_distance.hpp"
+#include "models/propagation/raytrace_2007.hpp"
+#include "models/propagation/two_ray.hpp"
 #include "scene/scene.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "models/medium.hpp"
-#include "models/two_ray.hpp"
+#include "models/propagation/two_ray.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/propagation.hpp"
+#include "models/propagation/propagation.hpp"
 
 #include <algorithm>
 #include <cmath>

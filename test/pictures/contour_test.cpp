@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/contour.hpp"
 
-#include "models/friis.hpp"
+#include "models/propagation/friis.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

@@ -3,8 +3,8 @@
 
 #include "experiment/build.hpp"
 #include "experiment/toml.hpp"
-#include "models/friis.hpp"
-#include "models/log_distance.hpp"
+#include "models/propagation/friis.hpp"
+#include "models/propagation/log_distance.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "routing/flood.hpp"
 
 #include "experiment/network.hpp"
-#include "models/disc.hpp"
+#include "models/propagation/disc.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

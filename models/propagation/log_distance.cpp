@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "models/log_distance.hpp"
+#include "models/propagation/log_distance.hpp"
 
-#include "models/friis.hpp"
+#include "models/propagation/friis.hpp"
 #include "sim/math.hpp"
 
 namespace rovernet {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What every propagation model of the list keeps, whatever its equation.
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "test/models/vectors.hpp"
 #include "test/scene/drawn_map.hpp"
 

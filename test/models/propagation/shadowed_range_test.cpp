@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "models/shadowed_range.hpp"
+#include "models/propagation/shadowed_range.hpp"
 
 #include "models/link_range.hpp"
-#include "models/list.hpp"
+#include "models/propagation/list.hpp"
 #include "test/models/vectors.hpp"
 
 #include <boost/math/distributions/normal.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "models/two_ray.hpp"
+#include "models/propagation/two_ray.hpp"
 
-#include "models/friis.hpp"
+#include "models/propagation/friis.hpp"
 #include "test/models/vectors.hpp"
 
 #include <doctest/doctest.h>

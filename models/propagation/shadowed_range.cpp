@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/shadowed_range.hpp"
+#include "models/propagation/shadowed_range.hpp"
 
 #include <limits>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "models/raytrace_2007.hpp"
+#include "models/propagation/raytrace_2007.hpp"
 
-#include "models/itu_indoor.hpp"
+#include "models/propagation/itu_indoor.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>

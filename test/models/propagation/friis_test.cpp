@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/friis.hpp"
+#include "models/propagation/friis.hpp"
 
 #include "test/models/vectors.hpp"
 

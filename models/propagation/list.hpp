@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/disc.hpp"
-#include "models/friis.hpp"
-#include "models/itu_indoor.hpp"
-#include "models/log_distance.hpp"
-#include "models/raytrace_2007.hpp"
-#include "models/two_ray.hpp"
+#include "models/propagation/disc.hpp"
+#include "models/propagation/friis.hpp"
+#include "models/propagation/itu_indoor.hpp"
+#include "models/propagation/log_distance.hpp"
+#include "models/propagation/raytrace_2007.hpp"
+#include "models/propagation/two_ray.hpp"
 
 #include <tuple>
 

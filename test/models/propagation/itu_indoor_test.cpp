@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/itu_indoor.hpp"
+#include "models/propagation/itu_indoor.hpp"
 
 #include "test/models/vectors.hpp"
 

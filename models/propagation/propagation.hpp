@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/shadowed_range.hpp"
+#include "models/propagation/shadowed_range.hpp"
 #include "scene/scene.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"

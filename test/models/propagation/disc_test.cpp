@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/disc.hpp"
+#include "models/propagation/disc.hpp"
 
 #include "test/models/vectors.hpp"
 
