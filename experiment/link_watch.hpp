@@ -2,7 +2,7 @@
 #pragma once
 
 #include "models/link_changes.hpp"
-#include "models/medium.hpp"
+#include "models/medium/medium.hpp"
 #include "models/wall_passages.hpp"
 #include "scene/scene.hpp"
 #include "sim/ids.hpp"

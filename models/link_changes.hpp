@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/medium.hpp"
+#include "models/medium/medium.hpp"
 #include "models/range_crossing.hpp"
 #include "models/wall_passages.hpp"
 #include "sim/ids.hpp"

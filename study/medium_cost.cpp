@@ -2,7 +2,7 @@
 #include "study/medium_cost.hpp"
 
 #include "experiment/build.hpp"
-#include "models/medium.hpp"
+#include "models/medium/medium.hpp"
 #include "sim/ports.hpp"
 
 #include <algorithm>

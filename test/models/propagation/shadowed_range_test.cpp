@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/shadowed_range.hpp"
 
-#include "models/link_range.hpp"
+#include "models/medium/link_range.hpp"
 #include "models/propagation/list.hpp"
 #include "test/models/vectors.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/medium.hpp"
+#include "models/medium/medium.hpp"
 #include "models/radio.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/pair_cache.hpp"
+#include "models/medium/pair_cache.hpp"
 #include "models/propagation/propagation.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/neighbour_index.hpp"
+#include "models/medium/neighbour_index.hpp"
 
 #include "test/scene/drawn_map.hpp"
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "models/arrival.hpp"
-#include "models/candidates.hpp"
-#include "models/medium_settings.hpp"
-#include "models/neighbour_index.hpp"
-#include "models/pair_cache.hpp"
+#include "models/medium/candidates.hpp"
+#include "models/medium/medium_settings.hpp"
+#include "models/medium/neighbour_index.hpp"
+#include "models/medium/pair_cache.hpp"
+#include "models/medium/radio_kinds.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
-#include "models/radio_kinds.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/record.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/link_range.hpp"
+#include "models/medium/link_range.hpp"
 
 #include <bit>
 #include <cassert>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "models/reachability.hpp"
+#include "models/medium/reachability.hpp"
 
-#include "models/medium.hpp"
+#include "models/medium/medium.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/log_distance.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "models/loss_bounds.hpp"
+#include "models/medium/loss_bounds.hpp"
 
-#include "models/link_range.hpp"
+#include "models/medium/link_range.hpp"
 #include "models/propagation/list.hpp"
 #include "test/scene/drawn_map.hpp"
 

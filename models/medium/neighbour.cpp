@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/neighbour.hpp"
+#include "models/medium/neighbour.hpp"
 
 #include <algorithm>
 #include <cmath>

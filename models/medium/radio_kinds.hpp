@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/link_range.hpp"
-#include "models/loss_bounds.hpp"
-#include "models/membership.hpp"
+#include "models/medium/link_range.hpp"
+#include "models/medium/loss_bounds.hpp"
+#include "models/medium/membership.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/propagation/shadowed_range.hpp"
 #include "models/radio.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/point_sieve.hpp"
+#include "models/medium/point_sieve.hpp"
 
 #include "test/scene/drawn_map.hpp"
 

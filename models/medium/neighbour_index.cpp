@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "models/neighbour_index.hpp"
+#include "models/medium/neighbour_index.hpp"
 
-#include "models/point_sieve.hpp"
+#include "models/medium/point_sieve.hpp"
 
 #include <limits>
 #include <utility>

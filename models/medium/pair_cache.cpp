@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/pair_cache.hpp"
+#include "models/medium/pair_cache.hpp"
 
 namespace rovernet {
 

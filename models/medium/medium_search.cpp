@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Who is within reach: what every transmission asks.
-#include "models/medium.hpp"
+#include "models/medium/medium.hpp"
 #include "sim/units.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/candidates.hpp"
+#include "models/medium/candidates.hpp"
 
 namespace rovernet {
 

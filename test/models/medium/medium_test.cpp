@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/medium.hpp"
+#include "models/medium/medium.hpp"
 
 #include "models/propagation/list.hpp"
 #include "test/scene/drawn_map.hpp"

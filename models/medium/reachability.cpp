@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/reachability.hpp"
+#include "models/medium/reachability.hpp"
 
 #include <algorithm>
 #include <utility>

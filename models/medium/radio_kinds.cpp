@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/radio_kinds.hpp"
+#include "models/medium/radio_kinds.hpp"
 
 #include <algorithm>
 #include <cassert>
