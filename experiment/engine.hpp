@@ -7,7 +7,7 @@
 #include "experiment/network.hpp"
 #include "mobility/planners.hpp"
 #include "models/medium/reachability.hpp"
-#include "models/on_air.hpp"
+#include "models/reception/on_air.hpp"
 #include "sim/chunks.hpp"
 #include "sim/scheduler.hpp"
 #include "sim/slots.hpp"

@@ -9,7 +9,7 @@
 #include "models/propagation/friis.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
-#include "models/reception.hpp"
+#include "models/reception/reception.hpp"
 #include "sim/fields.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"

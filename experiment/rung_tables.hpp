@@ -3,7 +3,7 @@
 
 #include "experiment/reader.hpp"
 #include "models/access_rung.hpp"
-#include "models/reception.hpp"
+#include "models/reception/reception.hpp"
 #include "sim/fields.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/on_air.hpp"
+#include "models/reception/on_air.hpp"
 
 #include "sim/units.hpp"
 

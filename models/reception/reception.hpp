@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/collision.hpp"
-#include "models/sinr.hpp"
+#include "models/reception/collision.hpp"
+#include "models/reception/sinr.hpp"
 
 #include <variant>
 

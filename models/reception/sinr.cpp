@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/sinr.hpp"
+#include "models/reception/sinr.hpp"
 
 namespace rovernet {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/collision.hpp"
+#include "models/reception/collision.hpp"
 
 #include <doctest/doctest.h>
 
