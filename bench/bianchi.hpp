@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/dcf.hpp"
+#include "models/access/dcf.hpp"
 
 #include <chrono>
 #include <cmath>

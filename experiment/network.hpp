@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mobility/movement.hpp"
-#include "models/access_rung.hpp"
+#include "models/access/access_rung.hpp"
 #include "models/link_changes.hpp"
 #include "models/medium/medium.hpp"
 #include "models/medium/neighbour.hpp"

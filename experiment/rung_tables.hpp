@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/reader.hpp"
-#include "models/access_rung.hpp"
+#include "models/access/access_rung.hpp"
 #include "models/reception/reception.hpp"
 #include "sim/fields.hpp"
 

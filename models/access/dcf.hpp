@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/access.hpp"
-#include "models/backoff.hpp"
+#include "models/access/access.hpp"
+#include "models/access/backoff.hpp"
 #include "models/phy/wifi.hpp"
 
 #include <algorithm>

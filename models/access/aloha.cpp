@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/aloha.hpp"
+#include "models/access/aloha.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/aloha.hpp"
-#include "models/dcf.hpp"
+#include "models/access/aloha.hpp"
+#include "models/access/dcf.hpp"
 
 #include <variant>
 

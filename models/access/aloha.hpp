@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/access.hpp"
+#include "models/access/access.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/dcf.hpp"
+#include "models/access/dcf.hpp"
 
 #include "sim/fields.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/backoff.hpp"
+#include "models/access/backoff.hpp"
 
 #include <doctest/doctest.h>
 
