@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/link_changes.hpp"
+#include "models/links/link_changes.hpp"
+#include "models/links/wall_passages.hpp"
 #include "models/medium/medium.hpp"
-#include "models/wall_passages.hpp"
 #include "scene/scene.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"

@@ -3,7 +3,7 @@
 
 #include "mobility/movement.hpp"
 #include "models/access/access_rung.hpp"
-#include "models/link_changes.hpp"
+#include "models/links/link_changes.hpp"
 #include "models/medium/medium.hpp"
 #include "models/medium/neighbour.hpp"
 #include "models/propagation/friis.hpp"

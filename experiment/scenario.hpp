@@ -10,7 +10,7 @@
 #include "experiment/scene_table.hpp"
 #include "experiment/study_table.hpp"
 #include "experiment/value.hpp"
-#include "models/link_changes.hpp"
+#include "models/links/link_changes.hpp"
 #include "models/radio.hpp"
 #include "routing/flood.hpp"
 #include "sim/fields.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/links/range_crossing.hpp"
+#include "models/links/wall_passages.hpp"
 #include "models/medium/medium.hpp"
-#include "models/range_crossing.hpp"
-#include "models/wall_passages.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/time.hpp"

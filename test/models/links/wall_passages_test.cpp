@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/wall_passages.hpp"
+#include "models/links/wall_passages.hpp"
 
 #include <doctest/doctest.h>
 

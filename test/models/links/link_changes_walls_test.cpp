@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "models/link_changes.hpp"
+#include "models/links/link_changes.hpp"
 #include "models/propagation/list.hpp"
-#include "test/models/moving_pair.hpp"
+#include "test/models/links/moving_pair.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/range_crossing.hpp"
+#include "models/links/range_crossing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "models/link_changes.hpp"
+#include "models/links/link_changes.hpp"
 
 #include "models/propagation/list.hpp"
 #include "sim/random.hpp"
-#include "test/models/moving_pair.hpp"
+#include "test/models/links/moving_pair.hpp"
 #include "test/models/vectors.hpp"
 
 #include <doctest/doctest.h>

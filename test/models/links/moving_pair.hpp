@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/link_changes.hpp"
+#include "models/links/link_changes.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/link_changes.hpp"
+#include "models/links/link_changes.hpp"
 
 #include <algorithm>
 #include <array>
