@@ -12,7 +12,7 @@
 #include "bench/peers/usage.hpp"
 #include "experiment/movement_play.hpp"
 #include "experiment/network.hpp"
-#include "mobility/movement_file.hpp"
+#include "mobility/files/movement_file.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/log_distance.hpp"
 #include "models/propagation/two_ray.hpp"

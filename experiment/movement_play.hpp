@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/network.hpp"
-#include "mobility/movement_file.hpp"
+#include "mobility/files/movement_file.hpp"
 #include "sim/ids.hpp"
 
 #include <vector>

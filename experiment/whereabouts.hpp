@@ -4,7 +4,7 @@
 #include "experiment/network.hpp"
 #include "experiment/output.hpp"
 #include "experiment/scenario.hpp"
-#include "mobility/movement_writer.hpp"
+#include "mobility/files/movement_writer.hpp"
 #include "sim/time.hpp"
 
 #include <string>

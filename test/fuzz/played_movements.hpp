@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mobility/movement_file.hpp"
+#include "mobility/files/movement_file.hpp"
 #include "sim/error.hpp"
 #include "test/fuzz/fuzz_file.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/movement_writer.hpp"
+#include "mobility/files/movement_writer.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/bonnmotion_waypoints.hpp"
+#include "mobility/files/bonnmotion_waypoints.hpp"
 
 #include <fmt/format.h>
 

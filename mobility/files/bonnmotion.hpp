@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mobility/movement_reader.hpp"
+#include "mobility/files/movement_reader.hpp"
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/setdest.hpp"
+#include "mobility/files/setdest.hpp"
 
 #include "files/word.hpp"
-#include "mobility/setdest_line.hpp"
+#include "mobility/files/setdest_line.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/xml_tags.hpp"
+#include "mobility/files/xml_tags.hpp"
 
 #include <fmt/format.h>
 

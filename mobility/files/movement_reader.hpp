@@ -2,7 +2,7 @@
 #pragma once
 
 #include "files/text_source.hpp"
-#include "mobility/movement_file.hpp"
+#include "mobility/files/movement_file.hpp"
 
 #include <memory>
 #include <optional>

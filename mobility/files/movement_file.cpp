@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/movement_file.hpp"
+#include "mobility/files/movement_file.hpp"
 
 #include "files/text_source.hpp"
 #include "files/word.hpp"
-#include "mobility/bonnmotion.hpp"
-#include "mobility/fcd.hpp"
-#include "mobility/movement_reader.hpp"
-#include "mobility/setdest.hpp"
+#include "mobility/files/bonnmotion.hpp"
+#include "mobility/files/fcd.hpp"
+#include "mobility/files/movement_reader.hpp"
+#include "mobility/files/setdest.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/fcd.hpp"
+#include "mobility/files/fcd.hpp"
 
 #include "files/word.hpp"
-#include "mobility/xml_tags.hpp"
+#include "mobility/files/xml_tags.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/fcd.hpp"
+#include "mobility/files/fcd.hpp"
 
-#include "test/mobility/playback.hpp"
+#include "test/mobility/files/playback.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

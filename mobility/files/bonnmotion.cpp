@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/bonnmotion.hpp"
+#include "mobility/files/bonnmotion.hpp"
 
 #include "files/word.hpp"
-#include "mobility/bonnmotion_waypoints.hpp"
+#include "mobility/files/bonnmotion_waypoints.hpp"
 
 #include <fmt/format.h>
 

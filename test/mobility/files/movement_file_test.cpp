@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/movement_file.hpp"
+#include "mobility/files/movement_file.hpp"
 
 #include "sim/error.hpp"
-#include "test/mobility/playback.hpp"
+#include "test/mobility/files/playback.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

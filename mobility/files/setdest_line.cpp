@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mobility/setdest_line.hpp"
+#include "mobility/files/setdest_line.hpp"
 
 #include "files/word.hpp"
 
