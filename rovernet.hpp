@@ -22,5 +22,5 @@
 #include "scene/stage_walls.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/metrics.hpp"
-#include "traces/ns2_reader.hpp"
-#include "traces/ns2_trace.hpp"
+#include "traces/ns2/ns2_reader.hpp"
+#include "traces/ns2/ns2_trace.hpp"

@@ -6,7 +6,7 @@
 #include "experiment/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
-#include "traces/ns2_reader.hpp"
+#include "traces/ns2/ns2_reader.hpp"
 
 #include <fmt/format.h>
 

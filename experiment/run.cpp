@@ -10,7 +10,7 @@
 #include "experiment/warmup.hpp"
 #include "files/part_file.hpp"
 #include "traces/fingerprint.hpp"
-#include "traces/ns2_trace.hpp"
+#include "traces/ns2/ns2_trace.hpp"
 
 #include <fmt/format.h>
 

@@ -9,8 +9,8 @@
 #include "sim/random.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/fingerprint.hpp"
-#include "traces/ns2_reader.hpp"
-#include "traces/ns2_trace.hpp"
+#include "traces/ns2/ns2_reader.hpp"
+#include "traces/ns2/ns2_trace.hpp"
 
 #include <doctest/doctest.h>
 

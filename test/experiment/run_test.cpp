@@ -5,7 +5,7 @@
 #include "experiment/toml.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
-#include "traces/ns2_reader.hpp"
+#include "traces/ns2/ns2_reader.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "traces/ns2_reader.hpp"
+#include "traces/ns2/ns2_reader.hpp"
 
 #include "sim/error.hpp"
-#include "traces/ns2_line.hpp"
+#include "traces/ns2/ns2_line.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "traces/ns2_line.hpp"
+#include "traces/ns2/ns2_line.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "traces/decimal.hpp"
+#include "traces/ns2/decimal.hpp"
 
 #include <charconv>
 #include <cmath>

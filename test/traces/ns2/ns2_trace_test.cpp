@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "traces/ns2_trace.hpp"
+#include "traces/ns2/ns2_trace.hpp"
 
 #include "sim/error.hpp"
 #include "test/files/no_room.hpp"

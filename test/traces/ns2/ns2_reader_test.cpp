@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "traces/ns2_reader.hpp"
+#include "traces/ns2/ns2_reader.hpp"
 
 #include "sim/error.hpp"
 #include "test/traces/record_stream.hpp"
-#include "traces/ns2_trace.hpp"
+#include "traces/ns2/ns2_trace.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "traces/ns2_trace.hpp"
+#include "traces/ns2/ns2_trace.hpp"
 
 #include "files/part_file.hpp"
 #include "sim/error.hpp"
-#include "traces/decimal.hpp"
+#include "traces/ns2/decimal.hpp"
 
 #include <fmt/format.h>
 
