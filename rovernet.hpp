@@ -19,7 +19,7 @@
 #include "routing/flood.hpp"
 #include "scene/occupancy.hpp"
 #include "scene/scene.hpp"
-#include "scene/stage_walls.hpp"
+#include "scene/stage/stage_walls.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/metrics.hpp"
 #include "traces/ns2/ns2_reader.hpp"

@@ -2,7 +2,7 @@
 #include "experiment/scene_table.hpp"
 #include "experiment/toml.hpp"
 #include "scene/occupancy.hpp"
-#include "scene/stage_walls.hpp"
+#include "scene/stage/stage_walls.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "experiment/value.hpp"
 #include "scene/material.hpp"
 #include "scene/scene.hpp"
-#include "scene/worldfile.hpp"
+#include "scene/stage/worldfile.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
 #include "sim/units.hpp"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "experiment/value.hpp"
-#include "scene/world_model.hpp"
-#include "scene/worldfile.hpp"
+#include "scene/stage/world_model.hpp"
+#include "scene/stage/worldfile.hpp"
 
 #include <optional>
 #include <string>

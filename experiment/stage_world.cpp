@@ -3,7 +3,7 @@
 
 #include "experiment/quantity.hpp"
 #include "experiment/stage_radio.hpp"
-#include "scene/world_model.hpp"
+#include "scene/stage/world_model.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/value.hpp"
-#include "scene/worldfile.hpp"
+#include "scene/stage/worldfile.hpp"
 
 #include <string>
 #include <vector>

@@ -6,7 +6,7 @@
 #include "experiment/scenario.hpp"
 #include "models/radio.hpp"
 #include "scene/scene.hpp"
-#include "scene/stage_walls.hpp"
+#include "scene/stage/stage_walls.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

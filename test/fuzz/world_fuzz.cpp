@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Any file is a Stage world or an InputError, and so are its walls and its robots.
 #include "experiment/stage_world.hpp"
-#include "scene/stage_walls.hpp"
-#include "scene/worldfile.hpp"
+#include "scene/stage/stage_walls.hpp"
+#include "scene/stage/worldfile.hpp"
 #include "sim/error.hpp"
 #include "test/fuzz/fuzz_file.hpp"
 

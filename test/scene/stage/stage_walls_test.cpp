@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/stage_walls.hpp"
+#include "scene/stage/stage_walls.hpp"
 
 #include "scene/image.hpp"
 #include "scene/scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/world_scanner.hpp"
+#include "scene/stage/world_scanner.hpp"
 
 #include <fmt/format.h>
 

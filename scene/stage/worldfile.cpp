@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "scene/worldfile.hpp"
+#include "scene/stage/worldfile.hpp"
 
-#include "scene/world_model.hpp"
-#include "scene/world_tokens.hpp"
+#include "scene/stage/world_model.hpp"
+#include "scene/stage/world_tokens.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/worldfile.hpp"
+#include "scene/stage/worldfile.hpp"
 
 #include <optional>
 #include <string>

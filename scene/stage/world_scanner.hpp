@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/world_tokens.hpp"
+#include "scene/stage/world_tokens.hpp"
 
 #include <cstddef>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/wall_polygon.hpp"
+#include "scene/stage/wall_polygon.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "scene/worldfile.hpp"
+#include "scene/stage/worldfile.hpp"
 
-#include "scene/world_model.hpp"
+#include "scene/stage/world_model.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/world_model.hpp"
+#include "scene/stage/world_model.hpp"
 
 #include "sim/math.hpp"
 

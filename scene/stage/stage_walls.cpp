@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "scene/stage_walls.hpp"
+#include "scene/stage/stage_walls.hpp"
 
 #include "scene/image.hpp"
 #include "scene/rectangles.hpp"
-#include "scene/wall_polygon.hpp"
-#include "scene/world_model.hpp"
-#include "scene/world_search.hpp"
+#include "scene/stage/wall_polygon.hpp"
+#include "scene/stage/world_model.hpp"
+#include "scene/stage/world_search.hpp"
 
 #include <fmt/format.h>
 

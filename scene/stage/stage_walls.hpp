@@ -3,7 +3,7 @@
 
 #include "scene/material.hpp"
 #include "scene/occupancy.hpp"
-#include "scene/worldfile.hpp"
+#include "scene/stage/worldfile.hpp"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/world_search.hpp"
+#include "scene/stage/world_search.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "scene/world_tokens.hpp"
+#include "scene/stage/world_tokens.hpp"
 
-#include "scene/world_scanner.hpp"
-#include "scene/world_search.hpp"
+#include "scene/stage/world_scanner.hpp"
+#include "scene/stage/world_search.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "scene/occupancy.hpp"
-#include "scene/world_model.hpp"
-#include "scene/worldfile.hpp"
+#include "scene/stage/world_model.hpp"
+#include "scene/stage/worldfile.hpp"
 #include "sim/error.hpp"
 #include "sim/geometry.hpp"
 
