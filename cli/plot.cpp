@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
 #include "cli/stop.hpp"
-#include "pictures/picture_file.hpp"
+#include "pictures/draw/picture_file.hpp"
 #include "sim/error.hpp"
 #include "study/study_chart.hpp"
 

@@ -9,8 +9,8 @@
 #include "experiment/run.hpp"
 #include "experiment/scene_report.hpp"
 #include "experiment/whereabouts.hpp"
+#include "pictures/draw/picture_file.hpp"
 #include "pictures/picture.hpp"
-#include "pictures/picture_file.hpp"
 
 #include <fmt/format.h>
 

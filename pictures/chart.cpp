@@ -2,7 +2,7 @@
 #include "pictures/chart.hpp"
 
 #include "pictures/chart_panel.hpp"
-#include "pictures/svg.hpp"
+#include "pictures/draw/svg.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/chart_axis.hpp"
 
-#include "pictures/plot.hpp"
+#include "pictures/draw/plot.hpp"
 #include "sim/math.hpp"
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 #include "pictures/chart_heat_map.hpp"
 #include "pictures/chart_style.hpp"
 #include "pictures/chart_view.hpp"
-#include "pictures/legend.hpp"
-#include "pictures/svg.hpp"
+#include "pictures/draw/legend.hpp"
+#include "pictures/draw/svg.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/chart_heat_map.hpp"
 
-#include "pictures/color.hpp"
+#include "pictures/draw/color.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "pictures/chart.hpp"
 #include "pictures/chart_view.hpp"
-#include "pictures/legend.hpp"
+#include "pictures/draw/legend.hpp"
 
 namespace rovernet {
 

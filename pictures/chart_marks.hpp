@@ -4,9 +4,9 @@
 #include "pictures/chart.hpp"
 #include "pictures/chart_axis.hpp"
 #include "pictures/chart_view.hpp"
-#include "pictures/label.hpp"
-#include "pictures/plot.hpp"
-#include "pictures/svg.hpp"
+#include "pictures/draw/label.hpp"
+#include "pictures/draw/plot.hpp"
+#include "pictures/draw/svg.hpp"
 
 #include <cstddef>
 

@@ -5,8 +5,8 @@
 #include "pictures/chart_axis.hpp"
 #include "pictures/chart_marks.hpp"
 #include "pictures/chart_view.hpp"
-#include "pictures/legend.hpp"
-#include "pictures/svg.hpp"
+#include "pictures/draw/legend.hpp"
+#include "pictures/draw/svg.hpp"
 
 #include <cstddef>
 #include <string>

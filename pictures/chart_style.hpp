@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/color.hpp"
-#include "pictures/plot.hpp"
-#include "pictures/svg.hpp"
+#include "pictures/draw/color.hpp"
+#include "pictures/draw/plot.hpp"
+#include "pictures/draw/svg.hpp"
 
 #include <cstddef>
 #include <span>

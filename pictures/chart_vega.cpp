@@ -5,7 +5,7 @@
 #include "pictures/chart_heat_map.hpp"
 #include "pictures/chart_style.hpp"
 #include "pictures/chart_view.hpp"
-#include "pictures/legend.hpp"
+#include "pictures/draw/legend.hpp"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 
 #include "pictures/contour.hpp"
 #include "pictures/coverage.hpp"
-#include "pictures/legend.hpp"
-#include "pictures/plot.hpp"
-#include "pictures/svg.hpp"
+#include "pictures/draw/legend.hpp"
+#include "pictures/draw/plot.hpp"
+#include "pictures/draw/svg.hpp"
 
 #include <string>
 #include <vector>

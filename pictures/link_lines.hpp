@@ -2,9 +2,9 @@
 #pragma once
 
 #include "experiment/network.hpp"
-#include "pictures/legend.hpp"
+#include "pictures/draw/legend.hpp"
+#include "pictures/draw/svg.hpp"
 #include "pictures/robot_marks.hpp"
-#include "pictures/svg.hpp"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/legend.hpp"
-#include "pictures/plot.hpp"
-#include "pictures/svg.hpp"
+#include "pictures/draw/legend.hpp"
+#include "pictures/draw/plot.hpp"
+#include "pictures/draw/svg.hpp"
 #include "scene/scene.hpp"
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/picture_caption.hpp"
 
+#include "pictures/draw/svg.hpp"
 #include "pictures/model_text.hpp"
-#include "pictures/svg.hpp"
 
 #include <fmt/format.h>
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "experiment/network.hpp"
-#include "pictures/color.hpp"
-#include "pictures/label.hpp"
-#include "pictures/legend.hpp"
-#include "pictures/plot.hpp"
-#include "pictures/svg.hpp"
+#include "pictures/draw/color.hpp"
+#include "pictures/draw/label.hpp"
+#include "pictures/draw/legend.hpp"
+#include "pictures/draw/plot.hpp"
+#include "pictures/draw/svg.hpp"
 
 #include <optional>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/legend.hpp"
-#include "pictures/plot.hpp"
+#include "pictures/draw/legend.hpp"
+#include "pictures/draw/plot.hpp"
+#include "pictures/draw/svg.hpp"
 #include "pictures/robot_marks.hpp"
-#include "pictures/svg.hpp"
 #include "pictures/trail.hpp"
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/chart.hpp"
 
-#include "pictures/svg.hpp"
+#include "pictures/draw/svg.hpp"
+#include "test/pictures/draw/svg_elements.hpp"
+#include "test/pictures/draw/well_formed.hpp"
 #include "test/pictures/drawn_chart.hpp"
-#include "test/pictures/svg_elements.hpp"
-#include "test/pictures/well_formed.hpp"
 
 #include <doctest/doctest.h>
 

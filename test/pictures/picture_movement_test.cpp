@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Pictures of robots that only a movement file names: all is asked of the network.
 #include "pictures/picture.hpp"
-#include "test/pictures/svg_elements.hpp"
-#include "test/pictures/well_formed.hpp"
+#include "test/pictures/draw/svg_elements.hpp"
+#include "test/pictures/draw/well_formed.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

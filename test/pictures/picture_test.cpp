@@ -3,12 +3,12 @@
 
 #include "experiment/toml.hpp"
 #include "mobility/waypoints.hpp"
+#include "pictures/draw/picture_file.hpp"
 #include "pictures/map_layer.hpp"
-#include "pictures/picture_file.hpp"
 #include "pictures/trail.hpp"
 #include "scene/image.hpp"
 #include "sim/error.hpp"
-#include "test/pictures/well_formed.hpp"
+#include "test/pictures/draw/well_formed.hpp"
 #include "test/scene/drawn_map.hpp"
 #include "test/scene/temporary_folder.hpp"
 

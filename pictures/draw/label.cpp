@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/label.hpp"
+#include "pictures/draw/label.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/plot.hpp"
+#include "pictures/draw/plot.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/legend.hpp"
+#include "pictures/draw/legend.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/picture_file.hpp"
+#include "pictures/draw/picture_file.hpp"
 
 #include "sim/error.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/plot.hpp"
+#include "pictures/draw/plot.hpp"
 
 #include "sim/math.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/plot.hpp"
-#include "pictures/svg.hpp"
+#include "pictures/draw/plot.hpp"
+#include "pictures/draw/svg.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/color.hpp"
+#include "pictures/draw/color.hpp"
 
 #include "sim/math.hpp"
 

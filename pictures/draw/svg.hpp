@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/color.hpp"
+#include "pictures/draw/color.hpp"
 
 #include <initializer_list>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/svg.hpp"
+#include "pictures/draw/svg.hpp"
 
-#include "test/pictures/well_formed.hpp"
+#include "test/pictures/draw/well_formed.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/plot.hpp"
+#include "pictures/draw/plot.hpp"
 
-#include "pictures/label.hpp"
-#include "pictures/legend.hpp"
+#include "pictures/draw/label.hpp"
+#include "pictures/draw/legend.hpp"
 
 #include <doctest/doctest.h>
 

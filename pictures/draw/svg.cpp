@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/svg.hpp"
+#include "pictures/draw/svg.hpp"
 
 #include <fmt/format.h>
 
