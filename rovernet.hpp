@@ -14,7 +14,7 @@
 #include "mobility/straight.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/list.hpp"
-#include "pictures/chart.hpp"
+#include "pictures/chart/chart.hpp"
 #include "pictures/picture.hpp"
 #include "routing/flood.hpp"
 #include "scene/occupancy.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart_style.hpp"
+#include "pictures/chart/chart_style.hpp"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart_marks.hpp"
+#include "pictures/chart/chart_marks.hpp"
 
-#include "pictures/chart_style.hpp"
+#include "pictures/chart/chart_style.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/chart.hpp"
-#include "pictures/chart_axis.hpp"
-#include "pictures/chart_marks.hpp"
-#include "pictures/chart_view.hpp"
+#include "pictures/chart/chart.hpp"
+#include "pictures/chart/chart_axis.hpp"
+#include "pictures/chart/chart_marks.hpp"
+#include "pictures/chart/chart_view.hpp"
 #include "pictures/draw/legend.hpp"
 #include "pictures/draw/svg.hpp"
 

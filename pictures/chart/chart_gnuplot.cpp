@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart.hpp"
-#include "pictures/chart_axis.hpp"
-#include "pictures/chart_heat_map.hpp"
-#include "pictures/chart_style.hpp"
-#include "pictures/chart_view.hpp"
+#include "pictures/chart/chart.hpp"
+#include "pictures/chart/chart_axis.hpp"
+#include "pictures/chart/chart_heat_map.hpp"
+#include "pictures/chart/chart_style.hpp"
+#include "pictures/chart/chart_view.hpp"
 #include "pictures/draw/legend.hpp"
 #include "pictures/draw/svg.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart.hpp"
+#include "pictures/chart/chart.hpp"
 
 #include "pictures/draw/svg.hpp"
+#include "test/pictures/chart/drawn_chart.hpp"
 #include "test/pictures/draw/svg_elements.hpp"
 #include "test/pictures/draw/well_formed.hpp"
-#include "test/pictures/drawn_chart.hpp"
 
 #include <doctest/doctest.h>
 

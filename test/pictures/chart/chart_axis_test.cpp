@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart_axis.hpp"
+#include "pictures/chart/chart_axis.hpp"
 
 #include "sim/math.hpp"
 

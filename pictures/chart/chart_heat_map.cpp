@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart_heat_map.hpp"
+#include "pictures/chart/chart_heat_map.hpp"
 
 #include "pictures/draw/color.hpp"
 

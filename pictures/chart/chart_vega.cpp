@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/json.hpp"
-#include "pictures/chart.hpp"
-#include "pictures/chart_axis.hpp"
-#include "pictures/chart_heat_map.hpp"
-#include "pictures/chart_style.hpp"
-#include "pictures/chart_view.hpp"
+#include "pictures/chart/chart.hpp"
+#include "pictures/chart/chart_axis.hpp"
+#include "pictures/chart/chart_heat_map.hpp"
+#include "pictures/chart/chart_style.hpp"
+#include "pictures/chart/chart_view.hpp"
 #include "pictures/draw/legend.hpp"
 
 #include <fmt/format.h>

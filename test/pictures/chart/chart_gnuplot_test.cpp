@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart.hpp"
-#include "test/pictures/drawn_chart.hpp"
+#include "pictures/chart/chart.hpp"
+#include "test/pictures/chart/drawn_chart.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

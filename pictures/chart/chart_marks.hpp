@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/chart.hpp"
-#include "pictures/chart_axis.hpp"
-#include "pictures/chart_view.hpp"
+#include "pictures/chart/chart.hpp"
+#include "pictures/chart/chart_axis.hpp"
+#include "pictures/chart/chart_view.hpp"
 #include "pictures/draw/label.hpp"
 #include "pictures/draw/plot.hpp"
 #include "pictures/draw/svg.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart_legend.hpp"
+#include "pictures/chart/chart_legend.hpp"
 
-#include "pictures/chart_heat_map.hpp"
-#include "pictures/chart_marks.hpp"
-#include "pictures/chart_panel.hpp"
-#include "pictures/chart_style.hpp"
+#include "pictures/chart/chart_heat_map.hpp"
+#include "pictures/chart/chart_marks.hpp"
+#include "pictures/chart/chart_panel.hpp"
+#include "pictures/chart/chart_style.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart.hpp"
+#include "pictures/chart/chart.hpp"
 
-#include "pictures/chart_panel.hpp"
+#include "pictures/chart/chart_panel.hpp"
 #include "pictures/draw/svg.hpp"
 
 #include <fmt/format.h>

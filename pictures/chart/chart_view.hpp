@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/chart.hpp"
-#include "pictures/chart_axis.hpp"
+#include "pictures/chart/chart.hpp"
+#include "pictures/chart/chart_axis.hpp"
 
 #include <cstddef>
 #include <string>

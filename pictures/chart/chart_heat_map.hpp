@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/chart_marks.hpp"
+#include "pictures/chart/chart_marks.hpp"
 
 namespace rovernet {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart_marks.hpp"
+#include "pictures/chart/chart_marks.hpp"
 
 #include "pictures/draw/color.hpp"
 #include "pictures/draw/label.hpp"
 #include "pictures/draw/svg.hpp"
+#include "test/pictures/chart/drawn_chart.hpp"
 #include "test/pictures/draw/svg_elements.hpp"
-#include "test/pictures/drawn_chart.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

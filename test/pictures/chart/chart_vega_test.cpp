@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart.hpp"
+#include "pictures/chart/chart.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

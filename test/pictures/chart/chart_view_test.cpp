@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart_view.hpp"
+#include "pictures/chart/chart_view.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/chart.hpp"
+#include "pictures/chart/chart.hpp"
 
 #include <string>
 #include <vector>

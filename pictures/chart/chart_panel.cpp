@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/chart_panel.hpp"
+#include "pictures/chart/chart_panel.hpp"
 
-#include "pictures/chart_heat_map.hpp"
-#include "pictures/chart_legend.hpp"
+#include "pictures/chart/chart_heat_map.hpp"
+#include "pictures/chart/chart_legend.hpp"
 
 #include <fmt/format.h>
 
