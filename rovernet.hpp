@@ -15,7 +15,7 @@
 #include "mobility/waypoints.hpp"
 #include "models/propagation/list.hpp"
 #include "pictures/chart/chart.hpp"
-#include "pictures/picture.hpp"
+#include "pictures/map/picture.hpp"
 #include "routing/flood.hpp"
 #include "scene/occupancy.hpp"
 #include "scene/scene.hpp"

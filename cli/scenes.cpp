@@ -10,7 +10,7 @@
 #include "experiment/scene_report.hpp"
 #include "experiment/whereabouts.hpp"
 #include "pictures/draw/picture_file.hpp"
-#include "pictures/picture.hpp"
+#include "pictures/map/picture.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include "pictures/draw/legend.hpp"
 #include "pictures/draw/plot.hpp"
 #include "pictures/draw/svg.hpp"
-#include "pictures/robot_marks.hpp"
-#include "pictures/trail.hpp"
+#include "pictures/map/robot_marks.hpp"
+#include "pictures/map/trail.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/contour.hpp"
-#include "pictures/coverage.hpp"
 #include "pictures/draw/legend.hpp"
 #include "pictures/draw/plot.hpp"
 #include "pictures/draw/svg.hpp"
+#include "pictures/map/contour.hpp"
+#include "pictures/map/coverage.hpp"
 
 #include <string>
 #include <vector>

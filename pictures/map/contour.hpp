@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pictures/coverage.hpp"
+#include "pictures/map/coverage.hpp"
 #include "sim/geometry.hpp"
 #include "sim/units.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/contour.hpp"
+#include "pictures/map/contour.hpp"
 
 #include "models/propagation/friis.hpp"
 #include "test/scene/drawn_map.hpp"

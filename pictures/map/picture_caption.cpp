@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/picture_caption.hpp"
+#include "pictures/map/picture_caption.hpp"
 
 #include "pictures/draw/svg.hpp"
-#include "pictures/model_text.hpp"
+#include "pictures/map/model_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/model_text.hpp"
+#include "pictures/map/model_text.hpp"
 
 #include "experiment/reader.hpp"
 #include "models/propagation/list.hpp"

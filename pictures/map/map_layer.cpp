@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/map_layer.hpp"
+#include "pictures/map/map_layer.hpp"
 
 #include <fmt/format.h>
 

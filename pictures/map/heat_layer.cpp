@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/heat_layer.hpp"
+#include "pictures/map/heat_layer.hpp"
 
 #include "scene/png.hpp"
 

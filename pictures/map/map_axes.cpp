@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/map_axes.hpp"
+#include "pictures/map/map_axes.hpp"
 
 #include <fmt/format.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/picture.hpp"
+#include "pictures/map/picture.hpp"
 
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
-#include "pictures/heat_layer.hpp"
-#include "pictures/link_lines.hpp"
-#include "pictures/map_axes.hpp"
-#include "pictures/map_layer.hpp"
-#include "pictures/picture_caption.hpp"
-#include "pictures/robot_marks.hpp"
-#include "pictures/trail_lines.hpp"
+#include "pictures/map/heat_layer.hpp"
+#include "pictures/map/link_lines.hpp"
+#include "pictures/map/map_axes.hpp"
+#include "pictures/map/map_layer.hpp"
+#include "pictures/map/picture_caption.hpp"
+#include "pictures/map/robot_marks.hpp"
+#include "pictures/map/trail_lines.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/coverage.hpp"
+#include "pictures/map/coverage.hpp"
 
 #include "sim/random.hpp"
 

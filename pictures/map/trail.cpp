@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/trail.hpp"
+#include "pictures/map/trail.hpp"
 
 #include <algorithm>
 #include <variant>

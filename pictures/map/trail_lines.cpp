@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/trail_lines.hpp"
+#include "pictures/map/trail_lines.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "experiment/network.hpp"
 #include "pictures/draw/legend.hpp"
 #include "pictures/draw/svg.hpp"
-#include "pictures/robot_marks.hpp"
+#include "pictures/map/robot_marks.hpp"
 
 #include <vector>
 

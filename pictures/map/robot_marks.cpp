@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/robot_marks.hpp"
+#include "pictures/map/robot_marks.hpp"
 
 #include "sim/math.hpp"
 

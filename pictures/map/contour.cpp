@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/contour.hpp"
+#include "pictures/map/contour.hpp"
 
 #include "sim/fields.hpp"
 #include "sim/math.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/link_lines.hpp"
+#include "pictures/map/link_lines.hpp"
 
 #include "sim/error.hpp"
 
