@@ -5,7 +5,6 @@
 
 #include "experiment/link_table.hpp"
 #include "experiment/movement_play.hpp"
-#include "experiment/network.hpp"
 #include "experiment/run.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/whereabouts.hpp"
@@ -14,6 +13,7 @@
 #include "mobility/straight.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/list.hpp"
+#include "network/network.hpp"
 #include "pictures/chart/chart.hpp"
 #include "pictures/map/picture.hpp"
 #include "routing/flood.hpp"

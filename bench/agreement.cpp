@@ -4,8 +4,8 @@
 
 #include "bench/aloha.hpp"
 #include "bench/bianchi.hpp"
-#include "experiment/network.hpp"
 #include "models/propagation/disc.hpp"
+#include "network/network.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
 #include "models/propagation/disc.hpp"
+#include "network/network.hpp"
 #include "sim/random.hpp"
 
 #include <chrono>

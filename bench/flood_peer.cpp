@@ -11,11 +11,11 @@
 #include "bench/peers/peer.hpp"
 #include "bench/peers/usage.hpp"
 #include "experiment/movement_play.hpp"
-#include "experiment/network.hpp"
 #include "mobility/files/movement_file.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/log_distance.hpp"
 #include "models/propagation/two_ray.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 
 #include <fmt/format.h>

@@ -6,8 +6,8 @@
 // standard's basic rates, as in ns-3. The header is that of ns-2; of 802.11 and LLC alone it is 36.
 
 #include "bench/peers/peer.hpp"
-#include "experiment/network.hpp"
 #include "models/propagation/two_ray.hpp"
+#include "network/network.hpp"
 
 #include <fmt/format.h>
 

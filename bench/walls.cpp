@@ -4,9 +4,9 @@
 //   walls [CPU_SECONDS]          2 s if not given
 //   walls --simulate SECONDS     nothing but that, after one second: to count its instructions
 
-#include "experiment/network.hpp"
 #include "mobility/random_waypoint.hpp"
 #include "models/propagation/raytrace_2007.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "sim/random.hpp"
 

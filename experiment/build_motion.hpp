@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
 #include "experiment/scenario.hpp"
+#include "network/network.hpp"
 
 #include <map>
 #include <string>

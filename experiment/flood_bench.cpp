@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/flood_bench.hpp"
 
-#include "experiment/network.hpp"
 #include "experiment/timeline.hpp"
 #include "mobility/random_waypoint.hpp"
 #include "models/propagation/list.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "sim/math.hpp"
 #include "sim/random.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/value.hpp"
+#include "network/network.hpp"
 
 #include <functional>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
 #include "mobility/files/movement_file.hpp"
+#include "network/network.hpp"
 #include "sim/ids.hpp"
 
 #include <vector>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
 #include "experiment/output.hpp"
 #include "experiment/scenario.hpp"
 #include "experiment/timeline.hpp"
 #include "experiment/value.hpp"
+#include "network/network.hpp"
 #include "traces/metrics.hpp"
 #include "traces/topology.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
 #include "experiment/value.hpp"
+#include "network/network.hpp"
 #include "scene/scene.hpp"
 
 #include <string>

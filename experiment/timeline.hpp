@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
+#include "network/network.hpp"
 #include "sim/chunks.hpp"
 #include "sim/ports.hpp"
 #include "sim/record.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
 #include "experiment/output.hpp"
 #include "experiment/scenario.hpp"
 #include "mobility/files/movement_writer.hpp"
+#include "network/network.hpp"
 #include "sim/time.hpp"
 
 #include <string>

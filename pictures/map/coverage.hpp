@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
+#include "network/network.hpp"
 #include "sim/geometry.hpp"
 #include "sim/time.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
+#include "network/network.hpp"
 #include "pictures/draw/legend.hpp"
 #include "pictures/draw/svg.hpp"
 #include "pictures/map/robot_marks.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
+#include "network/network.hpp"
 #include "sim/ids.hpp"
 #include "sim/time.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/network.hpp"
+#include "network/network.hpp"
 #include "pictures/draw/color.hpp"
 #include "pictures/draw/label.hpp"
 #include "pictures/draw/legend.hpp"

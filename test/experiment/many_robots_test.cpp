@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a Network keeps of its robots, and what that takes.
 #include "experiment/flood_bench.hpp"
-#include "experiment/network.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/disc.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

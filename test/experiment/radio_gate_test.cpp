@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who may link with whom, and frames that do not get through.
 #include "experiment/link_table.hpp"
-#include "experiment/network.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

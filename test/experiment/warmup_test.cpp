@@ -2,9 +2,9 @@
 #include "experiment/warmup.hpp"
 
 #include "experiment/build.hpp"
-#include "experiment/network.hpp"
 #include "experiment/toml.hpp"
 #include "models/propagation/disc.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/group.hpp"
 
-#include "experiment/network.hpp"
 #include "mobility/random_direction.hpp"
 #include "mobility/waypoints.hpp"
+#include "network/network.hpp"
 #include "test/mobility/lone_mover.hpp"
 #include "test/scene/drawn_map.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/random_waypoint.hpp"
 
-#include "experiment/network.hpp"
+#include "network/network.hpp"
 #include "test/mobility/lone_mover.hpp"
 #include "test/models/vectors.hpp"
 #include "test/scene/drawn_map.hpp"

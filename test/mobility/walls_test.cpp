@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // No robot crosses a wall, whatever its movement model.
-#include "experiment/network.hpp"
 #include "mobility/follow.hpp"
 #include "mobility/gauss_markov.hpp"
 #include "mobility/group.hpp"
@@ -8,6 +7,7 @@
 #include "mobility/random_direction.hpp"
 #include "mobility/random_walk.hpp"
 #include "mobility/random_waypoint.hpp"
+#include "network/network.hpp"
 #include "test/mobility/lone_mover.hpp"
 #include "test/scene/drawn_map.hpp"
 

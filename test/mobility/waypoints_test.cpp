@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/waypoints.hpp"
 
-#include "experiment/network.hpp"
+#include "network/network.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

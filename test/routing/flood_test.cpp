@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "routing/flood.hpp"
 
-#include "experiment/network.hpp"
 #include "models/propagation/disc.hpp"
+#include "network/network.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What meets what on air, against a search over all pairs of frames that knows nothing of how the
 // network keeps them.
-#include "experiment/network.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/list.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "test/scene/drawn_map.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/network.hpp"
+#include "network/network.hpp"
 
 #include "mobility/waypoints.hpp"
 #include "models/propagation/disc.hpp"

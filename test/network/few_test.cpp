@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/few.hpp"
+#include "network/few.hpp"
 
 #include <doctest/doctest.h>
 

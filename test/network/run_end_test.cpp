@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/network.hpp"
 #include "models/propagation/disc.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/network.hpp"
+#include "network/network.hpp"
 
-#include "experiment/engine.hpp"
+#include "network/engine.hpp"
 
 #include <limits>
 #include <stdexcept>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a Network does with movements: turning, top speeds, being put elsewhere.
-#include "experiment/network.hpp"
 #include "mobility/patrol.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/disc.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/engine.hpp"
+#include "network/engine.hpp"
 #include "sim/random.hpp"
 
 #include <fmt/format.h>

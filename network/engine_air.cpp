@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From a node that sends to those that get the frame.
-#include "experiment/engine.hpp"
+#include "network/engine.hpp"
 
 #include <algorithm>
 #include <array>

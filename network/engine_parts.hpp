@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/few.hpp"
-#include "experiment/network.hpp"
+#include "network/few.hpp"
+#include "network/network.hpp"
 
 #include <cstdint>
 #include <functional>

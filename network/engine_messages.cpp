@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/engine.hpp"
+#include "network/engine.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "bench/aloha.hpp"
 #include "bench/bianchi.hpp"
-#include "experiment/network.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "sim/random.hpp"
 #include "traces/fingerprint.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/link_watch.hpp"
+#include "network/link_watch.hpp"
 
 #include "sim/error.hpp"
 

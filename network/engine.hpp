@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/engine_parts.hpp"
-#include "experiment/link_watch.hpp"
-#include "experiment/name_table.hpp"
-#include "experiment/network.hpp"
 #include "mobility/planners.hpp"
 #include "models/medium/reachability.hpp"
 #include "models/reception/on_air.hpp"
+#include "network/engine_parts.hpp"
+#include "network/link_watch.hpp"
+#include "network/name_table.hpp"
+#include "network/network.hpp"
 #include "sim/chunks.hpp"
 #include "sim/scheduler.hpp"
 #include "sim/slots.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "traces/delivery_series.hpp"
 
-#include "experiment/network.hpp"
 #include "models/propagation/disc.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

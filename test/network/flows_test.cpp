@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Saturated flows between stations that do not all hear each other, beside ns-2 and ns-3: the
 // numbers of bench/peers/run flows, which has more of them.
-#include "experiment/network.hpp"
 #include "models/propagation/two_ray.hpp"
+#include "network/network.hpp"
 
 #include <doctest/doctest.h>
 

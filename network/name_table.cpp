@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/name_table.hpp"
+#include "network/name_table.hpp"
 
 #include "sim/random.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // `reach` is looked for as long as that costs no more than the frames, or if somebody asks for it.
-#include "experiment/network.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/disc.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 
 #include <doctest/doctest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Receptions come in order of time, then of node, in whatever portions they are served.
-#include "experiment/network.hpp"
 #include "mobility/random_waypoint.hpp"
 #include "models/propagation/list.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
-#include "test/experiment/reception_log.hpp"
+#include "test/network/reception_log.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

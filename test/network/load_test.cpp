@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Sanity under load: crowds, distances and storms at which a simulator hangs or grows without end.
 // What is bounded is counted: receptions, events, bytes; never a time.
-#include "experiment/network.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "sim/error.hpp"
 
