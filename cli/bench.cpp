@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
-#include "experiment/json.hpp"
 #include "experiment/version.hpp"
+#include "scenario/json.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/flood_bench.hpp"
-#include "experiment/scenario.hpp"
+#include "scenario/scenario.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -3,7 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
-#include "experiment/json.hpp"
+#include "scenario/json.hpp"
 #include "study/inventory.hpp"
 #include "study/study.hpp"
 

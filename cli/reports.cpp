@@ -2,10 +2,10 @@
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/waiting.hpp"
-#include "experiment/json.hpp"
 #include "experiment/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
+#include "scenario/json.hpp"
 #include "traces/ns2/ns2_reader.hpp"
 
 #include <fmt/format.h>

@@ -5,9 +5,9 @@
 #include "cli/diagnostics.hpp"
 #include "cli/stop.hpp"
 #include "cli/waiting.hpp"
-#include "experiment/json.hpp"
 #include "experiment/run_folder.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/json.hpp"
+#include "scenario/toml.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #include "cli/diagnostics.hpp"
 #include "cli/stop.hpp"
 #include "cli/waiting.hpp"
-#include "experiment/json.hpp"
 #include "experiment/link_table.hpp"
 #include "experiment/loss_table.hpp"
 #include "experiment/run.hpp"
@@ -11,6 +10,7 @@
 #include "experiment/whereabouts.hpp"
 #include "pictures/draw/picture_file.hpp"
 #include "pictures/map/picture.hpp"
+#include "scenario/json.hpp"
 
 #include <fmt/format.h>
 

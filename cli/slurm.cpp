@@ -3,9 +3,9 @@
 
 #include "cli/diagnostics.hpp"
 #include "cli/stop.hpp"
-#include "experiment/json.hpp"
 #include "experiment/output.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/json.hpp"
+#include "scenario/toml.hpp"
 #include "study/command_words.hpp"
 #include "study/merge.hpp"
 #include "study/slurm.hpp"

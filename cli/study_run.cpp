@@ -3,7 +3,7 @@
 
 #include "cli/stop.hpp"
 #include "cli/study_display.hpp"
-#include "experiment/quantity.hpp"
+#include "scenario/quantity.hpp"
 #include "study/explain.hpp"
 #include "study/precision.hpp"
 

@@ -5,8 +5,8 @@
 #include "cli/diagnostics.hpp"
 #include "cli/slurm.hpp"
 #include "cli/study_run.hpp"
-#include "experiment/json.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/json.hpp"
+#include "scenario/toml.hpp"
 #include "study/write_lock.hpp"
 
 #include <fmt/format.h>

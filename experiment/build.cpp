@@ -2,8 +2,8 @@
 #include "experiment/build.hpp"
 
 #include "experiment/build_motion.hpp"
-#include "experiment/located.hpp"
 #include "experiment/movement_play.hpp"
+#include "scenario/located.hpp"
 #include "sim/random.hpp"
 
 #include <fmt/format.h>

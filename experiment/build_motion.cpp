@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build_motion.hpp"
 
-#include "experiment/located.hpp"
 #include "mobility/waypoints.hpp"
+#include "scenario/located.hpp"
 #include "sim/random.hpp"
 
 #include <fmt/format.h>

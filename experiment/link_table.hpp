@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/scenario.hpp"
-#include "experiment/value.hpp"
 #include "network/network.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/value.hpp"
 
 #include <functional>
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/loss_table.hpp"
 
-#include "experiment/scenario.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/toml.hpp"
 
 #include <fmt/format.h>
 

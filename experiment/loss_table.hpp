@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/value.hpp"
+#include "scenario/value.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 

@@ -2,13 +2,13 @@
 #include "experiment/run.hpp"
 
 #include "experiment/build.hpp"
-#include "experiment/json.hpp"
-#include "experiment/located.hpp"
 #include "experiment/run_folder.hpp"
-#include "experiment/toml.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
 #include "files/part_file.hpp"
+#include "scenario/json.hpp"
+#include "scenario/located.hpp"
+#include "scenario/toml.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/ns2/ns2_trace.hpp"
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "experiment/output.hpp"
-#include "experiment/scenario.hpp"
 #include "experiment/timeline.hpp"
-#include "experiment/value.hpp"
 #include "network/network.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/value.hpp"
 #include "traces/metrics.hpp"
 #include "traces/topology.hpp"
 

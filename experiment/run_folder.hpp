@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/scenario.hpp"
+#include "scenario/scenario.hpp"
 
 #include <string>
 #include <vector>

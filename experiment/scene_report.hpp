@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/value.hpp"
 #include "network/network.hpp"
+#include "scenario/value.hpp"
 #include "scene/scene.hpp"
 
 #include <string>

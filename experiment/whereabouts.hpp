@@ -2,9 +2,9 @@
 #pragma once
 
 #include "experiment/output.hpp"
-#include "experiment/scenario.hpp"
 #include "mobility/files/movement_writer.hpp"
 #include "network/network.hpp"
+#include "scenario/scenario.hpp"
 #include "sim/time.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/cells.hpp"
 
-#include "experiment/toml.hpp"
+#include "scenario/toml.hpp"
 #include "study/study.hpp"
 #include "study/summary.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/explain.hpp"
 
-#include "experiment/toml.hpp"
+#include "scenario/toml.hpp"
 #include "study/command_words.hpp"
 #include "study/stored_row.hpp"
 

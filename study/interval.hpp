@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/interval_method.hpp"
+#include "scenario/interval_method.hpp"
 #include "study/metric_bounds.hpp"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/scenario.hpp"
 #include "mobility/kept_planners.hpp"
+#include "scenario/scenario.hpp"
 
 #include <cstdint>
 #include <optional>

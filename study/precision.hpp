@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/study_table.hpp"
+#include "scenario/study_table.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/results.hpp"
 
-#include "experiment/toml.hpp"
+#include "scenario/toml.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/store.hpp"
 
-#include "experiment/json.hpp"
+#include "scenario/json.hpp"
 #include "sim/error.hpp"
 #include "study/only_reading.hpp"
 #include "study/stored_row.hpp"

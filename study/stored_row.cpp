@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/stored_row.hpp"
 
-#include "experiment/json.hpp"
+#include "scenario/json.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/study.hpp"
 
-#include "experiment/toml.hpp"
-#include "experiment/unlikely.hpp"
+#include "scenario/toml.hpp"
+#include "scenario/unlikely.hpp"
 #include "study/measurement.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/study_chart.hpp"
 
-#include "experiment/quantity.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/quantity.hpp"
+#include "scenario/toml.hpp"
 #include "sim/error.hpp"
 #include "study/metric_bounds.hpp"
 

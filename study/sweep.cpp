@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "study/sweep.hpp"
 
-#include "experiment/json.hpp"
 #include "experiment/run.hpp"
-#include "experiment/toml.hpp"
 #include "experiment/version.hpp"
+#include "scenario/json.hpp"
+#include "scenario/toml.hpp"
 #include "study/command_words.hpp"
 #include "study/precision.hpp"
 

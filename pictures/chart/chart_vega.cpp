@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/json.hpp"
 #include "pictures/chart/chart.hpp"
 #include "pictures/chart/chart_axis.hpp"
 #include "pictures/chart/chart_heat_map.hpp"
 #include "pictures/chart/chart_style.hpp"
 #include "pictures/chart/chart_view.hpp"
 #include "pictures/draw/legend.hpp"
+#include "scenario/json.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/model_text.hpp"
 
-#include "experiment/reader.hpp"
 #include "models/propagation/list.hpp"
+#include "scenario/reader.hpp"
 
 #include <fmt/format.h>
 

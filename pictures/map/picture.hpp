@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/scenario.hpp"
 #include "network/network.hpp"
+#include "scenario/scenario.hpp"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
-#include "experiment/scenario.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/toml.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
 
-#include "experiment/toml.hpp"
+#include "scenario/toml.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 // The scenarios in the documentation, as a reader would try them.
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
-#include "experiment/scenario.hpp"
+#include "scenario/scenario.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/toml.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

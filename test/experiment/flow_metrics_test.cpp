@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "experiment/json.hpp"
 #include "experiment/run.hpp"
-#include "experiment/scenario.hpp"
+#include "scenario/json.hpp"
+#include "scenario/scenario.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 

@@ -2,7 +2,7 @@
 #include "experiment/link_table.hpp"
 
 #include "experiment/run.hpp"
-#include "experiment/scenario.hpp"
+#include "scenario/scenario.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

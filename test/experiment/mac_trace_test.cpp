@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run.hpp"
-#include "experiment/toml.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/log_distance.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
+#include "scenario/toml.hpp"
 #include "sim/random.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/fingerprint.hpp"

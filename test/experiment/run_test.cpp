@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run.hpp"
 
-#include "experiment/json.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/json.hpp"
+#include "scenario/toml.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 #include "traces/ns2/ns2_reader.hpp"

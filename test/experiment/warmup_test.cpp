@@ -2,10 +2,10 @@
 #include "experiment/warmup.hpp"
 
 #include "experiment/build.hpp"
-#include "experiment/toml.hpp"
 #include "models/propagation/disc.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
+#include "scenario/toml.hpp"
 
 #include <doctest/doctest.h>
 

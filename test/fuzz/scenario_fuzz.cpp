@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any text is a scenario or an InputError.
-#include "experiment/scenario.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/toml.hpp"
 #include "sim/error.hpp"
 
 #include <cstddef>

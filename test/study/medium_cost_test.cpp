@@ -2,7 +2,7 @@
 #include "study/medium_cost.hpp"
 
 #include "experiment/build.hpp"
-#include "experiment/toml.hpp"
+#include "scenario/toml.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/study.hpp"
 
-#include "experiment/toml.hpp"
+#include "scenario/toml.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 

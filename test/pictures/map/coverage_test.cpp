@@ -2,9 +2,9 @@
 #include "pictures/map/coverage.hpp"
 
 #include "experiment/build.hpp"
-#include "experiment/toml.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "scenario/toml.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

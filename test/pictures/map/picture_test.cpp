@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/picture.hpp"
 
-#include "experiment/toml.hpp"
 #include "mobility/waypoints.hpp"
 #include "pictures/draw/picture_file.hpp"
 #include "pictures/map/map_layer.hpp"
 #include "pictures/map/trail.hpp"
+#include "scenario/toml.hpp"
 #include "scene/image.hpp"
 #include "sim/error.hpp"
 #include "test/pictures/draw/well_formed.hpp"

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/scenario.hpp"
+
+#include "models/phy/error_rate.hpp"
+#include "models/propagation/disc.hpp"
+#include "scenario/flow_names.hpp"
+#include "scenario/located.hpp"
+#include "scenario/memory.hpp"
+#include "scenario/names.hpp"
+#include "scenario/traffic_file.hpp"
+#include "scenario/unlikely.hpp"
+#include "sim/math.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace rovernet {
+namespace {
+
+template <class Visitor>
+void for_each_parameters(PropagationModels& parameters, Visitor&& visit) {
+    std::apply([&](auto&... each) { (visit(each), ...); }, parameters);
+}
+
+std::vector<std::string> model_names() {
+    std::vector<std::string> names;
+    for_each_model([&]<class M>() { names.emplace_back(M::name); });
+    return names;
+}
+
+/// The name becomes a folder's.
+void check_run_name(TableReader& document, const std::string& name) {
+    if (const Value* table = document.take("scenario")) {
+        if (const Value* given = table->table()->find("name"))
+            check_printable(*given, "name", name);
+    }
+    if (!name.empty() && name.front() != '.' && name.find('/') == std::string::npos) return;
+    const Value* given = document.take("scenario")->table()->find("name");
+    throw InputError(given->where, fmt::format("name: found {}; expected a name for a folder: not "
+                                               "empty, no \"/\", no \".\" in front",
+                                               given->description()));
+}
+
+void read_start(const Value* start, TrafficTable& traffic, TableReader& table) {
+    traffic.start = Duration{0};
+    if (start && start->string() && *start->string() == "arrival") {
+        traffic.start.reset();
+    } else {
+        table.read("start", traffic.start, non_negative);
+    }
+}
+
+void check_receiver(const TrafficTable& traffic) {
+    if (!traffic.to || *traffic.to != traffic.from) return;
+    throw InputError(
+        traffic.to_where,
+        fmt::format("to: found \"{}\", who sends it; expected another robot", *traffic.to));
+}
+
+/// Traffic that stops before it starts says nothing.
+void check_stop(const TrafficTable& traffic, TableReader& table) {
+    if (!traffic.stop || !traffic.start || *traffic.stop > *traffic.start) return;
+    throw InputError(table.take("stop")->where,
+                     fmt::format("stop: found {} s, and start is {} s, so that nothing would be "
+                                 "sent; expected a later time",
+                                 seconds(*traffic.stop), seconds(*traffic.start)));
+}
+
+TrafficTable read_traffic(const Value& value) {
+    TableReader table(value, "[[traffic]]");
+    TrafficTable traffic;
+    table.read("kind", traffic.kind);
+    if (table.read("name", traffic.name) && !is_flow_name(traffic.name)) {
+        throw InputError(table.take("name")->where,
+                         fmt::format("name: found \"{}\"; expected letters without blanks and "
+                                     "commas, as it ends the names of metrics",
+                                     traffic.name));
+    }
+    if (!table.read("from", traffic.from)) table.missing("from", "from = \"A\"");
+    traffic.from_where = table.take("from")->where;
+    if (table.read("to", traffic.to)) traffic.to_where = table.take("to")->where;
+    const bool to_one = traffic.kind == TrafficKind::unicast;
+    if (!to_one && traffic.to) {
+        throw InputError(traffic.to_where,
+                         "to: a broadcast is for everybody; expected kind = "
+                         "\"unicast\", or no to");
+    }
+    table.read("saturate", traffic.saturate);
+    const bool payload = table.read("payload", traffic.payload);
+    const bool size = table.read("size", traffic.size);
+    if (!payload && !size) table.missing("payload", "payload = \"F\", or size = \"64 B\"");
+    read_start(table.take("start"), traffic, table);
+    table.read("every", traffic.every, positive);
+    table.read("stop", traffic.stop, non_negative);
+    table.read("count", traffic.count, Range{.low = 1, .text = ">= 1"});
+    if (to_one && !traffic.to) table.missing("to", "to = \"B\": whom a unicast is for");
+    table.reject_unknown();
+    check_receiver(traffic);
+    check_stop(traffic, table);
+    if (traffic.saturate && traffic.every) {
+        throw InputError(
+            table.take("every")->where,
+            "every: saturated traffic has always a message to send; expected no every");
+    }
+    if (!traffic.every && (traffic.stop || traffic.count)) {
+        table.missing("every", "every = \"3 s\": stop and count need it");
+    }
+    return traffic;
+}
+
+/// Saturated traffic without an access model would send without end at once.
+void check_traffic(const Scenario& scenario) {
+    if (scenario.access.model != AccessModel::none) return;
+    for (const TrafficTable& traffic : scenario.traffic) {
+        if (!traffic.saturate) continue;
+        throw InputError(traffic.from_where,
+                         "saturate: nothing holds this robot back; expected [access] model = "
+                         "\"csma\" or \"aloha\"");
+    }
+}
+
+/// A bit rate whose errors sinr can compute.
+void check_modulation(std::string_view key, BitRate rate, Location where) {
+    if (modulation_of(rate)) return;
+    throw InputError(where, fmt::format("{}: found {} Mbit/s; [reception] model = \"sinr\" knows "
+                                        "1, 2, 5.5, 11 and 6, 9, 12, 18, 24, 36, 48, 54 Mbit/s",
+                                        key, rate.value / 1e6));
+}
+
+/// The rung "sinr" needs levels, and rates whose errors it knows.
+void check_sinr(const Scenario& scenario) {
+    if (scenario.reception.model != ReceptionModel::sinr) return;
+    const AccessTable& access = scenario.access;
+    if (access.model == AccessModel::csma && access.basic_rates) {
+        for (const BitRate rate : *access.basic_rates) {
+            check_modulation("basic_rates", rate, scenario.access_where);
+        }
+    }
+    const auto check = [](const PropagationTable& propagation, Location propagation_where,
+                          const Radio& radio, Location rate_where) {
+        if (propagation.make().name() == Disc::name) {
+            throw InputError(propagation_where,
+                             "model: \"disc\" has no levels for [reception] model = \"sinr\"; "
+                             "expected another, such as \"friis\"");
+        }
+        check_modulation("rate", radio.rate, rate_where);
+    };
+    for (const RobotTable& robot : scenario.robots) {
+        const bool own = robot.propagation.has_value();
+        check(own ? *robot.propagation : scenario.propagation,
+              own ? robot.propagation_where : scenario.propagation_where, robot.radio,
+              robot.radio_places.rate);
+    }
+}
+
+template <class T>
+std::vector<T> read_list(TableReader& document, std::string_view key, auto&& read_item) {
+    std::vector<T> list;
+    const Value* value = document.take(key);
+    if (!value) return list;
+    if (!value->array()) {
+        throw InputError(value->where, fmt::format("{}: found {}; expected [[{}]]", key,
+                                                   value->description(), key));
+    }
+    for (const auto& item : *value->array()) list.push_back(read_item(item));
+    return list;
+}
+
+/// [[traffic]]: flows, and files of flows; a lone [traffic] may be a file, too.
+void read_all_traffic(TableReader& document, Scenario& out) {
+    const auto is_file = [](const Value& v) { return v.table() && v.table()->find("file"); };
+    const Value* value = document.take("traffic");
+    if (value && is_file(*value)) return read_flows(*value, out);
+    read_list<int>(document, "traffic", [&](const Value& item) {
+        if (is_file(item)) {
+            read_flows(item, out);
+        } else {
+            out.traffic.push_back(read_traffic(item));
+        }
+        return 0;
+    });
+}
+
+template <Described T>
+void read_section(TableReader& document, std::string_view key, T& out) {
+    const Value* value = document.take(key);
+    if (!value) return;
+    TableReader table(*value, fmt::format("[{}]", key));
+    table.read_fields(out);
+    table.reject_unknown();
+}
+
+/// Values that suit another access model, but not csma.
+void check_csma(const AccessTable& access, const Table& table) {
+    constexpr double longest = 1e9;  // [s] of a backoff; see read_value of a time
+    const WifiTiming timing = std::get<Csma>(access.make()).timing;
+    const double backoff = timing.cw_max * seconds(timing.slot);
+    if (timing.slot == Duration{0} || backoff > longest) {
+        const Value& slot = *table.find("slot");
+        throw InputError(slot.where, fmt::format("slot: found {}; [access] model = \"csma\" counts "
+                                                 "its backoff in up to {} slots: expected a value "
+                                                 "> 0, and at most 1e9 s in all",
+                                                 slot.description(), timing.cw_max));
+    }
+    const auto& rates = access.basic_rates;
+    const auto is_none = [](BitRate rate) { return !(rate > BitRate{0}); };
+    if (rates && (rates->empty() || std::any_of(rates->begin(), rates->end(), is_none))) {
+        const Value& given = *table.find("basic_rates");
+        throw InputError(given.where, fmt::format("basic_rates: found {}; expected at least one "
+                                                  "bit rate, all of them > 0",
+                                                  given.description()));
+    }
+}
+
+/// Radios of OFDM have its preamble and its highest rate, unless [radio] says otherwise.
+void read_access(TableReader& document, Scenario& out) {
+    const Value* access = document.take("access");
+    if (access) out.access_where = access->where;
+    read_section(document, "access", out.access);
+    if (access && access->table()->find("basic_rates")) {
+        out.access_where = access->table()->find("basic_rates")->where;
+    }
+    if (access && out.access.model == AccessModel::csma) check_csma(out.access, *access->table());
+    if (out.access.model == AccessModel::csma && out.access.standard != WifiStandard::b) {
+        out.radio.rate = BitRate{54e6};
+        out.radio.preamble = std::chrono::microseconds{20};
+    }
+}
+
+void read_routing(TableReader& document, RoutingTable& out) {
+    const Value* value = document.take("routing");
+    if (!value) return;
+    TableReader table(*value, "[routing]");
+    table.read("protocol", out.protocol);
+    table.read_fields(out.flood);
+    table.reject_unknown();
+}
+
+/// The robots that the movement file names; they need no [[robot]].
+void read_movement(TableReader& document, Scenario& out) {
+    read_section(document, "movement", out.movement);
+    const Value* section = document.take("movement");
+    if (!section) return;
+    const Value* file = section->table()->find("file");
+    out.movement.where = file ? file->where : section->where;
+    if (!file) return;
+    const auto path = std::filesystem::path(out.file).parent_path() / *out.movement.file;
+    const MovementFile movements = located_file(out.movement.where, "file", [&] {
+        return MovementFile(path.string(), out.movement.syntax);
+    });
+    out.movement.robots = movements.robots();
+    const auto& notices = movements.notices();
+    out.notices.insert(out.notices.end(), notices.begin(), notices.end());
+}
+
+/// A random waypoint model that does not start in its stationary state slows down for a while.
+void note_decay(Scenario& out) {
+    for (const RobotTable& robot : out.robots) {
+        const auto* model = std::get_if<RandomWaypoint>(&robot.move.model);
+        if (!model || model->start == StartState::stationary) continue;
+        const double low = model->min_speed.value, high = model->max_speed.value;
+        if (low == high) continue;
+        const double settled = low > 0 ? (high - low) / math::log(high / low) : 0;
+        out.notices.push_back(fmt::format(
+            "{}: robot \"{}\" starts its random_waypoint from \"{}\": its mean speed falls from "
+            "{:.3g} "
+            "to {:.3g} m/s; start = \"stationary\", without at or place, has no such phase",
+            robot.move.where.text(), robot.name, name_of(model->start), (low + high) / 2, settled));
+    }
+}
+
+/// A network needs somebody.
+void check_robots(TableReader& document, const Scenario& scenario) {
+    if (!scenario.robots.empty() || !scenario.movement.robots.empty()) return;
+    if (!scenario.scene.world) document.missing("robot", "[[robot]] with a name and a place");
+    throw InputError(
+        scenario.scene.map_where.line > 0 ? scenario.scene.map_where : Location{scenario.file},
+        "no robot in this world; expected a position that has a wifi, or a scenario "
+        "with [[robot]] that names the world: [scene] world = \"...\"");
+}
+
+/// Whether the movement file, which names these robots, places the robot of that table.
+bool placed_by_file(const Value& robot, const std::set<std::string_view>& names) {
+    const Table* table = robot.table();
+    const Value* name = table ? table->find("name") : nullptr;
+    return name && name->string() && names.contains(*name->string());
+}
+
+}  // namespace
+
+void read_propagation(const Value& value, PropagationTable& out) {
+    TableReader table(value, "[propagation]");
+    if (const Value* model = table.take("model")) {
+        out.model = read_choice(*model, "propagation model", model_names());
+    }
+    // Keys of any listed model may stand here, so that a sweep can swap the model.
+    for_each_parameters(out.parameters, [&](auto& model) { table.read_fields(model); });
+    table.reject_unknown();
+    std::size_t index = 0;
+    for_each_parameters(out.parameters, [&]<class M>(const M& model) {
+        const bool chosen = index++ == out.model;
+        for_each_field<M>([&](const auto& f) {
+            const auto number = number_in(model.*f.member);
+            if (chosen && number && *number != *number) {
+                throw InputError(value.where,
+                                 fmt::format("propagation model \"{}\" needs the key \"{}\", {}; "
+                                             "for example {} = \"50 m\"",
+                                             M::name, f.name, f.meaning, f.name));
+            }
+        });
+    });
+}
+
+ReceptionRung ReceptionTable::make() const {
+    switch (model) {
+        case ReceptionModel::threshold: return Threshold{};
+        case ReceptionModel::collision:
+            return Collision{.capture_ratio = capture_ratio, .capture = capture};
+        case ReceptionModel::sinr:
+            return Sinr{.interference_cut = interference_cut,
+                        .preamble_threshold = preamble_threshold};
+    }
+    return Threshold{};
+}
+
+AccessRung AccessTable::make() const {
+    if (model == AccessModel::none) return NoAccess{};
+    const auto most = static_cast<std::uint32_t>(queue);
+    if (model == AccessModel::aloha) return Aloha{slot.value_or(Duration{0}), most};
+    WifiTiming timing = timing_of(standard);
+    timing.slot = slot.value_or(timing.slot);
+    timing.sifs = sifs.value_or(timing.sifs);
+    timing.difs = difs.value_or(timing.sifs + 2 * timing.slot);
+    timing.cca_time = cca_time.value_or(timing.cca_time);
+    timing.turnaround = turnaround.value_or(timing.turnaround);
+    timing.rx_start_delay = rx_start_delay.value_or(timing.rx_start_delay);
+    timing.cw_min = cw_min.value_or(timing.cw_min);
+    timing.cw_max = std::max(cw_max.value_or(timing.cw_max), timing.cw_min);
+    return Csma{.standard = standard,
+                .timing = timing,
+                .basic_rates = basic_rates.value_or(mandatory_rates(standard)),
+                .eifs = eifs,
+                .short_retries = short_retries,
+                .long_retries = long_retries,
+                .rts_threshold = rts_threshold.value,
+                .header = header.value,
+                .queue = most};
+}
+
+Propagation PropagationTable::make() const {
+    std::optional<Propagation> made;
+    std::size_t index = 0;
+    std::apply(
+        [&](const auto&... each) {
+            ((index++ == model ? (void)(made.emplace(each)) : void()), ...);
+        },
+        parameters);
+    return std::move(*made);
+}
+
+Propagation median_propagation(const Value& value) {
+    PropagationTable table;
+    read_propagation(value, table);
+    return table.make().median();
+}
+
+Scenario read_scenario(const Value& value, const std::string& file) {
+    Scenario out;
+    out.file = file;
+    TableReader document(value, "the scenario");
+    read_section(document, "scenario", out.scenario);
+    check_run_name(document, out.scenario.name);
+    if (const Value* scene = document.take("scene")) out.scene = read_scene(*scene);
+    read_access(document, out);
+    if (const Value* radio = document.take("radio")) {
+        read_radio(*radio, "[radio]", out.radio, out.radio_places);
+    }
+    read_section(document, "medium", out.medium);
+    out.propagation_where = value.where;
+    if (const Value* propagation = document.take("propagation")) {
+        out.propagation_where = propagation->where;
+        read_propagation(*propagation, out.propagation);
+    }
+    read_section(document, "reception", out.reception);
+    read_section(document, "links", out.links);
+    read_movement(document, out);
+    std::set<std::string_view> in_file;
+    for (const FileRobot& robot : out.movement.robots) in_file.insert(robot.name);
+    out.robots = read_list<RobotTable>(document, "robot", [&](const Value& v) {
+        return read_robot(v, out, !placed_by_file(v, in_file));
+    });
+    read_routing(document, out.routing);
+    read_all_traffic(document, out);
+    name_flows(out.traffic);
+    read_section(document, "trace", out.trace);
+    read_section(document, "metrics", out.metrics);
+    if (const Value* study = document.take("study")) {
+        out.study = read_study(*study, out.scenario.duration);
+    }
+    const std::vector<std::string>& asked = out.study.metrics;
+    const bool asks_reach = std::find(asked.begin(), asked.end(), "reach") != asked.end();
+    if (asks_reach && !out.metrics.reach) out.metrics.reach = true;
+    document.reject_unknown();
+    check_robots(document, out);
+    check_memory(out, available_memory());
+    check_names(out);
+    check_traffic(out);
+    check_sinr(out);
+    note_decay(out);
+    note_unlikely(out);
+    check_addresses(out);
+    return out;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/scene_table.hpp"
+
+#include "scenario/reader.hpp"
+
+#include <fmt/format.h>
+
+namespace rovernet {
+namespace {
+
+void check_greys(const MaterialTable& material, TableReader& table) {
+    if (!material.greys) return;
+    const auto& levels = *material.greys;
+    if (levels.size() == 2 && levels[0] >= 0 && levels[0] <= levels[1] && levels[1] <= 255) return;
+    throw InputError(
+        table.take("greys")->where,
+        "greys: expected two levels from 0 to 255, the lower first, such as [90, 110]");
+}
+
+MaterialTable read_material(const Entry& entry) {
+    TableReader table(entry.value, fmt::format("material \"{}\"", entry.key));
+    MaterialTable material;
+    table.read_fields(material);
+    table.reject_unknown();
+    material.name = entry.key;
+    material.where = entry.key_where;
+    Value name{entry.key};
+    name.where = entry.key_where;
+    check_printable(name, "material", entry.key);
+    check_greys(material, table);
+    if (material.grey && material.greys) table.only_one_of("grey", "greys");
+    if (!material.grey && !material.greys && !material.color) {
+        table.missing("grey", "grey = 100, greys = [90, 110], or color = \"red\"");
+    }
+    if (material.itu && !material.thickness) table.missing("thickness", "thickness = \"0.1 m\"");
+    if (material.thickness && !material.itu) table.missing("itu", "itu = \"brick\"");
+    if (material.itu && material.per_crossing) table.only_one_of("itu", "per_crossing");
+    if (material.itu && material.per_metre) table.only_one_of("itu", "per_metre");
+    return material;
+}
+
+void check_size(const SceneTable& scene, TableReader& table) {
+    if (!scene.size) return;
+    const Location& where = table.take("size")->where;
+    if (!scene.map) {
+        throw InputError(where,
+                         "size: found a size without a map; expected also map = \"office.png\"");
+    }
+    if (scene.size->size() != 2) {
+        throw InputError(where,
+                         "size: expected a width and a height, such as [\"40 m\", \"20 m\"]");
+    }
+    for (const Meters side : *scene.size) {
+        if (!positive.contains(side.value)) throw InputError(where, "size: expected lengths > 0");
+    }
+}
+
+void check_world(const SceneTable& scene, TableReader& table) {
+    if (scene.map && scene.world) table.only_one_of("map", "world");
+    for (const char* key : {"world_path", "bitmaps", "lenient"}) {
+        if (table.table().find(key) && !scene.world) {
+            table.missing("world", fmt::format("world = \"robots.world\": {} needs it", key));
+        }
+    }
+    for (const std::string& pair : scene.bitmaps.value_or(std::vector<std::string>{})) {
+        const auto equals = pair.find('=');
+        if (equals != 0 && equals != pair.npos && equals + 1 != pair.size()) continue;
+        throw InputError(table.take("bitmaps")->where,
+                         fmt::format("bitmaps: found \"{}\"; expected \"OLD=NEW\", such as "
+                                     "\"cave_f.png=cave_filled.png\"",
+                                     pair));
+    }
+}
+
+}  // namespace
+
+SceneTable read_scene(const Value& value) {
+    TableReader table(value, "[scene]");
+    SceneTable scene;
+    table.read_fields(scene);
+    const Value* materials = table.take("materials");
+    table.reject_unknown();
+    const Value* source = table.table().find(scene.world ? "world" : "map");
+    scene.map_where = source ? source->where : value.where;
+    check_size(scene, table);
+    check_world(scene, table);
+    if (materials) {
+        for (const Entry& entry : TableReader(*materials, "[scene.materials]").table().entries) {
+            scene.materials.push_back(read_material(entry));
+        }
+    }
+    return scene;
+}
+
+Table scene_document(const SceneTable& scene) {
+    Table table;
+    append_fields(table, scene);
+    if (!scene.lenient) std::erase_if(table.entries, [](auto& e) { return e.key == "lenient"; });
+    Table materials;
+    for (const MaterialTable& material : scene.materials) {
+        Table each;
+        append_fields(each, material);
+        materials.set(material.name, std::move(each));
+    }
+    if (!materials.entries.empty()) table.set("materials", std::move(materials));
+    return table;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/traffic_file.hpp"
+
+#include "files/text_source.hpp"
+#include "files/word.hpp"
+#include "scenario/located.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+/// The words of a line, without its brackets, quotes and comment.
+std::vector<Word> words_of(std::string_view line) {
+    constexpr std::string_view between = " \t\r;[]\"{}";
+    if (const auto first = line.find_first_not_of(" \t");
+        first != line.npos && line[first] == '#') {
+        return {};
+    }
+    line = line.substr(0, line.find(";#"));
+    std::vector<Word> words;
+    for (std::size_t at = 0; (at = line.find_first_not_of(between, at)) != line.npos;) {
+        const std::size_t end = std::min(line.find_first_of(between, at), line.size());
+        words.push_back({line.substr(at, end - at), static_cast<int>(at) + 1});
+        at = end;
+    }
+    return words;
+}
+
+class Reader {
+  public:
+    explicit Reader(const std::string& path) : lines_(TextSource(path)) {}
+
+    TrafficFile read() {
+        while (const auto line = lines_.next()) {
+            words_ = words_of(*line);
+            if (!words_.empty()) command();
+        }
+        TrafficFile file;
+        for (const std::string& name : order_) add_flow(apps_.find(name)->second, file);
+        if (random_ > 0) {
+            file.notices.push_back(fmt::format(
+                "{}: random_ of {} flow{} is left out: ns-2 makes each interval up to half longer "
+                "or shorter, here all are alike",
+                lines_.where().source, random_, random_ == 1 ? "" : "s"));
+        }
+        return file;
+    }
+
+  private:
+    /// What sends or receives on a node.
+    struct Agent {
+        bool sends = false;
+        std::optional<std::uint32_t> node = std::nullopt;
+        std::string peer = {};
+        Location where = {};  // of its node
+    };
+    /// What makes an agent send; the defaults are those of ns-2.35.
+    struct App {
+        double size = 210, rate = 448e3;  // [bytes], [bit/s]
+        std::optional<double> interval = std::nullopt;
+        double most = 268435456;
+        std::string agent = {};
+        std::optional<Time> start = std::nullopt, stop = std::nullopt;
+        Location where = {};
+    };
+
+    Word word(std::size_t i) const {
+        return i < words_.size() ? words_[i] : Word{{}, words_.back().column};
+    }
+    Location here(const Word& word) const {
+        Location where = lines_.where();
+        where.column = word.column;
+        return where;
+    }
+    [[noreturn]] void fail(const Word& word, std::string_view expected) const {
+        fail_at(lines_.where(), word, expected);
+    }
+    double amount(const Word& word, double least, std::string_view expected) const {
+        const double v = any_number(word, lines_.where(), expected);
+        if (v < least || v > 1e9) fail(word, expected);
+        return v;
+    }
+    /// "64k", "0.5Mb" or 64000 [bit/s].
+    double rate(const Word& word) const {
+        constexpr std::string_view expected = "a bit rate such as 64k or 0.5Mb";
+        double v = 0;
+        const char* const end = word.text.data() + word.text.size();
+        const auto [unit, error] = std::from_chars(word.text.data(), end, v);
+        const std::string_view rest(unit, static_cast<std::size_t>(end - unit));
+        const char letter = rest.empty() ? ' ' : rest.front();
+        if (letter == 'k' || letter == 'K') v *= 1e3;
+        if (letter == 'M' || letter == 'm') v *= 1e6;
+        if (error != std::errc{} || !(v >= 1 && v <= 1e12)) fail(word, expected);
+        return v;
+    }
+    std::string reference(const Word& word) const {
+        if (!word.text.starts_with('$')) fail(word, "a name with $ before it");
+        return std::string(word.text.substr(1));
+    }
+    template <class Map>
+    auto& named(Map& map, const Word& word, std::string_view what) {
+        const auto found = map.find(reference(word));
+        if (found == map.end()) fail(word, what);
+        return found->second;
+    }
+
+    void command();
+    void make();
+    void tell_simulator();
+    void schedule();
+    void tell(App& app);
+    void add_flow(const App& app, TrafficFile& file);
+
+    TextLines lines_;
+    std::vector<Word> words_;
+    std::map<std::string, Agent, std::less<>> agents_;
+    std::map<std::string, App, std::less<>> apps_;
+    std::vector<std::string> order_;  // of the applications
+    std::size_t random_ = 0;          // flows that ns-2 would make irregular
+};
+
+void Reader::command() {
+    const Word first = word(0);
+    if (first.text == "set") return make();
+    if (first.text == "$ns_" || first.text == "$ns") return tell_simulator();
+    if (first.text.starts_with("$god") || first.text == "puts") return;
+    if (!first.text.starts_with('$')) fail(first, "set, $ns_ ..., $cbr_(0) ... or a comment (#)");
+    const std::string name = reference(first);
+    if (const auto app = apps_.find(name); app != apps_.end()) return tell(app->second);
+    if (!agents_.contains(name)) fail(first, "an agent or an application that was made before");
+}
+
+/// set NAME [new CLASS]
+void Reader::make() {
+    constexpr std::string_view classes =
+        "Agent/UDP, Agent/Null, Agent/LossMonitor or Application/Traffic/CBR";
+    const std::string name(word(1).text);
+    const Word kind = word(3);
+    if (word(2).text != "new") fail(word(2), "[new ...]; TCP is not known here, only CBR over UDP");
+    if (kind.text == "Application/Traffic/CBR") {
+        order_.push_back(name);
+        apps_[name].where = here(word(1));
+    } else if (kind.text == "Agent/UDP") {
+        agents_[name].sends = true;
+    } else if (kind.text == "Agent/Null" || kind.text == "Agent/LossMonitor") {
+        agents_[name].sends = false;
+    } else {
+        fail(kind, classes);
+    }
+}
+
+void Reader::tell_simulator() {
+    const Word verb = word(1);
+    if (verb.text == "at") return schedule();
+    if (verb.text == "attach-agent") {
+        Agent& agent = named(agents_, word(3), "an agent that was made before");
+        agent.node = node_number(word(2), lines_.where());
+        agent.where = here(word(2));
+    } else if (verb.text == "connect") {
+        named(agents_, word(2), "an agent that was made before").peer = reference(word(3));
+        named(agents_, word(3), "an agent that was made before");
+    } else {
+        fail(verb, "attach-agent, connect or at");
+    }
+}
+
+/// $ns_ at TIME "$cbr_(0) start"
+void Reader::schedule() {
+    const Time time = moment(word(2), lines_.where());
+    if (word(3).text.starts_with("$god")) return;
+    App& app = named(apps_, word(3), "an application that was made before");
+    const Word verb = word(4);
+    if (verb.text == "start") {
+        app.start = time;
+    } else if (verb.text == "stop") {
+        app.stop = time;
+    } else {
+        fail(verb, "start or stop");
+    }
+}
+
+/// $cbr_(0) set KEY VALUE, or $cbr_(0) attach-agent $udp_(0)
+void Reader::tell(App& app) {
+    if (word(1).text == "attach-agent") {
+        app.agent = reference(word(2));
+        named(agents_, word(2), "an agent that was made before");
+        return;
+    }
+    if (word(1).text != "set") fail(word(1), "set or attach-agent");
+    const Word key = word(2), value = word(3);
+    if (key.text == "packetSize_") {
+        app.size = amount(value, 0, "a size in bytes from 0 to 1000000");
+        if (app.size > 1e6 || app.size != std::floor(app.size)) {
+            fail(value, "a size in bytes from 0 to 1000000");
+        }
+    } else if (key.text == "interval_") {
+        app.interval = amount(value, 1e-9, "a time from 1e-9 to 1e9 [s]");
+    } else if (key.text == "rate_") {
+        app.rate = rate(value);
+        app.interval.reset();
+    } else if (key.text == "maxpkts_") {
+        app.most = amount(value, 0, "a number of packets");
+    } else if (key.text == "random_") {
+        random_ += amount(value, 0, "0 or 1") != 0;
+    } else {
+        fail(key, "packetSize_, interval_, rate_, random_ or maxpkts_");
+    }
+}
+
+void Reader::add_flow(const App& app, TrafficFile& file) {
+    const auto fault = [&](std::string_view what) {
+        throw InputError(app.where, fmt::format("this application {}", what));
+    };
+    if (!app.start || app.most < 1) return;
+    const auto from = agents_.find(app.agent);
+    if (from == agents_.end()) fault("is on no agent, expected attach-agent");
+    const auto to = agents_.find(from->second.peer);
+    if (!from->second.sends || to == agents_.end())
+        fault("has nobody to send to, expected connect");
+    if (!from->second.node || !to->second.node) fault("is on no node, expected $ns_ attach-agent");
+    constexpr double most = std::numeric_limits<int>::max();
+    TrafficTable flow;
+    flow.kind = TrafficKind::unicast;
+    flow.from = fmt::format("n{}", *from->second.node);
+    flow.to = fmt::format("n{}", *to->second.node);
+    flow.size = Bytes{static_cast<std::uint32_t>(app.size)};
+    flow.start = *app.start - start_of_run;
+    const double interval = app.interval.value_or(8 * app.size / app.rate);
+    flow.every = std::max(from_seconds(interval), Duration{1});
+    flow.from_where = from->second.where;
+    flow.to_where = to->second.where;
+    if (app.stop) flow.stop = *app.stop - start_of_run;
+    if (flow.stop && *flow.stop <= *flow.start) fault("stops before it starts");
+    if (flow.from == flow.to) fault("sends to its own node, expected another");
+    if (app.most < most) flow.count = static_cast<int>(app.most);
+    file.flows.push_back(std::move(flow));
+}
+
+}  // namespace
+
+TrafficFile read_traffic_file(const std::string& path) { return Reader(path).read(); }
+
+void read_flows(const Value& value, Scenario& out) {
+    TableReader table(value, "[traffic] with a file");
+    std::string name;
+    table.read("file", name);
+    table.reject_unknown();
+    const auto path = std::filesystem::path(out.file).parent_path() / name;
+    TrafficFile file = located_file(table.take("file")->where, "file",
+                                    [&] { return read_traffic_file(path.string()); });
+    for (TrafficTable& flow : file.flows) out.traffic.push_back(std::move(flow));
+    out.notices.insert(out.notices.end(), file.notices.begin(), file.notices.end());
+}
+
+}  // namespace rovernet

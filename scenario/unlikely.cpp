@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/unlikely.hpp"
+
+#include "scenario/quantity.hpp"
+#include "sim/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+std::string shown(Hertz f) { return quantity_text(f.value, Dimension::frequency); }
+std::string shown(BitRate rate) { return quantity_text(rate.value, Dimension::bit_rate); }
+
+/// A receiver that needs more than a milliwatt hears nobody farther than a hand's breadth away.
+void check_sensitivity(const Radio& radio, const RadioPlaces& places) {
+    const double dbm = radio.sensitivity.value;
+    if (dbm <= 0) return;
+    throw InputError(places.sensitivity,
+                     fmt::format("sensitivity: found {0} dBm, with which a receiver hears nobody; "
+                                 "expected at most 0 dBm; did you mean \"-{0} dBm\"?",
+                                 dbm));
+}
+
+void note_frequency(Scenario& out, const Radio& radio, const RadioPlaces& places) {
+    constexpr double lowest = 30e6, highest = 300e9;  // [Hz] VHF to EHF
+    const double f = radio.frequency.value;
+    if (f >= lowest && f <= highest) return;
+    const bool slip = f * 1000 >= 10 * lowest && f * 1000 <= highest;
+    add_notice(
+        out.notices,
+        fmt::format("{}: frequency: {} is no frequency of a robot's radio{}",
+                    places.frequency.text(), shown(radio.frequency),
+                    slip ? fmt::format("; did you mean \"{}\"?", shown(Hertz{f * 1000})) : ""));
+}
+
+/// Bit rates [Mbit/s] of a standard of 802.11.
+std::span<const double> rates_of(WifiStandard standard) {
+    constexpr static std::array<double, 12> all{1, 2, 5.5, 11, 6, 9, 12, 18, 24, 36, 48, 54};
+    const std::span<const double> rates(all);
+    switch (standard) {
+        case WifiStandard::a: return rates.subspan(4);
+        case WifiStandard::b: return rates.first(4);
+        case WifiStandard::g: return rates;
+    }
+    return rates;
+}
+
+void note_rate(Scenario& out, std::string_view key, BitRate rate, const Location& where) {
+    if (out.access.model != AccessModel::csma) return;
+    const auto rates = rates_of(out.access.standard);
+    const bool known = std::any_of(rates.begin(), rates.end(),
+                                   [&](double each) { return each * 1e6 == rate.value; });
+    if (known) return;
+    add_notice(out.notices,
+               fmt::format("{}: {}: {} has no rate of {}; it has {} Mb/s", where.text(), key,
+                           name_of(out.access.standard), shown(rate), fmt::join(rates, ", ")));
+}
+
+/// A robot starts switched on: what changes nothing was meant otherwise.
+void note_switching(Scenario& out, const RobotTable& robot) {
+    std::vector<std::pair<Duration, bool>> switches;  // false, off, comes first at one time
+    for (const Duration t : robot.off) switches.emplace_back(t, false);
+    for (const Duration t : robot.on) switches.emplace_back(t, true);
+    std::sort(switches.begin(), switches.end());
+    bool is_on = true;
+    for (const auto& [t, on] : switches) {
+        if (on == is_on) {
+            add_notice(out.notices,
+                       fmt::format("{}: {}: robot \"{}\" is {} already at {} s",
+                                   (on ? robot.on_where : robot.off_where).text(),
+                                   on ? "on" : "off", robot.name, on ? "on" : "off", seconds(t)));
+        }
+        is_on = on;
+    }
+}
+
+std::string shown(Vec3 p) { return fmt::format("({:.6g}, {:.6g}) m", p.x, p.y); }
+
+/// The nearest place of the box around the map.
+Vec3 on_map(const Scene& scene, Vec3 p) {
+    const Vec3 low = scene.lower_left(), high = scene.upper_right();
+    return {std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y), p.z};
+}
+
+/// Robots that one notice is about: the first one in words, the others counted.
+struct Affected {
+    std::string first;
+    std::size_t others = 0;
+
+    void add(const auto& words) {
+        if (first.empty()) {
+            first = words();
+        } else {
+            ++others;
+        }
+    }
+    void note(std::vector<std::string>& notices) const {
+        if (first.empty()) return;
+        add_notice(notices, others == 0 ? first : fmt::format("{}; and {} more", first, others));
+    }
+};
+
+/// Every place where the robot may start, as far as the file says it.
+void for_each_start(const RobotTable& robot, const auto& visit) {
+    if (robot.at) visit(*robot.at, robot.at_where);
+    if (!robot.place) return;
+    for (const auto* places : {&robot.place->area, &robot.place->points}) {
+        for (const Vec3 p : *places) visit(p, robot.place->where);
+    }
+}
+
+}  // namespace
+
+void add_notice(std::vector<std::string>& notices, std::string notice) {
+    if (std::find(notices.begin(), notices.end(), notice) != notices.end()) return;
+    notices.push_back(std::move(notice));
+}
+
+void note_unlikely(Scenario& scenario) {
+    const auto look = [&](const Radio& radio, const RadioPlaces& places) {
+        check_sensitivity(radio, places);
+        note_frequency(scenario, radio, places);
+        note_rate(scenario, "rate", radio.rate, places.rate);
+    };
+    if (scenario.robots.empty()) look(scenario.radio, scenario.radio_places);
+    for (const RobotTable& robot : scenario.robots) {
+        look(robot.radio, robot.radio_places);
+        note_switching(scenario, robot);
+    }
+    if (const auto& rates = scenario.access.basic_rates) {
+        for (const BitRate rate : *rates) {
+            note_rate(scenario, "basic_rates", rate, scenario.access_where);
+        }
+    }
+}
+
+void note_own_models(Scenario& scenario) {
+    const auto& vary = scenario.study.vary;
+    const bool varies = std::any_of(
+        vary.begin(), vary.end(), [](const Vary& v) { return v.path.starts_with("propagation."); });
+    if (!varies) return;
+    constexpr std::size_t most_named = 5;
+    std::vector<std::string> names;
+    for (const RobotTable& robot : scenario.robots) {
+        if (robot.own_model) names.push_back(fmt::format("\"{}\"", robot.name));
+    }
+    if (names.empty()) return;
+    const std::size_t others = names.size() - std::min(names.size(), most_named);
+    names.resize(names.size() - others);
+    add_notice(
+        scenario.notices,
+        fmt::format("these robots keep a propagation model of their own, whatever [propagation] "
+                    "says: {}{}",
+                    fmt::join(names, ", "), others > 0 ? fmt::format(" and {} more", others) : ""));
+}
+
+void note_places(Scenario& scenario, const Scene* scene) {
+    if (!scene) return;
+    Affected beyond, in_walls;
+    for (const RobotTable& robot : scenario.robots) {
+        for_each_start(robot, [&](Vec3 p, const Location& where) {
+            const double metres = distance(p, on_map(*scene, p));
+            if (!scenario.scene.map || metres == 0) return;  // a world has no border
+            beyond.add([&] {
+                return fmt::format(
+                    "{}: robot \"{}\" starts at {}, {:.4g} m off the map, which goes "
+                    "from {} to {}",
+                    where.text(), robot.name, shown(p), metres, shown(scene->lower_left()),
+                    shown(scene->upper_right()));
+            });
+        });
+        if (!scenario.scene.lenient || !robot.at) continue;
+        if (scene->clearance(*robot.at) >= robot.radius.value) continue;
+        in_walls.add([&] {
+            return fmt::format(
+                "{}: robot \"{}\" at {} is inside a wall or nearer to one than its "
+                "radius of {} m",
+                robot.at_where.text(), robot.name, shown(*robot.at), robot.radius.value);
+        });
+    }
+    beyond.note(scenario.notices);
+    in_walls.note(scenario.notices);
+}
+
+}  // namespace rovernet

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Scenes as scenarios ask for them: materials by grey level, sidecars, heights, boxes of worlds.
+#include "experiment/run.hpp"
+#include "scenario/scenario.hpp"
+#include "test/scene/png_writer.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+using namespace rovernet;
+using test::PngPicture;
+using test::TemporaryFolder;
+
+namespace {
+
+constexpr double rounding_db = 1e-9;
+
+bool near(double a, double b) { return std::abs(a - b) <= rounding_db; }
+
+/// 10 x 1 pixels of 1 m: black at x = 3, grey 100 at x = 6, light grey 200 (no wall) at x = 8.
+std::string picture() {
+    PngPicture picture{.width = 10, .rows = {}};
+    picture.rows = {{255, 255, 255, 0, 255, 255, 100, 255, 200, 255}};
+    return test::png_bytes(picture);
+}
+
+const std::string pair = R"([scene]
+map = "m.png"
+size = ["10 m", "1 m"]
+[propagation]
+model = "raytrace_2007"
+wall_factor = 0.2
+[[robot]]
+name = "a"
+at = ["0.5 m", "0.5 m"]
+radius = "0 m"
+[[robot]]
+name = "b"
+at = ["9.5 m", "0.5 m"]
+radius = "0 m"
+)";
+
+/// What the walls between a and b cost [dB], one way and back.
+std::pair<double, double> wall_db(const std::string& file, const ScenarioOptions& options = {}) {
+    const Scenario scenario = load_scenario(file, options);
+    ScenarioOptions none = options;
+    none.set.push_back("propagation.model=itu_indoor");
+    none.set.push_back("propagation.coefficient=30");
+    const Scenario without = load_scenario(file, none);
+    const auto cost = [&](const char* from, const char* to) {
+        return report_link(scenario, from, to, start_of_run).path_loss.value -
+               report_link(without, from, to, start_of_run).path_loss.value;
+    };
+    return {cost("a", "b"), cost("b", "a")};
+}
+
+}  // namespace
+
+TEST_CASE("scene: a bare picture's walls follow the wall factor, light greys are no walls") {
+    const TemporaryFolder folder;
+    folder.write("m.png", picture());
+    const auto [there, back] = wall_db(folder.write("s.toml", pair));
+    CHECK(near(there, 2 * 20));  // two metres at 0.2 dB/cm
+    CHECK(there == back);
+}
+
+TEST_CASE("scene: a material is told by its grey level, and has a loss of its own") {
+    const TemporaryFolder folder;
+    folder.write("m.png", picture());
+    const std::string file = folder.write(
+        "s.toml",
+        pair +
+            "[scene.materials]\npartition = { greys = [90, 110], per_crossing = \"3 dB\", "
+            "per_metre = \"4 dB/m\" }\nlight = { grey = 200, per_crossing = \"99 dB\" }\n");
+    const auto [there, back] = wall_db(file);
+    CHECK(near(there, 20 + 3 + 4));
+    CHECK(there == back);
+    const auto report = report_link(load_scenario(file, {}), "a", "b", start_of_run);
+    CHECK(report.materials == std::vector<std::string>{"wall", "partition"});
+}
+
+TEST_CASE("scene: a slab of P.2040 costs the same however thick it is drawn") {
+    const TemporaryFolder folder;
+    folder.write("m.png", picture());
+    const std::string file = folder.write(
+        "s.toml", pair +
+                      "[scene.materials]\nall = { greys = [0, 127], itu = \"brick\", thickness = "
+                      "\"0.1 m\" }\n");
+    const double brick = slab_loss(ItuMaterial::brick, Meters{0.1}, Hertz{2450e6}).value;
+    CHECK(near(wall_db(file).first, 2 * brick));
+}
+
+TEST_CASE("scene: a sidecar beside the map names materials, the scenario's come first") {
+    const TemporaryFolder folder;
+    folder.write("m.png", picture());
+    folder.write("m.materials.toml",
+                 "grey = { grey = 100, per_crossing = \"7 dB\" }\n"
+                 "black = { grey = 0, per_crossing = \"11 dB\" }\n");
+    CHECK(near(wall_db(folder.write("s.toml", pair)).first, 7 + 11));
+    const std::string over =
+        pair + "[scene.materials]\nmine = { grey = 0, per_crossing = \"1 dB\" }\n";
+    CHECK(near(wall_db(folder.write("t.toml", over)).first, 7 + 1));
+    folder.write("m.materials.toml", "grey = { gray = 100 }\n");
+    CHECK_THROWS_AS(wall_db(folder.write("s.toml", pair)), InputError);
+}
+
+TEST_CASE("scene: a link between antennas above the walls is clear") {
+    const TemporaryFolder folder;
+    folder.write("m.png", picture());
+    const std::string file = folder.write("s.toml", pair);
+    const ScenarioOptions low{.set = {"scene.wall_height=2 m", "radio.antenna_height=1.9 m"}};
+    const ScenarioOptions high{.set = {"scene.wall_height=2 m", "radio.antenna_height=2.1 m"}};
+    CHECK(near(wall_db(file, low).first, 40));
+    CHECK(wall_db(file, high).first == 0);
+    // From 1 m to 3.5 m over 9 m the line of sight is 2 m high at x = 4.1: past the first wall.
+    const ScenarioOptions slanted{
+        .set = {"scene.wall_height=2 m", "robot.b.radio.antenna_height=3.5 m"}};
+    const double stretched = std::sqrt(81 + 6.25) / 9;
+    CHECK(near(wall_db(file, slanted).first, 20 * stretched));
+}
+
+TEST_CASE("scene: a box of half a metre at wall factor 1 costs 50 dB both ways") {
+    const TemporaryFolder folder;
+    const std::string robot = "position ( name \"%\" pose [@ 0 0] wifi ( model \"raytrace\" ) )\n";
+    std::string world = "model ( size [0.5 4] pose [2.5 0 0] color \"brown\" )\n";
+    for (const auto& [name, x] : {std::pair{"a", "0"}, {"b", "5"}}) {
+        std::string each = robot;
+        each.replace(each.find('%'), 1, name);
+        each.replace(each.find('@'), 1, x);
+        world += each;
+    }
+    const double free = itu_indoor_db(5, Hertz{2450e6}, 30, 0);
+    const auto cost = [&](const std::string& file, const ScenarioOptions& options = {}) {
+        const Scenario scenario = load_scenario(file, options);
+        const double there = report_link(scenario, "a", "b", start_of_run).path_loss.value;
+        CHECK(there == report_link(scenario, "b", "a", start_of_run).path_loss.value);
+        return there - free;
+    };
+    const std::string box = folder.write("box.world", world);
+    CHECK(near(cost(box), 50));
+    // Its colour can be given a material.
+    const std::string file = folder.write(
+        "s.toml",
+        "[scene]\nworld = \"box.world\"\n[scene.materials]\nbox = { color = \"brown\", "
+        "per_crossing = \"6 dB\" }\n");
+    CHECK(near(cost(file), 6));
+    const std::string material = "scene.materials.box={color=\"brown\", per_crossing=\"6 dB\"}";
+    CHECK(near(cost(box, {.set = {material}}), 6));
+}

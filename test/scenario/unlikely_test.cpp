@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// What a scenario says in its range and hardly means: a notice, or the end of it.
+#include "scenario/unlikely.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/run.hpp"
+#include "scenario/memory.hpp"
+#include "test/scene/png_writer.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+using test::TemporaryFolder;
+
+namespace {
+
+const std::string robot_a = "[[robot]]\nname = \"A\"\nat = [\"2 m\", \"2 m\"]\n";
+const std::string on_map = "[scene]\nmap = \"m.png\"\nsize = [\"8 m\", \"1 m\"]\n";
+
+Scenario loaded(const TemporaryFolder& folder, const std::string& text) {
+    return load_scenario(folder.write("s.toml", text), {});
+}
+
+std::vector<std::string> notices_of(const std::string& text) {
+    const TemporaryFolder folder;
+    const test::PngPicture picture{
+        .width = 8, .height = 1, .rows = {{255, 255, 0, 100, 100, 255, 140, 255}}};
+    folder.write("m.png", test::png_bytes(picture));
+    return loaded(folder, text).notices;
+}
+
+/// One notice, with all these words.
+void check_notice(const std::string& text, const std::vector<std::string>& words) {
+    CAPTURE(text);
+    const auto notices = notices_of(text);
+    REQUIRE(notices.size() == 1);
+    CAPTURE(notices[0]);
+    for (const auto& word : words) CHECK(notices[0].find(word) != std::string::npos);
+}
+
+std::string error_of(auto&& make) {
+    try {
+        make();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("unlikely: a usual scenario has no notice") {
+    CHECK(notices_of(robot_a) == std::vector<std::string>{});
+    CHECK(notices_of(robot_a + "off = [\"1 s\", \"5 s\"]\non = [\"2 s\"]\n").empty());
+    CHECK(notices_of("[access]\nmodel = \"csma\"\nstandard = \"802.11g\"\n" + robot_a).empty());
+    CHECK(notices_of("[radio]\nfrequency = \"868 MHz\"\n" + robot_a).empty());
+}
+
+TEST_CASE("unlikely: a frequency whose unit slipped is a notice with what was meant") {
+    check_notice("[radio]\nfrequency = \"2.4 MHz\"\n" + robot_a,
+                 {"s.toml:2:13: frequency: ", "did you mean \"2400 MHz\"?"});
+    check_notice(robot_a + "radio = { frequency = \"1 Hz\" }\n", {":4:23: ", "no frequency of"});
+}
+
+TEST_CASE("unlikely: a rate that the standard does not have is a notice") {
+    check_notice("[radio]\nrate = \"54 Mb/s\"\n[access]\nmodel = \"csma\"\n" + robot_a,
+                 {":2:8: rate: 802.11b has no rate of 54 Mb/s", "1, 2, 5.5, 11"});
+    check_notice(
+        "[access]\nmodel = \"csma\"\nstandard = \"802.11a\"\nbasic_rates = [\"11 Mb/s\"]\n" +
+            robot_a,
+        {":4:15: basic_rates: 802.11a"});
+    CHECK(notices_of("[radio]\nrate = \"54 Mb/s\"\n" + robot_a).empty());  // nobody's standard
+}
+
+TEST_CASE("unlikely: switching on a robot that is on is a notice, and off likewise") {
+    check_notice(robot_a + "on = [\"1 s\"]\noff = [\"5 s\"]\n",
+                 {":4:6: on: ", "on already at 1 s"});
+    check_notice(robot_a + "off = [\"1 s\", \"2 s\"]\n", {":4:7: off: ", "off already at 2 s"});
+}
+
+TEST_CASE("unlikely: a robot that starts off the map is a notice, once for all of them") {
+    check_notice(on_map + "[[robot]]\nname = \"A\"\nat = [\"448 m\", \"0.5 m\"]\n",
+                 {":6:6: robot \"A\" starts at (448, 0.5) m, 440 m off the map", "(8, 1) m"});
+    const std::string two =
+        "[[robot]]\nname = \"B\"\nplace = { area = [[\"0 m\", \"0 m\"], [\"9 m\", \"1 m\"]] }\n"
+        "radius = \"0 m\"\n[[robot]]\nname = \"C\"\nat = [\"9 m\", \"9 m\"]\n";
+    check_notice(on_map + two, {"robot \"B\"", "1 m off the map", "and 1 more"});
+}
+
+TEST_CASE("unlikely: pixels of a material that are no walls are a notice") {
+    const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
+    check_notice(
+        on_map + robot + "[scene.materials]\npane = { grey = 140, per_crossing = \"3 dB\" }\n",
+        {":8:1: material \"pane\": 1 of its 1 pixels in m.png are no walls"});
+    check_notice(on_map + robot + "[scene.materials]\nx = { grey = 7, per_crossing = \"3 dB\" }\n",
+                 {"material \"x\" fits no pixel of m.png"});
+    check_notice(
+        on_map + robot + "[scene.materials]\nx = { color = \"red\", per_crossing = \"3 dB\" }\n",
+        {"material \"x\" has no grey"});
+    CHECK(notices_of(on_map + robot +
+                     "[scene.materials]\nx = { grey = 100, per_crossing = \"3 dB\" }\n")
+              .empty());
+}
+
+TEST_CASE(
+    "unlikely: greys between a ROS map's thresholds let the radio pass, and a notice says so") {
+    const TemporaryFolder folder;
+    const test::PngPicture picture{.width = 4, .height = 1, .rows = {{255, 0, 120, 255}}};
+    folder.write("m.png", test::png_bytes(picture));
+    folder.write("m.yaml",
+                 "image: m.png\nresolution: 1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\n"
+                 "free_thresh: 0.25\n");
+    const Scenario s = loaded(folder,
+                              "[scene]\nmap = \"m.yaml\"\n[scene.materials]\n"
+                              "brick = { greys = [0, 130], per_crossing = \"9 dB\" }\n"
+                              "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n");
+    REQUIRE(s.notices.size() == 1);
+    CHECK(s.notices[0].find("1 of its 2 pixels in m.yaml are no walls") != std::string::npos);
+    CHECK(s.notices[0].find("occupied_thresh") != std::string::npos);
+}
+
+TEST_CASE("unlikely: a robot in a wall of a world is a notice if the world is read leniently") {
+    const TemporaryFolder folder;
+    const std::string world =
+        folder.write("w.world",
+                     "model ( name \"block\" size [2 2] pose [0 0 0] )\n"
+                     "position ( name \"r\" pose [0.5 0 0] wifi ( model \"friis\" ) )\n");
+    const auto build = [](const Scenario& s) {
+        Network network(network_settings(s));
+        populate(network, s);
+    };
+    const std::string refused = error_of([&] { build(load_scenario(world, {})); });
+    CHECK(refused.find("inside a wall") != std::string::npos);
+    CHECK(refused.find("--lenient") != std::string::npos);
+    const Scenario lenient = load_scenario(world, {.lenient = true});
+    build(lenient);
+    CHECK(std::any_of(lenient.notices.begin(), lenient.notices.end(), [](const auto& text) {
+        return text.find("robot \"r\" at (0.5, 0) m is inside a wall") != std::string::npos;
+    }));
+}
+
+TEST_CASE("unlikely: a robot that chooses a model has that model's parameters, and no others'") {
+    const TemporaryFolder folder;
+    const auto loss = [&](const std::string& own) {
+        const Scenario s = loaded(folder,
+                                  "[propagation]\nmodel = \"raytrace_2007\"\ncoefficient = 20\n"
+                                  "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n" +
+                                      own + "[[robot]]\nname = \"B\"\nat = [\"10 m\", \"0 m\"]\n");
+        CHECK(s.robots[0].own_model == (own.find("model") != own.npos));
+        return report_link(s, "A", "B", start_of_run).path_loss.value;
+    };
+    const double office =
+        loss("propagation = { model = \"itu_indoor\", environment = \"office\" }\n");
+    CHECK(office - loss("") == doctest::Approx(10).epsilon(1e-9));  // 30 and 20, over ten metres
+    // Without a model of its own, what it does not say is the scenario's.
+    CHECK(loss("propagation = { wall_factor = 3 }\n") == loss(""));
+    CHECK(loss("propagation = { coefficient = 30 }\n") == office);
+}
+
+TEST_CASE("memory: more robots than the machine can hold are refused before any is made") {
+    Scenario s;
+    s.robots.resize(1);
+    s.robots[0].name = "r";
+    s.robots[0].count = 3'000'000;
+    s.robots[0].where = {"s.toml", 1, 1};
+    check_memory(s, 500'000'000'000);
+    CHECK(s.notices.empty());  // 0.8 GB
+    s.robots[0].count = 9'999'999;
+    check_memory(s, 500'000'000'000);
+    REQUIRE(s.notices.size() == 1);
+    CHECK(s.notices[0] == "s.toml:1:1: robots take about 2.8 GB of memory");
+    const std::string refused = error_of([&] { check_memory(s, 2'000'000'000); });
+    CHECK(refused ==
+          "s.toml:1:1: count: robots take about 2.8 GB of memory, and this process may have 2.0 "
+          "GB; expected fewer robots");
+    CHECK(available_memory() > 100'000'000);
+}
