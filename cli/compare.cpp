@@ -3,10 +3,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/picture_output.hpp"
 #include "cli/stop.hpp"
 #include "cli/study_run.hpp"
 #include "cli/text_table.hpp"
-#include "experiment/output.hpp"
 #include "scenario/json.hpp"
 #include "scenario/toml.hpp"
 #include "study/compare_cost.hpp"
@@ -263,6 +263,7 @@ void check_failures(const CompareArguments& a, const Store& store, const SweepRe
 }  // namespace
 
 void compare(const CompareArguments& a) {
+    if (a.picture) check_picture_name(*a.picture);
     const StudyTable given = ScenarioFile(a.file, options_of(a)).scenario().study;
     const Vary models = models_to_vary(a, given);
     const std::string metric = a.metric.empty() ? first_metric(given) : a.metric;
@@ -283,7 +284,7 @@ void compare(const CompareArguments& a) {
     check_interrupted(a, false);
     comparison.held = held_keys(given, study.base());
     if (a.picture) {
-        write_file(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));
+        write_picture(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));
     }
     if (a.json) {
         print_json(comparison);

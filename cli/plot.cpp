@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
+#include "cli/picture_output.hpp"
 #include "cli/stop.hpp"
 #include "pictures/draw/picture_file.hpp"
 #include "sim/error.hpp"
@@ -57,8 +58,7 @@ void plot(const PlotArguments& a) {
                                             .log_y = a.log_y,
                                             .common = a.common});
     if (is_picture_name(a.out)) {
-        const std::string svg = chart_svg(std::span(&chart, 1), layout_of(a));
-        write_whole({{a.out, picture_bytes(svg, a.out)}});
+        write_picture(a.out, chart_svg(std::span(&chart, 1), layout_of(a)));
     } else {
         write_whole({{a.out, writes(".gp") ? chart_gnuplot(chart) : chart_vega_lite(chart)}});
     }

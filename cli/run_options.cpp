@@ -90,7 +90,8 @@ void add_compare(CLI::App& app, const std::string& typed) {
                     "say of each model whether its mean is this near to the baseline's")
         ->check(CLI::PositiveNumber);
     compare.add_option("--store", a.store, "keep the runs in this file, and go on from there");
-    compare.add_option("-o,--output", a.picture, "picture to write: NAME.svg");
+    compare.add_option("-o,--output", a.picture,
+                       "picture to write: NAME.svg, NAME.png or NAME.pdf");
     add_study_run(compare, a);
 }
 

@@ -244,8 +244,7 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
         .kind = ChartKind::scatter,
         .x_label = costs ? "CPU time of the medium per frame [us]" : "CPU time per run [ms]",
         .y_label = "mean distance to " + comparison.dearest,
-        .x_from_zero = true,
-        .x_limits = {.low = 0},
+        .log_x = true,
         .y_limits = {.low = 0}};
     ChartSeries& bars = values.series.emplace_back(ChartSeries{});
     ChartSeries& dots = errors.series.emplace_back(ChartSeries{});

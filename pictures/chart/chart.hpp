@@ -58,7 +58,6 @@ struct Chart {
     std::string legend_title = {};  ///< what tells the series apart, such as "ttl"
     std::string note = {};  ///< below it: what the intervals are, where the numbers are from
     bool log_x = false, log_y = false;     ///< of axes with numbers
-    bool x_from_zero = false;              ///< the axis of x shows 0 too, unless it is logarithmic
     ChartLimits x_limits = {};             ///< of x, where it is a number
     ChartLimits y_limits = {};             ///< of y; of the colours of a heat map
     std::vector<ChartSeries> series = {};  ///< their names differ

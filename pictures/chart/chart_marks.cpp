@@ -240,6 +240,18 @@ void keep_marks_free(LabelPlaces& free, const ChartView& view, const ChartFrame&
     }
 }
 
+/// A free place for the label of a point: beside its mark, or else below or above its whisker.
+std::optional<Box> place_of_label(LabelPlaces& free, const ChartFrame& frame, const DrawnPoint& p,
+                                  double x, double width, double height) {
+    const double y = frame.at(p.x, p.y).y;
+    auto box = free.place({x, y}, mark_radius + 1, width, height);
+    for (const auto& [end, below] : {std::pair{p.low, true}, std::pair{p.high, false}}) {
+        if (box || !end) continue;
+        box = free.place_at_end({x, frame.at(p.x, *end).y}, below, width, height);
+    }
+    return box;
+}
+
 }  // namespace
 
 PicturePoint ChartFrame::at(double x_value, double y_value) const {
@@ -337,8 +349,8 @@ std::size_t draw_scatter(Svg& svg, const Chart& chart, const ChartView& view,
             const DrawnPoint& p = view.series[i][k];
             const std::string label = shortened(p.source->label, most_characters);
             if (label.empty()) continue;
-            const auto box = free.place({places[i][k], frame.at(p.x, p.y).y}, mark_radius + 1,
-                                        text_width(label, size), size + descent);
+            const auto box = place_of_label(free, frame, p, places[i][k], text_width(label, size),
+                                            size + descent);
             if (box)
                 svg.text(box->left, box->bottom - descent, label, {.size = size, .halo = true});
             homeless += !box;

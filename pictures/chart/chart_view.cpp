@@ -166,7 +166,6 @@ void find_ranges(const Chart& chart, ChartView& view) {
             }
         }
     }
-    if (chart.x_from_zero && !chart.log_x && view.points > 0) view.x_range.include(0);
     if (chart.kind == ChartKind::cdf) {
         view.y_range.include(0);
         view.y_range.include(1);

@@ -98,4 +98,19 @@ std::optional<Box> LabelPlaces::place(PicturePoint centre, double radius, double
     return best;
 }
 
+std::optional<Box> LabelPlaces::place_at_end(PicturePoint end, bool below, double width,
+                                             double height) {
+    constexpr int steps = 4;  // from the middle to a side
+    const double top = below ? end.y + gap : end.y - gap - height;
+    for (int n = 0; n <= 2 * steps; ++n) {
+        const double aside = (n % 2 == 0 ? 1 : -1) * (n + 1) / 2;
+        const double left = end.x - width / 2 + width / 2 * aside / steps;
+        const Box box{left, top, left + width, top + height};
+        if (!box.inside(area_) || !free(box)) continue;
+        keep_free(box);
+        return box;
+    }
+    return std::nullopt;
+}
+
 }  // namespace rovernet

@@ -35,6 +35,10 @@ class LabelPlaces {
     /// corners; the first that lies on the fewest lines. It counts as taken from now on. None if
     /// every place is taken.
     std::optional<Box> place(PicturePoint centre, double radius, double width, double height);
+    /// A free place for a label of that size below the end of an upright line, or above it: as near
+    /// to its middle as others let it, and never wholly to one side. It counts as taken from now
+    /// on. None if every place is taken.
+    std::optional<Box> place_at_end(PicturePoint end, bool below, double width, double height);
 
   private:
     struct Tile {

@@ -382,6 +382,27 @@ TEST_CASE("compare: other keys of the study are held, and what cannot be compare
               .err.find("expected one of disc, friis") != std::string::npos);
 }
 
+TEST_CASE(
+    "compare: a picture is of the kind that its name ends in, and another ending is refused") {
+    const Place place;
+    const auto with = [&](const std::string& out) {
+        return command(place.folder, {"compare", place.file, "--models", "disc,friis",
+                                      "--replications", "2", "-o", place.folder.path(out)});
+    };
+    CHECK(with("c.svg").exit == 0);
+    CHECK(content(place.folder.path("c.svg")).starts_with("<?xml"));
+    const Ended refused = with("c.gif");
+    CHECK(refused.exit == 2);
+    CHECK(refused.out.empty());
+    CHECK(refused.err.find("ends in .svg, .png or .pdf") != std::string::npos);
+    CHECK_FALSE(fs::exists(place.folder.path("c.gif")));
+    if (std::system("rsvg-convert --version > /dev/null 2>&1") != 0) return;
+    CHECK(with("c.png").exit == 0);
+    CHECK(content(place.folder.path("c.png")).starts_with("\x89PNG"));
+    CHECK(with("c.pdf").exit == 0);
+    CHECK(content(place.folder.path("c.pdf")).starts_with("%PDF"));
+}
+
 TEST_CASE("compare: with failed runs it compares what is there, and ends with 4") {
     const Place place;
     const Ended ended =

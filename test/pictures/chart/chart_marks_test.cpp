@@ -205,7 +205,6 @@ TEST_CASE("chart: points of a scatter that hide one another stand side by side")
         scatter.series[0].points.push_back(
             {.x = 26, .y = 0.1 * i, .low = 0.1 * i - 0.2, .high = 0.1 * i + 0.2, .label = "model"});
     }
-    scatter.x_from_zero = true;
     const std::string text = drawn(scatter);
     const auto svg = svg_elements(text);
     std::set<double> x;
@@ -346,6 +345,47 @@ TEST_CASE("chart: labels of a scatter overlap neither one another nor any mark")
     }
     const auto homeless = 60 - boxes.size();
     if (homeless > 0) CHECK(has(text, fmt::format("no room for {} label", homeless)));
+}
+
+TEST_CASE("chart: a label between whiskers stands below or above its own, and under none") {
+    // Three whiskers too near to one another for a label between them, the middle one the longest
+    // at one end or the other; the others' labels stand left and right of their marks.
+    for (const double longer : {-0.1, 0.1}) {
+        CAPTURE(longer);
+        Chart scatter = one_series(ChartKind::scatter, {{.x = -40, .y = 0.5}, {.x = 40, .y = 0.5}});
+        for (const double x : {-1, 0, 1}) {
+            const double more = x == 0 ? longer : 0;
+            scatter.series[0].points.push_back({.x = x,
+                                                .y = 0.5,
+                                                .low = 0.4 + std::min(more, 0.0),
+                                                .high = 0.6 + std::max(more, 0.0),
+                                                .label = fmt::format("model {}", x)});
+        }
+        scatter.y_limits = {.low = 0, .high = 1};
+        const std::string text = drawn(scatter);
+        CHECK_FALSE(has(text, "no room"));
+        const auto svg = svg_elements(text);
+        const auto whiskers = stems(of_class(svg, "whisker").at(0));
+        REQUIRE(whiskers.size() == 3);
+        int labels = 0;
+        for (const auto& each : svg) {
+            if (each.name != "text" || !each.text.starts_with("model ")) continue;
+            ++labels;
+            const double left = each.number("x"), y = each.number("y");
+            const Box label{left, y - 8, left + text_width(each.text, 11), y + 2};
+            for (const auto& stem : whiskers) {
+                CHECK_FALSE(label.overlaps({stem[0].x - 3, std::min(stem[0].y, stem[1].y),
+                                            stem[0].x + 3, std::max(stem[0].y, stem[1].y)}));
+            }
+            if (each.text != "model 0") continue;
+            const auto& own = whiskers[1];
+            CHECK((label.left < own[0].x && own[0].x < label.right));
+            const double top = std::min(own[0].y, own[1].y), bottom = std::max(own[0].y, own[1].y);
+            const double away = std::max(label.top - bottom, top - label.bottom);
+            CHECK((away > 0 && away < 10));
+        }
+        CHECK(labels == 3);
+    }
 }
 
 TEST_CASE("chart: the ends of a whisker beyond a logarithmic axis reach it, without a cap") {

@@ -128,16 +128,6 @@ TEST_CASE("chart view: few points or words have no band") {
     CHECK_FALSE(has_band(view_of(lines), 0));
 }
 
-TEST_CASE("chart view: an axis of x from zero has 0 in its range, but a logarithmic one") {
-    Chart chart{.kind = ChartKind::scatter,
-                .series = {{.name = "a", .points = {{.x = 45, .y = 1}}}}};
-    CHECK(view_of(chart).x_range.low() == 45);
-    chart.x_from_zero = true;
-    CHECK(view_of(chart).x_range.low() == 0);
-    chart.log_x = true;
-    CHECK(view_of(chart).x_range.low() == 45);
-}
-
 TEST_CASE("chart view: bars at a word stand side by side around it") {
     CHECK(std::abs(bar_offset(0, 1)) < rounding);
     CHECK(std::abs(bar_offset(0, 2) + 0.2) < rounding);
