@@ -89,7 +89,7 @@ std::string_view usual_unit(std::string_view name) {
         {"meter", "m"},     {"meters", "m"},   {"metre", "m"},     {"metres", "m"},
         {"mps", "m/s"},     {"kph", "km/h"},   {"degree", "deg"},  {"degrees", "deg"},
         {"radians", "rad"}, {"byte", "B"},     {"bytes", "B"},     {"bps", "b/s"},
-        {"kbps", "kb/s"},   {"Mbps", "Mb/s"},  {"Gbps", "Gb/s"},   {"dBW", "dBm"},
+        {"kbps", "kb/s"},   {"Mbps", "Mb/s"},  {"Gbps", "Gb/s"},
     };
     const auto found = std::find_if(std::begin(others), std::end(others),
                                     [&](const auto& other) { return other.first == name; });
@@ -177,7 +177,11 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
     if (unit_name.starts_with(',')) {
         reject(value, key, k, "found " + value.description(), "write the decimal point as \".\"");
     }
-    const std::string near = nearest_unit(k, usual_unit(unit_name));
+    const bool decibel_watts = dimension == Dimension::power && unit_name == "dBW";
+    const std::string near =
+        decibel_watts
+            ? fmt::format("that is another unit: {} dBW is \"{} dBm\"", number, number + 30)
+            : nearest_unit(k, usual_unit(unit_name));
     reject(value, key, k, fmt::format("found the unit \"{}\"", unit_name),
            near.empty() ? example : near);
 }

@@ -91,6 +91,7 @@ TrafficTable read_traffic(const Value& value) {
     table.read("saturate", traffic.saturate);
     const bool payload = table.read("payload", traffic.payload);
     const bool size = table.read("size", traffic.size);
+    if (payload) traffic.payload_where = table.take("payload")->where;
     if (!payload && !size) table.missing("payload", "payload = \"F\", or size = \"64 B\"");
     read_start(table.take("start"), traffic, table);
     table.read("every", traffic.every, positive);

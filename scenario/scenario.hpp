@@ -106,7 +106,7 @@ struct TrafficTable {
     std::optional<Duration> every;
     std::optional<Duration> stop;
     std::optional<int> count;
-    Location from_where = {}, to_where = {};
+    Location from_where = {}, to_where = {}, payload_where = {};
 };
 
 /// [trace]

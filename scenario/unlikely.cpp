@@ -52,7 +52,7 @@ std::span<const double> rates_of(WifiStandard standard) {
 }
 
 void note_rate(Scenario& out, std::string_view key, BitRate rate, const Location& where) {
-    if (out.access.model != AccessModel::csma) return;
+    if (out.access.model != AccessChoice::csma) return;
     const auto rates = rates_of(out.access.standard);
     const bool known = std::any_of(rates.begin(), rates.end(),
                                    [&](double each) { return each * 1e6 == rate.value; });
@@ -115,6 +115,23 @@ void for_each_start(const RobotTable& robot, const auto& visit) {
     }
 }
 
+/// A payload is words: one that reads as a size was meant as the size of the message.
+void note_payloads(Scenario& out) {
+    Affected sizes;
+    for (const TrafficTable& traffic : out.traffic) {
+        const std::string& words = traffic.payload;
+        const bool number = !words.empty() && words[0] >= '0' && words[0] <= '9';
+        if (traffic.size || !number || shared_dimension({words}) != Dimension::size) continue;
+        sizes.add([&] {
+            return fmt::format(
+                "{0}: payload: \"{1}\" is words, {2} bytes on air; did you mean "
+                "size = \"{1}\"?",
+                traffic.payload_where.text(), words, words.size());
+        });
+    }
+    sizes.note(out.notices);
+}
+
 }  // namespace
 
 void add_notice(std::vector<std::string>& notices, std::string notice) {
@@ -138,6 +155,7 @@ void note_unlikely(Scenario& scenario) {
             note_rate(scenario, "basic_rates", rate, scenario.access_where);
         }
     }
+    note_payloads(scenario);
 }
 
 void note_own_models(Scenario& scenario) {

@@ -108,6 +108,12 @@ TEST_CASE("quantity: a unit that is misspelt gets a suggestion") {
     CHECK(contains(error_of("15,5 dBm", Dimension::power), "decimal point"));
 }
 
+TEST_CASE("quantity: decibels over a watt are told as another unit, with the same power in dBm") {
+    const std::string error = error_of("-15 dBW", Dimension::power);
+    CHECK(contains(error, "found the unit \"dBW\""));
+    CHECK(contains(error, "another unit: -15 dBW is \"15 dBm\""));
+}
+
 TEST_CASE("quantity: what is no finite number is an error") {
     for (const char* text : {"", "m", "nan m", "inf m", "-inf m", "1e999 m", "1e308 km", "five m",
                              "5 m m", "5 5 m", "- 5 m", "0x10 m"}) {

@@ -9,6 +9,7 @@
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
@@ -75,6 +76,22 @@ TEST_CASE("unlikely: a rate that the standard does not have is a notice") {
             robot_a,
         {":4:15: basic_rates: 802.11a"});
     CHECK(notices_of("[radio]\nrate = \"54 Mb/s\"\n" + robot_a).empty());  // nobody's standard
+}
+
+TEST_CASE("unlikely: a payload that reads as a size is a notice, once for all of them") {
+    const auto traffic = [](const std::string& lines) {
+        return "[[traffic]]\nfrom = \"A\"\n" + lines + "\n";
+    };
+    check_notice(
+        robot_a + traffic("payload = \"64 B\""),
+        {":6:11: payload: \"64 B\" is words, 4 bytes on air", "did you mean size = \"64 B\"?"});
+    check_notice(robot_a + traffic("payload = \"1.5 kB\"") + traffic("payload = \"2 kB\""),
+                 {"size = \"1.5 kB\"?; and 1 more"});
+    for (const char* words : {"F", "", "64", "64 m", "64 Bits", "B"}) {
+        CAPTURE(words);
+        CHECK(notices_of(robot_a + traffic(fmt::format("payload = \"{}\"", words))).empty());
+    }
+    CHECK(notices_of(robot_a + traffic("payload = \"64 B\"\nsize = \"64 B\"")).empty());
 }
 
 TEST_CASE("unlikely: switching on a robot that is on is a notice, and off likewise") {
