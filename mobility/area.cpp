@@ -107,7 +107,7 @@ std::optional<Vec3> Area::first_place(const Mover& mover, StartPlace start, Draw
                               text(lower, upper), p.x, p.y));
 }
 
-Vec3 farthest(const Mover& mover, Vec3 to) {
+Vec3 straight_stop(const Mover& mover, Vec3 to) {
     const Scene& scene = mover.scene();
     const Vec3 from = mover.position;
     const auto open = [&](Vec3 p) {

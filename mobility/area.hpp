@@ -61,7 +61,7 @@ inline constexpr double least_leg = 1e-6;
 
 /// How far the mover can go straight from where it is towards `to`: `to`, or a micrometre before
 /// it would touch an obstacle or leave the map; where it is, if it cannot go at all.
-Vec3 farthest(const Mover& mover, Vec3 to);
+Vec3 straight_stop(const Mover& mover, Vec3 to);
 
 /// The vector of length 1 at `angle` [rad], counter-clockwise from the x axis.
 Vec3 direction_of(double angle);

@@ -77,7 +77,7 @@ Step GaussMarkov::next_leg(Mover& mover) {
         const Vec3 to = at.position + std::abs(v) * seconds(step) * heading;
         const bool inside = field.contains(to);
         const Vec3 end = inside ? to : field.exit(at.position, heading);
-        const Vec3 stop = farthest(at, end);
+        const Vec3 stop = straight_stop(at, end);
         if (inside && stop == to) return straight_leg(at, to, at.now + step);
         if (stop == end)
             turn_to_middle(field, stop);

@@ -45,7 +45,7 @@ Step RandomDirection::next_leg(Mover& mover) {
     const double u = draws.uniform(mover);
     const double speed = first && speeds.low > 0 ? speeds.at_a_moment(u) : speeds.of_a_trip(u);
     for (int i = 0; i < most_directions; ++i) {
-        const Vec3 to = farthest(at, field.exit(at.position, new_direction(at, field)));
+        const Vec3 to = straight_stop(at, field.exit(at.position, new_direction(at, field)));
         if (distance(at.position, to) <= least_leg) continue;
         rested = false;
         return straight_leg(at, to, MetersPerSecond{speed});

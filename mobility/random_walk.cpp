@@ -43,7 +43,7 @@ Step RandomWalk::next_leg(Mover& mover) {
         const double left = speed.value * seconds(step_end - at.now);
         const bool bounces = distance(at.position, border) <= left;
         const Vec3 to = bounces ? border : field.clamped(at.position + left * direction);
-        const Vec3 stop = farthest(at, to);
+        const Vec3 stop = straight_stop(at, to);
         if (stop == to)
             return bounces ? straight_leg(at, to, speed) : straight_leg(at, to, step_end);
         step_end = at.now;

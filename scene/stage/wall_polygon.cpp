@@ -38,8 +38,9 @@ Vec3 point(const WorldProperty& property) {
     if (property.is_tuple && v.size() == 2) {
         const double* x = std::get_if<double>(&v[0]);
         const double* y = std::get_if<double>(&v[1]);
-        constexpr double farthest = 1e9;
-        if (x && y && std::abs(*x) <= farthest && std::abs(*y) <= farthest) return {*x, *y, 0};
+        constexpr double largest_coordinate = 1e9;
+        if (x && y && std::abs(*x) <= largest_coordinate && std::abs(*y) <= largest_coordinate)
+            return {*x, *y, 0};
     }
     throw InputError(property.where, fmt::format("{}: expected two numbers [x y], at most 1e9; "
                                                  "write {} [0.1 0.2]",

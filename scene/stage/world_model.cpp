@@ -15,7 +15,7 @@ namespace rovernet {
 namespace {
 
 constexpr double pi_ = 3.14159265358979323846;
-constexpr double farthest = 1e9;  // [m] the plane is no larger
+constexpr double largest_coordinate = 1e9;  // [m] the plane is no larger
 
 /// The numbers of a tuple. @throws InputError unless there are `least` to `most` of them
 std::vector<double> numbers(const WorldProperty& property, std::size_t least, std::size_t most,
@@ -36,7 +36,7 @@ std::vector<double> numbers(const WorldProperty& property, std::size_t least, st
 
 double length(const WorldProperty& property, double number, const WorldUnits& units) {
     const double metres = number * units.metres;
-    if (std::abs(metres) <= farthest) return metres;
+    if (std::abs(metres) <= largest_coordinate) return metres;
     throw InputError(property.where,
                      fmt::format("{}: found {} m; expected at most 1e9 m; check the number",
                                  property.name, metres));

@@ -82,19 +82,19 @@ TEST_CASE("area: without room there is no free place") {
     CHECK_FALSE(Area({}, walled, "x").free_place(robot.mover(nobody), draws));
 }
 
-TEST_CASE("farthest: up to a micrometre before a wall, to the map's end, or nowhere") {
+TEST_CASE("straight_stop: up to a micrometre before a wall, to the map's end, or nowhere") {
     const Scene map(test::drawn_map({"....#", "....#"}));
     Planners planners(map);
     const LoneMover robot(planners, 0, {1, 1}, {0.5});
     const Mover mover = robot.mover(nobody);
-    CHECK(farthest(mover, {3, 1}) == Vec3{3, 1});
-    const Vec3 stop = farthest(mover, {9, 1});
+    CHECK(straight_stop(mover, {3, 1}) == Vec3{3, 1});
+    const Vec3 stop = straight_stop(mover, {9, 1});
     CHECK(stop.x < 3.5);
     CHECK(stop.x > 3.5 - 1.1e-6);
     CHECK(stop.y == 1);
-    const Vec3 end = farthest(mover, {-8, 1});
+    const Vec3 end = straight_stop(mover, {-8, 1});
     CHECK(end.x >= 0);
     CHECK(end.x < 2e-6);
     const LoneMover wide(planners, 0, {3, 1}, {1.5});
-    CHECK(farthest(wide.mover(nobody), {1, 1}) == Vec3{3, 1});
+    CHECK(straight_stop(wide.mover(nobody), {1, 1}) == Vec3{3, 1});
 }
