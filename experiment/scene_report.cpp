@@ -5,8 +5,8 @@
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/biconnected_components.hpp>
-#include <boost/graph/breadth_first_search.hpp>
 #include <boost/graph/connected_components.hpp>
+#include <boost/range/iterator_range.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -73,26 +73,48 @@ struct Links {
     }
 };
 
+/// The part of each robot: robots of a part are joined.
+std::vector<std::size_t> parts_of(const Graph& graph) {
+    std::vector<std::size_t> part(boost::num_vertices(graph));
+    boost::connected_components(graph, part.data());
+    return part;
+}
+
+/// How many hops the farthest robot of a part with so many robots is away. The search ends once it
+/// has found them all: where most are linked, it looks at the links of a few robots only.
+int eccentricity(const Graph& graph, std::size_t from, std::size_t robots) {
+    std::vector<int> hops(boost::num_vertices(graph), -1);
+    std::vector<std::size_t> found{from};
+    found.reserve(robots);
+    hops[from] = 0;
+    for (std::size_t next = 0; found.size() < robots; ++next) {
+        const std::size_t at = found[next];
+        for (const std::size_t to :
+             boost::make_iterator_range(boost::adjacent_vertices(at, graph))) {
+            if (hops[to] >= 0) continue;
+            hops[to] = hops[at] + 1;
+            found.push_back(to);
+        }
+    }
+    return hops[found.back()];
+}
+
 /// The longest of the shortest ways between robots that are joined, in hops.
-int diameter(const Graph& graph) {
+int diameter(const Graph& graph, const std::vector<std::size_t>& parts) {
+    std::vector<std::size_t> robots(parts.size());
+    for (const std::size_t part : parts) ++robots[part];
     int longest = 0;
-    std::vector<int> hops(boost::num_vertices(graph));
-    for (std::size_t from = 0; from < hops.size(); ++from) {
-        std::fill(hops.begin(), hops.end(), 0);
-        boost::breadth_first_search(graph, from,
-                                    boost::visitor(boost::make_bfs_visitor(boost::record_distances(
-                                        hops.data(), boost::on_tree_edge()))));
-        longest = std::max(longest, *std::max_element(hops.begin(), hops.end()));
+    for (std::size_t from = 0; from < parts.size(); ++from) {
+        longest = std::max(longest, eccentricity(graph, from, robots[parts[from]]));
     }
     return longest;
 }
 
-Array parts(const Graph& graph, const Network& network) {
-    std::vector<int> part(boost::num_vertices(graph));
-    const int count = boost::connected_components(graph, part.data());
-    std::vector<Array> names(static_cast<std::size_t>(count));
+Array part_names(const std::vector<std::size_t>& parts, const Network& network) {
+    std::vector<Array> names;
     for (std::uint32_t i = 0; i < network.size(); ++i) {
-        names[static_cast<std::size_t>(part[i])].emplace_back(network.name(NodeId{i}));
+        if (parts[i] >= names.size()) names.resize(parts[i] + 1);
+        names[parts[i]].emplace_back(network.name(NodeId{i}));
     }
     Array all;
     for (Array& each : names) all.emplace_back(std::move(each));
@@ -163,12 +185,13 @@ void append_robots(Table& report, const Network& network) {
     report.set("robots", std::move(robots));
     if (network.size() == 0) return;
     const Links links(network);
+    const std::vector<std::size_t> parts = parts_of(links.graph);
     Table connectivity;
     connectivity.set("links", static_cast<std::uint64_t>(boost::num_edges(links.graph)));
     connectivity.set("one_way_links", links.one_way);
-    connectivity.set("components", parts(links.graph, network));
+    connectivity.set("components", part_names(parts, network));
     connectivity.set("articulation_robots", cut_robots(links.graph, network));
-    connectivity.set("diameter_hops", diameter(links.graph));
+    connectivity.set("diameter_hops", diameter(links.graph, parts));
     report.set("connectivity", std::move(connectivity));
 }
 

@@ -194,6 +194,24 @@ range = "10 m"
     CHECK(scene["robots"][3]["x_m"] == 99.0);
 }
 
+TEST_CASE("scene: the diameter is that of the widest part, wherever its robots are in the list") {
+    const TemporaryFolder folder;
+    folder.write("parts.toml", R"(robot = [{ name = "lone", at = ["500 m", "0 m"] },
+        { name = "c", at = ["18 m", "0 m"] }, { name = "x", at = ["99 m", "0 m"] },
+        { name = "a", at = ["0 m", "0 m"] }, { name = "d", at = ["27 m", "0 m"] },
+        { name = "y", at = ["99 m", "5 m"] }, { name = "b", at = ["9 m", "0 m"] },
+        { name = "z", at = ["95 m", "5 m"] }]
+[propagation]
+model = "disc"
+range = "10 m"
+)");
+    const Json joined = json_of(folder, {"scene", folder.path("parts.toml")})["connectivity"];
+    CHECK(joined["components"] == Json({{"lone"}, {"c", "a", "d", "b"}, {"x", "y", "z"}}));
+    CHECK(joined["articulation_robots"] == Json({"c", "b"}));
+    CHECK(joined["diameter_hops"] == 3);
+    CHECK(joined["links"] == 6);
+}
+
 TEST_CASE("worlds: a Stage world is a FILE everywhere") {
     const TemporaryFolder folder;
     folder.write("hall.png", hall_picture());
