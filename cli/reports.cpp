@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
-#include "cli/waiting.hpp"
+#include "cli/playing.hpp"
 #include "experiment/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
@@ -109,8 +109,8 @@ void link(const LinkArguments& a) {
     const Scenario scenario = scenario_of(a);
     const Time at = time_in(scenario, a.at);
     const auto report = [&] {
-        const Waiting playing(fmt::format("playing {} until {:g} s", a.file, seconds(at)));
-        return report_link(scenario, a.from, a.to, at);
+        Playing playing(a.file, at);
+        return report_link(scenario, a.from, a.to, at, playing.tell());
     }();
     if (a.json) {
         fmt::print("{}", to_json(as_table(report)));

@@ -22,29 +22,6 @@ namespace {
 
 constexpr std::size_t longest_timeline = 100;  // lines
 
-/// A bar on a terminal; nothing anywhere else.
-class ProgressBar {
-  public:
-    ~ProgressBar() {
-        if (shown_) to_terminal("\r\033[K");
-    }
-    void show(double share) {
-        const auto now = std::chrono::steady_clock::now();
-        if (!on_terminal_ || now - last_ < std::chrono::milliseconds{200}) return;
-        last_ = now;
-        shown_ = true;
-        constexpr int width = 40;
-        const int full = static_cast<int>(share * width);
-        to_terminal(
-            fmt::format("\r[{:=<{}}{: <{}}] {:3.0f} %", "", full, "", width - full, 100 * share));
-    }
-
-  private:
-    bool on_terminal_ = shows_progress();
-    bool shown_ = false;
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 std::string percent(const std::optional<double>& share) {
     return share ? fmt::format("{:.1f} %", 100 * *share) : "none";
 }
@@ -139,21 +116,21 @@ void run(const RunArguments& a) {
         fmt::print("{}", to_toml(to_document(scenario)));
         return;
     }
-    RunResult result;
-    std::optional<Waiting> setting_up("setting up the network of " + a.file);
+    std::optional<Waiting> waiting("setting up the network of " + a.file);
     std::optional<HeldStop> writing;  // not while the network is set up
-    {
-        ProgressBar bar;
-        result =
-            run_scenario(scenario, {.folder = a.out ? *a.out : run_folder(scenario, a.options.set),
-                                    .speed = a.speed,
-                                    .progress = [&](double share) {
-                                        setting_up.reset();
-                                        if (!writing) writing.emplace();
-                                        bar.show(share);
-                                        return stops_asked() == 0;
-                                    }});
-    }
+    const RunResult result =
+        run_scenario(scenario, {.folder = a.out ? *a.out : run_folder(scenario, a.options.set),
+                                .speed = a.speed,
+                                .progress = [&](double share) {
+                                    if (!writing) {
+                                        waiting.reset();
+                                        waiting.emplace("running " + a.file);
+                                        writing.emplace();
+                                    }
+                                    waiting->tell(share);
+                                    return stops_asked() == 0;
+                                }});
+    waiting.reset();
     writing.reset();
     if (a.json) {
         write_summary(run_summary(scenario, result), *result.timeline,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/picture_output.hpp"
+#include "cli/playing.hpp"
 #include "cli/stop.hpp"
 #include "cli/waiting.hpp"
 #include "experiment/link_table.hpp"
@@ -8,7 +10,6 @@
 #include "experiment/run.hpp"
 #include "experiment/scene_report.hpp"
 #include "experiment/whereabouts.hpp"
-#include "pictures/draw/picture_file.hpp"
 #include "pictures/map/picture.hpp"
 #include "scenario/json.hpp"
 
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <unistd.h>
 #include <utility>
 
 namespace rovernet::cli {
@@ -133,19 +135,9 @@ void print_robots(const Table& report) {
                std::get<std::int64_t>(c.find("diameter_hops")->data));
 }
 
-std::string playing(const std::string& file, Time until) {
-    return fmt::format("playing {} until {:g} s", file, seconds(until));
-}
-
 std::unique_ptr<Network> played(const std::string& file, const Scenario& scenario, Time until) {
-    const Waiting waiting(playing(file, until));
-    return network_at(scenario, until);
-}
-
-/// Draws or converts, with a word for who waits.
-auto with_patience(const std::string& what, auto&& work) {
-    const Waiting waiting(what);
-    return work();
+    Playing playing(file, until);
+    return network_at(scenario, until, playing.tell());
 }
 
 }  // namespace
@@ -163,7 +155,11 @@ Time time_in(const Scenario& scenario, const std::string& text) {
 void links(const LinksArguments& a) {
     const Scenario scenario = scenario_of(a);
     if (a.history) {
-        write_link_history(scenario, [](std::string_view line) { fmt::print("{}", line); });
+        Playing playing(a.file, start_of_run + scenario.scenario.duration);
+        // On one terminal the lines themselves show how far it is.
+        const TellTime tell = isatty(STDOUT_FILENO) != 0 ? TellTime{} : playing.tell();
+        write_link_history(
+            scenario, [](std::string_view line) { fmt::print("{}", line); }, tell);
         return;
     }
     const Time at = time_in(scenario, a.at);
@@ -199,8 +195,10 @@ void where(const WhereArguments& a) {
     const Scenario scenario = scenario_of(a);
     std::vector<Time> times;
     for (const std::string& text : a.at) times.push_back(time_in(scenario, text));
-    const auto all = with_patience(playing(a.file, *std::max_element(times.begin(), times.end())),
-                                   [&] { return whereabouts(scenario, times); });
+    const auto all = [&] {
+        Playing playing(a.file, *std::max_element(times.begin(), times.end()));
+        return whereabouts(scenario, times, playing.tell());
+    }();
     Array list;
     for (const Whereabouts& now : all) {
         Array robots;
@@ -233,10 +231,7 @@ void where(const WhereArguments& a) {
 }
 
 void draw(const DrawArguments& a) {
-    if (!is_picture_name(a.out)) {
-        throw InputError(Location{"--output " + a.out, 0, 0, true},
-                         "expected a name that ends in .svg, .png or .pdf; for example office.svg");
-    }
+    check_picture_name(a.out);
     const Scenario scenario = scenario_of(a);
     const PictureOptions options{.at = time_in(scenario, a.at),
                                  .coverage = a.coverage,
@@ -245,15 +240,20 @@ void draw(const DrawArguments& a) {
                                  .axes = a.axes,
                                  .width = a.width,
                                  .font_size = a.font_size};
-    const std::string svg =
-        with_patience("drawing " + a.file, [&] { return draw_svg(scenario, options); });
-    write_whole({{a.out, picture_bytes(svg, a.out)}});
+    const std::string svg = [&] {
+        const Waiting waiting("drawing " + a.file);
+        return draw_svg(scenario, options);
+    }();
+    write_picture(a.out, svg);
 }
 
 void convert_movements(const ConvertArguments& a) {
     const Scenario scenario = scenario_of(a);
-    write_whole(with_patience(playing(a.file, start_of_run + scenario.scenario.duration),
-                              [&] { return movement_files(scenario, a.out); }));
+    const auto files = [&] {
+        Playing playing(a.file, start_of_run + scenario.scenario.duration);
+        return movement_files(scenario, a.out, playing.tell());
+    }();
+    write_whole(files);
 }
 
 }  // namespace rovernet::cli

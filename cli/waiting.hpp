@@ -2,12 +2,14 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace rovernet::cli {
 
-/// What a command is at: shown on a terminal once it has taken a second, until it is done; with
-/// --verbose its time is told. One at a time.
+/// What a command is at: shown on a terminal once it has taken a second, until it is done, with the
+/// share that is done and the time left if these are told; with --verbose its time is told. One at
+/// a time.
 class Waiting {
   public:
     /// @param what  "reading office.toml"
@@ -16,9 +18,21 @@ class Waiting {
     Waiting(const Waiting&) = delete;
     Waiting& operator=(const Waiting&) = delete;
 
+    /// This share of it is done, 0 ... 1: cheap, to be told often.
+    void tell(double share);
+
   private:
+    using Clock = std::chrono::steady_clock;
+
     std::string what_;
-    std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+    bool on_terminal_;
+    Clock::time_point started_ = Clock::now();
+    Clock::time_point next_;                // look of the line
+    std::optional<Clock::time_point> told_  // first: what came before tells nothing of the rest
+        = std::nullopt;
 };
+
+/// "[====      ]  42 %, 26 s to go"; without the time while nothing is done.
+std::string share_text(double share, double elapsed_s);
 
 }  // namespace rovernet::cli

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace rovernet {
 
@@ -23,24 +25,59 @@ NodeId robot_named(const Network& network, const std::string& name) {
         network.size() > most_listed ? " ..." : "", near.empty() ? "" : "; ", near));
 }
 
+namespace {
+
+bool somebody_reacts(const Scenario& scenario) {
+    return std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                       [](const RobotTable& robot) { return !robot.reactions.empty(); });
+}
+
+}  // namespace
+
 Scenario without_idle_traffic(const Scenario& scenario) {
     Scenario quiet = scenario;
-    const bool somebody_reacts =
-        std::any_of(quiet.robots.begin(), quiet.robots.end(),
-                    [](const RobotTable& robot) { return !robot.reactions.empty(); });
-    if (!somebody_reacts) quiet.traffic.clear();
+    if (!somebody_reacts(scenario)) quiet.traffic.clear();
     return quiet;
 }
 
-std::unique_ptr<Network> network_at(const Scenario& scenario, Time at) {
+std::unique_ptr<Network> network_at(const Scenario& scenario, Time at, const TellTime& tell) {
     const Scenario played = without_idle_traffic(scenario);
     auto network = std::make_unique<Network>(network_settings(played));
     populate(*network, played);
-    network->run_until(at);
+    play_until(*network, at, tell);
     return network;
 }
 
 namespace {
+
+/// These robots and all whom they go by, one after the other.
+std::set<std::string> with_leaders(const Scenario& scenario, std::set<std::string> robots) {
+    std::map<std::string, std::string> leaders;
+    for (const RobotTable& table : scenario.robots) {
+        if (table.move.leader.empty()) continue;
+        for (int i = 0; i < table.count.value_or(1); ++i) {
+            leaders.emplace(table.name_of(i), table.move.leader);
+        }
+    }
+    for (std::vector<std::string> left(robots.begin(), robots.end()); !left.empty();) {
+        const auto leader = leaders.find(left.back());
+        left.pop_back();
+        if (leader == leaders.end() || !robots.insert(leader->second).second) continue;
+        left.push_back(leader->second);
+    }
+    return robots;
+}
+
+/// A movement depends on its robot's own draws and on those that it goes by: the others may stay
+/// where they are, unless a robot reacts to something.
+void keep_others_still(Network& network, const Scenario& scenario,
+                       const std::set<std::string>& asked_for) {
+    if (somebody_reacts(scenario)) return;
+    const auto needed = with_leaders(scenario, asked_for);
+    for (NodeId node{0}; node.index() < network.size(); ++node.value) {
+        if (!needed.contains(network.name(node))) network.move(node, Fixed{});
+    }
+}
 
 /// What each wall of a link takes [dB]. A material with a loss of its own takes that; what the
 /// propagation model takes for the rest is in proportion to their lengths.
@@ -103,11 +140,14 @@ std::string why_down(const Network& network, NodeId from, NodeId to, const LinkR
 }  // namespace
 
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
-                       Time at) {
-    const auto built = network_at(scenario, at);
-    const Network& network = *built;
+                       Time at, const TellTime& tell) {
+    const Scenario played = without_idle_traffic(scenario);
+    Network network(network_settings(played));
+    populate(network, played);
     const NodeId a = robot_named(network, from), b = robot_named(network, to);
     if (a == b) throw std::invalid_argument("a link needs two robots, got \"" + from + "\" twice");
+    keep_others_still(network, played, {from, to});
+    play_until(network, at, tell);
 
     const Medium& medium = network.medium();
     const Vec3 pa = medium.antenna(a, at, network.legs());

@@ -130,13 +130,13 @@ Table link_table_document(const LinkTable& table) {
 }
 
 void write_link_history(const Scenario& scenario,
-                        const std::function<void(std::string_view)>& write) {
+                        const std::function<void(std::string_view)>& write, const TellTime& tell) {
     const Scenario played = without_idle_traffic(scenario);
     Network network(network_settings(played));
     populate(network, played);
     write("time_s,from,to,event\n");
     network.add_sink(std::make_shared<History>(History{&network, write}));
-    network.run_until(start_of_run + played.scenario.duration);
+    play_until(network, start_of_run + played.scenario.duration, tell);
 }
 
 }  // namespace rovernet

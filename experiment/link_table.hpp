@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/playing.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/value.hpp"
@@ -47,6 +48,7 @@ Table link_table_document(const LinkTable& table);
 
 /// Writes every link change of the scenario's run as CSV: time_s,from,to,event.
 void write_link_history(const Scenario& scenario,
-                        const std::function<void(std::string_view)>& write);
+                        const std::function<void(std::string_view)>& write,
+                        const TellTime& tell = {});
 
 }  // namespace rovernet

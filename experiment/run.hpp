@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/output.hpp"
+#include "experiment/playing.hpp"
 #include "experiment/timeline.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
@@ -79,7 +80,7 @@ NodeId robot_named(const Network& network, const std::string& name);
 Scenario without_idle_traffic(const Scenario& scenario);
 
 /// A network whose robots and links are as the scenario's at `at`.
-std::unique_ptr<Network> network_at(const Scenario& scenario, Time at);
+std::unique_ptr<Network> network_at(const Scenario& scenario, Time at, const TellTime& tell = {});
 
 /// The link from A to B at a time.
 struct LinkReport {
@@ -98,9 +99,10 @@ struct LinkReport {
     std::string why_down;  ///< "B is off", say; empty if it is up
 };
 
-/// Runs the scenario until `at`, then looks at one link.
+/// Runs the scenario until `at`, then looks at one link. Only the two robots move and those that
+/// they go by, unless some robot reacts to what others do.
 /// @throws std::invalid_argument if there is no such robot or both are one
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
-                       Time at);
+                       Time at, const TellTime& tell = {});
 
 }  // namespace rovernet

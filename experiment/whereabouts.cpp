@@ -55,7 +55,8 @@ struct Recorder {
 
 }  // namespace
 
-std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times) {
+std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times,
+                                     const TellTime& tell) {
     std::vector<std::size_t> order(times.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
@@ -65,19 +66,19 @@ std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector
     populate(network, played);
     std::vector<Whereabouts> all(times.size());
     for (const std::size_t i : order) {
-        network.run_until(times[i]);
+        play_until(network, times[i], tell);
         all[i] = everybody(network);
     }
     return all;
 }
 
-std::vector<Track> tracks(const Scenario& scenario) {
+std::vector<Track> tracks(const Scenario& scenario, const TellTime& tell) {
     const Scenario played = without_idle_traffic(scenario);
     Network network(network_settings(played));
     populate(network, played);
     const auto recorder = std::make_shared<Recorder>();
     network.add_sink(recorder);
-    network.run_until(start_of_run + scenario.scenario.duration);
+    play_until(network, start_of_run + scenario.scenario.duration, tell);
     std::vector<Track> all;
     recorder->legs.resize(network.size());
     for (std::uint32_t i = 0; i < network.size(); ++i) {
@@ -86,12 +87,13 @@ std::vector<Track> tracks(const Scenario& scenario) {
     return all;
 }
 
-std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path) {
+std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path,
+                                       const TellTime& tell) {
     const std::filesystem::path out(path);
     const std::string ending = out.extension().string();
     const Time end = start_of_run + scenario.scenario.duration;
     if (ending == ".tcl" || ending == ".ns_movements") {
-        return {{path, setdest_text(tracks(scenario), end)}};
+        return {{path, setdest_text(tracks(scenario, tell), end)}};
     }
     if (ending != ".movements") {
         throw std::invalid_argument(
@@ -99,7 +101,7 @@ std::vector<OutputFile> movement_files(const Scenario& scenario, const std::stri
                         ".movements for BonnMotion",
                         path, ending));
     }
-    const auto all = tracks(scenario);
+    const auto all = tracks(scenario, tell);
     std::filesystem::path params(out);
     return {{path, bonnmotion_text(all, end)},
             {params.replace_extension(".params").string(), bonnmotion_params(all, end)}};

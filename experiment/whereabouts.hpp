@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/output.hpp"
+#include "experiment/playing.hpp"
 #include "mobility/files/movement_writer.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
@@ -26,14 +27,16 @@ struct Whereabouts {
 };
 
 /// Runs the scenario through all these times; the answers are in their order.
-std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times);
+std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times,
+                                     const TellTime& tell = {});
 
 /// Everybody's legs of the scenario's run.
-std::vector<Track> tracks(const Scenario& scenario);
+std::vector<Track> tracks(const Scenario& scenario, const TellTime& tell = {});
 
 /// The scenario's motion as a movement file: NAME.movements (and NAME.params beside it) for
 /// BonnMotion, NAME.tcl or NAME.ns_movements for ns-2.
 /// @throws std::invalid_argument for another ending
-std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path);
+std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path,
+                                       const TellTime& tell = {});
 
 }  // namespace rovernet
