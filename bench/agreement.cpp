@@ -4,7 +4,9 @@
 
 #include "bench/aloha.hpp"
 #include "bench/bianchi.hpp"
+#include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 
 #include <fmt/format.h>

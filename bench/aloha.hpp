@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "sim/random.hpp"
 

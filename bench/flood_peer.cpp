@@ -12,9 +12,11 @@
 #include "bench/peers/usage.hpp"
 #include "experiment/movement_play.hpp"
 #include "mobility/files/movement_file.hpp"
+#include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/log_distance.hpp"
 #include "models/propagation/two_ray.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 

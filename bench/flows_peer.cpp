@@ -6,7 +6,9 @@
 // standard's basic rates, as in ns-3. The header is that of ns-2; of 802.11 and LLC alone it is 36.
 
 #include "bench/peers/peer.hpp"
+#include "models/access/list.hpp"
 #include "models/propagation/two_ray.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 
 #include <fmt/format.h>
@@ -53,7 +55,7 @@ struct Count {
     }
 };
 
-ReceptionRung reception(const std::string& name) {
+ReceptionModel reception(const std::string& name) {
     if (name == "sinr") return Sinr{};
     return Collision{.capture =
                          name == "collision_later" ? CaptureOrder::later : CaptureOrder::first};

@@ -55,8 +55,8 @@ void print_row(const FloodBenchRow& r) {
 
 void bench_flood(const BenchArguments& a) {
     FloodBench bench = a.bench;
-    bench.reception = choice<ReceptionModel>("reception", a.reception);
-    bench.access = choice<AccessModel>("access", a.access);
+    bench.reception = choice<ReceptionChoice>("reception", a.reception);
+    bench.access = choice<AccessChoice>("access", a.access);
     bench.mobility = choice<BenchMobility>("mobility", a.mobility);
     Array rows;
     if (!a.json) {

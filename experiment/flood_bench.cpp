@@ -61,7 +61,7 @@ struct Count {
 
 /// Frames disturb each other, or their senders listen: more than the decode range matters.
 bool disturbs(const FloodBench& bench) {
-    return bench.reception != ReceptionModel::threshold || bench.access == AccessModel::csma;
+    return bench.reception != ReceptionChoice::threshold || bench.access == AccessChoice::csma;
 }
 
 bool has_levels(const FloodBench& bench) { return bench.shadowing.value > 0 || disturbs(bench); }
@@ -165,7 +165,7 @@ FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
         network.add_sink(Timeline{network});
     }
     add_robots(network, bench, nodes);
-    const Duration jitter{bench.access == AccessModel::csma ? 50'000'000 : 10'000'000};
+    const Duration jitter{bench.access == AccessChoice::csma ? 50'000'000 : 10'000'000};
     network.route(Flood{.ttl = 65535, .upgrade = false, .jitter = jitter});
     const auto count = std::make_shared<Count>();
     network.add_sink(Sink{count});

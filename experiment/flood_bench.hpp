@@ -21,8 +21,8 @@ struct EnumNames<BenchMobility> {
 /// have 12 neighbours on average where there is no border.
 struct FloodBench {
     std::vector<std::uint32_t> nodes = {1000};
-    ReceptionModel reception = ReceptionModel::threshold;
-    AccessModel access = AccessModel::none;         ///< csma: jitter of 50 ms instead of 10 ms
+    ReceptionChoice reception = ReceptionChoice::threshold;
+    AccessChoice access = AccessChoice::none;       ///< csma: jitter of 50 ms instead of 10 ms
     BenchMobility mobility = BenchMobility::fixed;  ///< random waypoint: 1-20 m/s, no rest
     Db shadowing{0};                                ///< of each link; 0: links go by distance alone
     bool recorded = false;  ///< with metrics, fingerprint and timeline, as `rovernet run`

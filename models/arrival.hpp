@@ -13,10 +13,10 @@ namespace rovernet {
 /// A frame as it was sent.
 struct Emission {
     Time begin, end;           ///< at the sender
-    Vec3 origin;               ///< [m] the sender's antenna at `begin`
+    Vec3 origin = {};          ///< [m] the sender's antenna at `begin`
     NodeId from;               ///< its sender
-    double heard_within;       ///< [m] from the origin: nobody farther is a receiver
-    double squared_reach;      ///< [m^2] nobody farther is disturbed; may be infinite
+    double heard_within = 0;   ///< [m] from the origin: nobody farther is a receiver
+    double squared_reach = 0;  ///< [m^2] nobody farther is disturbed; may be infinite
     std::uint32_t flight;      ///< known to the caller
     std::uint64_t serial = 0;  ///< its number, in the order of sending
 };

@@ -6,153 +6,129 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace rovernet {
 
-namespace {
-
-const Scene& open_field() {
-    static const Scene scene;
-    return scene;
-}
-
-std::optional<Db> interference_cut(const ReceptionRung& rung) {
-    const auto* sinr = std::get_if<Sinr>(&rung);
-    return sinr ? std::optional(sinr->interference_cut) : std::nullopt;
-}
-
-}  // namespace
-
+// Each part is made after those that it tells of what happens.
 Engine::Engine(NetworkSettings settings)
-    : settings_(std::move(settings)),
-      scene_(settings_.scene ? settings_.scene.get() : &open_field()),
-      planners_(settings_.planners ? settings_.planners : std::make_shared<Planners>(*scene_)),
-      medium_({.scene = scene_,
-               .floor_height = settings_.floor_height,
-               .propagation_delay = settings_.propagation_delay,
-               .all_pairs = settings_.reference,
-               .interference_cut = interference_cut(settings_.reception),
-               .seed = settings_.seed,
-               .replication = settings_.replication}),
-      frames_meet_(!std::holds_alternative<Threshold>(settings_.reception)) {
-    if (!positive.contains(settings_.floor_height.value)) {
-        throw_out_of_range("network", "floor_height", positive.text, settings_.floor_height.value);
+    : world(std::move(settings)),
+      applications(world, routing, mac),
+      routing(world, mac, applications),
+      mac(world, channel, routing),
+      channel(world, mac),
+      links(world),
+      motion(world, channel, links) {
+    for (const BitRate rate : mac.own_rates()) channel.check(rate);
+    if (!world.settings.metrics) return;
+    metrics = std::make_shared<Metrics>(start_of_run + world.settings.warmup,
+                                        world.settings.metric_parts);
+    add_sink(Sink{metrics});
+}
+
+void Engine::reserve(std::size_t robots) {
+    world.legs.reserve(robots);
+    world.medium.reserve(robots);
+    names.reserve(robots);
+}
+
+NodeId Engine::add(Robot robot) {
+    if (robot.name.empty()) robot.name = fmt::format("r{}", world.size());
+    if (names.find(robot.name)) {
+        throw std::invalid_argument(fmt::format("two robots are named \"{}\"", robot.name));
     }
-    if (&planners_->scene() != scene_) {
-        throw std::invalid_argument("network: planners must be those of its scene");
-    }
-    for (const Duration d : {settings_.links.tolerance, settings_.links.min_dwell}) {
-        if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
-    }
-    if (const auto* sinr = std::get_if<Sinr>(&settings_.reception)) {
-        sinr_receiver_ = SinrReceiver(*sinr);
-    }
-    if (const auto* aloha = std::get_if<Aloha>(&settings_.access)) aloha_.emplace(*aloha);
-    if (const auto* csma = std::get_if<Csma>(&settings_.access)) {
-        dcf_.emplace(*csma);
-        if (std::holds_alternative<Sinr>(settings_.reception)) {
-            for (const BitRate rate : csma->basic_rates) check_rate(rate);
-        }
-    }
-    if (settings_.metrics) {
-        metrics_ =
-            std::make_shared<Metrics>(start_of_run + settings_.warmup, settings_.metric_parts);
-        add_sink(Sink{metrics_});
-    }
+    Motion::check(robot);
+    channel.check(robot.radio.rate);
+    world.medium.add(robot.radio, name_key(robot.name),
+                     robot.propagation.value_or(world.settings.propagation));
+    mac.add();
+    applications.add();
+    names.add(robot.name);
+    const NodeId id = motion.add(std::move(robot));
+    links.added(id);
+    if (world.running) motion.begin_all();
+    return id;
 }
 
 void Engine::add_sink(Sink sink) {
-    const KindMask kinds = sink.kinds();
-    wanted_ |= kinds;
-    links_wanted_ = links_wanted_ || (kinds & kind_links) != 0;
-    sinks_.push_back(std::move(sink));
+    if (sink.kinds() & kind_links) links.want();
+    world.records.add(std::move(sink));
 }
 
-void Engine::schedule(Time time, Action action) {
-    if (time < now_) {
-        throw std::invalid_argument(
-            fmt::format("an action at {} s, but it is {} s already", seconds(time), seconds(now_)));
-    }
-    const std::size_t slot = actions_.take();
-    actions_[slot] = std::move(action);
-    queue_.schedule(time, Priority::user, {Occurrence::Kind::action, NodeId{0}, slot});
+void Engine::switch_robot(NodeId id, bool on) {
+    if (world.medium.is_on(id) == on) return;
+    channel.before_change(id, !on);
+    world.medium.switch_radio(id, on);
+    if (!on) mac.switch_off(id);
+    world.emit(Switched{world.now, id, on});
+    links.look_at(id);
+    if (!world.running) return;
+    on ? motion.resume(id) : motion.pause(id);
 }
 
-void Engine::act(std::size_t slot) {
-    const Action action = actions_[slot];  // a copy: the call may add actions
-    if (action.period > Duration{0}) {
-        queue_.schedule(now_ + action.period, Priority::user,
-                        {Occurrence::Kind::action, NodeId{0}, slot});
-    } else {
-        actions_[slot] = {};
-        actions_.release(slot);
-    }
-    (*action.call)();
+NodeId Engine::known(NodeId node) const {
+    if (node.index() >= world.size()) throw std::out_of_range("there is no such robot");
+    return node;
 }
 
-void Engine::serve(const Scheduler<Occurrence>::Event& event) {
-    const auto& [kind, node_id, data] = event.payload;
+void Engine::serve(const Event& event) {
+    const auto& [kind, node, data] = event.payload;
     switch (kind) {
-        case Occurrence::Kind::frame: return arrive(event);
-        case Occurrence::Kind::router_timer: return router_->on_timer(*this, node_id, data);
-        case Occurrence::Kind::leg_end:
-            if (legs_.version(node_id) == data) next_leg(node_id);
-            return;
-        case Occurrence::Kind::handed_over: return react(node_id, data);
-        case Occurrence::Kind::action: return act(data);
-        case Occurrence::Kind::link_change: return change_links();
+        case Occurrence::Kind::frame: return channel.arrive(event);
+        case Occurrence::Kind::router_timer: return routing.on_timer(node, data);
+        case Occurrence::Kind::leg_end: return motion.on_leg_end(node, data);
+        case Occurrence::Kind::handed_over: return applications.react(node, data);
+        case Occurrence::Kind::action: return world.act(data);
+        case Occurrence::Kind::link_change: return links.change_links();
         case Occurrence::Kind::access_timer:
-            return on_access_timer(node_id, static_cast<std::uint32_t>(data));
+            return mac.on_timer(node, static_cast<std::uint32_t>(data));
     }
-}
-
-/// The errors in its bits can be computed.
-void Engine::check_rate(BitRate rate) const {
-    if (modulation_of(rate)) return;
-    throw std::invalid_argument(
-        fmt::format("sinr knows the rates of 802.11b, a and g, not {} bit/s", rate.value));
 }
 
 /// Throws if too many events wait or were scheduled, or sees when that may be so next.
 void Engine::count_events() {
+    const auto& events = world.events;
     // The queue ends there; an event may add more than one.
     constexpr std::uint64_t most_pending = SchedulerLimits{}.pending / 16 * 15;
-    if (queue_.size() > most_pending) {
+    if (events.size() > most_pending) {
         throw RunError(
             fmt::format("{} events wait at {:.9f} s, more than a run can hold; lower the load: "
-                        "fewer messages, a "
-                        "smaller ttl",
-                        queue_.size(), seconds(now_)));
+                        "fewer messages, a smaller ttl",
+                        events.size(), seconds(world.now)));
     }
-    if (queue_.scheduled() > settings_.event_limit) {
+    const std::uint64_t limit = world.settings.event_limit;
+    if (events.scheduled() > limit) {
+        const auto advice =
+            applications.has_sent()
+                ? "lower the load: a shorter duration, fewer messages, a smaller ttl"
+                : "play less: a shorter duration or an earlier time";
         throw RunError(fmt::format(
-            "event limit of {} reached at {:.9f} s; raise [scenario] event_limit, or lower the "
-            "load: a shorter duration, fewer messages, a smaller ttl",
-            settings_.event_limit, seconds(now_)));
+            "event limit of {} reached at {:.9f} s; raise [scenario] event_limit, or {}", limit,
+            seconds(world.now), advice));
     }
-    check_at_ = std::min(settings_.event_limit, queue_.scheduled() + most_pending - queue_.size());
+    check_at_ = std::min(limit, events.scheduled() + most_pending - events.size());
 }
 
 bool Engine::advance(Time end, std::uint64_t most_events) {
-    running_ = true;
-    end_of_run_ = end;
-    begin_movements();
-    if (links_wanted_ && !watch_) start_watch();
+    auto& events = world.events;
+    world.running = true;
+    world.end_of_run = end;
+    motion.begin_all();
+    links.begin();
     for (;;) {
-        const auto next = queue_.next_time();
+        const auto next = events.next_time();
         if (!next || *next > end) break;
         if (most_events-- == 0) return false;
-        if (queue_.scheduled() > check_at_) [[unlikely]]
+        if (events.scheduled() > check_at_) [[unlikely]]
             count_events();
-        const auto event = queue_.pop();
-        now_ = event.key.time();
-        ++served_;
-        if (!queue_.empty()) medium_.prefetch(queue_.next().node);  // while this one is served
+        const Event event = events.pop();
+        world.now = event.key.time();
+        ++served;
+        if (!events.empty()) world.medium.prefetch(events.next().node);  // meanwhile
         serve(event);
     }
-    now_ = std::max(now_, end);
+    world.now = std::max(world.now, end);
     return true;
 }
 

@@ -50,10 +50,8 @@ class LinkWatch {
     /// Looks at all pairs; those that are up change at `now`.
     /// @throws RunError if there are too many robots
     void start(Time now);
-    /// The robot's leg was replaced at `now`.
-    void leg_changed(NodeId node, Time now) { look_at(node, now); }
-    /// The robot's radio was switched on or off at `now`.
-    void switched(NodeId node, Time now) { look_at(node, now); }
+    /// The robot's leg was replaced at `now`, or its radio was switched on or off.
+    void changed(NodeId node, Time now) { look_at(node, now); }
     /// The medium and the legs have one more robot, the last.
     /// @throws RunError if there are too many robots
     void added(NodeId node, Time now);

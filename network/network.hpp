@@ -2,14 +2,14 @@
 #pragma once
 
 #include "mobility/movement.hpp"
-#include "models/access/access_rung.hpp"
-#include "models/links/link_changes.hpp"
+#include "models/access/no_access.hpp"
+#include "models/links/link_search.hpp"
 #include "models/medium/medium.hpp"
 #include "models/medium/neighbour.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
-#include "models/reception/reception.hpp"
+#include "models/reception/judge.hpp"
 #include "sim/fields.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
@@ -74,8 +74,8 @@ struct NetworkSettings {
     std::shared_ptr<Planners> planners = nullptr;
     Meters floor_height{3};                   ///< [m] of one storey
     LinkSearch links = {};                    ///< how link changes are looked for
-    ReceptionRung reception = Threshold{};    ///< what becomes of frames at a receiver
-    AccessRung access = NoAccess{};           ///< how robots get access to the medium
+    ReceptionModel reception = Threshold{};   ///< what becomes of frames at a receiver
+    AccessModel access = NoAccess{};          ///< how robots get access to the medium
     bool propagation_delay = true;            ///< frames travel at the speed of light
     std::uint64_t event_limit = 100'000'000;  ///< a run that needs more events fails
     /// For tests: looks at every pair of robots; receptions at different times are separate events.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/access/access_rung.hpp"
-#include "models/reception/reception.hpp"
+#include "models/access/list.hpp"
+#include "models/reception/list.hpp"
 #include "scenario/reader.hpp"
 #include "sim/fields.hpp"
 
@@ -13,15 +13,15 @@
 namespace rovernet {
 
 /// How a frame is received.
-enum class ReceptionModel { threshold, collision, sinr };
+enum class ReceptionChoice { threshold, collision, sinr };
 template <>
-struct EnumNames<ReceptionModel> {
+struct EnumNames<ReceptionChoice> {
     static constexpr std::array<std::string_view, 3> values = {"threshold", "collision", "sinr"};
 };
 
 /// [reception]
 struct ReceptionTable {
-    ReceptionModel model = ReceptionModel::threshold;
+    ReceptionChoice model = ReceptionChoice::threshold;
     Db capture_ratio = Collision{}.capture_ratio;
     CaptureOrder capture = Collision{}.capture;
     Db interference_cut = Sinr{}.interference_cut;
@@ -41,19 +41,19 @@ struct ReceptionTable {
             field("preamble_threshold", &ReceptionTable::preamble_threshold,
                   "of sinr: a receiver finds preambles that are so much above the rest"));
     }
-    ReceptionRung make() const;
+    ReceptionModel make() const;
 };
 
 /// How robots get access to the medium.
-enum class AccessModel { none, aloha, csma };
+enum class AccessChoice { none, aloha, csma };
 template <>
-struct EnumNames<AccessModel> {
+struct EnumNames<AccessChoice> {
     static constexpr std::array<std::string_view, 3> values = {"none", "aloha", "csma"};
 };
 
 /// [access]: keys of csma that are not given are those of its standard.
 struct AccessTable {
-    AccessModel model = AccessModel::none;
+    AccessChoice model = AccessChoice::none;
     std::optional<Duration> slot = std::nullopt;
     int queue = 50;
     WifiStandard standard = WifiStandard::b;
@@ -93,7 +93,8 @@ struct AccessTable {
             field("rts_threshold", &A::rts_threshold, "larger unicasts ask with an RTS first"),
             field("header", &A::header, "that access adds to a message"));
     }
-    AccessRung make() const;
+    AccessModel make() const;
+    Csma csma() const;  ///< its settings, whatever the model
 };
 
 }  // namespace rovernet

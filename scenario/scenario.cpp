@@ -114,7 +114,7 @@ TrafficTable read_traffic(const Value& value) {
 
 /// Saturated traffic without an access model would send without end at once.
 void check_traffic(const Scenario& scenario) {
-    if (scenario.access.model != AccessModel::none) return;
+    if (scenario.access.model != AccessChoice::none) return;
     for (const TrafficTable& traffic : scenario.traffic) {
         if (!traffic.saturate) continue;
         throw InputError(traffic.from_where,
@@ -133,9 +133,9 @@ void check_modulation(std::string_view key, BitRate rate, Location where) {
 
 /// The rung "sinr" needs levels, and rates whose errors it knows.
 void check_sinr(const Scenario& scenario) {
-    if (scenario.reception.model != ReceptionModel::sinr) return;
+    if (scenario.reception.model != ReceptionChoice::sinr) return;
     const AccessTable& access = scenario.access;
-    if (access.model == AccessModel::csma && access.basic_rates) {
+    if (access.model == AccessChoice::csma && access.basic_rates) {
         for (const BitRate rate : *access.basic_rates) {
             check_modulation("basic_rates", rate, scenario.access_where);
         }
@@ -197,7 +197,7 @@ void read_section(TableReader& document, std::string_view key, T& out) {
 /// Values that suit another access model, but not csma.
 void check_csma(const AccessTable& access, const Table& table) {
     constexpr double longest = 1e9;  // [s] of a backoff; see read_value of a time
-    const WifiTiming timing = std::get<Csma>(access.make()).timing;
+    const WifiTiming timing = access.csma().timing;
     const double backoff = timing.cw_max * seconds(timing.slot);
     if (timing.slot == Duration{0} || backoff > longest) {
         const Value& slot = *table.find("slot");
@@ -224,8 +224,8 @@ void read_access(TableReader& document, Scenario& out) {
     if (access && access->table()->find("basic_rates")) {
         out.access_where = access->table()->find("basic_rates")->where;
     }
-    if (access && out.access.model == AccessModel::csma) check_csma(out.access, *access->table());
-    if (out.access.model == AccessModel::csma && out.access.standard != WifiStandard::b) {
+    if (access && out.access.model == AccessChoice::csma) check_csma(out.access, *access->table());
+    if (out.access.model == AccessChoice::csma && out.access.standard != WifiStandard::b) {
         out.radio.rate = BitRate{54e6};
         out.radio.preamble = std::chrono::microseconds{20};
     }
@@ -315,22 +315,26 @@ void read_propagation(const Value& value, PropagationTable& out) {
     });
 }
 
-ReceptionRung ReceptionTable::make() const {
+ReceptionModel ReceptionTable::make() const {
     switch (model) {
-        case ReceptionModel::threshold: return Threshold{};
-        case ReceptionModel::collision:
+        case ReceptionChoice::threshold: return Threshold{};
+        case ReceptionChoice::collision:
             return Collision{.capture_ratio = capture_ratio, .capture = capture};
-        case ReceptionModel::sinr:
+        case ReceptionChoice::sinr:
             return Sinr{.interference_cut = interference_cut,
                         .preamble_threshold = preamble_threshold};
     }
     return Threshold{};
 }
 
-AccessRung AccessTable::make() const {
-    if (model == AccessModel::none) return NoAccess{};
+AccessModel AccessTable::make() const {
+    if (model == AccessChoice::none) return NoAccess{};
     const auto most = static_cast<std::uint32_t>(queue);
-    if (model == AccessModel::aloha) return Aloha{slot.value_or(Duration{0}), most};
+    if (model == AccessChoice::aloha) return Aloha{slot.value_or(Duration{0}), most};
+    return csma();
+}
+
+Csma AccessTable::csma() const {
     WifiTiming timing = timing_of(standard);
     timing.slot = slot.value_or(timing.slot);
     timing.sifs = sifs.value_or(timing.sifs);
@@ -348,7 +352,7 @@ AccessRung AccessTable::make() const {
                 .long_retries = long_retries,
                 .rts_threshold = rts_threshold.value,
                 .header = header.value,
-                .queue = most};
+                .queue = static_cast<std::uint32_t>(queue)};
 }
 
 Propagation PropagationTable::make() const {

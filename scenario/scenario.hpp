@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/links/link_changes.hpp"
+#include "models/links/link_search.hpp"
 #include "models/radio.hpp"
 #include "routing/flood.hpp"
 #include "scenario/metrics_table.hpp"

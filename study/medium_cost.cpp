@@ -21,9 +21,9 @@ double thread_cpu_s() {
 }
 
 /// Writes a run's legs, switches and frames into a record.
-class Recorder {
+class MediumRecorder {
   public:
-    explicit Recorder(MediumRecord& record) : record_(&record) {}
+    explicit MediumRecorder(MediumRecord& record) : record_(&record) {}
 
     KindMask kinds() const {
         return kind_of<Moved>() | kind_of<Arrived>() | kind_of<NoWay>() | kind_of<Switched>() |
@@ -56,16 +56,6 @@ class Recorder {
     }
     MediumRecord* record_;
 };
-
-Medium::Settings medium_settings(const NetworkSettings& settings, const Scene& scene) {
-    const auto* sinr = std::get_if<Sinr>(&settings.reception);
-    return {.scene = &scene,
-            .floor_height = settings.floor_height,
-            .propagation_delay = settings.propagation_delay,
-            .interference_cut = sinr ? std::optional(sinr->interference_cut) : std::nullopt,
-            .seed = settings.seed,
-            .replication = settings.replication};
-}
 
 /// Frames that every model answers within a turn, of a record that may be long.
 std::uint64_t frames_within(const MediumRecord& record, const std::vector<MediumReplay>& replays,
@@ -100,7 +90,7 @@ MediumRecord record_medium(const Scenario& scenario, const std::function<bool()>
     Network network(std::move(settings));
     populate(network, scenario);
     MediumRecord record;
-    network.add_sink(Recorder(record));
+    network.add_sink(MediumRecorder(record));
     const Time end = start_of_run + scenario.scenario.duration;
     while (!network.advance(end, events_a_slice)) {
         if (record.frames == most_frames || record.events.size() > most_events || stopped()) break;
@@ -117,14 +107,14 @@ MediumReplay::Answers MediumReplay::answer(const MediumRecord& record, std::uint
                                            double most_s) const {
     const Medium& robots = network_->medium();
     Legs legs = network_->legs();
-    Medium medium(medium_settings(settings_, network_->scene()));
+    Medium medium(network_->medium().settings());
     medium.reserve(network_->size());
     for (std::uint32_t i = 0; i < network_->size(); ++i) {
         const NodeId node{i};
         medium.add(robots.radio(node), robots.key(node), robots.model(node));
         if (!robots.is_on(node)) medium.switch_radio(node, false);
     }
-    const bool sensed = std::holds_alternative<Csma>(settings_.access);
+    const bool sensed = settings_.access.listens();
     constexpr std::uint64_t frames_a_look = 64;  // at the clock
     Medium::Receivers found;
     Answers answers;

@@ -6,6 +6,8 @@
 
 namespace rovernet {
 
+std::unique_ptr<Access> Aloha::make_access() const { return std::make_unique<AlohaAccess>(*this); }
+
 void AlohaAccess::send(Air& air, const QueuedFrame& frame) {
     const NodeId node = frame.frame.sender;
     auto& queue = stations_[node.index()].queue;
@@ -24,7 +26,7 @@ void AlohaAccess::expect(Air& air, NodeId node) {
     air.access_timer(node, begin, 0);
 }
 
-void AlohaAccess::on_timer(Air& air, NodeId node) {
+void AlohaAccess::on_timer(Air& air, NodeId node, std::uint32_t /*tag*/) {
     Station& s = stations_[node.index()];
     if (s.queue.empty()) return;  // switched off since
     const QueuedFrame frame = s.queue.front();

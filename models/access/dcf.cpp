@@ -8,6 +8,8 @@
 
 namespace rovernet {
 
+std::unique_ptr<Access> Csma::make_access() const { return std::make_unique<Dcf>(*this); }
+
 Dcf::Dcf(const Csma& settings) : settings_(settings) {
     const double slot = seconds(settings_.timing.slot);
     if (!positive.contains(slot)) throw_out_of_range("csma", "slot", positive.text, slot);
@@ -23,6 +25,13 @@ BitRate Dcf::answer_rate(BitRate rate) const {
     const auto& rates = settings_.basic_rates;
     const auto above = std::upper_bound(rates.begin(), rates.end(), rate);
     return above == rates.begin() ? rates.front() : *(above - 1);
+}
+
+BitRate Dcf::rate(const AirFrame& frame, BitRate sender, BitRate receiver) const {
+    const bool for_everyone = frame.frame.next_hop == everyone;
+    if (frame.kind == AirFrame::data && !for_everyone) return sender;
+    if (frame.kind != AirFrame::ack) return settings_.basic_rates.front();  // a CTS answers an RTS
+    return for_everyone ? settings_.timing.lowest_rate : answer_rate(receiver);
 }
 
 void Dcf::add() {

@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +19,8 @@ namespace rovernet {
 
 /// How stations of the 802.11 DCF behave.
 struct Csma {
+    static constexpr std::string_view name = "csma";
+
     WifiStandard standard = WifiStandard::b;
     WifiTiming timing = timing_of(WifiStandard::b);
     /// Broadcasts and RTS go at the lowest, an answer at the highest that is not above the rate of
@@ -27,15 +32,18 @@ struct Csma {
     std::uint32_t rts_threshold = 2347;  ///< [bytes] unicasts of more, header included, ask first
     std::uint32_t header = data_header_bytes;  ///< [bytes] that access adds to a message
     std::uint32_t queue = 50;                  ///< frames that wait at most; more are dropped
+
+    /// @throws std::invalid_argument if a slot is not > 0, or there is no basic rate
+    std::unique_ptr<Access> make_access() const;
 };
 
-/// The access rung "csma": the distributed coordination function of IEEE 802.11, for broadcasts and
+/// Access model "csma": the distributed coordination function of IEEE 802.11, for broadcasts and
 /// unicasts, for all stations.
 ///
 /// A station has one timer at most, and only while it has a frame: for its access, or for the
 /// answer that it waits for. What it senses is written into its Backoff as it is sent; a timer that
 /// finds that the medium was busy in the meantime is set again. Source: IEEE 802.11-2020, 10.3.
-class Dcf {
+class Dcf final : public Access {
   public:
     /// @throws std::invalid_argument if a slot is not > 0, or there is no basic rate
     explicit Dcf(const Csma& settings);
@@ -43,33 +51,27 @@ class Dcf {
     Dcf(const Dcf&) = delete;  // backoffs refer to the timing
     Dcf& operator=(const Dcf&) = delete;
 
-    /// Adds the next node.
-    void add();
+    void add() override;
+    void send(Air& air, const QueuedFrame& frame) override;
+    void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
+    void switch_off(Air& air, NodeId node) override;
 
-    /// The router hands over a frame.
-    void send(Air& air, const QueuedFrame& frame);
-    void on_timer(Air& air, NodeId node, std::uint32_t tag);
-
-    /// `node` will sense a frame on air from `begin` to `end`.
-    void energy(NodeId node, Time begin, Time end) {
+    bool listens() const override { return true; }
+    void energy(NodeId node, Time begin, Time end) override {
         Listening& l = listening_[node.index()];
         l.backoff.energy(begin, end);
         l.on_air_until = std::max(l.on_air_until, end);
     }
-    /// A frame ended at `node` and was received.
-    void received(Air& air, NodeId node, const AirFrame& frame);
-    /// A frame ended at `node` with errors.
-    void missed(Air& air, NodeId node);
-    /// True if `frame` is a repetition of one that `node` has already.
-    bool is_repeated(NodeId node, const AirFrame& frame);
-    /// The node was switched off: what it had to send is lost.
-    void switch_off(Air& air, NodeId node);
+    void received(Air& air, NodeId node, const AirFrame& frame) override;
+    void missed(Air& air, NodeId node) override;
+    bool is_repeated(NodeId node, const AirFrame& frame) override;
 
-    const Csma& settings() const { return settings_; }
-    /// The bit rate of broadcasts and RTS.
-    BitRate lowest_basic_rate() const { return settings_.basic_rates.front(); }
-    /// The bit rate of a CTS or an ACK. @param rate  of the frame that it answers
-    BitRate answer_rate(BitRate rate) const;
+    std::uint32_t header() const override { return settings_.header; }
+    BitRate rate(const AirFrame& frame, BitRate sender, BitRate receiver) const override;
+    std::span<const BitRate> own_rates() const override { return settings_.basic_rates; }
+    Duration airtime(const Radio& radio, BitRate rate, std::uint32_t bytes) const override {
+        return wifi_airtime(settings_.standard, radio.preamble, rate, bytes);
+    }
 
   private:
     enum class State : std::uint8_t { idle, contending, awaiting_cts, awaiting_ack };
@@ -100,6 +102,8 @@ class Dcf {
         std::optional<AirFrame> response = {};  // due after a SIFS
     };
 
+    /// The bit rate of a CTS or an ACK. @param rate  of the frame that it answers
+    BitRate answer_rate(BitRate rate) const;
     Station& at(NodeId node) { return stations_[node.index()]; }
     Backoff& backoff(NodeId node) { return listening_[node.index()].backoff; }
     AirFrame data_frame(NodeId node) const;

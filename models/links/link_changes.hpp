@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/links/link_search.hpp"
 #include "models/links/range_crossing.hpp"
 #include "models/links/wall_passages.hpp"
 #include "models/medium/medium.hpp"
@@ -11,13 +12,6 @@
 #include <optional>
 
 namespace rovernet {
-
-/// [links] of a scenario.
-struct LinkSearch {
-    Duration tolerance{1'000'000};  ///< [ns] a change behind walls is known to this, >= 1 ns
-    Duration min_dwell{
-        100'000'000};  ///< [ns] of models of unknown shape: shorter states are missed; >= 1 ns
-};
 
 /// The first time in (after, until] at which the link from `from` to `to` is not what it is at
 /// `after`, on the legs as they are now; none if there is no such time. Neither leg may end before

@@ -34,6 +34,7 @@ class Medium {
         : settings_(settings),
           draws_(shadowing_draws(settings.seed, settings.replication)),
           kinds_(settings.interference_cut) {}
+    const Settings& settings() const { return settings_; }
 
     /// Adds the next node. `key`: the robot's, for random draws.
     /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "models/arrival.hpp"
+#include "models/reception/judge.hpp"
 #include "sim/fields.hpp"
 #include "sim/units.hpp"
 
 #include <array>
+#include <memory>
 #include <string_view>
 
 namespace rovernet {
@@ -20,7 +22,7 @@ struct EnumNames<CaptureOrder> {
     static constexpr std::array<std::string_view, 2> values = {"first", "later"};
 };
 
-/// Reception rung "collision": frames that overlap at a node destroy each other, unless one
+/// Reception model "collision": frames that overlap at a node destroy each other, unless one
 /// captures it; and a node that sends hears nothing.
 ///
 /// CaptureOrder::first: a receiver that is free is at the first frame that it senses, until that is
@@ -33,6 +35,8 @@ struct EnumNames<CaptureOrder> {
 /// survives. Source: what ns-2.35's 802.11 does, whose receiver compares a frame with the one that
 /// it is at.
 struct Collision {
+    static constexpr std::string_view name = "collision";
+
     Db capture_ratio{10};  ///< [dB] > 0
     CaptureOrder capture = CaptureOrder::first;
 
@@ -54,6 +58,8 @@ struct Collision {
         const bool is_at = other.begin <= frame.begin && frame.begin < other.end && !other.own;
         return is_at && is_stronger(other, frame, capture_ratio);
     }
+
+    std::unique_ptr<Judge> make_judge() const;
 };
 
 }  // namespace rovernet

@@ -3,18 +3,21 @@
 
 #include "models/arrival.hpp"
 #include "models/phy/error_rate.hpp"
+#include "models/reception/judge.hpp"
 #include "sim/math.hpp"
 #include "sim/record.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace rovernet {
 
-/// Reception rung "sinr": a receiver that is free locks on to a frame whose preamble it finds, and
+/// Reception model "sinr": a receiver that is free locks on to a frame whose preamble it finds, and
 /// gets it with the probability that all bits are right, chunk by chunk between the changes of the
 /// interference, which is the sum of all other frames on air there.
 ///
@@ -27,8 +30,12 @@ namespace rovernet {
 /// Sources: models/phy/error_rate.hpp; IEEE 802.11-2020, clauses 15-18, for what a receiver does;
 /// the threshold and the time of ns-3.37's ThresholdPreambleDetectionModel.
 struct Sinr {
+    static constexpr std::string_view name = "sinr";
+
     Db interference_cut{20};   ///< [dB] >= 0
     Db preamble_threshold{4};  ///< [dB] the least SINR at which a preamble is found
+
+    std::unique_ptr<Judge> make_judge() const;
 };
 
 /// What judging a frame takes beside what is on air.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run.hpp"
 #include "mobility/waypoints.hpp"
+#include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "scenario/toml.hpp"
@@ -65,8 +67,8 @@ std::size_t count(const std::string& text, const std::string& pattern) {
 }
 
 struct Setting {
-    ReceptionRung reception = Threshold{};
-    AccessRung access = NoAccess{};
+    ReceptionModel reception = Threshold{};
+    AccessModel access = NoAccess{};
     Db shadowing{0};
     bool reference = false;
     MacTrace mac = MacTrace::on;
@@ -115,18 +117,18 @@ Traced traced(const Setting& setting) {
             fingerprint->text()};
 }
 
-const ReceptionRung receptions[] = {Threshold{}, Collision{}, Sinr{}};
+const ReceptionModel receptions[] = {Threshold{}, Collision{}, Sinr{}};
 const Csma asking{.rts_threshold = 0};
-const AccessRung accesses[] = {NoAccess{}, Aloha{}, asking};
+const AccessModel accesses[] = {NoAccess{}, Aloha{}, asking};
 
 }  // namespace
 
 TEST_CASE("MAC trace: the same to the byte whether receptions are served together or one by one") {
-    for (const ReceptionRung& reception : receptions) {
-        for (const AccessRung& access : accesses) {
+    for (const ReceptionModel& reception : receptions) {
+        for (const AccessModel& access : accesses) {
             for (const Db shadowing : {Db{0}, Db{4}}) {
-                CAPTURE(reception.index());
-                CAPTURE(access.index());
+                CAPTURE(reception.name());
+                CAPTURE(access.name());
                 CAPTURE(shadowing.value);
                 Setting setting{.reception = reception, .access = access, .shadowing = shadowing};
                 const std::string together = traced(setting).text;
@@ -142,8 +144,8 @@ TEST_CASE("MAC trace: the same to the byte whether receptions are served togethe
 TEST_CASE(
     "MAC trace: its lines come on top of the others, and what arrived is read back the same") {
     for (const Ns2Format format : {Ns2Format::old_format, Ns2Format::new_format}) {
-        for (const AccessRung& access : accesses) {
-            CAPTURE(access.index());
+        for (const AccessModel& access : accesses) {
+            CAPTURE(access.name());
             Setting setting{.reception = Collision{}, .access = access, .format = format};
             const Traced with = traced(setting);
             setting.mac = MacTrace::off;
@@ -187,7 +189,7 @@ TEST_CASE("MAC trace: every frame on air is one line, and so is every message th
 namespace {
 
 /// A row of robots that hear 250 m, 200 m apart, as in test/peers/exchange.tcl.
-std::string row(const AccessRung& access, const std::function<void(Network&)>& act, int robots = 3,
+std::string row(const AccessModel& access, const std::function<void(Network&)>& act, int robots = 3,
                 Ns2Format format = Ns2Format::old_format) {
     const TempFolder folder;
     Network net({.propagation = Disc{.range = {250}},
@@ -252,7 +254,7 @@ TEST_CASE("MAC trace: a broadcast has a line at its sender and one at each robot
 
 TEST_CASE("MAC trace: without a header of the access rung a frame is as large as its message") {
     const auto unicast = [](Network& net) { net.unicast({1}, {2}, "", 64); };
-    for (const AccessRung& access : {AccessRung{NoAccess{}}, AccessRung{Aloha{}}}) {
+    for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Aloha{}}}) {
         const std::string text = row(access, unicast);
         CHECK(count(text, "^s .*_1_ MAC  --- 0 message 64 \\[0 2 1 800\\]") == 1);
         CHECK(count(text, "^r .*_2_ MAC  --- 0 message 64 \\[0 2 1 800\\]") == 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who may link with whom, and frames that do not get through.
 #include "experiment/link_table.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 
@@ -30,7 +31,7 @@ int links_between(const Radio& a, const Radio& b) {
 
 /// Frames that got through of 2000, and those that did not.
 std::pair<std::uint64_t, std::uint64_t> through(double success_rate, bool crowd,
-                                                const ReceptionRung& reception = Threshold{}) {
+                                                const ReceptionModel& reception = Threshold{}) {
     Network net({.seed = 5, .propagation = Friis{}, .reception = reception});
     net.route(Flood{.ttl = 1});
     if (crowd) net.add({.name = "far", .at = {500, 0, 0}});

@@ -2,8 +2,10 @@
 #include "bench/aloha.hpp"
 #include "bench/bianchi.hpp"
 #include "mobility/waypoints.hpp"
+#include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "sim/random.hpp"
@@ -53,7 +55,7 @@ struct Room {
     std::vector<NodeId> nodes{};
     std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
 
-    Room(int robots, AccessRung access, Radio radio = {.rate = {1e6}}, double spacing = 0,
+    Room(int robots, AccessModel access, Radio radio = {.rate = {1e6}}, double spacing = 0,
          double range = 100)
         : net({.propagation = Disc{.range = {range}},
                .reception = Collision{},
@@ -256,7 +258,7 @@ TEST_CASE("saturated traffic without an access rung is refused") {
 namespace {
 
 /// The fingerprint of floods among 120 robots on the move.
-std::string flooded(const ReceptionRung& reception, const AccessRung& access, Db shadowing,
+std::string flooded(const ReceptionModel& reception, const AccessModel& access, Db shadowing,
                     bool reference) {
     Network net({.seed = 9,
                  .propagation = LogDistance{.exponent = 3.5, .sigma = shadowing},
@@ -288,10 +290,10 @@ std::string flooded(const ReceptionRung& reception, const AccessRung& access, Db
 
 TEST_CASE("grid and one event per transmission give the records of all pairs and an event each") {
     for (const Db shadowing : {Db{0}, Db{4}}) {
-        for (const ReceptionRung& rung :
-             {ReceptionRung{Threshold{}}, ReceptionRung{Collision{}}, ReceptionRung{Sinr{}}}) {
-            for (const AccessRung& access : {AccessRung{NoAccess{}}, AccessRung{Csma{}}}) {
-                CAPTURE(rung.index());
+        for (const ReceptionModel& rung :
+             {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
+            for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Csma{}}}) {
+                CAPTURE(rung.name());
                 CHECK(flooded(rung, access, shadowing, false) ==
                       flooded(rung, access, shadowing, true));
             }

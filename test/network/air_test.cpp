@@ -3,6 +3,7 @@
 // network keeps them.
 #include "mobility/waypoints.hpp"
 #include "models/propagation/list.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "test/scene/drawn_map.hpp"
@@ -276,7 +277,7 @@ struct OpenField {
     Network net;
     std::shared_ptr<Log> log = std::make_shared<Log>();
 
-    explicit OpenField(ReceptionRung rung = Collision{})
+    explicit OpenField(ReceptionModel rung = Collision{})
         : net({.propagation = Friis{}, .reception = rung, .metrics = false}) {
         log->net = &net;
         net.add_sink(Sink{log});

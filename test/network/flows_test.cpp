@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Saturated flows between stations that do not all hear each other, beside ns-2 and ns-3: the
 // numbers of bench/peers/run flows, which has more of them.
+#include "models/access/list.hpp"
 #include "models/propagation/two_ray.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 
 #include <doctest/doctest.h>
@@ -35,7 +37,7 @@ struct Line {
     double rate = 1e6;
 
     /// Frames of 1000 bytes that get through in a second, of ns-2's radio over flat ground.
-    double frames_per_second(ReceptionRung reception, const Csma& access) const {
+    double frames_per_second(ReceptionModel reception, const Csma& access) const {
         Network net(
             {.propagation = TwoRay{}, .reception = reception, .access = access, .metrics = false});
         Radio radio{.power = Dbm{24.49999779}, .sensitivity = Dbm{-64.37439}, .frequency = {914e6}};

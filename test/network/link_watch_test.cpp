@@ -45,7 +45,7 @@ struct Harness {
     std::vector<LinkChange> take() { return std::exchange(told, {}); }
     void replace(NodeId node, const Leg& leg) {
         legs.replace(node, leg);
-        watch.leg_changed(node, leg.start);
+        watch.changed(node, leg.start);
     }
     /// Every pair is told as it is at `t`.
     void check(Time t) const {
@@ -161,7 +161,7 @@ TEST_CASE("link watch: a radio that is switched takes its links down and brings 
     const auto turn = [&](bool on, Time t) {
         network.run_until(t);
         network.medium.switch_radio(a, on);
-        network.watch.switched(a, t);
+        network.watch.changed(a, t);
         network.run_until(t);
         network.check(t);
     };

@@ -2,8 +2,10 @@
 // Sanity under load: crowds, distances and storms at which a simulator hangs or grows without end.
 // What is bounded is counted: receptions, events, bytes; never a time.
 #include "mobility/waypoints.hpp"
+#include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "sim/error.hpp"
@@ -92,8 +94,8 @@ struct Links {
     }
 };
 
-NetworkSettings disc(double range, ReceptionRung reception = Threshold{},
-                     AccessRung access = NoAccess{}) {
+NetworkSettings disc(double range, ReceptionModel reception = Threshold{},
+                     AccessModel access = NoAccess{}) {
     return {.propagation = Disc{.range = {range}},
             .reception = reception,
             .access = access,
@@ -131,8 +133,8 @@ TEST_CASE("load: 10,000 robots in one place cost a transmission one event, and h
 
 TEST_CASE("load: of 1,000 robots in one place 30 send at once, and nobody gets anything") {
     constexpr int robots = 1000, senders = 30;
-    for (const ReceptionRung& rung : {ReceptionRung{Collision{}}, ReceptionRung{Sinr{}}}) {
-        CAPTURE(rung.index());
+    for (const ReceptionModel& rung : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
+        CAPTURE(rung.name());
         Watched crowd(disc(1, rung));
         crowd.add_crowd(robots);
         for (std::uint32_t k = 0; k < senders; ++k) crowd.send(k, 1ms);
@@ -140,7 +142,7 @@ TEST_CASE("load: of 1,000 robots in one place 30 send at once, and nobody gets a
         crowd.net.run_until(start_of_run + 1900us);
         const auto busy = crowd.copies->count(Fate::busy);
         // Senders lose what they hear to each other; sinr says that they were busy.
-        CHECK(busy == (rung.index() == 1 ? 0 : senders * (senders - 1)));
+        CHECK(busy == (rung.name() == "collision" ? 0 : senders * (senders - 1)));
         CHECK(crowd.copies->count(Fate::collided) == senders * (robots - 1) - busy);
         CHECK(crowd.copies->all.size() == senders * (robots - 1));
         crowd.net.run_for(1s);
@@ -167,10 +169,11 @@ TEST_CASE("load: 300 robots in one place flood with sinr and csma, one frame eac
 }
 
 TEST_CASE("load: a crowd that talks on takes no more memory") {
-    for (const AccessRung& access : {AccessRung{NoAccess{}}, AccessRung{Csma{}}}) {
-        for (const ReceptionRung& rung : {ReceptionRung{Threshold{}}, ReceptionRung{Collision{}}}) {
-            CAPTURE(rung.index());
-            CAPTURE(access.index());
+    for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Csma{}}}) {
+        for (const ReceptionModel& rung :
+             {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}}) {
+            CAPTURE(rung.name());
+            CAPTURE(access.name());
             Network net(disc(1, rung, access));
             net.route(Flood{.ttl = 2});
             constexpr std::uint32_t robots = 30;
@@ -266,7 +269,7 @@ TEST_CASE("load: a robot comes home over 1e9 m, and its links are found on the w
 }
 
 TEST_CASE("load: at a range of zero only those in one place hear each other") {
-    for (const ReceptionRung& rung : {ReceptionRung{Threshold{}}, ReceptionRung{Collision{}}}) {
+    for (const ReceptionModel& rung : {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}}) {
         Watched world(disc(0, rung));
         world.add({0, 0, 1e-9, 5, 1e9});
         for (std::uint32_t i = 0; i < 5; ++i) world.send(i, i * 1ms);
@@ -308,8 +311,8 @@ TEST_CASE("load: two frames of one nanosecond are both received at threshold, th
 }
 
 TEST_CASE("load: two frames of one nanosecond and one level are both lost") {
-    for (const ReceptionRung& rung : {ReceptionRung{Collision{}}, ReceptionRung{Sinr{}}}) {
-        CAPTURE(rung.index());
+    for (const ReceptionModel& rung : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
+        CAPTURE(rung.name());
         Watched hidden(disc(15, rung));
         hidden.add({0, 20, 10, 10});
         for (const std::uint32_t node : {0U, 1U}) hidden.send(node, 1ms);
@@ -372,7 +375,7 @@ struct Storm {
     Watched world;
     std::string said;
 
-    explicit Storm(std::uint64_t event_limit, const AccessRung& access = NoAccess{})
+    explicit Storm(std::uint64_t event_limit, const AccessModel& access = NoAccess{})
         : world(settings(event_limit, access), {.ttl = 65535, .duplicates = Duplicates::forward}) {
         world.add_crowd(10);
         world.send(0, 1ms);
@@ -386,7 +389,7 @@ struct Storm {
     }
 
   private:
-    static NetworkSettings settings(std::uint64_t event_limit, const AccessRung& access) {
+    static NetworkSettings settings(std::uint64_t event_limit, const AccessModel& access) {
         NetworkSettings settings = disc(1, Threshold{}, access);
         settings.event_limit = event_limit;
         settings.metrics = true;
@@ -397,8 +400,8 @@ struct Storm {
 }  // namespace
 
 TEST_CASE("load: a message storm ends at the event limit, and says what it is and what to do") {
-    for (const AccessRung& access : {AccessRung{NoAccess{}}, AccessRung{Csma{}}}) {
-        CAPTURE(access.index());
+    for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Csma{}}}) {
+        CAPTURE(access.name());
         Storm storm(10'000, access);
         storm.run();
         CHECK(storm.said.starts_with("event limit of 10000 reached at 0."));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/access/list.hpp"
 #include "models/propagation/list.hpp"
+#include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 
@@ -52,9 +54,9 @@ struct ReceptionLog {
 /// What a network runs on.
 struct Setting {
     Propagation propagation = Disc{.range = {150}};
-    ReceptionRung reception = Threshold{};
+    ReceptionModel reception = Threshold{};
     Flood flood = {.jitter = std::chrono::microseconds{100}};
-    AccessRung access = NoAccess{};
+    AccessModel access = NoAccess{};
     Radio radio = {.sensitivity = {-90}};
     bool reference = false;
 };

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "models/reception/interference.hpp"
+
+namespace rovernet {
+
+void Interference::goes(NodeId node, const Leg& leg) {
+    on_air_.goes(leg, settings_.medium->radio(node).antenna_height);
+}
+
+std::uint64_t Interference::add(Emission frame, BitRate rate,
+                                std::span<const Reception> receptions) {
+    Medium& medium = *settings_.medium;
+    frame.origin = medium.origin();
+    frame.heard_within = medium.heard_within();
+    frame.squared_reach = medium.squared_reach(frame.from);
+    const std::uint64_t serial = on_air_.add(frame);
+    judge_->begins({on_air_[serial], rate, medium.radio(frame.from).preamble, receptions});
+    return serial;
+}
+
+void Interference::judge(std::uint64_t serial, std::span<Reception> receptions, Time now) {
+    const Emission& judged = on_air_[serial];
+    // What was over by `since` or begins at `until` arrives nowhere together with it; nor, where
+    // that matters, with what its receivers may have been at before.
+    const Duration past = judge_->looks_back() ? on_air_.longest() : Duration{0};
+    const Time since = judged.begin - longest_delay() - past;
+    const Time until = judged.end + longest_delay();
+    const bool all_frames = settings_.all_frames;
+    const Frames nearby = all_frames ? Frames{} : on_air_.near(judged, since, until, now);
+    if (!nearby.empty()) {  // together, so that none waits for the one before
+        for (const Reception& r : receptions) settings_.medium->prefetch_position(r.node);
+    }
+    all_.clear();
+    for (Reception& r : receptions) {
+        if (!settings_.medium->is_on(r.node)) continue;
+        const bool near = !all_frames && !on_air_.has_changed(r.node);
+        if (!near && all_.empty()) {
+            for (const Emission& e : on_air_.frames()) {
+                const bool may_matter = e.end > since && e.begin < until;
+                if (may_matter && e.serial != judged.serial) all_.push_back(&e);
+            }
+        }
+        judge_->judge(*this, judged, near ? nearby : Frames{all_}, r);
+    }
+}
+
+std::optional<Arrival> Interference::arrival(const Emission& frame, NodeId node) {
+    if (frame.from == node) return own_frame(node, frame.begin, frame.end);
+    Medium& medium = *settings_.medium;
+    if (on_air_.has_changed(node)) {
+        if (const OnAir::Before* before = on_air_.before(node, frame)) {
+            if (!before->on) return std::nullopt;
+            return medium.arrival(frame, node, before->leg.position(frame.begin));
+        }
+    }
+    return medium.arrival(frame, node, medium.position(node, frame.begin, *settings_.legs));
+}
+
+double Interference::draw(Purpose purpose, NodeId from, NodeId to, std::uint64_t number) const {
+    return uniform(
+        {settings_.seed, settings_.replication, purpose, combine(key(from), key(to)), number, 0});
+}
+
+}  // namespace rovernet

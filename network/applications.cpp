@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "network/applications.hpp"
+
+#include "network/world.hpp"
+#include "sim/math.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace rovernet {
+
+MessageId Applications::new_message(NodeId id, NodeId to, std::string payload, Outgoing what) {
+    const std::uint32_t number = nodes_[id.index()].messages_sent++;
+    return world_.messages.add({.origin = id,
+                                .uid = next_uid_++,
+                                .number = number,
+                                .to = to,
+                                .key = combine(world_.key(id), number),
+                                .size = what.bytes,
+                                .created = world_.now,
+                                .payload = std::move(payload),
+                                .flow = what.flow});
+}
+
+/// Robots that a chain of links joins to the sender now, of those that a message is for; if a sink
+/// asks for it. Sinks that want it only while it is cheap never get it again once it was not.
+std::optional<std::uint32_t> Applications::reachable(NodeId from, NodeId to) {
+    World& w = world_;
+    if (reachability_.searches() > Reachability::cheap_searches + w.transmissions) {
+        w.records.give_up(kind_cheap_reachable);
+    }
+    if (!w.records.wants(kind_reachable | kind_cheap_reachable)) return std::nullopt;
+    if (to != everyone) return reachability_.reaches(w.medium, from, to, w.now, w.legs) ? 1 : 0;
+    if (w.settings.reference) return w.medium.reachable(from, w.now, w.legs);
+    return reachability_.count(w.medium, from, w.now, w.legs);
+}
+
+void Applications::send(NodeId id, std::string payload, Outgoing what) {
+    if (!routing_.has_router()) {
+        throw std::invalid_argument("no routing protocol: call route() before sending");
+    }
+    if (!world_.medium.is_on(id)) return;
+    const MessageId message = new_message(id, everyone, std::move(payload), what);
+    const auto robots = static_cast<std::uint32_t>(world_.size());
+    world_.emit(
+        Sent{world_.now, id, message, routing_.initial_ttl(), robots, reachable(id, everyone)});
+    routing_.originate(id, message);
+    world_.release(message);
+}
+
+void Applications::send_to(NodeId id, NodeId to, std::string payload, Outgoing what) {
+    if (to != everyone && (to.index() >= world_.size() || to == id)) {
+        throw std::invalid_argument("a unicast needs another robot to go to");
+    }
+    if (!world_.medium.is_on(id)) return;
+    const MessageId message = new_message(id, to, std::move(payload), what);
+    const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
+    world_.emit(Sent{world_.now, id, message, 1, robots, reachable(id, to)});
+    routing_.broadcast({.message = message,
+                        .sender = id,
+                        .path = world_.key(id),
+                        .ttl = 1,
+                        .hops = 1,
+                        .next_hop = to},
+                       std::nullopt);
+    world_.release(message);
+}
+
+void Applications::saturate(NodeId id, NodeId to, Outgoing what) {
+    if (!mac_.queues()) {
+        throw std::invalid_argument("saturated traffic needs an access model: aloha or csma");
+    }
+    saturated_[id] = {to, what};
+    for (int waiting = 0; waiting < 2; ++waiting) send_to(id, to, {}, what);
+}
+
+/// A saturated node has sent a frame: here is the next.
+void Applications::has_room(NodeId id) {
+    const auto found = saturated_.find(id);
+    if (found == saturated_.end()) return;
+    auto next = std::make_shared<std::function<void()>>(
+        [this, id, traffic = found->second] { send_to(id, traffic.to, {}, traffic.what); });
+    world_.schedule(world_.now + least_reaction, std::move(next));
+}
+
+void Applications::on_receive(NodeId id, Callback<const Message&, const Heard&> react) {
+    nodes_.at(id.index()).on_receive.push_back(std::move(react));
+    has_reactions_ = true;
+}
+
+void Applications::delivered(const Frame& frame, std::span<const Reception> receptions) {
+    if (!has_reactions_) return;
+    reacting_.clear();
+    for (const auto& r : receptions) {
+        if (r.delivered && !nodes_[r.node.index()].on_receive.empty()) reacting_.push_back(r);
+    }
+    std::sort(reacting_.begin(), reacting_.end(), [this](const Reception& a, const Reception& b) {
+        return a.time != b.time ? a.time < b.time : world_.key(a.node) < world_.key(b.node);
+    });
+    const std::uint64_t hops = frame.hops;
+    for (const Reception& r : reacting_) {
+        world_.messages.hold(frame.message);
+        world_.events.schedule(
+            r.time + least_reaction, Priority::user,
+            {Occurrence::Kind::handed_over, r.node, hops << 32 | frame.message.value});
+    }
+}
+
+void Applications::react(NodeId id, std::uint64_t handed_over) {
+    const MessageId message{static_cast<std::uint32_t>(handed_over)};
+    const Heard how{static_cast<int>(handed_over >> 32)};
+    const Message heard = world_.messages[message];  // a copy: reactions may send
+    world_.release(message);
+    if (!world_.medium.is_on(id)) return;
+    auto& reactions = nodes_[id.index()].on_receive;
+    for (std::size_t i = 0; i < reactions.size(); ++i) {
+        const auto reaction = reactions[i];
+        (*reaction)(heard, how);
+    }
+}
+
+/// The run is over: drops the messages that have arrived nowhere and are still under way.
+void Applications::cut_off() {
+    world_.messages.for_each_at_its_origin([this](MessageId id) {
+        const Message& m = world_.messages[id];
+        const Frame frame{.message = id, .sender = m.origin, .ttl = 1, .hops = 1, .next_hop = m.to};
+        world_.emit(Dropped{world_.now, m.origin, frame, DropReason::cut_off});
+    });
+}
+
+}  // namespace rovernet

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/medium/reachability.hpp"
+#include "network/callback.hpp"
+#include "network/few.hpp"
+#include "network/network.hpp"
+#include "network/routing.hpp"
+#include "sim/chunks.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+struct World;
+
+/// What an application says of a message.
+struct Outgoing {
+    std::uint32_t bytes;     ///< [bytes] on air
+    std::uint32_t flow = 0;  ///< see Message
+};
+
+/// What robots say to one another, and what they do when they hear it.
+class Applications final : public RoutingUser {
+  public:
+    Applications(World& world, Routing& routing, const Mac& mac)
+        : world_(world), routing_(routing), mac_(mac) {}
+
+    /// Adds the next node.
+    void add() { nodes_.push_back({}); }
+    // As Network::broadcast, unicast and saturate.
+    void send(NodeId node, std::string payload, Outgoing what);
+    void send_to(NodeId node, NodeId to, std::string payload, Outgoing what);
+    void saturate(NodeId node, NodeId to, Outgoing what);
+    /// Somebody has sent a message.
+    bool has_sent() const { return next_uid_ > 0; }
+    void on_receive(NodeId node, Callback<const Message&, const Heard&> react);
+    /// Serves the event of a message that a node was handed: it reacts now.
+    /// @param handed_over  the message's id, and above its 32 bits the hops
+    void react(NodeId node, std::uint64_t handed_over);
+    /// As Network::finish.
+    void cut_off();
+
+    // RoutingUser.
+    void delivered(const Frame& frame, std::span<const Reception> receptions) override;
+    void has_room(NodeId node) override;
+
+  private:
+    struct Application {
+        Few<Callback<const Message&, const Heard&>> on_receive = {};
+        std::uint32_t messages_sent = 0;
+    };
+    /// A node always has something to send.
+    struct Saturated {
+        NodeId to;
+        Outgoing what;
+    };
+
+    MessageId new_message(NodeId node, NodeId to, std::string payload, Outgoing what);
+    std::optional<std::uint32_t> reachable(NodeId from, NodeId to);
+
+    World& world_;
+    Routing& routing_;
+    const Mac& mac_;
+    Chunks<Application> nodes_;   // stable: a reaction may add robots
+    bool has_reactions_ = false;  // some node has an on_receive
+    std::map<NodeId, Saturated> saturated_;
+    Reachability reachability_;
+    std::uint64_t next_uid_ = 0;
+    std::vector<Reception> reacting_;  // of a frame
+};
+
+}  // namespace rovernet

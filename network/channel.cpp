@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "network/channel.hpp"
+
+#include "network/world.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+constexpr std::size_t most_counted = 64;
+
+/// Counts for each of a few receptions how many come before it: more comparisons than other ways to
+/// sort take, but none that is mispredicted. All come within 2^31 ns from `first` on.
+void sort_by_counting(std::span<Reception> all, Time first) {
+    std::array<std::int64_t, most_counted> order;
+    std::array<Reception, most_counted> unsorted;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        order[i] = (all[i].time - first).count() << 32 | all[i].node.value;
+        unsorted[i] = all[i];
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        std::size_t before = 0;
+        for (std::size_t k = 0; k < all.size(); ++k) before += order[k] < order[i];
+        all[before] = unsorted[i];
+    }
+}
+
+/// Puts the receptions of a frame in order.
+void sort(Medium::Receivers& receivers) {
+    const std::span<Reception> all = receivers.all();
+    if (all.empty()) return;
+    constexpr Duration longest{std::numeric_limits<std::int32_t>::max()};
+    if (all.size() > most_counted || receivers.last - receivers.first > longest) {
+        std::sort(all.begin(), all.end());
+    } else {
+        sort_by_counting(all, receivers.first);
+    }
+}
+
+}  // namespace
+
+Channel::Channel(World& world, ChannelUser& user) : world_(world), user_(user) {
+    auto judge = world.settings.reception.make_judge();
+    if (!judge) return;
+    interference_.emplace(Interference::Settings{.medium = &world.medium,
+                                                 .legs = &world.legs,
+                                                 .all_frames = world.settings.reference,
+                                                 .seed = world.settings.seed,
+                                                 .replication = world.settings.replication},
+                          std::move(judge));
+}
+
+std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending& how) {
+    const Frame& frame = air.frame;
+    ++world_.transmissions;
+    const std::size_t slot = flights_.take();
+    Flight& flight = flights_[slot];
+    flight.air = air;
+    flight.arrived = 0;
+    const Time end = world_.now + how.airtime;
+    if (how.is_sensed) {
+        find_sensors(flight, end);
+    } else {
+        world_.medium.find_receivers(frame.sender, world_.now, end, world_.legs, flight.receivers);
+        sort(flight.receivers);
+    }
+    if (interference_) put_on_air(slot, how);
+    const bool errors = world_.medium.radio(frame.sender).success_rate < 1;
+    if (errors) garble(flight);
+    flight.undisturbed = !errors && !interference_;
+    const std::span<const Reception> all = flight.receivers.all();
+    if (all.empty()) {
+        if (!interference_) flights_.release(slot);
+        return all;
+    }
+    if (air.kind == AirFrame::data) world_.messages.hold(frame.message);
+    world_.events.schedule(flight.receivers.first, Priority::frame_end,
+                           {Occurrence::Kind::frame, frame.sender, slot});
+    return all;
+}
+
+/// Finds the receivers, and tells all that sense the frame.
+void Channel::find_sensors(Flight& flight, Time end) {
+    Medium& medium = world_.medium;
+    const Time now = world_.now;
+    const NodeId sender = flight.air.frame.sender;
+    const auto sensors = medium.find_sensors(sender, now, end, world_.legs, flight.receivers);
+    sort(flight.receivers);
+    const Duration airtime = end - now;
+    for (const Reception& r : flight.receivers.all()) {
+        user_.sensed(r.node, r.time - airtime, r.time);
+    }
+    for (const Medium::Found& s : sensors) {
+        const Duration delay = medium.delay(std::sqrt(s.squared_distance));
+        user_.sensed(s.node, now + delay, end + delay);
+    }
+}
+
+/// Keeps a frame for as long as it may meet others.
+void Channel::put_on_air(std::size_t slot, const Sending& how) {
+    Flight& flight = flights_[slot];
+    forget_frames();
+    flight.emission = interference_->add({.begin = world_.now,
+                                          .end = world_.now + how.airtime,
+                                          .from = flight.air.frame.sender,
+                                          .flight = static_cast<std::uint32_t>(slot)},
+                                         how.rate, flight.receivers.all());
+}
+
+/// Forgets those that matter no more.
+void Channel::forget_frames() {
+    interference_->forget(world_.now,
+                          [&](const Emission& frame) { flights_.release(frame.flight); });
+}
+
+void Channel::added(NodeId node, const Leg& leg) {
+    before_change(node, false);
+    goes(node, leg);
+}
+
+void Channel::before_change(NodeId node, bool on) {
+    if (!interference_) return;
+    forget_frames();
+    interference_->before_change(node, on);
+}
+
+void Channel::goes(NodeId node, const Leg& leg) {
+    if (interference_) interference_->goes(node, leg);
+}
+
+void Channel::check(BitRate rate) const {
+    if (interference_) interference_->rule().check(rate);
+}
+
+std::optional<Db> Channel::interference_left_out() const {
+    if (!interference_ || !interference_->rule().interference_cut()) return std::nullopt;
+    // Beside the frame that is received.
+    const std::size_t most = interference_->rule().most_on_air();
+    return world_.medium.left_out(std::max<std::size_t>(most, 1) - 1);
+}
+
+/// Decides which receivers get the frame with errors, by its sender's success rate.
+void Channel::garble(Flight& flight) const {
+    if (flight.air.kind != AirFrame::data) return;
+    const Frame& frame = flight.air.frame;
+    const double success = world_.medium.radio(frame.sender).success_rate;
+    for (Reception& r : flight.receivers.all()) {
+        if (!is_decoded(r.fate)) continue;
+        const double draw = world_.draw(Purpose::link_success,
+                                        combine(world_.key(frame.sender), world_.key(r.node)),
+                                        combine(world_.messages[frame.message].key, frame.path),
+                                        frame.hops + (std::uint64_t{flight.air.attempt} << 16));
+        if (draw >= success) r.fate = Fate::garbled;
+    }
+}
+
+/// The last time up to which receptions can be served in a row, the first of which is now, by
+/// `key`: what a reception sets off happens no sooner than least_reaction after it, and whatever is
+/// queued takes its turn.
+Time Channel::served_until(EventKey key) const {
+    if (world_.settings.reference) return key.time();
+    const Time most = std::min(key.time() + least_reaction, world_.end_of_run);
+    const EventKey next = world_.events.next_key();
+    if (next.time() > most) return most;
+    return key.at(next.time()) < next ? next.time() : next.time() - Duration{1};
+}
+
+/// The receptions that are served next, by `key`; now is when the last of them ends.
+std::span<Reception> Channel::next_of(Flight& flight, EventKey key) const {
+    const auto rest = flight.receivers.all().subspan(flight.arrived);
+    const Time until = served_until(key);
+    std::size_t count = 1;
+    if (flight.receivers.last <= until) {
+        count = rest.size();
+    } else {
+        while (rest[count].time <= until) ++count;
+    }
+    world_.now = rest[count - 1].time;
+    flight.arrived += count;
+    return rest.first(count);
+}
+
+/// Serves the receptions of a transmission by one event: all, if nothing else can happen in
+/// between. Otherwise as many as come before that; then the event is queued again for the rest, in
+/// its old place among equal times.
+void Channel::arrive(const Event& event) {
+    Flight& flight = flights_[event.payload.data];
+    for (auto key = event.key;;) {
+        const std::span<Reception> ended = next_of(flight, key);
+        if (interference_) interference_->judge(flight.emission, ended, world_.now);
+        if (flight.air.kind == AirFrame::data) world_.messages.arrived(flight.air.frame.message);
+        user_.arrived(flight.air, ended, flight.undisturbed);
+        if (flight.arrived == flight.receivers.all().size()) break;
+        key = event.key.at(flight.receivers.all()[flight.arrived].time);
+        const bool is_next = key.time() <= world_.end_of_run && world_.events.runs_before_next(key);
+        if (world_.settings.reference || !is_next) {
+            world_.events.requeue(key, event.payload);
+            return;
+        }
+    }
+    const AirFrame air = flight.air;
+    if (!interference_) flights_.release(event.payload.data);  // else once it is off the air
+    if (air.kind == AirFrame::data) world_.release(air.frame.message);
+}
+
+}  // namespace rovernet

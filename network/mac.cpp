@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "network/mac.hpp"
+
+#include "models/phy/wifi.hpp"
+#include "network/world.hpp"
+
+#include <algorithm>
+
+namespace rovernet {
+
+Mac::Mac(World& world, Channel& channel, MacUser& user)
+    : world_(world),
+      channel_(channel),
+      user_(user),
+      access_(world.settings.access.make_access()),
+      queues_(access_->queues()),
+      listens_(access_->listens()) {}
+
+void Mac::send(const QueuedFrame& frame) {
+    if (queues_) world_.messages.hold(frame.frame.message);
+    access_->send(*this, frame);
+}
+
+Time Mac::now() const { return world_.now; }
+
+Time Mac::transmit(const AirFrame& air) {
+    const bool data = air.kind == AirFrame::data;
+    if (data) world_.emit(Transmitted{world_.now, air.frame, air.heard_from});
+    if (world_.records.wants<AirSent>()) world_.emit(AirSent{world_.now, air, bytes(air)});
+    const Channel::Sending how{
+        .airtime = airtime(air), .rate = rate_of(air), .is_sensed = listens_};
+    const auto receptions = channel_.transmit(air, how);
+    if (data && air.frame.next_hop != everyone) tell_if_unheard(air.frame, receptions);
+    return world_.now + how.airtime;
+}
+
+/// Tells of a unicast whose destination cannot hear it, where no missing acknowledgement does.
+void Mac::tell_if_unheard(const Frame& frame, std::span<const Reception> receptions) {
+    const auto is_it = [&](const Reception& r) { return r.node == frame.next_hop; };
+    if (listens_ || std::any_of(receptions.begin(), receptions.end(), is_it)) return;
+    world_.emit(Dropped{world_.now, frame.sender, frame, DropReason::unheard});
+}
+
+std::uint32_t Mac::bytes(const AirFrame& frame) const {
+    switch (frame.kind) {
+        case AirFrame::rts: return rts_bytes;
+        case AirFrame::cts: return cts_bytes;
+        case AirFrame::ack: return ack_bytes;
+        case AirFrame::data: break;
+    }
+    return world_.messages[frame.frame.message].size + header();
+}
+
+BitRate Mac::rate_of(const AirFrame& frame) const {
+    const BitRate sender = world_.medium.radio(frame.frame.sender).rate;
+    const NodeId to = frame.frame.next_hop;
+    return access_->rate(frame, sender, to == everyone ? sender : world_.medium.radio(to).rate);
+}
+
+Duration Mac::airtime(const AirFrame& frame) const {
+    const Radio& radio = world_.medium.radio(frame.frame.sender);
+    return access_->airtime(radio, rate_of(frame), bytes(frame));
+}
+
+void Mac::access_timer(NodeId node, Time at, std::uint32_t tag) {
+    world_.events.schedule(at, Priority::timer, {Occurrence::Kind::access_timer, node, tag});
+}
+
+double Mac::access_draw(NodeId node, std::uint64_t index) const {
+    return world_.draw(Purpose::backoff, world_.key(node), 0, index);
+}
+
+void Mac::arrived(const AirFrame& frame, std::span<Reception> receptions, bool undisturbed) {
+    if (frame.kind == AirFrame::data) user_.arrived(frame, receptions, undisturbed);
+    if (listens_) tell_stations(frame, receptions);
+}
+
+/// What the stations hear of a frame beside its message: its end, and what it reserves.
+void Mac::tell_stations(const AirFrame& frame, std::span<const Reception> receptions) {
+    const AirFrame air = frame;
+    const Medium& medium = world_.medium;
+    if (air.kind != AirFrame::data && world_.records.wants<ControlReceived>()) {
+        for (const Reception& r : receptions) {
+            if (r.node != air.frame.next_hop || !medium.is_on(r.node)) continue;
+            world_.emit(ControlReceived{air, r, bytes(air)});
+        }
+    }
+    for (const Reception& r : receptions) {
+        world_.now = r.time;
+        if (!medium.is_on(r.node)) continue;
+        if (is_decoded(r.fate)) {
+            access_->received(*this, r.node, air);
+        } else {
+            access_->missed(*this, r.node);
+        }
+    }
+}
+
+}  // namespace rovernet

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "network/world.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+const Scene& open_field() {
+    static const Scene scene;
+    return scene;
+}
+
+}  // namespace
+
+World::World(NetworkSettings given)
+    : settings(std::move(given)),
+      scene(settings.scene ? settings.scene.get() : &open_field()),
+      planners(settings.planners ? settings.planners : std::make_shared<Planners>(*scene)),
+      medium({.scene = scene,
+              .floor_height = settings.floor_height,
+              .propagation_delay = settings.propagation_delay,
+              .all_pairs = settings.reference,
+              .interference_cut = settings.reception.interference_cut(),
+              .seed = settings.seed,
+              .replication = settings.replication}) {
+    if (!positive.contains(settings.floor_height.value)) {
+        throw_out_of_range("network", "floor_height", positive.text, settings.floor_height.value);
+    }
+    if (&planners->scene() != scene) {
+        throw std::invalid_argument("network: planners must be those of its scene");
+    }
+    for (const Duration d : {settings.links.tolerance, settings.links.min_dwell}) {
+        if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
+    }
+}
+
+void World::schedule(Time time, Callback<> call, Duration period) {
+    if (time < now) {
+        throw std::invalid_argument(
+            fmt::format("an action at {} s, but it is {} s already", seconds(time), seconds(now)));
+    }
+    const std::size_t slot = actions_.take();
+    actions_[slot] = {std::move(call), period};
+    events.schedule(time, Priority::user, {Occurrence::Kind::action, NodeId{0}, slot});
+}
+
+void World::act(std::size_t slot) {
+    const Action action = actions_[slot];  // a copy: the call may add actions
+    if (action.period > Duration{0}) {
+        events.schedule(now + action.period, Priority::user,
+                        {Occurrence::Kind::action, NodeId{0}, slot});
+    } else {
+        actions_[slot] = {};
+        actions_.release(slot);
+    }
+    (*action.call)();
+}
+
+}  // namespace rovernet
