@@ -306,7 +306,7 @@ NetworkSettings network_settings(const Scenario& scenario) {
 
 void populate(Network& network, const Scenario& scenario) {
     located(Location{scenario.file}, [&] {
-        network.route(scenario.routing.flood);
+        network.route(scenario.routing.make());
         Builder builder(network, scenario);
         builder.add_robots();
         builder.schedule();

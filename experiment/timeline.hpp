@@ -3,7 +3,7 @@
 
 #include "network/network.hpp"
 #include "sim/chunks.hpp"
-#include "sim/ports.hpp"
+#include "sim/sink.hpp"
 #include "sim/record.hpp"
 
 #include <cstddef>

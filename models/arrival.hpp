@@ -17,7 +17,7 @@ struct Emission {
     NodeId from;               ///< its sender
     double heard_within = 0;   ///< [m] from the origin: nobody farther is a receiver
     double squared_reach = 0;  ///< [m^2] nobody farther is disturbed; may be infinite
-    std::uint32_t flight;      ///< known to the caller
+    std::uint32_t flight = 0;  ///< known to the caller
     std::uint64_t serial = 0;  ///< its number, in the order of sending
 };
 

@@ -12,17 +12,18 @@
 
 namespace rovernet {
 
-MessageId Applications::new_message(NodeId id, NodeId to, std::string payload, Outgoing what) {
+MessageId Applications::new_message(NodeId id, NodeId to, std::string payload, Outgoing what,
+                                    bool is_routed) {
+    has_sent_ = true;
     const std::uint32_t number = nodes_[id.index()].messages_sent++;
-    return world_.messages.add({.origin = id,
-                                .uid = next_uid_++,
-                                .number = number,
-                                .to = to,
-                                .key = combine(world_.key(id), number),
-                                .size = what.bytes,
-                                .created = world_.now,
-                                .payload = std::move(payload),
-                                .flow = what.flow});
+    return world_.new_message({.origin = id,
+                               .number = number,
+                               .to = to,
+                               .key = combine(world_.key(id), number),
+                               .size = what.bytes,
+                               .payload = std::move(payload),
+                               .flow = what.flow,
+                               .is_routed = is_routed});
 }
 
 /// Robots that a chain of links joins to the sender now, of those that a message is for; if a sink
@@ -38,34 +39,40 @@ std::optional<std::uint32_t> Applications::reachable(NodeId from, NodeId to) {
     return reachability_.count(w.medium, from, w.now, w.legs);
 }
 
-void Applications::send(NodeId id, std::string payload, Outgoing what) {
-    if (!routing_.has_router()) {
-        throw std::invalid_argument("no routing protocol: call route() before sending");
+/// @throws std::invalid_argument if there is no such other robot
+void Applications::check_destination(NodeId from, NodeId to) const {
+    if (to != everyone && (to.index() >= world_.size() || to == from)) {
+        throw std::invalid_argument("a unicast needs another robot to go to");
+    }
+}
+
+void Applications::send(NodeId id, NodeId to, std::string payload, Outgoing what) {
+    const auto& router = routing_.router();
+    if (!router) throw std::invalid_argument("no routing protocol: call route() before sending");
+    check_destination(id, to);
+    if (to != everyone && !router->traits().routes_unicasts) {
+        throw std::invalid_argument("the routing protocol brings messages to everyone only");
     }
     if (!world_.medium.is_on(id)) return;
-    const MessageId message = new_message(id, everyone, std::move(payload), what);
-    const auto robots = static_cast<std::uint32_t>(world_.size());
-    world_.emit(
-        Sent{world_.now, id, message, routing_.initial_ttl(), robots, reachable(id, everyone)});
+    const MessageId message = new_message(id, to, std::move(payload), what, true);
+    const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
+    world_.emit(Sent{world_.now, id, message, router->initial_ttl(), robots, reachable(id, to)});
     routing_.originate(id, message);
     world_.release(message);
 }
 
-void Applications::send_to(NodeId id, NodeId to, std::string payload, Outgoing what) {
-    if (to != everyone && (to.index() >= world_.size() || to == id)) {
-        throw std::invalid_argument("a unicast needs another robot to go to");
-    }
+void Applications::send_one_hop(NodeId id, NodeId to, std::string payload, Outgoing what) {
+    check_destination(id, to);
     if (!world_.medium.is_on(id)) return;
-    const MessageId message = new_message(id, to, std::move(payload), what);
+    const MessageId message = new_message(id, to, std::move(payload), what, false);
     const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
     world_.emit(Sent{world_.now, id, message, 1, robots, reachable(id, to)});
-    routing_.broadcast({.message = message,
-                        .sender = id,
-                        .path = world_.key(id),
-                        .ttl = 1,
-                        .hops = 1,
-                        .next_hop = to},
-                       std::nullopt);
+    routing_.send_one_hop({.message = message,
+                           .sender = id,
+                           .path = world_.key(id),
+                           .ttl = 1,
+                           .hops = 1,
+                           .next_hop = to});
     world_.release(message);
 }
 
@@ -74,7 +81,7 @@ void Applications::saturate(NodeId id, NodeId to, Outgoing what) {
         throw std::invalid_argument("saturated traffic needs an access model: aloha or csma");
     }
     saturated_[id] = {to, what};
-    for (int waiting = 0; waiting < 2; ++waiting) send_to(id, to, {}, what);
+    for (int waiting = 0; waiting < 2; ++waiting) send_one_hop(id, to, {}, what);
 }
 
 /// A saturated node has sent a frame: here is the next.
@@ -82,7 +89,7 @@ void Applications::has_room(NodeId id) {
     const auto found = saturated_.find(id);
     if (found == saturated_.end()) return;
     auto next = std::make_shared<std::function<void()>>(
-        [this, id, traffic = found->second] { send_to(id, traffic.to, {}, traffic.what); });
+        [this, id, traffic = found->second] { send_one_hop(id, traffic.to, {}, traffic.what); });
     world_.schedule(world_.now + least_reaction, std::move(next));
 }
 

@@ -32,12 +32,12 @@ class Applications final : public RoutingUser {
 
     /// Adds the next node.
     void add() { nodes_.push_back({}); }
-    // As Network::broadcast, unicast and saturate.
-    void send(NodeId node, std::string payload, Outgoing what);
-    void send_to(NodeId node, NodeId to, std::string payload, Outgoing what);
+    // As Network::send, unicast and saturate.
+    void send(NodeId node, NodeId to, std::string payload, Outgoing what);
+    void send_one_hop(NodeId node, NodeId to, std::string payload, Outgoing what);
     void saturate(NodeId node, NodeId to, Outgoing what);
     /// Somebody has sent a message.
-    bool has_sent() const { return next_uid_ > 0; }
+    bool has_sent() const { return has_sent_; }
     void on_receive(NodeId node, Callback<const Message&, const Heard&> react);
     /// Serves the event of a message that a node was handed: it reacts now.
     /// @param handed_over  the message's id, and above its 32 bits the hops
@@ -60,7 +60,9 @@ class Applications final : public RoutingUser {
         Outgoing what;
     };
 
-    MessageId new_message(NodeId node, NodeId to, std::string payload, Outgoing what);
+    void check_destination(NodeId from, NodeId to) const;
+    MessageId new_message(NodeId node, NodeId to, std::string payload, Outgoing what,
+                          bool is_routed);
     std::optional<std::uint32_t> reachable(NodeId from, NodeId to);
 
     World& world_;
@@ -70,7 +72,7 @@ class Applications final : public RoutingUser {
     bool has_reactions_ = false;  // some node has an on_receive
     std::map<NodeId, Saturated> saturated_;
     Reachability reachability_;
-    std::uint64_t next_uid_ = 0;
+    bool has_sent_ = false;
     std::vector<Reception> reacting_;  // of a frame
 };
 

@@ -69,6 +69,8 @@ std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending&
         world_.medium.find_receivers(frame.sender, world_.now, end, world_.legs, flight.receivers);
         sort(flight.receivers);
     }
+    flight.levels.clear();
+    if (world_.levels_wanted) find_levels(flight, end);
     if (interference_) put_on_air(slot, how);
     const bool errors = world_.medium.radio(frame.sender).success_rate < 1;
     if (errors) garble(flight);
@@ -98,6 +100,22 @@ void Channel::find_sensors(Flight& flight, Time end) {
     for (const Medium::Found& s : sensors) {
         const Duration delay = medium.delay(std::sqrt(s.squared_distance));
         user_.sensed(s.node, now + delay, end + delay);
+    }
+}
+
+/// Looks at what each receiver gets.
+void Channel::find_levels(Flight& flight, Time end) {
+    Medium& medium = world_.medium;
+    const NodeId sender = flight.air.frame.sender;
+    const Emission frame{.begin = world_.now,
+                         .end = end,
+                         .origin = medium.origin(),
+                         .from = sender,
+                         .heard_within = medium.heard_within(),
+                         .squared_reach = std::numeric_limits<double>::infinity()};
+    for (const Reception& r : flight.receivers.all()) {
+        const Vec3 there = medium.position(r.node, world_.now, world_.legs);
+        flight.levels.push_back(medium.level(*medium.arrival(frame, r.node, there), r.node));
     }
 }
 
@@ -194,7 +212,11 @@ void Channel::arrive(const Event& event) {
         const std::span<Reception> ended = next_of(flight, key);
         if (interference_) interference_->judge(flight.emission, ended, world_.now);
         if (flight.air.kind == AirFrame::data) world_.messages.arrived(flight.air.frame.message);
-        user_.arrived(flight.air, ended, flight.undisturbed);
+        const std::size_t begin = flight.arrived - ended.size();
+        const std::span<const Dbm> levels =
+            flight.levels.empty() ? std::span<const Dbm>{}
+                                  : std::span(flight.levels).subspan(begin, ended.size());
+        user_.arrived(flight.air, {ended, levels, flight.undisturbed});
         if (flight.arrived == flight.receivers.all().size()) break;
         key = event.key.at(flight.receivers.all()[flight.arrived].time);
         const bool is_next = key.time() <= world_.end_of_run && world_.events.runs_before_next(key);

@@ -14,19 +14,24 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace rovernet {
 
 struct World;
 
+/// Some receptions of a frame, in order of time and then of node; it is now when the last ends.
+struct Arriving {
+    std::span<Reception> receptions;
+    std::span<const Dbm> levels;  ///< received power of each, if somebody wants it
+    bool undisturbed;             ///< all that are on get the frame without errors
+};
+
 /// What the channel tells the layer above.
 class ChannelUser {
   public:
-    /// The frame arrives at some of its receivers, in order of time and then of node; it is now
-    /// when the last of them has it.
-    /// @param undisturbed  all that are on get it without errors
-    virtual void arrived(const AirFrame& frame, std::span<Reception> receptions,
-                         bool undisturbed) = 0;
+    /// The frame arrives at some of its receivers.
+    virtual void arrived(const AirFrame& frame, const Arriving& part) = 0;
     /// `node` will sense a frame on air from `begin` to `end`.
     virtual void sensed(NodeId node, Time begin, Time end) = 0;
 
@@ -69,12 +74,14 @@ class Channel {
         AirFrame air;
         std::uint64_t emission = 0;  // its serial, if there is interference
         Medium::Receivers receivers;
+        std::vector<Dbm> levels;  // of the receptions, if somebody wants them
         std::size_t arrived = 0;
         bool undisturbed = false;
     };
 
     void find_sensors(Flight& flight, Time end);
     void put_on_air(std::size_t slot, const Sending& how);
+    void find_levels(Flight& flight, Time end);
     void forget_frames();
     void garble(Flight& flight) const;
     Time served_until(EventKey key) const;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace rovernet {
 
@@ -47,7 +48,10 @@ NodeId Engine::add(Robot robot) {
     names.add(robot.name);
     const NodeId id = motion.add(std::move(robot));
     links.added(id);
-    if (world.running) motion.begin_all();
+    if (world.running) {
+        motion.begin_all();
+        routing.on_start(id);
+    }
     return id;
 }
 
@@ -65,6 +69,7 @@ void Engine::switch_robot(NodeId id, bool on) {
     links.look_at(id);
     if (!world.running) return;
     on ? motion.resume(id) : motion.pause(id);
+    routing.on_switched(id, on);
 }
 
 NodeId Engine::known(NodeId node) const {
@@ -77,6 +82,7 @@ void Engine::serve(const Event& event) {
     switch (kind) {
         case Occurrence::Kind::frame: return channel.arrive(event);
         case Occurrence::Kind::router_timer: return routing.on_timer(node, data);
+        case Occurrence::Kind::send: return routing.on_send(static_cast<SendHandle>(data));
         case Occurrence::Kind::leg_end: return motion.on_leg_end(node, data);
         case Occurrence::Kind::handed_over: return applications.react(node, data);
         case Occurrence::Kind::action: return world.act(data);
@@ -110,10 +116,20 @@ void Engine::count_events() {
     check_at_ = std::min(limit, events.scheduled() + most_pending - events.size());
 }
 
+/// Nodes start in the order of their keys, so that their numbers decide nothing.
+void Engine::start_routing() {
+    if (!routing.router() || !routing.router()->hears_of_starts()) return;
+    std::vector<NodeId> nodes;
+    for (std::uint32_t i = 0; i < world.size(); ++i) nodes.push_back(NodeId{i});
+    std::sort(nodes.begin(), nodes.end(),
+              [this](NodeId a, NodeId b) { return world.key(a) < world.key(b); });
+    for (const NodeId node : nodes) routing.on_start(node);
+}
+
 bool Engine::advance(Time end, std::uint64_t most_events) {
     auto& events = world.events;
-    world.running = true;
     world.end_of_run = end;
+    if (!std::exchange(world.running, true)) start_routing();
     motion.begin_all();
     links.begin();
     for (;;) {

@@ -48,6 +48,7 @@ class Engine {
   private:
     void serve(const Event& event);
     void count_events();
+    void start_routing();
 
     std::uint64_t check_at_ = 0;  // scheduled events: no limit is reached before
 };

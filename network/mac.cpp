@@ -13,11 +13,10 @@ Mac::Mac(World& world, Channel& channel, MacUser& user)
       channel_(channel),
       user_(user),
       access_(world.settings.access.make_access()),
-      queues_(access_->queues()),
       listens_(access_->listens()) {}
 
 void Mac::send(const QueuedFrame& frame) {
-    if (queues_) world_.messages.hold(frame.frame.message);
+    world_.messages.hold(frame.frame.message);
     access_->send(*this, frame);
 }
 
@@ -70,9 +69,9 @@ double Mac::access_draw(NodeId node, std::uint64_t index) const {
     return world_.draw(Purpose::backoff, world_.key(node), 0, index);
 }
 
-void Mac::arrived(const AirFrame& frame, std::span<Reception> receptions, bool undisturbed) {
-    if (frame.kind == AirFrame::data) user_.arrived(frame, receptions, undisturbed);
-    if (listens_) tell_stations(frame, receptions);
+void Mac::arrived(const AirFrame& frame, const Arriving& part) {
+    if (frame.kind == AirFrame::data) user_.arrived(frame, part);
+    if (listens_) tell_stations(frame, part.receptions);
 }
 
 /// What the stations hear of a frame beside its message: its end, and what it reserves.

@@ -16,9 +16,8 @@ struct World;
 class MacUser {
   public:
     /// A frame of a message arrives at some of its receivers, see ChannelUser::arrived.
-    virtual void arrived(const AirFrame& frame, std::span<Reception> receptions,
-                         bool undisturbed) = 0;
-    /// A frame left the queue: it was sent (and answered, if it had to be), or it was given up.
+    virtual void arrived(const AirFrame& frame, const Arriving& part) = 0;
+    /// A frame was sent (and answered, if it had to be), or it was given up.
     virtual void sent(const QueuedFrame& frame) = 0;
     virtual void lost(const QueuedFrame& frame, DropReason reason) = 0;
 
@@ -36,12 +35,19 @@ class Mac final : public Air, public ChannelUser {
     /// Adds the next node.
     void add() { access_->add(); }
     void switch_off(NodeId node) { access_->switch_off(*this, node); }
-    /// Takes a frame that its sender, which is on, wants to send.
+    /// See LinkLayer::take_queued.
+    std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) {
+        return access_->take(node, next_hop);
+    }
+    /// Takes a frame that its sender, which is on, wants to send; sent() or lost() tells of its
+    /// end.
     void send(const QueuedFrame& frame);
     void on_timer(NodeId node, std::uint32_t tag) { access_->on_timer(*this, node, tag); }
 
     /// Frames wait for access, so that a queue can always have one more.
-    bool queues() const { return queues_; }
+    bool queues() const { return access_->queues(); }
+    /// Unicasts are acknowledged.
+    bool acknowledges() const { return listens_; }
     /// Bit rates, beside those of the radios, at which frames may go.
     std::span<const BitRate> own_rates() const { return access_->own_rates(); }
     /// [bytes] that access adds to a message
@@ -62,7 +68,7 @@ class Mac final : public Air, public ChannelUser {
     void lost(const QueuedFrame& frame, DropReason reason) override { user_.lost(frame, reason); }
 
     // ChannelUser.
-    void arrived(const AirFrame& frame, std::span<Reception> receptions, bool undisturbed) override;
+    void arrived(const AirFrame& frame, const Arriving& part) override;
     void sensed(NodeId node, Time begin, Time end) override { access_->energy(node, begin, end); }
 
   private:
@@ -74,7 +80,7 @@ class Mac final : public Air, public ChannelUser {
     Channel& channel_;
     MacUser& user_;
     std::unique_ptr<Access> access_;
-    bool queues_, listens_;  // as the access protocol does
+    bool listens_;  // as the access protocol does
 };
 
 }  // namespace rovernet

@@ -27,13 +27,19 @@ void Network::add_sink(Sink sink) { engine_->add_sink(std::move(sink)); }
 void Network::broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size,
                         std::uint32_t flow) {
     const auto bytes = size.value_or(static_cast<std::uint32_t>(payload.size()));
-    engine_->applications.send(node, std::move(payload), {bytes, flow});
+    engine_->applications.send(node, everyone, std::move(payload), {bytes, flow});
+}
+
+void Network::send(NodeId node, NodeId to, std::string payload, std::optional<std::uint32_t> size,
+                   std::uint32_t flow) {
+    const auto bytes = size.value_or(static_cast<std::uint32_t>(payload.size()));
+    engine_->applications.send(node, to, std::move(payload), {bytes, flow});
 }
 
 void Network::unicast(NodeId node, NodeId to, std::string payload,
                       std::optional<std::uint32_t> size, std::uint32_t flow) {
     const auto bytes = size.value_or(static_cast<std::uint32_t>(payload.size()));
-    engine_->applications.send_to(node, to, std::move(payload), {bytes, flow});
+    engine_->applications.send_one_hop(node, to, std::move(payload), {bytes, flow});
 }
 void Network::saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow) {
     engine_->applications.saturate(node, to, {size, flow});

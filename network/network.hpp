@@ -14,7 +14,7 @@
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
-#include "sim/ports.hpp"
+#include "sim/router.hpp"
 #include "sim/scheduler.hpp"
 #include "sim/time.hpp"
 #include "traces/metrics.hpp"
@@ -117,7 +117,11 @@ class Network {
     /// @param flow  the flow that the message belongs to, from 1; 0: none
     void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {},
                    std::uint32_t flow = 0);
-    /// `node` sends a message to `to`, one hop, without routing: the access rung "csma" repeats it
+    /// `node` sends a message to `to` by the routing protocol. @param size  as for broadcast()
+    /// @throws std::invalid_argument if no protocol is set, or it brings messages to everyone only
+    void send(NodeId node, NodeId to, std::string payload, std::optional<std::uint32_t> size = {},
+              std::uint32_t flow = 0);
+    /// `node` sends a message to `to`, one hop, without routing: the access model "csma" repeats it
     /// until it is acknowledged or given up. @param size  as for broadcast()
     void unicast(NodeId node, NodeId to, std::string payload,
                  std::optional<std::uint32_t> size = {}, std::uint32_t flow = 0);

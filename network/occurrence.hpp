@@ -13,6 +13,7 @@ struct Occurrence {
     enum class Kind : std::uint32_t {
         frame,         ///< a frame of `node` arrives; data: its slot in Channel
         router_timer,  ///< data: the router's tag
+        send,          ///< a frame of `node` that waited for its time; data: its SendHandle
         leg_end,       ///< data: the leg's version
         handed_over,   ///< `node` reacts to a message; data: see Applications::react
         action,        ///< data: its slot in Actions

@@ -7,11 +7,66 @@
 #include <utility>
 
 namespace rovernet {
+namespace {
+
+/// A frame on its way as its sender received it.
+Frame as_received(const QueuedFrame& sending) {
+    Frame frame = sending.frame;
+    if (!sending.heard_from) return frame;
+    frame.sender = *sending.heard_from;
+    ++frame.ttl;
+    --frame.hops;
+    return frame;
+}
+
+SendResult result_of(DropReason reason) {
+    switch (reason) {
+        case DropReason::queue_full: return SendResult::queue_full;
+        case DropReason::retries: return SendResult::retries;
+        default: return SendResult::off;
+    }
+}
+
+}  // namespace
 
 void Routing::set(Router router) {
     if (router_) throw std::invalid_argument("this network has a routing protocol already");
     router_.emplace(std::move(router));
     world_.on_forgotten = [this](MessageId id) { router_->forget(id); };
+    if (router_->traits().wants_levels) world_.levels_wanted = true;
+}
+
+/// Calls the router; what it sends is sent once it has returned, so that it is told of nothing in
+/// the midst of its work.
+template <class Call>
+void Routing::call_router(Call call) {
+    const bool is_outermost = !std::exchange(calling_, true);
+    call();
+    if (!is_outermost) return;
+    for (std::size_t i = 0; i < outbox_.size(); ++i) {  // results may send more
+        const QueuedFrame frame = outbox_[i];
+        send_now(frame);
+    }
+    outbox_.clear();
+    calling_ = false;
+}
+
+void Routing::originate(NodeId node, MessageId message) {
+    call_router([&] { router_->send(*this, node, message); });
+}
+
+void Routing::send_one_hop(const Frame& frame) { mac_.send({frame, std::nullopt}); }
+
+void Routing::on_timer(NodeId node, std::uint64_t tag) {
+    call_router([&] { router_->on_timer(*this, node, tag); });
+}
+
+void Routing::on_start(NodeId node) {
+    if (router_) call_router([&] { router_->on_start(*this, node); });
+}
+
+void Routing::on_switched(NodeId node, bool on) {
+    if (router_) call_router([&] { router_->on_switched(*this, node, on); });
 }
 
 Time Routing::now() const { return world_.now; }
@@ -19,18 +74,85 @@ std::size_t Routing::size() const { return world_.size(); }
 const Message& Routing::message(MessageId id) const { return world_.messages[id]; }
 bool Routing::is_on(NodeId node) const { return world_.medium.is_on(node); }
 std::uint64_t Routing::key(NodeId node) const { return world_.key(node); }
+Vec3 Routing::position(NodeId node) const { return world_.legs.position(node, world_.now); }
 void Routing::hold(MessageId id) { world_.messages.hold(id); }
 void Routing::release(MessageId id) { world_.release(id); }
 
-void Routing::broadcast(const Frame& frame, std::optional<NodeId> heard_from) {
-    if (receiving_) {
-        throw std::invalid_argument("a router may not send while it receives: set a timer");
+MessageId Routing::originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,
+                             std::string content) {
+    if (from.index() >= packets_.size()) packets_.resize(from.index() + 1);
+    const std::uint32_t number = packets_[from.index()]++;
+    constexpr std::uint64_t own = 0x70726f746f636f6c;  // apart from applications' messages
+    return world_.new_message({.origin = from,
+                               .number = number,
+                               .to = to,
+                               .key = combine(combine(world_.key(from), own), number),
+                               .size = bytes,
+                               .payload = std::move(content),
+                               .kind = kind,
+                               .is_routed = true});
+}
+
+std::optional<SendHandle> Routing::send(const Frame& frame, std::optional<NodeId> heard_from,
+                                        Time at) {
+    if (at < world_.now || (receiving_ && at == world_.now)) {
+        throw std::invalid_argument(receiving_
+                                        ? "a router may not send while it receives: send 1 us later"
+                                        : "a router sent a frame in the past");
     }
-    mac_.send({frame, heard_from});
+    world_.messages.hold(frame.message);
+    if (at == world_.now) {
+        outbox_.push_back({frame, heard_from});
+        return std::nullopt;
+    }
+    const std::size_t slot = waiting_.take();
+    waiting_[slot] = {frame, heard_from};
+    world_.events.schedule(at, Priority::timer, {Occurrence::Kind::send, frame.sender, slot});
+    return static_cast<SendHandle>(slot);
+}
+
+QueuedFrame* Routing::waiting(SendHandle handle) {
+    QueuedFrame& frame = waiting_[handle];
+    return frame.frame.sender == everyone ? nullptr : &frame;
+}
+
+void Routing::cancel(SendHandle handle) {
+    QueuedFrame* frame = waiting(handle);
+    if (!frame) return;
+    frame->frame.sender = everyone;
+    world_.release(frame->frame.message);
+}
+
+void Routing::on_send(SendHandle handle) {
+    const QueuedFrame frame = waiting_[handle];
+    waiting_[handle].frame.sender = everyone;
+    waiting_.release(handle);
+    if (frame.frame.sender == everyone) return;  // taken back
+    send_now(frame);
+}
+
+/// Sends a frame whose message is held for it.
+void Routing::send_now(const QueuedFrame& frame) {
+    const NodeId sender = frame.frame.sender;
+    if (world_.medium.is_on(sender)) {
+        mac_.send(frame);
+    } else {
+        drop(sender, as_received(frame), DropReason::off);
+        tell(frame.frame, SendResult::off);
+    }
+    world_.release(frame.frame.message);
+}
+
+std::vector<QueuedFrame> Routing::take_queued(NodeId node, NodeId next_hop) {
+    return mac_.take(node, next_hop);
 }
 
 void Routing::drop(NodeId node, const Frame& frame, DropReason reason) {
     world_.emit(Dropped{world_.now, node, frame, reason});
+}
+
+Dbm Routing::level(const Reception& reception) const {
+    return levels_[static_cast<std::size_t>(&reception - handed_up_)];
 }
 
 void Routing::timer(NodeId node, Time at, std::uint64_t tag) {
@@ -42,40 +164,53 @@ double Routing::draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t i
     return world_.draw(purpose, world_.key(node), world_.messages[id].key, index);
 }
 
-void Routing::arrived(const AirFrame& frame, std::span<Reception> receptions, bool undisturbed) {
+double Routing::draw(Purpose purpose, NodeId node, std::uint64_t index) const {
+    return world_.draw(purpose, world_.key(node), 0, index);
+}
+
+void Routing::arrived(const AirFrame& frame, const Arriving& part) {
     if (frame.frame.next_hop == everyone) {
-        receive_broadcast(frame, receptions, undisturbed);
+        receive_broadcast(frame, part);
     } else {
-        receive_unicast(frame, receptions);
+        receive_unicast(frame, part);
     }
 }
 
-void Routing::receive_broadcast(const AirFrame& air, std::span<Reception> receptions,
-                                bool undisturbed) {
+void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
+    if (part.undisturbed && world_.medium.all_are_on()) {
+        hand_up(air.frame, part.receptions, part.levels);
+    } else {
+        hand_up_heard(air.frame, part);
+    }
+    world_.emit(Received{air.frame, part.receptions, {}, mac_.header(), part.levels});
+    user_.delivered(air.frame, part.receptions);
+}
+
+/// Hands a frame to the router; without one it is for everybody, and goes no further.
+void Routing::hand_up(const Frame& frame, std::span<Reception> receptions,
+                      std::span<const Dbm> levels) {
+    if (!router_) {
+        for (Reception& r : receptions) {
+            r.fate = Fate::arrived;
+            r.delivered = true;
+        }
+        return;
+    }
+    handed_up_ = receptions.data();
+    levels_ = levels;
     receiving_ = true;
-    if (undisturbed && world_.medium.all_are_on()) {
-        hand_up(air.frame, receptions);
-    } else {
-        hand_up_heard(air.frame, receptions);
-    }
+    router_->on_receive(*this, frame, receptions);
     receiving_ = false;
-    world_.emit(Received{air.frame, receptions, {}, mac_.header()});
-    user_.delivered(air.frame, receptions);
-}
-
-/// Hands a broadcast to the router; without one it is for everybody, and goes no further.
-void Routing::hand_up(const Frame& frame, std::span<Reception> receptions) {
-    if (router_) return router_->on_receive(*this, frame, receptions);
-    for (Reception& r : receptions) {
-        r.fate = Fate::arrived;
-        r.delivered = true;
-    }
+    if (world_.messages[frame.message].kind.empty()) return;
+    for (Reception& r : receptions) r.delivered = false;  // no application's message
 }
 
 /// Hands up those that got through to nodes that are on; says which are off.
-void Routing::hand_up_heard(const Frame& frame, std::span<Reception> receptions) {
+void Routing::hand_up_heard(const Frame& frame, const Arriving& part) {
+    const std::span<Reception> receptions = part.receptions;
     // Together, and picked without a branch: it would be mispredicted for many.
     heard_.resize(receptions.size());
+    heard_levels_.resize(part.levels.size());
     places_.resize(receptions.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < receptions.size(); ++i) {
@@ -86,37 +221,65 @@ void Routing::hand_up_heard(const Frame& frame, std::span<Reception> receptions)
         if (!on) receptions[i].fate = Fate::off;
     }
     if (count == 0) return;
-    hand_up(frame, std::span{heard_}.first(count));
+    if (!part.levels.empty()) {
+        for (std::size_t k = 0; k < count; ++k) heard_levels_[k] = part.levels[places_[k]];
+    }
+    hand_up(frame, std::span{heard_}.first(count), heard_levels_);
     for (std::size_t k = 0; k < count; ++k) receptions[places_[k]] = heard_[k];
 }
 
-/// Hands a frame to the one that it is for; others only overhear it.
-void Routing::receive_unicast(const AirFrame& air, std::span<Reception> receptions) {
-    for (Reception& r : receptions) {
-        if (r.node != air.frame.next_hop) continue;
-        if (!world_.medium.is_on(r.node)) {
-            r.fate = Fate::off;
-        } else if (is_decoded(r.fate)) {
-            const bool repeated = mac_.is_repeated(r.node, air);
-            r.fate = repeated ? Fate::duplicate : Fate::arrived;
-            r.delivered = !repeated;
+void Routing::receive_unicast(const AirFrame& air, const Arriving& part) {
+    const bool overhears = router_ && router_->traits().overhears;
+    for (std::size_t i = 0; i < part.receptions.size(); ++i) {
+        Reception& r = part.receptions[i];
+        const auto level = part.levels.empty() ? part.levels : part.levels.subspan(i, 1);
+        if (r.node == air.frame.next_hop) {
+            receive_unicast(air, r, level);
+        } else if (overhears && is_decoded(r.fate) && world_.medium.is_on(r.node)) {
+            Reception overheard = r;
+            hand_up(air.frame, {&overheard, 1}, level);
         }
-        world_.emit(Received{air.frame, {&r, 1}, air.reserved, mac_.header()});
-        user_.delivered(air.frame, {&r, 1});
     }
 }
 
+/// Hands a frame to the one that it is for.
+void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const Dbm> level) {
+    if (!world_.medium.is_on(r.node)) {
+        r.fate = Fate::off;
+    } else if (is_decoded(r.fate)) {
+        if (mac_.is_repeated(r.node, air)) {
+            r.fate = Fate::duplicate;
+            r.delivered = false;
+        } else if (world_.messages[air.frame.message].is_routed) {
+            hand_up(air.frame, {&r, 1}, level);
+        } else {
+            r.fate = Fate::arrived;
+            r.delivered = true;
+        }
+    }
+    world_.emit(Received{air.frame, {&r, 1}, air.reserved, mac_.header(), level});
+    user_.delivered(air.frame, {&r, 1});
+}
+
 void Routing::sent(const QueuedFrame& frame) {
-    if (router_ && frame.frame.next_hop != everyone) router_->on_sent(*this, frame.frame, true);
+    const bool acked = frame.frame.next_hop != everyone && mac_.acknowledges();
+    tell(frame.frame, acked ? SendResult::acked : SendResult::sent);
     release(frame.frame.message);
     user_.has_room(frame.frame.sender);
 }
 
 void Routing::lost(const QueuedFrame& frame, DropReason reason) {
     drop(frame.frame.sender, frame.frame, reason);
-    if (router_ && frame.frame.next_hop != everyone) router_->on_sent(*this, frame.frame, false);
+    tell(frame.frame, result_of(reason));
     release(frame.frame.message);
     if (reason == DropReason::retries) user_.has_room(frame.frame.sender);
+}
+
+/// Tells the router what became of its frame.
+void Routing::tell(const Frame& frame, SendResult result) {
+    if (!router_ || !router_->hears_of_results()) return;
+    if (!world_.messages[frame.message].is_routed) return;
+    call_router([&] { router_->on_sent(*this, frame, result); });
 }
 
 }  // namespace rovernet

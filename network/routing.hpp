@@ -2,12 +2,15 @@
 #pragma once
 
 #include "network/mac.hpp"
-#include "sim/ports.hpp"
+#include "sim/router.hpp"
+#include "sim/slots.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace rovernet {
@@ -33,11 +36,16 @@ class Routing final : public LinkLayer, public MacUser {
 
     /// @throws std::invalid_argument if there is a protocol
     void set(Router router);
-    bool has_router() const { return router_.has_value(); }
-    Hops initial_ttl() const { return router_->initial_ttl(); }
-    /// A node's application sends a message.
-    void originate(NodeId node, MessageId message) { router_->send(*this, node, message); }
-    void on_timer(NodeId node, std::uint64_t tag) { router_->on_timer(*this, node, tag); }
+    const std::optional<Router>& router() const { return router_; }
+    /// A node's application sends a message: by the protocol, or over one hop without.
+    void originate(NodeId node, MessageId message);
+    void send_one_hop(const Frame& frame);
+    // Events.
+    void on_timer(NodeId node, std::uint64_t tag);
+    void on_send(SendHandle handle);
+    // Beginnings of the run and of a node that is added later, and switches.
+    void on_start(NodeId node);
+    void on_switched(NodeId node, bool on);
 
     // LinkLayer, for the router.
     Time now() const override;
@@ -45,34 +53,52 @@ class Routing final : public LinkLayer, public MacUser {
     const Message& message(MessageId id) const override;
     bool is_on(NodeId node) const override;
     std::uint64_t key(NodeId node) const override;
-    void broadcast(const Frame& frame, std::optional<NodeId> heard_from) override;
-    void unicast(const Frame& frame, std::optional<NodeId> heard_from) override {
-        broadcast(frame, heard_from);
-    }
+    Vec3 position(NodeId node) const override;
+    MessageId originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,
+                        std::string content) override;
+    std::optional<SendHandle> send(const Frame& frame, std::optional<NodeId> heard_from,
+                                   Time at) override;
+    QueuedFrame* waiting(SendHandle handle) override;
+    void cancel(SendHandle handle) override;
+    std::vector<QueuedFrame> take_queued(NodeId node, NodeId next_hop) override;
     void drop(NodeId node, const Frame& frame, DropReason reason) override;
+    Dbm level(const Reception& reception) const override;
     void timer(NodeId node, Time at, std::uint64_t tag) override;
     void hold(MessageId id) override;
     void release(MessageId id) override;
     double draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t index) const override;
+    double draw(Purpose purpose, NodeId node, std::uint64_t index) const override;
 
     // MacUser.
-    void arrived(const AirFrame& frame, std::span<Reception> receptions, bool undisturbed) override;
+    void arrived(const AirFrame& frame, const Arriving& part) override;
     void sent(const QueuedFrame& frame) override;
     void lost(const QueuedFrame& frame, DropReason reason) override;
 
   private:
-    void hand_up(const Frame& frame, std::span<Reception> receptions);
-    void hand_up_heard(const Frame& frame, std::span<Reception> receptions);
-    void receive_broadcast(const AirFrame& air, std::span<Reception> receptions, bool undisturbed);
-    void receive_unicast(const AirFrame& air, std::span<Reception> receptions);
+    template <class Call>
+    void call_router(Call call);
+    void send_now(const QueuedFrame& frame);
+    void tell(const Frame& frame, SendResult result);
+    void hand_up(const Frame& frame, std::span<Reception> receptions, std::span<const Dbm> levels);
+    void hand_up_heard(const Frame& frame, const Arriving& part);
+    void receive_broadcast(const AirFrame& air, const Arriving& part);
+    void receive_unicast(const AirFrame& air, const Arriving& part);
+    void receive_unicast(const AirFrame& air, Reception& reception, std::span<const Dbm> level);
 
     World& world_;
     Mac& mac_;
     RoutingUser& user_;
     std::optional<Router> router_;
-    bool receiving_ = false;
-    std::vector<Reception> heard_;     // of a frame: that are handed up ...
-    std::vector<std::size_t> places_;  // ... and where they belong
+    bool receiving_ = false;                // the router is
+    bool calling_ = false;                  // the router is at work
+    std::vector<QueuedFrame> outbox_;       // sent by the call that is under way
+    Slots<QueuedFrame> waiting_;            // for their time; without a sender: its time has come
+    std::vector<Reception> heard_;          // of a frame: that are handed up, ...
+    std::vector<Dbm> heard_levels_;         // ... their levels ...
+    std::vector<std::size_t> places_;       // ... and where they belong
+    std::vector<std::uint32_t> packets_;    // by node: of the protocol's own, made so far
+    const Reception* handed_up_ = nullptr;  // the first under work ...
+    std::span<const Dbm> levels_;           // ... and the levels of all
 };
 
 }  // namespace rovernet

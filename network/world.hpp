@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
+#include <utility>
 
 namespace rovernet {
 
@@ -34,6 +34,12 @@ struct World {
         records.emit(record, {legs, messages});
     }
     std::size_t size() const { return legs.size(); }
+    /// Stores a message that is made now, held once by the caller; its uid is given here.
+    MessageId new_message(Message message) {
+        message.uid = next_uid++;
+        message.created = now;
+        return messages.add(std::move(message));
+    }
     std::uint64_t key(NodeId node) const { return medium.key(node); }
     /// A uniform draw in (0, 1) of this run.
     double draw(Purpose purpose, std::uint64_t a, std::uint64_t b, std::uint64_t index) const {
@@ -61,7 +67,9 @@ struct World {
     MessageTable messages;
     Recorder records;
     std::function<void(MessageId)> on_forgotten = {};
+    std::uint64_t next_uid = 0;       // of messages
     std::uint64_t transmissions = 0;  // so far
+    bool levels_wanted = false;       // somebody asks for received powers
 
   private:
     struct Action {

@@ -9,6 +9,20 @@ Flood::operator Router() const { return FloodRouter{*this}; }
 
 FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) { check_fields(flood, "flood"); }
 
+namespace {
+
+/// A frame as a node that received it sends it on.
+QueuedFrame passed_on(const LinkLayer& link, const Frame& frame, NodeId node) {
+    return {{.message = frame.message,
+             .sender = node,
+             .path = combine(frame.path, link.key(node)),
+             .ttl = static_cast<Hops>(frame.ttl - 1),
+             .hops = static_cast<Hops>(frame.hops + 1)},
+            frame.sender};
+}
+
+}  // namespace
+
 /// For what every node knows of a message.
 void FloodRouter::make_room(std::size_t message, std::size_t nodes) {
     if (known_.size() <= message) known_.resize(message + 1);
@@ -22,12 +36,12 @@ void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
     } else {
         known.settle(node);
     }
-    link.broadcast({.message = message,
-                    .sender = node,
-                    .path = link.key(node),
-                    .ttl = initial_ttl(),
-                    .hops = 1},
-                   std::nullopt);
+    link.send({.message = message,
+               .sender = node,
+               .path = link.key(node),
+               .ttl = initial_ttl(),
+               .hops = 1},
+              std::nullopt, link.now());
 }
 
 void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
@@ -45,11 +59,11 @@ void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Rece
     auto end = news.end();
     if (!forwards_all() && flood_.upgrade) {
         end = std::remove_if(news.begin(), end, [&](const Reception* r) {
-            return is_duplicate(frame, known[r->node]);
+            return is_duplicate(link, frame, r->node, known);
         });
     }
-    // Timers of one time are served in the order in which they were set: in that of the nodes'
-    // keys, so that their numbers decide nothing.
+    // Frames of one time are sent in the order in which they were handed over: in that of the
+    // nodes' keys, so that their numbers decide nothing.
     if (end - news.begin() > 1) {
         std::sort(news.begin(), end, [&](const auto* a, const auto* b) {
             return a->time != b->time ? a->time < b->time : link.key(a->node) < link.key(b->node);
@@ -60,11 +74,16 @@ void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Rece
 
 /// Of those that are not settled, under "suppress" with `upgrade`: the node forwards no copy of its
 /// own for this one, which may lift the one that it has not sent.
-bool FloodRouter::is_duplicate(const Frame& frame, Knowledge mine) {
+bool FloodRouter::is_duplicate(LinkLayer& link, const Frame& frame, NodeId node, Known& known) {
+    const Knowledge mine = known[node];
     if (mine.is(Knowledge::unheard)) return false;
     if (!mine.is(Knowledge::waiting)) return frame.ttl <= 1;
-    Frame& copy = copies_[mine.copy()];
-    if (frame.ttl > copy.ttl) copy = frame;
+    QueuedFrame* copy = link.waiting(mine.copy());
+    if (!copy || copy->frame.message != frame.message || copy->frame.sender != node) {
+        known.settle(node);  // it was sent
+    } else if (frame.ttl - 1 > copy->frame.ttl) {
+        *copy = passed_on(link, frame, node);
+    }
     return true;
 }
 
@@ -72,7 +91,7 @@ void FloodRouter::take(LinkLayer& link, const Frame& frame, Known& known, Recept
     const NodeId node = reception.node;
     const bool forwards = frame.ttl > 1;
     reception.fate = forwards ? Fate::waiting : Fate::ttl;
-    const std::uint32_t copy = forwards ? wait(link, frame, reception) : 0;
+    const SendHandle copy = forwards ? forward(link, frame, reception) : 0;
     if (!later_copies_matter()) {
         reception.delivered = true;
         known.settle(node);
@@ -83,34 +102,14 @@ void FloodRouter::take(LinkLayer& link, const Frame& frame, Known& known, Recept
     mine = forwards ? Knowledge{Knowledge::waiting, copy} : Knowledge::ended;
 }
 
-/// Keeps a copy for its delay; returns where.
-std::uint32_t FloodRouter::wait(LinkLayer& link, const Frame& frame, const Reception& reception) {
-    const auto copy = static_cast<std::uint32_t>(copies_.take());
-    copies_[copy] = frame;
-    link.hold(frame.message);
+/// Sends a copy on after its delay.
+SendHandle FloodRouter::forward(LinkLayer& link, const Frame& frame, const Reception& reception) {
     // A node sends one message once under "suppress"; copies of one message differ by their path.
     const std::uint64_t which = forwards_all() ? frame.path : 0;
     const double u = link.draw(Purpose::flood_jitter, reception.node, frame.message, which);
     const Duration jitter = from_seconds(u * seconds(flood_.jitter));
-    link.timer(reception.node, reception.time + least_reaction + jitter, copy);
-    return copy;
-}
-
-void FloodRouter::on_timer(LinkLayer& link, NodeId node, std::uint64_t copy) {
-    const Frame heard = copies_[copy];
-    copies_.release(copy);
-    if (!forwards_all()) known_[heard.message.index()].settle(node);
-    if (link.is_on(node)) {
-        link.broadcast({.message = heard.message,
-                        .sender = node,
-                        .path = combine(heard.path, link.key(node)),
-                        .ttl = static_cast<Hops>(heard.ttl - 1),
-                        .hops = static_cast<Hops>(heard.hops + 1)},
-                       heard.sender);
-    } else {
-        link.drop(node, heard, DropReason::off);
-    }
-    link.release(heard.message);
+    const auto [copy, heard_from] = passed_on(link, frame, reception.node);
+    return link.send(copy, heard_from, reception.time + least_reaction + jitter).value();
 }
 
 void FloodRouter::forget(MessageId message) {

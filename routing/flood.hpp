@@ -2,11 +2,11 @@
 #pragma once
 
 #include "sim/fields.hpp"
-#include "sim/ports.hpp"
+#include "sim/router.hpp"
 #include "sim/sieve.hpp"
-#include "sim/slots.hpp"
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace rovernet {
@@ -28,6 +28,8 @@ struct EnumNames<Duplicates> {
 /// the flood. "forward": every copy is forwarded, also by its source, and only the TTL ends it: the
 /// 2007 thesis's rule, whose load grows as the number of walks in the network.
 struct Flood {
+    static constexpr std::string_view name = "flood";
+
     int ttl = 3;  ///< [hops], 1 ... 65535
     Duplicates duplicates = Duplicates::suppress;
     bool upgrade = true;                              ///< a higher TTL lifts the waiting copy
@@ -57,7 +59,6 @@ class FloodRouter {
     Hops initial_ttl() const { return static_cast<Hops>(flood_.ttl); }
     void send(LinkLayer& link, NodeId node, MessageId message);
     void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions);
-    void on_timer(LinkLayer& link, NodeId node, std::uint64_t copy);
     void forget(MessageId message);
 
   private:
@@ -65,13 +66,13 @@ class FloodRouter {
     class Knowledge {
       public:
         enum State : std::uint32_t { unheard, ended, waiting };
-        Knowledge(State state = unheard, std::uint32_t copy = 0) : value_(state + copy) {}
+        Knowledge(State state = unheard, SendHandle copy = 0) : value_(state + copy) {}
 
         bool is(State state) const {
             return state == waiting ? value_ >= waiting : value_ == state;
         }
-        /// The one that waits, in the state `waiting`.
-        std::uint32_t copy() const { return value_ - waiting; }
+        /// Of the copy that waits, or has waited, in the state `waiting`.
+        SendHandle copy() const { return value_ - waiting; }
 
       private:
         std::uint32_t value_;  // from `waiting` on: and the copy's number
@@ -111,13 +112,12 @@ class FloodRouter {
     bool forwards_all() const { return flood_.duplicates == Duplicates::forward; }
     /// Also those that are not the first of its message.
     bool later_copies_matter() const { return forwards_all() || flood_.upgrade; }
-    bool is_duplicate(const Frame& frame, Knowledge mine);
+    bool is_duplicate(LinkLayer& link, const Frame& frame, NodeId node, Known& known);
     void take(LinkLayer& link, const Frame& frame, Known& known, Reception& reception);
-    std::uint32_t wait(LinkLayer& link, const Frame& frame, const Reception& reception);
+    SendHandle forward(LinkLayer& link, const Frame& frame, const Reception& reception);
 
     Flood flood_;
     std::vector<Known> known_;  // by message
-    Slots<Frame> copies_;       // as received, waiting for their delay
     Sieve<Reception*> news_;    // under work, kept for its memory
 };
 

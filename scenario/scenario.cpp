@@ -25,6 +25,15 @@ void for_each_parameters(PropagationModels& parameters, Visitor&& visit) {
     std::apply([&](auto&... each) { (visit(each), ...); }, parameters);
 }
 
+std::vector<std::string> protocol_names() {
+    std::vector<std::string> names;
+    const auto add = [&]<class... P>(const std::tuple<P...>&) {
+        (names.emplace_back(P::name), ...);
+    };
+    add(RoutingProtocols{});
+    return names;
+}
+
 std::vector<std::string> model_names() {
     std::vector<std::string> names;
     for_each_model([&]<class M>() { names.emplace_back(M::name); });
@@ -235,8 +244,10 @@ void read_routing(TableReader& document, RoutingTable& out) {
     const Value* value = document.take("routing");
     if (!value) return;
     TableReader table(*value, "[routing]");
-    table.read("protocol", out.protocol);
-    table.read_fields(out.flood);
+    if (const Value* protocol = table.take("protocol")) {
+        out.protocol = read_choice(*protocol, "protocol", protocol_names());
+    }
+    std::apply([&](auto&... each) { (table.read_fields(each), ...); }, out.parameters);
     table.reject_unknown();
 }
 
@@ -353,6 +364,17 @@ Csma AccessTable::csma() const {
                 .rts_threshold = rts_threshold.value,
                 .header = header.value,
                 .queue = static_cast<std::uint32_t>(queue)};
+}
+
+Router RoutingTable::make() const {
+    std::optional<Router> made;
+    std::size_t index = 0;
+    std::apply(
+        [&](const auto&... each) {
+            ((index++ == protocol ? (void)made.emplace(each) : void()), ...);
+        },
+        parameters);
+    return std::move(*made);
 }
 
 Propagation PropagationTable::make() const {

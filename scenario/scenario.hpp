@@ -3,7 +3,7 @@
 
 #include "models/links/link_search.hpp"
 #include "models/radio.hpp"
-#include "routing/flood.hpp"
+#include "routing/list.hpp"
 #include "scenario/metrics_table.hpp"
 #include "scenario/movement_table.hpp"
 #include "scenario/propagation_table.hpp"
@@ -73,17 +73,13 @@ struct LinksTable {
     }
 };
 
-/// Routing protocols by name.
-enum class Protocol { flood };
-template <>
-struct EnumNames<Protocol> {
-    static constexpr std::array<std::string_view, 1> values = {"flood"};
-};
-
-/// [routing]
+/// [routing]: the chosen protocol, and the parameters given for any listed one.
 struct RoutingTable {
-    Protocol protocol = Protocol::flood;
-    Flood flood;
+    std::size_t protocol = 0;  ///< index into RoutingProtocols
+    RoutingProtocols parameters;
+
+    /// @throws std::invalid_argument if a parameter is out of its range
+    Router make() const;
 };
 
 /// What traffic is made of.

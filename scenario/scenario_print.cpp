@@ -29,6 +29,19 @@ Table section(const TrafficTable& traffic) {
     return table;
 }
 
+/// The chosen protocol with its parameters.
+Table routing_document(const RoutingTable& routing) {
+    Table document;
+    std::size_t index = 0;
+    const auto append = [&]<class P>(const P& protocol) {
+        if (index++ != routing.protocol) return;
+        document.set("protocol", std::string(P::name));
+        append_fields(document, protocol);
+    };
+    std::apply([&](const auto&... each) { (append(each), ...); }, routing.parameters);
+    return document;
+}
+
 }  // namespace
 
 Table propagation_document(const PropagationTable& propagation) {
@@ -73,10 +86,7 @@ Table to_document(const Scenario& scenario) {
     Array robots;
     for (const auto& robot : scenario.robots) robots.emplace_back(robot_document(robot, scenario));
     if (!robots.empty()) document.set("robot", std::move(robots));
-    Table routing;
-    routing.set("protocol", to_value(scenario.routing.protocol));
-    append_fields(routing, scenario.routing.flood);
-    document.set("routing", std::move(routing));
+    document.set("routing", routing_document(scenario.routing));
     Array traffic;
     for (const auto& each : scenario.traffic) traffic.emplace_back(section(each));
     if (!traffic.empty()) document.set("traffic", std::move(traffic));

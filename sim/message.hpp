@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rovernet {
@@ -20,9 +21,12 @@ struct Message {
     NodeId to = everyone;      ///< who it is for
     std::uint64_t key = 0;     ///< for random draws: made of the origin's key and `number`
     std::uint32_t size = 0;    ///< [bytes] on air
-    Time created;
+    Time created = start_of_run;
     std::string payload;
     std::uint32_t flow = 0;  ///< of the application, from 1; 0: of none
+    /// Of a routing protocol's own packet, a literal; empty: an application's message.
+    std::string_view kind = {};
+    bool is_routed = false;  ///< it goes by the routing protocol, not over one hop beside it
 };
 
 /// A number of hops, such as a time-to-live.
@@ -36,6 +40,12 @@ struct Frame {
     Hops ttl = 0;                ///< the hops that this copy may still cross, this one included
     Hops hops = 0;               ///< the hops that it has crossed once received
     NodeId next_hop = everyone;  ///< who it is for
+};
+
+/// A frame that its sender is about to send.
+struct QueuedFrame {
+    Frame frame;
+    std::optional<NodeId> heard_from;  ///< who the sender received it from, if it forwards it
 };
 
 /// A frame as it is on air, that of a message or one that only controls access.

@@ -19,6 +19,7 @@ enum class Purpose : std::uint16_t {
     backoff = 8,
     bit_errors = 9,
     traffic_source = 10,
+    routing_jitter = 11,
 };
 
 /// The meaning of one draw, and all that decides it: the same key gives the same number, in any

@@ -6,6 +6,7 @@
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
 #include "sim/time.hpp"
+#include "sim/units.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -54,6 +55,8 @@ struct Received {
     std::span<const Reception> receptions;
     Duration reserved{0};      ///< [ns] after its end, by a unicast at csma for its acknowledgement
     std::uint32_t header = 0;  ///< [bytes] that access adds to the message
+    /// [dBm] Received power of each reception; empty unless a sink asks for it (see kind_levels).
+    std::span<const Dbm> levels = {};
 };
 
 /// A copy is lost while it waits.
@@ -185,7 +188,10 @@ inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();
 inline constexpr KindMask kind_reachable = 1U << 31;
 /// Not a record: as kind_reachable, as long as that is cheap (Reachability::cheap_searches).
 inline constexpr KindMask kind_cheap_reachable = 1U << 30;
-inline constexpr KindMask kind_all = 0x3fffffff;
+/// Not a record: asks that Received carries `levels`, which costs a look at each receiver.
+inline constexpr KindMask kind_levels = 1U << 29;
+/// All records, and nothing that costs more.
+inline constexpr KindMask kind_all = 0x1fffffff;
 
 /// What a sink may look up while it handles a record.
 struct RecordContext {

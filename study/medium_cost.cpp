@@ -3,7 +3,7 @@
 
 #include "experiment/build.hpp"
 #include "models/medium/medium.hpp"
-#include "sim/ports.hpp"
+#include "sim/sink.hpp"
 
 #include <algorithm>
 #include <ctime>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/ports.hpp"
+#include "sim/sink.hpp"
 #include "sim/record.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/ports.hpp"
+#include "sim/sink.hpp"
 #include "sim/record.hpp"
 
 #include <array>
@@ -168,7 +168,8 @@ class Metrics {
     void count(const Dropped&, const RecordContext&);
     void count_parts(const Message&, std::uint64_t others, bool is_cut_off);
     bool counts(const Frame& frame, const RecordContext& context) const {
-        return context.messages[frame.message].created >= begin_;
+        const Message& message = context.messages[frame.message];
+        return message.created >= begin_ && message.kind.empty();
     }
     Flood& flood(MessageId, const RecordContext&);
     PartValues& flow(const Message&);

@@ -7,6 +7,7 @@
 #include "sim/record.hpp"
 #include "sim/time.hpp"
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <functional>
@@ -15,14 +16,20 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace rovernet {
 
-/// A frame that waits for access to the medium.
-struct QueuedFrame {
-    Frame frame;
-    std::optional<NodeId> heard_from;  ///< who the sender received it from, if it forwards it
-};
+/// Takes the frames for `next_hop` out of a queue but for the first, which is being sent.
+inline std::vector<QueuedFrame> take_waiting(std::vector<QueuedFrame>& queue, NodeId next_hop) {
+    if (queue.empty()) return {};
+    const auto taken = std::stable_partition(
+        queue.begin() + 1, queue.end(),
+        [&](const QueuedFrame& each) { return each.frame.next_hop != next_hop; });
+    std::vector<QueuedFrame> frames(taken, queue.end());
+    queue.erase(taken, queue.end());
+    return frames;
+}
 
 /// What an access protocol may do. Implemented by the Network.
 class Air {
@@ -53,13 +60,15 @@ class Access {
 
     /// Adds the next node.
     virtual void add() {}
-    /// The router hands over a frame.
+    /// The router hands over a frame; Air::sent or Air::lost tells of its end.
     virtual void send(Air& air, const QueuedFrame& frame) = 0;
     virtual void on_timer(Air& /*air*/, NodeId /*node*/, std::uint32_t /*tag*/) {}
+    /// Takes the frames for `next_hop` out of the node's queue, but for one that is being sent.
+    virtual std::vector<QueuedFrame> take(NodeId /*node*/, NodeId /*next_hop*/) { return {}; }
     /// The node was switched off: what it had to send is lost.
     virtual void switch_off(Air& /*air*/, NodeId /*node*/) {}
 
-    /// Frames wait for their turn, and are told of by Air::sent or Air::lost.
+    /// Frames wait for their turn.
     virtual bool queues() const { return true; }
     /// Stations listen: they are told what they sense and what they receive, and a unicast that
     /// nobody answers is repeated.

@@ -36,6 +36,10 @@ void AlohaAccess::on_timer(Air& air, NodeId node, std::uint32_t /*tag*/) {
     air.sent(frame);
 }
 
+std::vector<QueuedFrame> AlohaAccess::take(NodeId node, NodeId next_hop) {
+    return take_waiting(stations_[node.index()].queue, next_hop);
+}
+
 void AlohaAccess::switch_off(Air& air, NodeId node) {
     auto lost = std::exchange(stations_[node.index()].queue, {});
     for (const QueuedFrame& frame : lost) air.lost(frame, DropReason::end);

@@ -32,6 +32,7 @@ class AlohaAccess final : public Access {
     void add() override { stations_.emplace_back(); }
     void send(Air& air, const QueuedFrame& frame) override;
     void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
+    std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
     void switch_off(Air& air, NodeId node) override;
 
   private:

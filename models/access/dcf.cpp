@@ -252,6 +252,10 @@ bool Dcf::is_repeated(NodeId node, const AirFrame& frame) {
     return std::exchange(found->number, frame.number) == frame.number;
 }
 
+std::vector<QueuedFrame> Dcf::take(NodeId node, NodeId next_hop) {
+    return take_waiting(at(node).queue, next_hop);
+}
+
 void Dcf::switch_off(Air& air, NodeId node) {
     Station& s = at(node);
     s.state = State::idle;

@@ -54,6 +54,7 @@ class Dcf final : public Access {
     void add() override;
     void send(Air& air, const QueuedFrame& frame) override;
     void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
+    std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
     void switch_off(Air& air, NodeId node) override;
 
     bool listens() const override { return true; }

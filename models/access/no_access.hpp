@@ -16,6 +16,7 @@ struct NoAccess {
       public:
         void send(Air& air, const QueuedFrame& frame) override {
             air.transmit({.frame = frame.frame, .heard_from = frame.heard_from});
+            air.sent(frame);
         }
         bool queues() const override { return false; }
     };

@@ -21,7 +21,7 @@ struct Fog {
 struct Shout {
     std::uint8_t initial_ttl() const { return 1; }
     void send(LinkLayer& link, NodeId node, MessageId message) {
-        link.broadcast({.message = message, .sender = node, .path = 0, .ttl = 1, .hops = 1}, {});
+        link.send({.message = message, .sender = node, .ttl = 1, .hops = 1}, {}, link.now());
     }
     void on_receive(LinkLayer&, const Frame&, std::span<Reception> receptions) {
         for (auto& reception : receptions) {
@@ -29,8 +29,6 @@ struct Shout {
             reception.fate = Fate::ttl;
         }
     }
-    void on_timer(LinkLayer&, NodeId, std::uint64_t) {}
-    void forget(MessageId) {}
 };
 
 /// Says who hears something.

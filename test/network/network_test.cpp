@@ -150,7 +150,8 @@ struct Busy {
 struct OneHop {
     std::uint8_t initial_ttl() const { return 1; }
     void send(LinkLayer& link, NodeId node, MessageId message) {
-        link.broadcast({.message = message, .sender = node, .ttl = 1, .hops = 1}, std::nullopt);
+        link.send({.message = message, .sender = node, .ttl = 1, .hops = 1}, std::nullopt,
+                  link.now());
     }
     void on_receive(LinkLayer&, const Frame&, std::span<Reception> receptions) {
         for (auto& r : receptions) {
@@ -158,8 +159,6 @@ struct OneHop {
             r.delivered = true;
         }
     }
-    void on_timer(LinkLayer&, NodeId, std::uint64_t) {}
-    void forget(MessageId) {}
 };
 
 /// An observer of the user's own.
@@ -310,7 +309,7 @@ TEST_CASE("network: a user's router and sink are plain structs, held by value or
 TEST_CASE("network: a router that sends while it receives is told so") {
     struct Hasty : OneHop {
         void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
-            link.broadcast(frame, receptions.front().node);
+            link.send(frame, receptions.front().node, link.now());
         }
     };
     Network net(disc(10));

@@ -39,9 +39,6 @@ struct WatchedFlood {
         *always_in_order = *always_in_order && in_order(receptions);
         flood.on_receive(link, frame, receptions);
     }
-    void on_timer(LinkLayer& link, NodeId node, std::uint64_t tag) {
-        flood.on_timer(link, node, tag);
-    }
     void forget(MessageId message) { flood.forget(message); }
 };
 

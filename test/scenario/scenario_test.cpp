@@ -219,8 +219,8 @@ TEST_CASE("scenario: one robot is enough, and everything else has the documented
     CHECK(s.radio.frequency == Hertz{2450e6});
     CHECK(s.medium.propagation_delay);
     CHECK(s.propagation.model == 1);
-    CHECK(s.routing.flood.ttl == 3);
-    CHECK(s.routing.flood.jitter == 10ms);
+    CHECK(std::get<Flood>(s.routing.parameters).ttl == 3);
+    CHECK(std::get<Flood>(s.routing.parameters).jitter == 10ms);
     CHECK(s.trace.ns2 == Ns2Choice::none);
     REQUIRE(s.robots.size() == 1);
     CHECK(s.robots[0].at == Vec3{2, 3, 0});
@@ -272,8 +272,8 @@ TEST_CASE("scenario: every key of the file arrives in its field") {
     CHECK(s.robots[1].count == 3);
     CHECK(s.robots[1].place->area.size() == 2);
     CHECK(s.robots[2].place->points.size() == 2);
-    CHECK(s.routing.flood.duplicates == Duplicates::forward);
-    CHECK_FALSE(s.routing.flood.upgrade);
+    CHECK(std::get<Flood>(s.routing.parameters).duplicates == Duplicates::forward);
+    CHECK_FALSE(std::get<Flood>(s.routing.parameters).upgrade);
     REQUIRE(s.traffic.size() == 2);
     CHECK(s.traffic[0].size == Bytes{99});
     CHECK(s.traffic[0].start == Duration{10s});

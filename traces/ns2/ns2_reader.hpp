@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/error.hpp"
-#include "sim/ports.hpp"
+#include "sim/sink.hpp"
 #include "traces/metrics.hpp"
 
 #include <optional>

@@ -43,6 +43,9 @@ MacHeader mac_header(const AirFrame& air) {
     return header;
 }
 
+std::string_view type_of(const Message& message) {
+    return message.kind.empty() ? "message" : message.kind;
+}
 std::string_view type_of(AirFrame::Kind kind) {
     switch (kind) {
         case AirFrame::data: return "message";
@@ -272,7 +275,7 @@ void Ns2Trace::Writer::old_start(const Line& line, std::uint64_t uid, std::strin
 
 // A packet of type `message` shows no payload: the line ends with the blank before it.
 void Ns2Trace::Writer::old_packet(const PacketLine& line, const Message& message) {
-    old_start(line, message.uid, type_of(AirFrame::data), message.size + line.added);
+    old_start(line, message.uid, type_of(message), message.size + line.added);
     text("------- ["), integer(message.origin.value);
     text(":0 "), destination(message.to);
     text(":0 "), integer(line.ttl);
@@ -301,7 +304,7 @@ void Ns2Trace::Writer::new_packet(const PacketLine& line, const Message& message
     new_start(line, position);
     text("-Is "), integer(message.origin.value);
     text(".0 -Id "), destination(message.to);
-    text(".0 -It "), text(type_of(AirFrame::data));
+    text(".0 -It "), text(type_of(message));
     text(" -Il "), integer(message.size + line.added);
     text(" -If 0 -Ii "), integer(message.uid);
     text(" -Iv "), integer(line.ttl);

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// A routing protocol of one's own: what finds no route is flooded, and everybody who hears a frame
+// learns the next hop towards the robot that it began at. A broken link is told of by route errors.
+#include "rovernet.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+struct Learning {
+    static constexpr bool routes_unicasts = true;
+    std::map<std::pair<NodeId, NodeId>, NodeId> next_hop{};  // at a robot, towards another
+    std::set<std::pair<NodeId, std::uint64_t>> seen{};       // by a robot, a message's uid
+    Hops initial_ttl() const { return 8; }
+    void send(LinkLayer& link, NodeId node, MessageId message) {
+        seen.insert({node, link.message(message).uid});
+        pass_on(link, {.message = message, .sender = node, .ttl = 8, .hops = 1}, {}, link.now());
+    }
+    void pass_on(LinkLayer& link, Frame frame, std::optional<NodeId> heard_from, Time at) {
+        const auto route = next_hop.find({frame.sender, link.message(frame.message).to});
+        frame.next_hop = route == next_hop.end() ? everyone : route->second;
+        link.send(frame, heard_from, at);
+    }
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+        const Message& message = link.message(frame.message);
+        for (Reception& r : receptions) {
+            next_hop[{r.node, message.origin}] = frame.sender;
+            const bool first = seen.insert({r.node, message.uid}).second;
+            r.delivered = first && r.node == message.to;
+            r.fate = !first ? Fate::duplicate : r.delivered ? Fate::arrived : Fate::waiting;
+            if (message.kind == "error") {  // whoever routes by its sender passes it on
+                const auto route = next_hop.find({r.node, message.to});
+                if (route == next_hop.end() || route->second != frame.sender) continue;
+                next_hop.erase(route);
+            }
+            if (r.fate != Fate::waiting) continue;
+            const double u = link.draw(Purpose::routing_jitter, r.node, frame.message, 0);
+            Frame copy = frame;
+            copy.sender = r.node, --copy.ttl, ++copy.hops;
+            pass_on(link, copy, frame.sender, r.time + 1us + from_seconds(0.005 * u));
+        }
+    }
+    void on_sent(LinkLayer& link, const Frame& frame, SendResult result) {
+        if (result != SendResult::retries) return;
+        const NodeId to = link.message(frame.message).to;
+        next_hop.erase({frame.sender, to});
+        const MessageId error = link.originate(frame.sender, to, "error", 12, {});
+        send(link, frame.sender, error);
+        link.release(error);
+        pass_on(link, frame, {}, link.now() + 20ms);  // by another way, if there is one
+    }
+};
+
+int main() {
+    Network net{{.propagation = Disc{.range = {100}}, .access = Csma{}}};
+    for (const Vec3 at : {Vec3{0, 0}, {80, 0}, {160, 0}, {240, 0}, {80, 60}, {160, 60}})
+        net.add({.name = {}, .at = at, .radio = {.rate = {1e6}}});
+    net.route(Learning{});
+    net.on_receive({3}, [&](const Message& m, const Heard& how) {
+        fmt::print("{:.2f} s: {} over {} hops\n", seconds(net.now()), m.payload, how.hops);
+        net.send({3}, {0}, "yes");
+    });
+    for (int s = 1; s < 6; ++s) net.at(start_of_run + 1s * s, [&] { net.send({0}, {3}, "?"); });
+    net.at(start_of_run + 2500ms, [&] { net.switch_off({1}), net.switch_off({5}); });
+    net.run_for(6s);
+}

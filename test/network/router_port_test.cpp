@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+// What a routing protocol is given and told by the network that runs it.
+#include "models/access/list.hpp"
+#include "models/propagation/disc.hpp"
+#include "models/propagation/friis.hpp"
+#include "network/network.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// What happened to a protocol, as words.
+struct Diary {
+    std::vector<std::string> lines{};
+    std::function<void(LinkLayer&, NodeId, MessageId)> send{};
+    std::function<void(LinkLayer&, NodeId, std::uint64_t)> timer{};
+    std::function<void(LinkLayer&, const Frame&, SendResult)> result{};
+    bool busy = false;  // a call to the link layer is under way
+    std::vector<double> levels{};
+};
+
+/// A protocol that does what its diary says; every frame has arrived where it is received.
+struct Scripted {
+    static constexpr bool routes_unicasts = true;
+    std::shared_ptr<Diary> diary;
+
+    Hops initial_ttl() const { return 5; }
+    void send(LinkLayer& link, NodeId node, MessageId message) {
+        diary->busy = true;
+        diary->send(link, node, message);
+        diary->busy = false;
+    }
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+        for (Reception& r : receptions) {
+            const auto& m = link.message(frame.message);
+            diary->lines.push_back(std::to_string(r.node.value) + " hears " +
+                                   (m.kind.empty() ? m.payload : std::string(m.kind)));
+            r.fate = Fate::arrived;
+            r.delivered = true;
+        }
+    }
+    void on_timer(LinkLayer& link, NodeId node, std::uint64_t tag) {
+        diary->timer(link, node, tag);
+    }
+    void on_sent(LinkLayer& link, const Frame& frame, SendResult result) {
+        static const std::map<SendResult, std::string> names{{SendResult::acked, "acked"},
+                                                             {SendResult::sent, "sent"},
+                                                             {SendResult::retries, "retries"},
+                                                             {SendResult::queue_full, "queue_full"},
+                                                             {SendResult::off, "off"}};
+        CHECK_FALSE(diary->busy);
+        diary->lines.push_back(names.at(result));
+        if (diary->result) diary->result(link, frame, result);
+    }
+    void on_start(LinkLayer&, NodeId node) {
+        diary->lines.push_back("start " + std::to_string(node.value));
+    }
+    void on_switched(LinkLayer&, NodeId node, bool on) {
+        diary->lines.push_back(std::to_string(node.value) + (on ? " on" : " off"));
+    }
+};
+
+/// One that overhears and looks at levels.
+struct Curious : Scripted {
+    static constexpr bool overhears = true;
+    static constexpr bool wants_levels = true;
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+        Scripted::on_receive(link, frame, receptions);
+        for (const Reception& r : receptions) diary->levels.push_back(link.level(r).value);
+    }
+};
+
+/// Robots in a row, 80 m apart, that hear 100 m.
+struct Row {
+    std::shared_ptr<Diary> diary = std::make_shared<Diary>();
+    Network net;
+
+    explicit Row(AccessModel access = NoAccess{}, int robots = 3)
+        : net({.propagation = Disc{.range = {100}}, .access = std::move(access)}) {
+        for (int i = 0; i < robots; ++i) {
+            net.add({.name = {}, .at = {80.0 * i, 0, 0}, .radio = {.rate = {1e6}}});
+        }
+        diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
+            link.send({.message = message,
+                       .sender = node,
+                       .ttl = 5,
+                       .hops = 1,
+                       .next_hop = link.message(message).to},
+                      {}, link.now());
+        };
+    }
+    /// Runs for a second, and says what happened but for the starts.
+    std::vector<std::string> run() {
+        net.run_for(1s);
+        std::erase_if(diary->lines, [](const std::string& s) { return s.starts_with("start"); });
+        return diary->lines;
+    }
+};
+
+using Lines = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("router port: a unicast reaches the protocol at its next hop, and it alone") {
+    Row row;
+    row.net.route(Scripted{.diary = row.diary});
+    row.net.send({1}, {2}, "hello");
+    CHECK(row.run() == Lines{"sent", "2 hears hello"});
+    const MetricValues metrics = row.net.metrics();
+    CHECK(metrics.messages == 1);
+    CHECK(metrics.deliveries == 1);
+    CHECK(metrics.delivery_ratio == 1.0);
+}
+
+TEST_CASE("router port: a unicast beside the protocol does not reach it") {
+    Row row;
+    row.net.route(Scripted{.diary = row.diary});
+    row.net.unicast({1}, {2}, "hello");
+    CHECK(row.run().empty());
+    CHECK(row.net.metrics().deliveries == 1);
+}
+
+TEST_CASE("router port: a protocol that overhears gets the unicasts for others, and levels") {
+    Network net({.propagation = Friis{}, .access = Csma{}});
+    for (const double x : {0.0, 30.0, 70.0}) {
+        net.add({.name = {}, .at = {x, 0, 0}, .radio = {.rate = {1e6}}});
+    }
+    const auto diary = std::make_shared<Diary>(*Row().diary);
+    net.route(Curious{Scripted{.diary = diary}});
+    net.send({0}, {1}, "hello");
+    net.run_for(1s);
+    std::erase_if(diary->lines, [](const std::string& s) { return s.starts_with("start"); });
+    CHECK(diary->lines == Lines{"1 hears hello", "2 hears hello", "acked"});
+    CHECK(net.metrics().deliveries == 1);
+    CHECK(net.metrics().receptions == 1);  // what was overheard is not told of
+    // Friis: 20 log10(4 pi d f / c).
+    const Radio radio;
+    REQUIRE(diary->levels.size() == 2);
+    for (const auto& [level, distance] :
+         {std::pair{diary->levels[0], 30.0}, std::pair{diary->levels[1], 70.0}}) {
+        const double loss = 20 * std::log10(4 * 3.14159265358979323846 * distance *
+                                            radio.frequency.value / 299792458);
+        CHECK(std::abs(level - (radio.power.value - loss)) < 1e-9);
+    }
+}
+
+TEST_CASE("router port: results of csma: acknowledged, given up, no room, switched off") {
+    const Csma one_place{.queue = 1};
+    SUBCASE("acknowledged") {
+        Row row(Csma{});
+        row.net.route(Scripted{.diary = row.diary});
+        row.net.send({0}, {1}, "hello");
+        CHECK(row.run() == Lines{"1 hears hello", "acked"});
+    }
+    SUBCASE("given up") {
+        Row row(Csma{});
+        row.net.route(Scripted{.diary = row.diary});
+        row.net.send({0}, {2}, "hello");
+        CHECK(row.run() == Lines{"retries"});
+    }
+    SUBCASE("a broadcast is sent") {
+        Row row(Csma{});
+        row.net.route(Scripted{.diary = row.diary});
+        row.net.broadcast({0}, "hello");
+        CHECK(row.run() == Lines{"sent", "1 hears hello"});
+    }
+    SUBCASE("no room") {
+        Row row(one_place);
+        row.net.route(Scripted{.diary = row.diary});
+        for (const char* word : {"a", "b"}) row.net.send({0}, {1}, word);
+        CHECK(row.run() == Lines{"queue_full", "1 hears a", "acked"});
+    }
+    SUBCASE("switched off while it waits for access") {
+        Row row(Csma{});
+        row.net.route(Scripted{.diary = row.diary});
+        row.net.at(start_of_run, [&] {
+            row.net.send({0}, {1}, "hello");
+            row.net.switch_off({0});
+        });
+        CHECK(row.run() == Lines{"off", "0 off"});
+    }
+}
+
+TEST_CASE(
+    "router port: a result is never told inside a call to the link layer, and may send more") {
+    Row row(Csma{.queue = 1});
+    int more = 3;
+    row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
+        for (int i = 0; i < 2; ++i) {  // the second finds no room
+            link.send({.message = message, .sender = node, .ttl = 1, .hops = 1}, {}, link.now());
+        }
+    };
+    row.diary->result = [&](LinkLayer& link, const Frame& frame, SendResult result) {
+        if (result == SendResult::sent && more-- > 0) link.send(frame, {}, link.now());
+    };
+    row.net.route(Scripted{.diary = row.diary});
+    row.net.broadcast({0}, "x");
+    const Lines once{"sent", "1 hears x"};
+    Lines expected{"queue_full"};
+    for (int i = 0; i < 4; ++i) expected.insert(expected.end(), once.begin(), once.end());
+    CHECK(row.run() == expected);
+}
+
+TEST_CASE("router port: packets of the protocol's own are no application's") {
+    Row row;
+    row.diary->send = [](LinkLayer& link, NodeId node, MessageId) {
+        const MessageId packet = link.originate(node, everyone, "rreq", 24, "who is 7?");
+        CHECK(link.message(packet).size == 24);
+        CHECK(link.message(packet).payload == "who is 7?");
+        link.send({.message = packet, .sender = node, .ttl = 1, .hops = 1}, {}, link.now());
+        link.release(packet);
+    };
+    row.net.route(Scripted{.diary = row.diary});
+    int heard = 0;
+    row.net.on_receive({1}, [&](const Message&) { ++heard; });
+    row.net.broadcast({0}, "hello");
+    CHECK(row.run() == Lines{"sent", "1 hears rreq"});
+    CHECK(heard == 0);
+    CHECK(row.net.metrics().messages == 1);
+    CHECK(row.net.metrics().deliveries == 0);
+    CHECK(row.net.metrics().transmissions == 0);
+}
+
+TEST_CASE("router port: a frame that waits for its time may be changed or taken back") {
+    Row row;
+    std::vector<SendHandle> handles;
+    row.diary->send = [&](LinkLayer& link, NodeId node, MessageId message) {
+        const Frame frame{.message = message, .sender = node, .ttl = 5, .hops = 1};
+        for (int ms = 1; ms <= 3; ++ms) {
+            handles.push_back(link.send(frame, {}, link.now() + 1ms * ms).value());
+        }
+        CHECK_FALSE(link.send(frame, {}, link.now()).has_value());
+        link.cancel(handles[0]);
+        CHECK(link.waiting(handles[0]) == nullptr);
+        REQUIRE(link.waiting(handles[1]) != nullptr);
+        link.waiting(handles[1])->frame.next_hop = NodeId{0};
+        link.timer(node, link.now() + 5ms, 7);
+    };
+    row.diary->timer = [&](LinkLayer& link, NodeId node, std::uint64_t tag) {
+        CHECK(node == NodeId{1});
+        CHECK(tag == 7);
+        for (const SendHandle each : handles) CHECK(link.waiting(each) == nullptr);
+    };
+    row.net.route(Scripted{.diary = row.diary});
+    row.net.broadcast({1}, "x");
+    CHECK(row.run() == Lines{"sent", "0 hears x", "2 hears x", "sent", "0 hears x", "sent",
+                             "0 hears x", "2 hears x"});
+}
+
+TEST_CASE("router port: a sender that is off when its frame's time comes is told of") {
+    Row row;
+    row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
+        link.send({.message = message, .sender = node, .ttl = 5, .hops = 1}, {}, link.now() + 2ms);
+    };
+    row.net.route(Scripted{.diary = row.diary});
+    row.net.broadcast({1}, "x");
+    row.net.at(start_of_run + 1ms, [&] { row.net.switch_off({1}); });
+    row.net.at(start_of_run + 5ms, [&] { row.net.switch_on({1}); });
+    CHECK(row.run() == Lines{"1 off", "off", "1 on"});
+}
+
+TEST_CASE("router port: the queue gives back frames for one next hop, but the one on its way") {
+    for (const AccessModel& access : {AccessModel{Csma{}}, AccessModel{Aloha{}}}) {
+        CAPTURE(access.name());
+        Row row(access);
+        row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
+            for (const std::uint32_t to : {0, 0, 2, 0}) {
+                link.send(
+                    {.message = message, .sender = node, .ttl = 1, .hops = 1, .next_hop = {to}}, {},
+                    link.now());
+            }
+            link.timer(node, link.now(), 0);
+        };
+        row.diary->timer = [](LinkLayer& link, NodeId node, std::uint64_t) {
+            const auto taken = link.take_queued(node, NodeId{0});
+            CHECK(taken.size() == 2);
+            for (const QueuedFrame& each : taken) {
+                CHECK(each.frame.next_hop == NodeId{0});
+                link.release(each.frame.message);
+            }
+        };
+        row.net.route(Scripted{.diary = row.diary});
+        row.net.broadcast({1}, "x");
+        const Lines lines = row.run();
+        CHECK(std::count(lines.begin(), lines.end(), "0 hears x") == 1);
+        CHECK(std::count(lines.begin(), lines.end(), "2 hears x") == 1);
+    }
+}
+
+TEST_CASE("router port: nodes start with the run in the order of their keys, or when added") {
+    Row row(NoAccess{}, 5);
+    row.net.route(Scripted{.diary = row.diary});
+    CHECK(row.diary->lines.empty());
+    row.net.run_for(1s);
+    std::vector<std::uint32_t> order{0, 1, 2, 3, 4};
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return row.net.medium().key({a}) < row.net.medium().key({b});
+    });
+    Lines expected;
+    for (const std::uint32_t i : order) expected.push_back("start " + std::to_string(i));
+    CHECK(row.diary->lines == expected);
+    row.net.add({.name = "late", .at = {}});
+    CHECK(row.diary->lines.back() == "start 5");
+    row.net.run_for(1s);
+    CHECK(row.diary->lines.size() == 6);
+}
+
+TEST_CASE("router port: a protocol that floods refuses a message for one robot") {
+    struct Everyone {
+        Hops initial_ttl() const { return 1; }
+        void send(LinkLayer&, NodeId, MessageId) {}
+        void on_receive(LinkLayer&, const Frame&, std::span<Reception>) {}
+    };
+    Row row;
+    row.net.route(Everyone{});
+    CHECK_THROWS_WITH_AS(row.net.send({0}, {1}, "x"),
+                         "the routing protocol brings messages to everyone only",
+                         std::invalid_argument);
+    CHECK_THROWS_AS(row.net.send({0}, {0}, "x"), std::invalid_argument);
+}
