@@ -14,19 +14,29 @@ namespace {
 
 constexpr std::size_t most_counted = 64;
 
-/// Counts for each of a few receptions how many come before it: more comparisons than other ways to
-/// sort take, but none that is mispredicted. All come within 2^31 ns from `first` on.
+/// Counts for each of a few receptions, to which nothing has happened yet, how many come before it:
+/// more comparisons than other ways to sort take, but none that is mispredicted. All come within
+/// 2^31 ns from `first` on.
 void sort_by_counting(std::span<Reception> all, Time first) {
-    std::array<std::int64_t, most_counted> order;
-    std::array<Reception, most_counted> unsorted;
+    std::array<std::int64_t, most_counted + 1> order;
+    order[all.size()] = std::numeric_limits<std::int64_t>::max();  // if they are odd, makes a pair
     for (std::size_t i = 0; i < all.size(); ++i) {
         order[i] = (all[i].time - first).count() << 32 | all[i].node.value;
-        unsorted[i] = all[i];
     }
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        std::size_t before = 0;
-        for (std::size_t k = 0; k < all.size(); ++k) before += order[k] < order[i];
-        all[before] = unsorted[i];
+    const auto reception = [&](std::size_t i) {
+        const Duration after{order[i] >> 32};
+        return Reception{first + after, NodeId{static_cast<std::uint32_t>(order[i])}};
+    };
+    // Two at a time: half the loads.
+    const std::size_t even = (all.size() + 1) / 2 * 2;
+    for (std::size_t i = 0; i < even; i += 2) {
+        std::size_t before = 0, before_next = 0;
+        for (std::size_t k = 0; k < even; ++k) {
+            before += order[k] < order[i];
+            before_next += order[k] < order[i + 1];
+        }
+        all[before] = reception(i);
+        if (before_next < all.size()) all[before_next] = reception(i + 1);
     }
 }
 

@@ -29,8 +29,9 @@ class Recorder {
     template <class R>
     void emit(const R& record, const RecordContext& context) {
         if (!wants<R>()) return;
+        const Record for_all = record;
         for (Sink& sink : sinks_) {
-            if (sink.kinds() & kind_of<R>()) sink.on(record, context);
+            if (sink.kinds() & kind_of<R>()) sink.on(for_all, context);
         }
     }
 
