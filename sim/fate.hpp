@@ -23,7 +23,7 @@ constexpr bool is_decoded(Fate fate) {
     constexpr auto bit = [](Fate f) { return 1U << static_cast<unsigned>(f); };
     constexpr unsigned decoded =
         bit(Fate::waiting) | bit(Fate::ttl) | bit(Fate::duplicate) | bit(Fate::arrived);
-    return (decoded & bit(fate)) != 0;
+    return (decoded >> static_cast<unsigned>(fate) & 1) != 0;
 }
 /// Why a copy was lost other than by the fate of its reception.
 enum class DropReason : std::uint8_t {

@@ -49,6 +49,12 @@ class Packed {
     Packed& put(Vec3 p) {
         return put(micrometres(p.x)).put(micrometres(p.y)).put(micrometres(p.z));
     }
+    template <std::size_t size>
+    Packed& put(const std::array<std::uint8_t, size>& bytes) {
+        std::memcpy(at_, bytes.data(), size);
+        at_ += size;
+        return *this;
+    }
     Packed& put(const Frame& frame, const RecordContext& context) {
         return put(context.messages[frame.message].uid)
             .put(frame.sender)
@@ -69,14 +75,22 @@ struct Fingerprint::State {
     static constexpr std::size_t longest = 80;  // record [bytes]
 
     State() { XXH64_reset(&hash, 0); }
-    /// Room for one more record of that kind.
-    Packed record(KindMask kind) {
-        if (used + longest > waiting.size()) {
-            XXH64_update(&hash, waiting.data(), used);
-            used = 0;
-        }
-        return Packed(waiting.data() + used).put(static_cast<std::uint8_t>(std::countr_zero(kind)));
+    static std::uint8_t number(KindMask kind) {
+        return static_cast<std::uint8_t>(std::countr_zero(kind));
     }
+    /// No room behind `bytes` for one more record.
+    bool is_full(const Packed& bytes) const {
+        return bytes.end() > waiting.data() + waiting.size() - longest;
+    }
+    /// Room for one more record, behind those that wait.
+    Packed room() {
+        const Packed bytes(waiting.data() + used);
+        if (!is_full(bytes)) return bytes;
+        XXH64_update(&hash, waiting.data(), used);
+        used = 0;
+        return Packed(waiting.data());
+    }
+    Packed record(KindMask kind) { return room().put(number(kind)); }
     void add(const Packed& bytes) { used = static_cast<std::size_t>(bytes.end() - waiting.data()); }
     std::uint64_t value() const {
         XXH64_state_t all = hash;
@@ -102,18 +116,22 @@ struct Fingerprint::State {
                 .put(r.heard_from.value_or(everyone)));
     }
     void on(const Received& r, const RecordContext& context) {
-        const std::uint64_t uid = context.messages[r.frame.message].uid;
+        // Kind and frame begin every reception's bytes: packed once, then copied.
+        std::array<std::uint8_t, 17> begin;
+        Packed(begin.data()).put(number(kind_of<Received>())).put(r.frame, context);
+        Packed bytes = room();
         for (const Reception& rx : r.receptions) {
-            add(record(kind_of<Received>())
-                    .put(uid)
-                    .put(r.frame.sender)
-                    .put(r.frame.ttl)
-                    .put(r.frame.hops)
-                    .put(rx.node)
-                    .put(rx.time)
-                    .put(static_cast<std::uint8_t>(rx.fate))
-                    .put(static_cast<std::uint8_t>(rx.delivered)));
+            if (is_full(bytes)) {
+                add(bytes);
+                bytes = room();
+            }
+            bytes.put(begin)
+                .put(rx.node)
+                .put(rx.time)
+                .put(static_cast<std::uint8_t>(rx.fate))
+                .put(static_cast<std::uint8_t>(rx.delivered));
         }
+        add(bytes);
     }
     void on(const Dropped& r, const RecordContext& context) {
         add(record(kind_of<Dropped>())

@@ -37,11 +37,9 @@ std::optional<double> PartValues::latency_mean() const {
     return static_cast<double>(delay_ns) / static_cast<double>(deliveries) / 1e9;
 }
 
-Metrics::Flood& Metrics::flood(MessageId id, const RecordContext& context) {
+Metrics::Flood& Metrics::begin_flood(MessageId id, std::uint64_t uid) {
     if (id.index() >= floods_.size()) floods_.resize(id.index() + 1);
     Flood& f = floods_[id.index()];
-    const std::uint64_t uid = context.messages[id].uid;
-    if (f.uid == uid) return f;
     f.forwarders.clear();
     f.uid = uid;
     f.others = 0;

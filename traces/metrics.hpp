@@ -171,7 +171,12 @@ class Metrics {
         const Message& message = context.messages[frame.message];
         return message.created >= begin_ && message.kind.empty();
     }
-    Flood& flood(MessageId, const RecordContext&);
+    Flood& flood(MessageId id, const RecordContext& context) {
+        const std::uint64_t uid = context.messages[id].uid;
+        const bool is_known = id.index() < floods_.size() && floods_[id.index()].uid == uid;
+        return is_known ? floods_[id.index()] : begin_flood(id, uid);
+    }
+    Flood& begin_flood(MessageId id, std::uint64_t uid);
     PartValues& flow(const Message&);
     PartValues& robot(NodeId);
     std::vector<PartValues> robots() const;
