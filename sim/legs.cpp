@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "sim/legs.hpp"
 
-#include <array>
 #include <bit>
 
 namespace rovernet {
 namespace {
 
 /// Unlike ==, tells -0 from 0: a leg must come back as it was given.
-bool same_bits(Vec3 a, Vec3 b) {
-    using Bits = std::array<std::uint64_t, 3>;
-    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+bool same_bits(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+/// Keeps its height and does not turn.
+bool level(const Leg& leg) {
+    return same_bits(leg.velocity.z, 0) && same_bits(leg.from.z, leg.to.z) &&
+           same_bits(leg.turning, 0);
 }
 
 bool rests(const Leg& leg) {
-    return leg.end == never && same_bits(leg.velocity, {}) && same_bits(leg.from, leg.to) &&
-           std::bit_cast<std::uint64_t>(leg.turning) == 0;
+    return leg.end == never && level(leg) && same_bits(leg.velocity.x, 0) &&
+           same_bits(leg.velocity.y, 0) && same_bits(leg.from.x, leg.to.x) &&
+           same_bits(leg.from.y, leg.to.y);
 }
 
 }  // namespace
@@ -36,14 +41,25 @@ void Legs::put(Place& place, const Leg& leg) {
     place.start = leg.start;
     place.from = leg.from;
     place.heading = leg.heading;
-    const bool rested = place.motion == at_rest;
-    if (rests(leg)) {
-        if (!rested) motions_.release(place.motion);
-        place.motion = at_rest;
-        return;
+    // Released first, so that the same place serves again.
+    if (place.motion != at_rest) release_motion(place.motion);
+    place.motion = rests(leg) ? at_rest : take_motion(leg);
+}
+
+std::uint32_t Legs::take_motion(const Leg& leg) {
+    if (level(leg)) {
+        const std::size_t motion = level_motions_.take();
+        level_motions_[motion] = {leg.end, leg.velocity.x, leg.velocity.y, leg.to.x, leg.to.y};
+        return static_cast<std::uint32_t>(motion);
     }
-    if (rested) place.motion = static_cast<std::uint32_t>(motions_.take());
-    motions_[place.motion] = {leg.end, leg.velocity, leg.to, leg.turning};
+    const std::size_t motion = motions_.take();
+    motions_[motion] = {leg.end, leg.velocity, leg.to, leg.turning};
+    return static_cast<std::uint32_t>(motion) | not_level;
+}
+
+void Legs::release_motion(std::uint32_t motion) {
+    if (is_level(motion)) return level_motions_.release(motion);
+    motions_.release(motion & ~not_level);
 }
 
 }  // namespace rovernet

@@ -43,7 +43,7 @@ inline double wrapped(double heading) {
 /// Where everybody is, as data: one current leg per node. Movement models write legs; the medium,
 /// the scene and the pictures only read them.
 ///
-/// A leg at rest takes 48 bytes, any other 64 more.
+/// A leg at rest takes 48 bytes, one at a constant height 40 more, any other 64 more.
 class Legs {
   public:
     /// Room for `nodes` nodes.
@@ -60,7 +60,14 @@ class Legs {
         Leg leg{
             .start = place.start, .from = place.from, .to = place.from, .heading = place.heading};
         if (place.motion == at_rest) return leg;
-        const Motion& motion = motions_[place.motion];
+        if (is_level(place.motion)) {
+            const LevelMotion& motion = level_motions_[place.motion];
+            leg.end = motion.end;
+            leg.velocity = {motion.vx, motion.vy};
+            leg.to = {motion.to_x, motion.to_y, place.from.z};
+            return leg;
+        }
+        const Motion& motion = motions_[place.motion & ~not_level];
         leg.end = motion.end;
         leg.velocity = motion.velocity;
         leg.to = motion.to;
@@ -73,13 +80,20 @@ class Legs {
     Vec3 position(NodeId node, Time t) const {
         const Place& place = places_[node.index()];
         if (place.motion == at_rest) return place.from + Vec3{};  // adds 0, as a leg does
-        const Motion& motion = motions_[place.motion];
+        if (is_level(place.motion)) {
+            const LevelMotion& motion = level_motions_[place.motion];
+            if (t >= motion.end) return {motion.to_x, motion.to_y, place.from.z};
+            return place.from + seconds(t - place.start) * Vec3{motion.vx, motion.vy};
+        }
+        const Motion& motion = motions_[place.motion & ~not_level];
         if (t >= motion.end) return motion.to;
         return place.from + seconds(t - place.start) * motion.velocity;
     }
 
   private:
     static constexpr std::uint32_t at_rest = 0xffffffff;
+    static constexpr std::uint32_t not_level = 0x80000000;  // bit of a place in motions_
+    static bool is_level(std::uint32_t motion) { return !(motion & not_level); }
 
     /// What every leg has.
     struct Place {
@@ -87,9 +101,15 @@ class Legs {
         Vec3 from;
         double heading;
         std::uint32_t version = 0;
-        std::uint32_t motion = at_rest;  // its place in motions_
+        std::uint32_t motion = at_rest;  // its place in level_motions_, or in motions_
     };
-    /// What a leg has that is not at rest.
+    /// What a leg has that is not at rest, but keeps its height and does not turn.
+    struct LevelMotion {
+        Time end;
+        double vx, vy;      // [m/s]
+        double to_x, to_y;  // [m]
+    };
+    /// What any other leg has.
     struct Motion {
         Time end;
         Vec3 velocity;
@@ -98,8 +118,11 @@ class Legs {
     };
 
     void put(Place& place, const Leg& leg);
+    std::uint32_t take_motion(const Leg& leg);
+    void release_motion(std::uint32_t motion);
 
     std::vector<Place> places_;  // by node
+    Slots<LevelMotion> level_motions_;
     Slots<Motion> motions_;
 };
 

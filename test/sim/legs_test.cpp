@@ -34,7 +34,7 @@ constexpr Leg standing{.start = begin, .from = here, .to = here, .heading = 2};
 
 /// Legs that differ from a standing one in one thing each, and ordinary ones.
 std::vector<Leg> kinds_of_legs() {
-    std::vector<Leg> all(12, standing);
+    std::vector<Leg> all(15, standing);
     all[1].end = begin + 3s;
     all[2].velocity = {0, 0, 0.5};
     all[3].velocity = {0, -0.0, 0};
@@ -52,6 +52,11 @@ std::vector<Leg> kinds_of_legs() {
                .to = {3.5, 0, 3},
                .heading = 0.75};
     all[11] = {};
+    // That one again, but not quite at one height, or turning.
+    all[12] = all[13] = all[14] = all[10];
+    all[12].velocity.z = -0.0;
+    all[13].to.z = 3.0000000000000004;
+    all[14].turning = -0.0;
     return all;
 }
 
