@@ -13,7 +13,7 @@ namespace rovernet {
 /// They depend on seed, replication, the robot's name and the number of its movement, on nothing
 /// that other robots do.
 struct Draws {
-    std::uint64_t used = 0;
+    std::uint32_t used = 0;  // a leg takes a few: enough for a billion legs
 
     double uniform(const Mover& mover) { return rovernet::uniform(mover.key(used++)); }
     double normal(const Mover& mover) { return rovernet::normal(mover.key(used++)); }

@@ -49,7 +49,7 @@ Step RandomWaypoint::next_leg(Mover& mover, Progress& robot) const {
             return new_trip(at, field, speeds, robot);
         }
     }
-    if (auto leg = robot.way.next_leg(mover, robot.speed)) return *leg;
+    if (auto leg = robot.way.next_leg(mover)) return *leg;
     if (!std::exchange(robot.rested, true) && pause > Duration{0}) {
         return straight_leg(mover, mover.position, mover.now + pause);
     }
@@ -78,8 +78,8 @@ Step RandomWaypoint::stationary_start(const Mover& mover, const Area& field,
             at.position = *to;
             return straight_leg(at, *to, at.now + from_seconds(rest * draws.uniform(mover)));
         }
-        robot.speed = {speeds.at_a_moment(draws.uniform(mover))};
-        const auto leg = leg_after(*way, at, length * draws.uniform(mover), robot.speed);
+        const MetersPerSecond speed{speeds.at_a_moment(draws.uniform(mover))};
+        const auto leg = leg_after(*way, at, length * draws.uniform(mover), speed);
         if (!leg) continue;
         robot.rested = false;
         robot.way = std::move(*way);
@@ -91,13 +91,13 @@ Step RandomWaypoint::stationary_start(const Mover& mover, const Area& field,
 Step RandomWaypoint::new_trip(Mover& mover, const Area& field, const SpeedRange& speeds,
                               Progress& robot) {
     constexpr int most_goals = 200;
-    robot.speed = {speeds.of_a_trip(robot.draws.uniform(mover))};
+    const MetersPerSecond speed{speeds.of_a_trip(robot.draws.uniform(mover))};
     for (int i = 0; i < most_goals; ++i) {
         const auto goal = field.free_place(mover, robot.draws);
         if (!goal) break;
         auto way = Way::plan(mover, *goal);
         if (!way) continue;
-        const auto leg = way->next_leg(mover, robot.speed);
+        const auto leg = way->next_leg(mover, speed);
         if (!leg) continue;
         robot.rested = false;
         robot.way = std::move(*way);

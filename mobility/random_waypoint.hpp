@@ -65,7 +65,6 @@ struct RandomWaypoint {
         bool begun = false;
         bool rested = true;  // since the last trip
         Draws draws = {};
-        MetersPerSecond speed = {};  // of the trip
         Way way = {};
     } progress = {};
 

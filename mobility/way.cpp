@@ -16,16 +16,17 @@ std::optional<Way> Way::plan(Mover& mover, Vec3 to) {
     Way way;
     std::reverse(corners->begin(), corners->end());
     if (!corners->empty()) {
-        way.corners_ = std::make_unique<std::vector<Vec3>>(std::move(*corners));
+        way.left_ = std::make_unique<Left>(Left{std::move(*corners)});
     }
     return way;
 }
 
 std::optional<Leg> Way::next_leg(const Mover& mover, MetersPerSecond speed) {
-    while (corners_) {
-        const Vec3 corner = corners_->back();
-        corners_->pop_back();
-        if (corners_->empty()) corners_.reset();
+    while (left_) {
+        left_->speed = speed;
+        const Vec3 corner = left_->corners.back();
+        left_->corners.pop_back();
+        if (left_->corners.empty()) left_.reset();
         if (corner != mover.position) return straight_leg(mover, corner, speed);
     }
     return std::nullopt;
@@ -34,8 +35,9 @@ std::optional<Leg> Way::next_leg(const Mover& mover, MetersPerSecond speed) {
 double Way::length_left(const Mover& mover) const {
     double length = 0;
     Vec3 at = mover.position;
-    if (!corners_) return 0;
-    for (auto corner = corners_->rbegin(); corner != corners_->rend(); ++corner) {
+    if (!left_) return 0;
+    const auto& corners = left_->corners;
+    for (auto corner = corners.rbegin(); corner != corners.rend(); ++corner) {
         length += distance(at, *corner);
         at = *corner;
     }

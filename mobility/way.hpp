@@ -14,12 +14,10 @@ namespace rovernet {
 class Way {
   public:
     Way() = default;
-    Way(const Way& other)
-        : corners_(other.corners_ ? std::make_unique<std::vector<Vec3>>(*other.corners_)
-                                  : nullptr) {}
+    Way(const Way& other) : left_(other.left_ ? std::make_unique<Left>(*other.left_) : nullptr) {}
     Way(Way&&) = default;
     Way& operator=(Way other) {
-        corners_ = std::move(other.corners_);
+        left_ = std::move(other.left_);
         return *this;
     }
     /// Plans from where the mover is; nothing if there is no way.
@@ -28,11 +26,19 @@ class Way {
 
     /// The leg to the next corner, at `speed` > 0; nothing at the end of the way.
     std::optional<Leg> next_leg(const Mover& mover, MetersPerSecond speed);
+    /// The same, at the speed of the leg before.
+    std::optional<Leg> next_leg(const Mover& mover) {
+        return left_ ? next_leg(mover, left_->speed) : std::nullopt;
+    }
     /// What is left of the way from where the mover is [m].
     double length_left(const Mover& mover) const;
 
   private:
-    std::unique_ptr<std::vector<Vec3>> corners_;  // still to come, the next one last; null: none
+    struct Left {
+        std::vector<Vec3> corners;   // the next one last; one at least
+        MetersPerSecond speed = {};  // of the last leg
+    };
+    std::unique_ptr<Left> left_;  // what is still to come; null: nothing
 };
 
 }  // namespace rovernet
