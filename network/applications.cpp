@@ -15,7 +15,8 @@ namespace rovernet {
 MessageId Applications::new_message(NodeId id, NodeId to, std::string payload, Outgoing what,
                                     bool is_routed) {
     has_sent_ = true;
-    const std::uint32_t number = nodes_[id.index()].messages_sent++;
+    if (id.index() >= messages_sent_.size()) messages_sent_.resize(id.index() + 1);
+    const std::uint32_t number = messages_sent_[id.index()]++;
     return world_.new_message({.origin = id,
                                .number = number,
                                .to = to,
@@ -94,15 +95,15 @@ void Applications::has_room(NodeId id) {
 }
 
 void Applications::on_receive(NodeId id, Callback<const Message&, const Heard&> react) {
-    nodes_.at(id.index()).on_receive.push_back(std::move(react));
-    has_reactions_ = true;
+    if (id.index() >= on_receive_.size()) on_receive_.resize(id.index() + 1);
+    on_receive_[id.index()].push_back(std::move(react));
 }
 
 void Applications::delivered(const Frame& frame, std::span<const Reception> receptions) {
-    if (!has_reactions_) return;
+    if (on_receive_.empty()) return;
     reacting_.clear();
     for (const auto& r : receptions) {
-        if (r.delivered && !nodes_[r.node.index()].on_receive.empty()) reacting_.push_back(r);
+        if (r.delivered && reacts(r.node)) reacting_.push_back(r);
     }
     std::sort(reacting_.begin(), reacting_.end(), [this](const Reception& a, const Reception& b) {
         return a.time != b.time ? a.time < b.time : world_.key(a.node) < world_.key(b.node);
@@ -122,9 +123,9 @@ void Applications::react(NodeId id, std::uint64_t handed_over) {
     const Message heard = world_.messages[message];  // a copy: reactions may send
     world_.release(message);
     if (!world_.medium.is_on(id)) return;
-    auto& reactions = nodes_[id.index()].on_receive;
-    for (std::size_t i = 0; i < reactions.size(); ++i) {
-        const auto reaction = reactions[i];
+    // Looked up anew each time: a reaction may add some.
+    for (std::size_t i = 0; i < on_receive_[id.index()].size(); ++i) {
+        const auto reaction = on_receive_[id.index()][i];
         (*reaction)(heard, how);
     }
 }

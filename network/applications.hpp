@@ -6,7 +6,6 @@
 #include "network/few.hpp"
 #include "network/network.hpp"
 #include "network/routing.hpp"
-#include "sim/chunks.hpp"
 
 #include <cstdint>
 #include <map>
@@ -30,8 +29,6 @@ class Applications final : public RoutingUser {
     Applications(World& world, Routing& routing, const Mac& mac)
         : world_(world), routing_(routing), mac_(mac) {}
 
-    /// Adds the next node.
-    void add() { nodes_.push_back({}); }
     // As Network::send, unicast and saturate.
     void send(NodeId node, NodeId to, std::string payload, Outgoing what);
     void send_one_hop(NodeId node, NodeId to, std::string payload, Outgoing what);
@@ -50,16 +47,15 @@ class Applications final : public RoutingUser {
     void has_room(NodeId node) override;
 
   private:
-    struct Application {
-        Few<Callback<const Message&, const Heard&>> on_receive = {};
-        std::uint32_t messages_sent = 0;
-    };
     /// A node always has something to send.
     struct Saturated {
         NodeId to;
         Outgoing what;
     };
 
+    bool reacts(NodeId node) const {
+        return node.index() < on_receive_.size() && !on_receive_[node.index()].empty();
+    }
     void check_destination(NodeId from, NodeId to) const;
     MessageId new_message(NodeId node, NodeId to, std::string payload, Outgoing what,
                           bool is_routed);
@@ -68,8 +64,9 @@ class Applications final : public RoutingUser {
     World& world_;
     Routing& routing_;
     const Mac& mac_;
-    Chunks<Application> nodes_;   // stable: a reaction may add robots
-    bool has_reactions_ = false;  // some node has an on_receive
+    // By node, up to the last that there is something of: mostly nothing.
+    std::vector<std::uint32_t> messages_sent_;
+    std::vector<Few<Callback<const Message&, const Heard&>>> on_receive_;
     std::map<NodeId, Saturated> saturated_;
     Reachability reachability_;
     bool has_sent_ = false;

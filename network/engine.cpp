@@ -44,7 +44,6 @@ NodeId Engine::add(Robot robot) {
     world.medium.add(robot.radio, name_key(robot.name),
                      robot.propagation.value_or(world.settings.propagation));
     mac.add();
-    applications.add();
     names.add(robot.name);
     const NodeId id = motion.add(std::move(robot));
     links.added(id);

@@ -50,7 +50,7 @@ NodeId Motion::add(Robot robot) {
     channel_.added(id, leg);
     const Body body{robot.radius, robot.top_speed, robot.turn_rate};
     if (bodies_.empty() || bodies_.back() != body) bodies_.push_back(body);
-    nodes_.push_back({.body = static_cast<std::uint32_t>(bodies_.size() - 1),
+    nodes_.push_back({.body = static_cast<std::uint32_t>(bodies_.size() - 1) & 0x7fffffff,
                       .movement = std::move(robot.move)});
     return id;
 }
@@ -112,7 +112,8 @@ void Motion::next_leg(NodeId id) {
     if (const auto leg = taken(after_turn_, id)) return take(id, *leg);
     Mover asking = mover(id);
     const Step step = nodes_[id.index()].movement.next_leg(asking);
-    const bool begins = !std::exchange(nodes_[id.index()].moving, true);
+    const bool begins = nodes_[id.index()].moving == 0;
+    nodes_[id.index()].moving = 1;
     if (const auto* leg = std::get_if<Leg>(&step)) return begin_leg(id, *leg);
 
     const Leg rest = standing_leg(asking);

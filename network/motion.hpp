@@ -60,10 +60,10 @@ class Motion {
   private:
     /// There may be millions: what only few robots have lies in the maps below.
     struct Moving {
-        std::uint32_t body = 0;       // index into bodies_
-        std::uint32_t movements = 0;  // begun so far
+        std::uint32_t body : 31 = 0;   // index into bodies_
+        std::uint32_t moving : 1 = 0;  // its movement has begun
+        std::uint32_t movements = 0;   // begun so far
         Movement movement = {};
-        bool moving = false;  // its movement has begun
     };
 
     Mover mover(NodeId node);

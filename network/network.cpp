@@ -51,7 +51,7 @@ void Network::on_receive(NodeId node, std::function<void(const Message&)> react)
 
 void Network::on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react) {
     engine_->applications.on_receive(
-        node,
+        engine_->known(node),
         std::make_shared<std::function<void(const Message&, const Heard&)>>(std::move(react)));
 }
 

@@ -20,13 +20,24 @@ void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propa
     if (radios_.empty() || radios_.back() != radio) radios_.push_back(radio);
     const Kind kind = kinds_.add(radio, propagation);
     keys_.push_back(key);
-    stations_.push_back({static_cast<std::uint32_t>(radios_.size() - 1), kind & 0x7fffffff, true});
+    if (radios_.size() > 1 || kinds_.size() > 1 || !stations_.empty()) {
+        list_stations();
+        stations_.back().radio = static_cast<std::uint32_t>(radios_.size() - 1);
+        stations_.back().kind = kind & 0x7fffffff;
+    }
     index_.add(kind);
     ++changes_;
     cells_chosen_ = false;
 }
 
+/// Lists the stations that are not listed yet: they are as the first one, and on.
+void Medium::list_stations() {
+    stations_.reserve(keys_.capacity());
+    stations_.resize(keys_.size(), {.radio = 0, .kind = 0, .on = true});
+}
+
 void Medium::switch_radio(NodeId node, bool on) {
+    list_stations();
     Station& station = stations_[node.index()];
     off_ += static_cast<std::size_t>(station.on) - static_cast<std::size_t>(on);
     station.on = on;

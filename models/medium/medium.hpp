@@ -43,7 +43,6 @@ class Medium {
     /// Room for `nodes` nodes.
     void reserve(std::size_t nodes) {
         keys_.reserve(nodes);
-        stations_.reserve(nodes);
         index_.reserve(nodes);
     }
     /// Fetches what sending takes into the caches; `node` is about to. It may be 0 where nobody is.
@@ -61,8 +60,8 @@ class Medium {
     }
     void switch_radio(NodeId node, bool on);
     bool all_are_on() const { return off_ == 0; }
-    std::size_t on() const { return stations_.size() - off_; }  ///< stations that are switched on
-    bool all_are_alike() const { return kinds_.size() == 1; }   ///< links go both ways then
+    std::size_t on() const { return keys_.size() - off_; }     ///< stations that are switched on
+    bool all_are_alike() const { return kinds_.size() == 1; }  ///< links go both ways then
     std::uint64_t changes() const { return changes_; }  ///< of legs, and stations added or switched
     bool is_on(NodeId node) const { return all_are_on() || stations_[node.index()].on; }
     /// What add() was given.
@@ -157,6 +156,7 @@ class Medium {
     Kind kind(NodeId node) const {  // where all are alike, without a look at the station
         return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
     }
+    void list_stations();
     void choose_cells();
     void measure(std::size_t begin, std::size_t end, const Legs& legs);
     void find(NodeId from, Strength strength, Time t, const Legs& legs);
@@ -176,8 +176,8 @@ class Medium {
     double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Db give_up) const;
 
     Settings settings_;
-    std::vector<std::uint64_t> keys_;  // by node, as stations_: where all are alike, only they ...
-    std::vector<Station> stations_;    // ... are looked at
+    std::vector<std::uint64_t> keys_;  // by node
+    std::vector<Station> stations_;    // by node; none as long as all are alike and on
     std::vector<Radio> radios_;        // those that differ
     std::size_t off_ = 0;              // stations that are switched off
     std::uint64_t changes_ = 0;

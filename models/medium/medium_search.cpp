@@ -45,7 +45,7 @@ void Medium::choose_cells() {
     }
     std::sort(reaches.begin(), reaches.end());
     std::size_t seen = 0, median = 0;
-    while (2 * (seen += reaches[median].second) < stations_.size()) ++median;
+    while (2 * (seen += reaches[median].second) < keys_.size()) ++median;
     constexpr double widest = 1e9;  // [m] of models without a bound
     const double size = settings_.all_pairs ? widest : 1.1 * reaches[median].first;
     index_.set_cell_size(std::min(size, widest));
@@ -55,7 +55,7 @@ void Medium::choose_cells() {
 /// Makes the index about `from` at `t`.
 void Medium::look_from(NodeId from, Time t, const Legs& legs) {
     if (!cells_chosen_) {
-        measure(measured_, stations_.size(), legs);
+        measure(measured_, keys_.size(), legs);
         choose_cells();
     }
     index_.refresh(t, legs);
@@ -168,7 +168,7 @@ void Medium::share_draws() {
 }
 
 void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs) {
-    measure(measured_, stations_.size(), legs);  // the reach depends on it
+    measure(measured_, keys_.size(), legs);  // the reach depends on it
     const Radio& mine = kinds_.radio(kind(from));
     const bool fixed = settings_.keep_losses && !settings_.all_pairs && rests(legs.leg(from), t);
     candidates_.clear();
@@ -295,7 +295,7 @@ bool Medium::hears(NodeId from, NodeId to, Time t, const Legs& legs) {
     here.z += kinds_.height(mine);
     there.z += kinds_.height(theirs);
     const double d2 = squared_distance(here, there);
-    measure(measured_, stations_.size(), legs);  // the reach depends on it
+    measure(measured_, keys_.size(), legs);  // the reach depends on it
     if (d2 > kinds_.squared_reach(mine, Strength::decodable)) return false;
     kinds_.prepare(mine);
     switch (kinds_.decision(mine)) {
@@ -311,10 +311,10 @@ bool Medium::hears(NodeId from, NodeId to, Time t, const Legs& legs) {
 }
 
 std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
-    std::vector<bool> seen(stations_.size());
+    std::vector<bool> seen(keys_.size());
     std::vector<NodeId> frontier{from};
     seen[from.index()] = true;
-    const std::size_t all = stations_.size() - off_ + (is_on(from) ? 0 : 1);
+    const std::size_t all = keys_.size() - off_ + (is_on(from) ? 0 : 1);
     for (std::size_t next = 0; next < frontier.size() && frontier.size() < all; ++next) {
         find(frontier[next], Strength::decodable, t, legs);
         for (const auto [node, squared_distance] : found_.kept()) {

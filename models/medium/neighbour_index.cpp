@@ -52,11 +52,21 @@ void NeighbourIndex::Table::put(std::size_t i, const Entry& entry, const Motion&
     motions[i] = motion;
 }
 
+void NeighbourIndex::add(std::uint32_t label) {
+    place_.push_back(0);
+    if (label != 0 || !labels_.empty()) {
+        labels_.reserve(place_.capacity());
+        labels_.resize(place_.size());
+        labels_.back() = label;
+    }
+    stale_ = true;
+}
+
 void NeighbourIndex::moved(NodeId node, const Legs& legs) {
     if (stale_) return;
     const Leg& leg = legs.leg(node);
-    const std::uint32_t label = labels_[node.index()], place = place_[node.index()];
-    if (place & is_apart) return apart_.put(place & ~is_apart, node, label, leg);
+    const std::uint32_t place = place_[node.index()];
+    if (place & is_apart) return apart_.put(place & ~is_apart, node, label(node), leg);
     Vec3 was = binned_.entries[place].from;
     if (binned_.entries[place].moves) {
         const auto& [velocity, start, end] = binned_.motions[place];
@@ -66,7 +76,7 @@ void NeighbourIndex::moved(NodeId node, const Legs& legs) {
     if (length(leg.velocity) > top_speed_ || jump > 1e-3 * rows_.width())
         return keep_apart(node, leg);
     jumped_ += jump;
-    binned_.put(place, node, label, leg);
+    binned_.put(place, node, label(node), leg);
 }
 
 template <bool distances_too>
@@ -126,7 +136,7 @@ std::size_t NeighbourIndex::make_room(std::size_t places) {
 /// Moves a node out of its cell, where an entry that is nowhere remains.
 void NeighbourIndex::keep_apart(NodeId node, const Leg& leg) {
     x_[place_[node.index()]] = std::numeric_limits<float>::quiet_NaN();
-    apart_.put(add_apart(node), node, labels_[node.index()], leg);
+    apart_.put(add_apart(node), node, label(node), leg);
 }
 
 /// Returns the place in apart_ that it makes for the node.
@@ -144,7 +154,7 @@ NeighbourIndex::Table NeighbourIndex::take_all(const Legs& legs) {
     if (stale_) {
         all.entries.resize(legs.size());
         for (std::uint32_t i = 0; i < legs.size(); ++i) {
-            all.put(i, NodeId{i}, labels_[i], legs.leg(NodeId{i}));
+            all.put(i, NodeId{i}, label(NodeId{i}), legs.leg(NodeId{i}));
         }
         return all;
     }

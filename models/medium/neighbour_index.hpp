@@ -37,16 +37,9 @@ class NeighbourIndex {
     static constexpr std::uint32_t nowhere = 0xffffffff;  ///< no place of the entries()
 
     /// Adds the next node.
-    void add(std::uint32_t label) {
-        labels_.push_back(label);
-        place_.push_back(0);
-        stale_ = true;
-    }
+    void add(std::uint32_t label);
     /// Room for `nodes` nodes.
-    void reserve(std::size_t nodes) {
-        labels_.reserve(nodes);
-        place_.reserve(nodes);
-    }
+    void reserve(std::size_t nodes) { place_.reserve(nodes); }
     /// The node's leg has been replaced.
     void moved(NodeId node, const Legs& legs);
     /// Height of the cells [m] from now on; best about the radius of most queries.
@@ -155,7 +148,7 @@ class NeighbourIndex {
     }
     bool is_stale(Time t) const {
         return stale_ || apart_.entries.size() > allowed_apart_ ||
-               (looked_at_ > labels_.size() && slack(t) > 0.1 * rows_.width());
+               (looked_at_ > place_.size() && slack(t) > 0.1 * rows_.width());
     }
     /// [m] No more is lost of a coordinate around `centre` in single precision.
     static double rounding(Vec3 centre, double reach) {
@@ -171,13 +164,14 @@ class NeighbourIndex {
     std::size_t cell_at(Vec3 p) const {
         return rows_.cell_at(p.y) * columns_.cells() + columns_.cell_at(p.x);
     }
+    std::uint32_t label(NodeId node) const { return labels_.empty() ? 0 : labels_[node.index()]; }
     void keep_apart(NodeId node, const Leg& leg);
     std::size_t add_apart(NodeId node);
     void bin(Time t, const Legs& legs);
     Table take_all(const Legs& legs);
     void lay_grid(const Table& all, Time t, const Legs& legs);
 
-    std::vector<std::uint32_t> labels_;  // by node
+    std::vector<std::uint32_t> labels_;  // by node; none as long as all are 0
     Table binned_;                       // in the order of their cells
     std::vector<float> x_, y_;           // [m] where they were binned
     std::vector<std::uint32_t> near_;    // begins with what look_around() found ...
