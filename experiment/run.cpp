@@ -3,6 +3,7 @@
 
 #include "experiment/build.hpp"
 #include "experiment/run_folder.hpp"
+#include "experiment/trace_files.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
 #include "files/part_file.hpp"
@@ -10,7 +11,6 @@
 #include "scenario/located.hpp"
 #include "scenario/toml.hpp"
 #include "traces/fingerprint.hpp"
-#include "traces/ns2/ns2_trace.hpp"
 
 #include <fmt/format.h>
 
@@ -109,18 +109,13 @@ void write_summary(const Table& summary, const Timeline& timeline, PartFile& fil
     file.write(bytes);
 }
 
-constexpr const char* trace_name = "/trace.tr";
-
 /// Puts the results in the place of those of an earlier run, of which nothing is left.
-void name_results(const std::string& folder, Ns2Trace* trace,
+void name_results(const std::string& folder, const std::vector<TraceFile>& traces,
                   std::initializer_list<PartFile*> files) {
     for (PartFile* file : files) file->close();
     const FolderLock lock(folder);
-    if (trace) {
-        trace->close();
-    } else {
-        std::remove((folder + trace_name).c_str());
-    }
+    remove_other_traces(folder, traces);
+    for (const TraceFile& trace : traces) trace.give_name();
     for (PartFile* file : files) file->give_name();
 }
 
@@ -132,6 +127,7 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     const auto started = WallClock::now();
     NetworkSettings settings = network_settings(scenario);
     settings.warmup = warmup_of(scenario, settings);
+    settings.scenario = [&scenario] { return to_toml(to_document(scenario)); };
     const auto shared = std::make_shared<Network>(settings);
     Network& network = *shared;
     populate(network, scenario);
@@ -144,16 +140,9 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     network.add_sink(fingerprint);
     network.add_sink(timeline);
     const auto topology = add_topology(network, scenario, settings.warmup);
-    std::shared_ptr<Ns2Trace> trace;
-    if (scenario.trace.ns2 != Ns2Choice::none) {
-        result.trace = result.folder + trace_name;
-        trace = std::make_shared<Ns2Trace>(*result.trace,
-                                           scenario.trace.ns2 == Ns2Choice::old_format
-                                               ? Ns2Format::old_format
-                                               : Ns2Format::new_format,
-                                           scenario.trace.mac ? MacTrace::on : MacTrace::off);
-        network.trace_to(trace);
-    }
+    const std::vector<TraceFile> traces = trace_files(scenario, result.folder);
+    for (const TraceFile& trace : traces) network.add_sink(trace.sink);
+    if (!traces.empty()) result.trace = traces.front().path;
     run_in_slices(network, scenario, options);
     result.fingerprint = fingerprint->text();
     network.finish();
@@ -169,7 +158,7 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     PartFile document(result.folder + "/scenario.toml"), summary(result.folder + "/summary.json");
     document.write(to_toml(document_in(result.folder, scenario)));
     write_summary(whole_summary(scenario, result), *timeline, summary);
-    name_results(result.folder, trace.get(), {&document, &summary});
+    name_results(result.folder, traces, {&document, &summary});
     return result;
 }
 

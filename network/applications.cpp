@@ -89,9 +89,9 @@ void Applications::saturate(NodeId id, NodeId to, Outgoing what) {
 void Applications::has_room(NodeId id) {
     const auto found = saturated_.find(id);
     if (found == saturated_.end()) return;
-    auto next = std::make_shared<std::function<void()>>(
-        [this, id, traffic = found->second] { send_one_hop(id, traffic.to, {}, traffic.what); });
-    world_.schedule(world_.now + least_reaction, std::move(next));
+    world_.schedule(world_.now + least_reaction, Callback<>([this, id, traffic = found->second] {
+                        send_one_hop(id, traffic.to, {}, traffic.what);
+                    }));
 }
 
 void Applications::on_receive(NodeId id, Callback<const Message&, const Heard&> react) {
@@ -126,8 +126,9 @@ void Applications::react(NodeId id, std::uint64_t handed_over) {
     // Looked up anew each time: a reaction may add some.
     for (std::size_t i = 0; i < on_receive_[id.index()].size(); ++i) {
         const auto reaction = on_receive_[id.index()][i];
-        (*reaction)(heard, how);
+        reaction(heard, how);
     }
+    on_receive_[id.index()].erase_if([](const auto& each) { return each.has_ended(); });
 }
 
 /// The run is over: drops the messages that have arrived nowhere and are still under way.

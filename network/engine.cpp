@@ -54,9 +54,19 @@ NodeId Engine::add(Robot robot) {
     return id;
 }
 
-void Engine::add_sink(Sink sink) {
+SinkId Engine::add_sink(Sink sink) {
     if (sink.kinds() & kind_links) links.want();
-    world.records.add(std::move(sink));
+    if (sink.kinds() & kind_levels) world.levels_wanted = true;
+    if (world.running) sink.begin(run_info());
+    return world.records.add(std::move(sink));
+}
+
+RunInfo Engine::run_info() const {
+    return {.scenario = world.settings.scenario,
+            .robots = world.size(),
+            .name = [this](NodeId node) { return names[known(node).value]; },
+            .seed = world.settings.seed,
+            .replication = world.settings.replication};
 }
 
 void Engine::switch_robot(NodeId id, bool on) {
@@ -128,7 +138,10 @@ void Engine::start_routing() {
 bool Engine::advance(Time end, std::uint64_t most_events) {
     auto& events = world.events;
     world.end_of_run = end;
-    if (!std::exchange(world.running, true)) start_routing();
+    if (!std::exchange(world.running, true)) {
+        world.records.begin(run_info());
+        start_routing();
+    }
     motion.begin_all();
     links.begin();
     for (;;) {

@@ -28,7 +28,7 @@ class Engine {
 
     void reserve(std::size_t robots);
     NodeId add(Robot robot);
-    void add_sink(Sink sink);
+    SinkId add_sink(Sink sink);
     void switch_robot(NodeId node, bool on);
     bool advance(Time end, std::uint64_t most_events);
     NodeId known(NodeId node) const;  ///< @throws std::out_of_range
@@ -47,6 +47,7 @@ class Engine {
 
   private:
     void serve(const Event& event);
+    RunInfo run_info() const;
     void count_events();
     void start_routing();
 

@@ -20,6 +20,14 @@ class Few {
         values_->push_back(std::move(value));
     }
 
+    /// Removes those of which gone(value) is true.
+    template <class Gone>
+    void erase_if(Gone gone) {
+        if (!values_) return;
+        std::erase_if(*values_, gone);
+        if (values_->empty()) values_.reset();
+    }
+
   private:
     std::unique_ptr<std::vector<T>> values_;
 };

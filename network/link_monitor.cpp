@@ -63,9 +63,10 @@ void LinkMonitor::on_link_lost(NodeId node, Callback<NodeId> react) {
 
 /// Calls back who waits for `node` to hear `from` no more.
 void LinkMonitor::tell_lost(NodeId node, NodeId from) {
-    for (const auto& react : on_lost_.at(node)) {
-        auto call = std::make_shared<std::function<void()>>([react, from] { (*react)(from); });
-        world_.schedule(world_.now + least_reaction, std::move(call));
+    auto& reactions = on_lost_.at(node);
+    std::erase_if(reactions, [](const auto& each) { return each.has_ended(); });
+    for (const auto& react : reactions) {
+        world_.schedule(world_.now + least_reaction, Callback<>([react, from] { react(from); }));
     }
 }
 

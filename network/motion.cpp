@@ -105,6 +105,7 @@ void Motion::tell_arrival(NodeId id) {
     const auto reactions = on_arrival_.find(id);
     if (reactions == on_arrival_.end()) return;
     if (beginning_) return set_off_.push_back(id);
+    std::erase_if(reactions->second, [](const auto& each) { return each.has_ended(); });
     for (const auto& react : reactions->second) world_.schedule(world_.now + least_reaction, react);
 }
 

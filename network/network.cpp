@@ -7,14 +7,6 @@
 #include <stdexcept>
 
 namespace rovernet {
-namespace {
-
-Callback<> callback(std::function<void()> call) {
-    return std::make_shared<std::function<void()>>(std::move(call));
-}
-
-}  // namespace
-
 Network::Network(NetworkSettings settings)
     : engine_(std::make_unique<Engine>(std::move(settings))) {}
 Network::~Network() = default;
@@ -22,7 +14,8 @@ Network::~Network() = default;
 void Network::reserve(std::size_t robots) { engine_->reserve(robots); }
 NodeId Network::add(Robot robot) { return engine_->add(std::move(robot)); }
 void Network::route(Router router) { engine_->routing.set(std::move(router)); }
-void Network::add_sink(Sink sink) { engine_->add_sink(std::move(sink)); }
+SinkId Network::add_sink(Sink sink) { return engine_->add_sink(std::move(sink)); }
+void Network::remove_sink(SinkId sink) { engine_->world.records.remove(sink); }
 
 void Network::broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size,
                         std::uint32_t flow) {
@@ -45,23 +38,28 @@ void Network::saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t
     engine_->applications.saturate(node, to, {size, flow});
 }
 
-void Network::on_receive(NodeId node, std::function<void(const Message&)> react) {
-    on_receive(node, [react = std::move(react)](const Message& m, const Heard&) { react(m); });
+Subscription Network::on_receive(NodeId node, std::function<void(const Message&)> react) {
+    return on_receive(node,
+                      [react = std::move(react)](const Message& m, const Heard&) { react(m); });
 }
 
-void Network::on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react) {
-    engine_->applications.on_receive(
-        engine_->known(node),
-        std::make_shared<std::function<void(const Message&, const Heard&)>>(std::move(react)));
+Subscription Network::on_receive(NodeId node,
+                                 std::function<void(const Message&, const Heard&)> react) {
+    const Callback<const Message&, const Heard&> callback(std::move(react));
+    engine_->applications.on_receive(engine_->known(node), callback);
+    return callback.subscription();
 }
 
-void Network::on_arrival(NodeId node, std::function<void()> react) {
-    engine_->motion.on_arrival(engine_->known(node), callback(std::move(react)));
+Subscription Network::on_arrival(NodeId node, std::function<void()> react) {
+    const Callback<> callback(std::move(react));
+    engine_->motion.on_arrival(engine_->known(node), callback);
+    return callback.subscription();
 }
 
-void Network::on_link_lost(NodeId node, std::function<void(NodeId)> react) {
-    engine_->links.on_link_lost(engine_->known(node),
-                                std::make_shared<std::function<void(NodeId)>>(std::move(react)));
+Subscription Network::on_link_lost(NodeId node, std::function<void(NodeId)> react) {
+    const Callback<NodeId> callback(std::move(react));
+    engine_->links.on_link_lost(engine_->known(node), callback);
+    return callback.subscription();
 }
 
 void Network::move(NodeId node, Movement movement) {
@@ -79,17 +77,21 @@ void Network::switch_on(NodeId node) {
     engine_->switch_robot(node, true);
 }
 
-void Network::at(Time time, std::function<void()> action) {
-    engine_->world.schedule(time, callback(std::move(action)));
+Subscription Network::at(Time time, std::function<void()> action) {
+    const Callback<> callback(std::move(action));
+    engine_->world.schedule(time, callback);
+    return callback.subscription();
 }
 
-void Network::every(Duration period, std::function<void()> action) {
+Subscription Network::every(Duration period, std::function<void()> action) {
     constexpr Range periods{
         .low = 0, .high = 1e9, .low_included = false, .text = "> 0 s, up to 1e9 s"};
     if (!periods.contains(seconds(period))) {
         throw_out_of_range("every", "period", periods.text, seconds(period));
     }
-    engine_->world.schedule(now() + period, callback(std::move(action)), period);
+    const Callback<> callback(std::move(action));
+    engine_->world.schedule(now() + period, callback, period);
+    return callback.subscription();
 }
 
 void Network::run_until(Time end) {
@@ -98,7 +100,10 @@ void Network::run_until(Time end) {
 bool Network::advance(Time end, std::uint64_t most_events) {
     return engine_->advance(end, most_events);
 }
-void Network::finish() { engine_->applications.cut_off(); }
+void Network::finish() {
+    engine_->applications.cut_off();
+    engine_->world.records.finish();
+}
 Time Network::now() const { return engine_->world.now; }
 std::size_t Network::size() const { return engine_->world.size(); }
 std::uint64_t Network::events() const { return engine_->served; }

@@ -10,12 +10,14 @@
 #include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
 #include "models/reception/judge.hpp"
+#include "network/subscription.hpp"
 #include "sim/fields.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
 #include "sim/router.hpp"
 #include "sim/scheduler.hpp"
+#include "sim/sink.hpp"
 #include "sim/time.hpp"
 #include "traces/metrics.hpp"
 
@@ -83,8 +85,13 @@ struct NetworkSettings {
     bool reference = false;
     bool metrics = true;            ///< keep Metrics
     MetricParts metric_parts = {};  ///< which parts of the traffic they count one by one
+    /// The scenario as TOML for sinks that ask for it, see RunInfo; empty: a network made in code.
+    std::function<std::string()> scenario = {};
     Duration warmup{0};  ///< Metrics leave out the messages that are sent before it is over
 };
+
+/// A sink of a Network.
+using SinkId = std::uint32_t;
 
 class Engine;
 
@@ -106,10 +113,13 @@ class Network {
     NodeId add(Robot robot);
     /// All robots run this protocol from now on. @throws std::invalid_argument if there is one
     void route(Router router);
-    /// Every record of the kinds that it asks for reaches `sink`, from now on.
-    void add_sink(Sink sink);
+    /// Every record of the kinds that it asks for reaches `sink`, from now on. It begins with the
+    /// run, or now if that has begun.
+    SinkId add_sink(Sink sink);
     /// The same, under the name that says what it is for: net.trace_to(Ns2Trace{"run.tr"}).
-    void trace_to(Sink sink) { add_sink(std::move(sink)); }
+    SinkId trace_to(Sink sink) { return add_sink(std::move(sink)); }
+    /// The sink gets no more records; it is not finished. Not from within a sink.
+    void remove_sink(SinkId sink);
 
     /// `node` sends a message to everyone. One that is off says nothing.
     /// @param size  [bytes] on air; the payload's length if not given
@@ -128,14 +138,16 @@ class Network {
     /// From now on `node` always has a message of `size` [bytes] to send to `to`, or to everyone in
     /// one hop. @throws std::invalid_argument without an access rung: nothing would hold it back
     void saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow = 0);
+    // Callbacks: each is called until its Subscription is ended.
+
     /// Calls `react` whenever `node` is handed a message, 1 us after it was received.
-    void on_receive(NodeId node, std::function<void(const Message&)> react);
-    void on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react);
+    Subscription on_receive(NodeId node, std::function<void(const Message&)> react);
+    Subscription on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react);
     /// Calls `react` whenever `node` comes to rest at the end of a movement, 1 us later.
-    void on_arrival(NodeId node, std::function<void()> react);
+    Subscription on_arrival(NodeId node, std::function<void()> react);
     /// Calls `react(from)` whenever `node` cannot hear `from` any more, 1 us later. Watching links
     /// costs a search whenever a robot begins a new leg.
-    void on_link_lost(NodeId node, std::function<void(NodeId from)> react);
+    Subscription on_link_lost(NodeId node, std::function<void(NodeId from)> react);
     /// Replaces the node's movement, now.
     void move(NodeId node, Movement movement);
     /// Puts a robot somewhere else at once, at rest; its movement is over.
@@ -150,9 +162,9 @@ class Network {
     void switch_on(NodeId node);
 
     /// Calls `action` at `time`, not before now().
-    void at(Time time, std::function<void()> action);
+    Subscription at(Time time, std::function<void()> action);
     /// Calls `action` every `period` > 0 from now() + period on.
-    void every(Duration period, std::function<void()> action);
+    Subscription every(Duration period, std::function<void()> action);
 
     /// Runs until `end`, events at `end` included.
     /// @throws RunError at the event limit
@@ -162,7 +174,8 @@ class Network {
     bool advance(Time end, std::uint64_t most_events);
 
     /// Says that the run ends now: messages that are still at their senders are told of as dropped
-    /// ("END"), so that metrics() can leave them out. Once, after the last run_until().
+    /// ("END"), so that metrics() can leave them out; then the sinks finish. Once, after the last
+    /// run_until().
     void finish();
 
     Time now() const;

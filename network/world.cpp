@@ -50,14 +50,14 @@ void World::schedule(Time time, Callback<> call, Duration period) {
 
 void World::act(std::size_t slot) {
     const Action action = actions_[slot];  // a copy: the call may add actions
-    if (action.period > Duration{0}) {
+    if (action.period > Duration{0} && !action.call.has_ended()) {
         events.schedule(now + action.period, Priority::user,
                         {Occurrence::Kind::action, NodeId{0}, slot});
     } else {
         actions_[slot] = {};
         actions_.release(slot);
     }
-    (*action.call)();
+    action.call();
 }
 
 }  // namespace rovernet

@@ -73,7 +73,7 @@ struct World {
 
   private:
     struct Action {
-        Callback<> call = nullptr;
+        Callback<> call = {};
         Duration period{0};
     };
     Slots<Action> actions_;

@@ -86,9 +86,14 @@ class Ns2Trace::Writer {
     void write(const Record& record, const RecordContext& context) {
         std::visit([&](const auto& r) { lines(r, context); }, record);
     }
+    void finish() {
+        if (std::exchange(finished_, true)) return;
+        flush();
+        file_.close();
+    }
     void close() {
         if (closed_) return;
-        flush();
+        finish();
         file_.give_name();
         closed_ = true;
     }
@@ -139,7 +144,7 @@ class Ns2Trace::Writer {
     std::unique_ptr<char[]> buffer_;
     std::size_t used_ = 0;
     char* at_ = nullptr;  ///< where the current line goes on
-    bool closed_ = false;
+    bool finished_ = false, closed_ = false;
 };
 
 void Ns2Trace::Writer::lines(const Sent& r, const RecordContext& context) {
@@ -330,6 +335,7 @@ Ns2Trace::~Ns2Trace() {
 void Ns2Trace::on(const Record& record, const RecordContext& context) {
     writer_->write(record, context);
 }
+void Ns2Trace::finish() { writer_->finish(); }
 void Ns2Trace::close() { writer_->close(); }
 
 }  // namespace rovernet

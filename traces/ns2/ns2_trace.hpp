@@ -67,6 +67,8 @@ class Ns2Trace {
     /// @throws RunError if the file cannot be written (disk full, say); it is removed then
     void on(const Record& record, const RecordContext& context);
 
+    /// Ends the writing: the trace is whole, but has no name yet. @throws RunError as close()
+    void finish();
     /// Ends the trace and gives it its final name. A second call does nothing.
     /// @throws RunError if it cannot be written
     void close();

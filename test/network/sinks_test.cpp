@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Sinks that begin, finish and leave; callbacks that are ended.
+#include "models/propagation/friis.hpp"
+#include "network/network.hpp"
+#include "routing/flood.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// What a sink is told, as words.
+struct Told {
+    std::vector<std::string> lines{};
+    KindMask kinds() const { return kind_of<Sent>() | kind_of<Dropped>(); }
+    void begin(const RunInfo& run) {
+        std::string names;
+        for (std::uint32_t i = 0; i < run.robots; ++i) names += " " + std::string(run.name({i}));
+        lines.push_back("begin " + std::to_string(run.seed) + "/" +
+                        std::to_string(run.replication) + names +
+                        (run.scenario ? " " + run.scenario() : ""));
+    }
+    void on(const Record& record, const RecordContext&) {
+        lines.push_back(std::holds_alternative<Sent>(record) ? "sent" : "dropped");
+    }
+    void finish() { lines.push_back("finish"); }
+};
+
+struct Pair {
+    Network net{{.seed = 7, .replication = 3, .scenario = [] { return std::string("text"); }}};
+    NodeId a = net.add({.name = "a"}), b = net.add({.name = "b", .at = {10, 0}});
+    Pair() { net.route(Flood{}); }
+};
+
+using Lines = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("sinks: begin before the first record and finish behind the last") {
+    Pair pair;
+    const auto told = std::make_shared<Told>();
+    pair.net.add_sink(told);
+    CHECK(told->lines.empty());
+    pair.net.at(start_of_run, [&] { pair.net.broadcast(pair.a, "x"); });
+    pair.net.run_for(1s);
+    pair.net.run_for(1s);
+    CHECK(told->lines == Lines{"begin 7/3 a b text", "sent"});
+    pair.net.broadcast(pair.a, "cut off");
+    pair.net.finish();
+    CHECK(told->lines == Lines{"begin 7/3 a b text", "sent", "sent", "dropped", "finish"});
+}
+
+TEST_CASE("sinks: one that comes later begins then; one that is removed gets nothing more") {
+    Pair pair;
+    pair.net.run_for(1s);
+    const auto first = std::make_shared<Told>(), second = std::make_shared<Told>();
+    const SinkId id = pair.net.add_sink(first);
+    pair.net.add_sink(second);
+    pair.net.broadcast(pair.a, "x");
+    pair.net.remove_sink(id);
+    pair.net.broadcast(pair.a, "y");
+    pair.net.finish();
+    CHECK(first->lines == Lines{"begin 7/3 a b text", "sent"});
+    CHECK(second->lines.size() == 6);  // two sent, two cut off
+}
+
+TEST_CASE("sinks: received powers come with the receptions only if they are asked for") {
+    struct Levels {
+        KindMask more;
+        std::vector<double> levels{};
+        std::size_t receptions = 0;
+        KindMask kinds() const { return kind_of<Received>() | more; }
+        void on(const Record& record, const RecordContext&) {
+            const auto& received = std::get<Received>(record);
+            receptions += received.receptions.size();
+            for (const Dbm level : received.levels) levels.push_back(level.value);
+        }
+    };
+    for (const bool asked : {false, true}) {
+        Network net({.propagation = Friis{}});
+        const Radio radio{.power = Dbm{10}, .frequency = Hertz{2.45e9}};
+        for (const double x : {0.0, 10.0, 25.0})
+            net.add({.name = {}, .at = {x, 0}, .radio = radio});
+        net.route(Flood{.ttl = 1});
+        const auto sink = std::make_shared<Levels>(Levels{.more = asked ? kind_levels : 0});
+        net.add_sink(sink);
+        net.broadcast({0}, "x");
+        net.run_for(1s);
+        CHECK(sink->receptions == 2);
+        REQUIRE(sink->levels.size() == (asked ? 2 : 0));
+        if (!asked) continue;
+        const auto friis = [](double d) {
+            return 10 - 20 * std::log10(4 * 3.14159265358979323846 * d * 2.45e9 / 299792458);
+        };
+        CHECK(std::abs(sink->levels[0] - friis(10)) < 1e-9);
+        CHECK(std::abs(sink->levels[1] - friis(25)) < 1e-9);
+    }
+}
+
+TEST_CASE("callbacks: one that is ended is called no more, not even if it is due") {
+    Pair pair;
+    Network& net = pair.net;
+    int heard = 0, ticks = 0, later = 0, arrived = 0;
+    Subscription hears = net.on_receive(pair.b, [&](const Message&) { ++heard; });
+    Subscription also = net.on_receive(pair.b, [&](const Message&) { heard += 10; });
+    Subscription tick = net.every(1s, [&] {
+        if (++ticks == 3) tick.end();  // while it runs
+    });
+    Subscription once = net.at(start_of_run + 5s, [&] { ++later; });
+    Subscription arrives = net.on_arrival(pair.b, [&] { ++arrived; });
+    net.at(start_of_run + 2s, [&] { net.broadcast(pair.a, "x"); });
+    net.at(start_of_run + 3s, [&] { hears.end(), once.end(), arrives.end(); });
+    net.at(start_of_run + 4s, [&] {
+        net.broadcast(pair.a, "y");
+        net.place(pair.b, {11, 0});
+    });
+    net.run_for(10s);
+    CHECK(heard == 21);
+    CHECK(ticks == 3);
+    CHECK(later == 0);
+    CHECK(arrived == 1);  // at the beginning
+    hears.end();          // again: nothing happens
+    Subscription().end();
+}
