@@ -166,7 +166,7 @@ void Builder::react(const Built& robot, const ReactionTable& reaction, MotionBui
     const auto from = reaction.from ? network_.find(*reaction.from) : std::nullopt;
     switch (reaction.trigger) {
         case Trigger::on_receive:
-            return network_.on_receive(
+            network_.on_receive(
                 robot.node, [act, from, prefix = reaction.payload, hops = reaction.hops](
                                 const Message& message, const Heard& heard) mutable {
                     const bool wanted = message.payload.starts_with(prefix) &&
@@ -174,12 +174,15 @@ void Builder::react(const Built& robot, const ReactionTable& reaction, MotionBui
                                         (!hops || heard.hops <= *hops);
                     if (wanted) act(message.origin);
                 });
+            return;
         case Trigger::on_arrival:
-            return network_.on_arrival(robot.node, [act]() mutable { act(everyone); });
+            network_.on_arrival(robot.node, [act]() mutable { act(everyone); });
+            return;
         case Trigger::on_link_lost:
-            return network_.on_link_lost(robot.node, [act, from](NodeId lost) mutable {
+            network_.on_link_lost(robot.node, [act, from](NodeId lost) mutable {
                 if (!from || lost == *from) act(everyone);
             });
+            return;
         case Trigger::on_time:
             return expect(network_.name(robot.node), reaction.time,
                           [act]() mutable { act(everyone); });

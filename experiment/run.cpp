@@ -3,12 +3,12 @@
 
 #include "experiment/build.hpp"
 #include "experiment/run_folder.hpp"
+#include "experiment/session.hpp"
 #include "experiment/trace_files.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
 #include "files/part_file.hpp"
 #include "scenario/json.hpp"
-#include "scenario/located.hpp"
 #include "scenario/toml.hpp"
 #include "traces/fingerprint.hpp"
 
@@ -19,7 +19,6 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <thread>
 #include <unistd.h>
 
 namespace rovernet {
@@ -43,30 +42,6 @@ std::string host_name() {
 }
 
 namespace {
-
-/// Runs to the scenario's end in slices, so that progress is told and a stop is heard soon.
-void run_in_slices(Network& network, const Scenario& scenario, const RunOptions& options) {
-    constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
-    constexpr double longest_wait_s = 0.05;
-    const Time end = start_of_run + scenario.scenario.duration;
-    const auto started = WallClock::now();
-    for (bool done = false; !done;) {
-        Time until = end;
-        if (options.speed) {
-            const std::chrono::duration<double> wall = WallClock::now() - started;
-            until = std::min(end, start_of_run + from_seconds(wall.count() * *options.speed));
-        }
-        // What a model refuses only when its turn comes is the scenario's fault, too.
-        const bool arrived = located(Location{scenario.file},
-                                     [&] { return network.advance(until, events_a_slice); });
-        done = arrived && until == end;
-        const double share = seconds(network.now()) / seconds(scenario.scenario.duration);
-        if (options.progress && !options.progress(share)) throw Interrupted();
-        if (options.speed && !done && network.now() >= until) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(longest_wait_s));
-        }
-    }
-}
 
 Value optional_value(const std::optional<double>& v) { return v ? Value(*v) : Value(); }
 
@@ -128,9 +103,8 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     NetworkSettings settings = network_settings(scenario);
     settings.warmup = warmup_of(scenario, settings);
     settings.scenario = [&scenario] { return to_toml(to_document(scenario)); };
-    const auto shared = std::make_shared<Network>(settings);
-    Network& network = *shared;
-    populate(network, scenario);
+    Session session(scenario, settings);
+    Network& network = session.network();
 
     result.folder = options.folder.value_or(run_folder(scenario, {}));
     if (options.progress && !options.progress(0)) throw Interrupted();
@@ -143,7 +117,7 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     const std::vector<TraceFile> traces = trace_files(scenario, result.folder);
     for (const TraceFile& trace : traces) network.add_sink(trace.sink);
     if (!traces.empty()) result.trace = traces.front().path;
-    run_in_slices(network, scenario, options);
+    if (!session.run(options.speed, options.progress)) throw Interrupted();
     result.fingerprint = fingerprint->text();
     network.finish();
 
@@ -151,7 +125,7 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     append_parts(result.parts, scenario, network, result.metrics,
                  scenario.scenario.duration - settings.warmup, topology.get());
     result.events = network.events();
-    result.network = shared;
+    result.network = session.shared_network();
     result.interference_left_out = network.interference_left_out();
     result.timeline = timeline;
     result.wall_s = std::chrono::duration<double>(WallClock::now() - started).count();
