@@ -166,14 +166,14 @@ void Builder::react(const Built& robot, const ReactionTable& reaction, MotionBui
     const auto from = reaction.from ? network_.find(*reaction.from) : std::nullopt;
     switch (reaction.trigger) {
         case Trigger::on_receive:
-            network_.on_receive(
-                robot.node, [act, from, prefix = reaction.payload, hops = reaction.hops](
-                                const Message& message, const Heard& heard) mutable {
-                    const bool wanted = message.payload.starts_with(prefix) &&
-                                        (!from || message.origin == *from) &&
-                                        (!hops || heard.hops <= *hops);
-                    if (wanted) act(message.origin);
-                });
+            network_.on_receive(robot.node,
+                                [act, from, prefix = reaction.payload, hops = reaction.hops](
+                                    const Message& message, const Heard& heard) mutable {
+                                    const bool wanted = message.payload.starts_with(prefix) &&
+                                                        (!from || message.origin == *from) &&
+                                                        (!hops || heard.hops <= *hops);
+                                    if (wanted) act(message.origin);
+                                });
             return;
         case Trigger::on_arrival:
             network_.on_arrival(robot.node, [act]() mutable { act(everyone); });

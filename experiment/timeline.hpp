@@ -3,8 +3,8 @@
 
 #include "network/network.hpp"
 #include "sim/chunks.hpp"
-#include "sim/sink.hpp"
 #include "sim/record.hpp"
+#include "sim/sink.hpp"
 
 #include <cstddef>
 #include <cstdint>

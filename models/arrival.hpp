@@ -28,6 +28,12 @@ enum class Lock : std::uint8_t {
     missed,  ///< it did not
 };
 
+/// A frame as a node will sense it.
+struct Sensing {
+    NodeId node;
+    Time begin, end;
+};
+
 /// A frame as it arrives at one node.
 struct Arrival {
     Time begin;

@@ -87,6 +87,7 @@ void Applications::saturate(NodeId id, NodeId to, Outgoing what) {
 
 /// A saturated node has sent a frame: here is the next.
 void Applications::has_room(NodeId id) {
+    if (saturated_.empty()) return;
     const auto found = saturated_.find(id);
     if (found == saturated_.end()) return;
     world_.schedule(world_.now + least_reaction, Callback<>([this, id, traffic = found->second] {

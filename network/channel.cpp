@@ -104,13 +104,15 @@ void Channel::find_sensors(Flight& flight, Time end) {
     const auto sensors = medium.find_sensors(sender, now, end, world_.legs, flight.receivers);
     sort(flight.receivers);
     const Duration airtime = end - now;
+    sensed_.clear();
     for (const Reception& r : flight.receivers.all()) {
-        user_.sensed(r.node, r.time - airtime, r.time);
+        sensed_.push_back({r.node, r.time - airtime, r.time});
     }
     for (const Medium::Found& s : sensors) {
         const Duration delay = medium.delay(std::sqrt(s.squared_distance));
-        user_.sensed(s.node, now + delay, end + delay);
+        sensed_.push_back({s.node, now + delay, end + delay});
     }
+    user_.sensed(sensed_);
 }
 
 /// Looks at what each receiver gets.

@@ -32,8 +32,8 @@ class ChannelUser {
   public:
     /// The frame arrives at some of its receivers.
     virtual void arrived(const AirFrame& frame, const Arriving& part) = 0;
-    /// `node` will sense a frame on air from `begin` to `end`.
-    virtual void sensed(NodeId node, Time begin, Time end) = 0;
+    /// These nodes will sense a frame that is on air now.
+    virtual void sensed(std::span<const Sensing> nodes) = 0;
 
   protected:
     ~ChannelUser() = default;
@@ -90,6 +90,7 @@ class Channel {
     World& world_;
     ChannelUser& user_;
     Slots<Flight> flights_;
+    std::vector<Sensing> sensed_;               // of a frame
     std::optional<Interference> interference_;  // if the reception model has judges
 };
 

@@ -13,12 +13,9 @@ Mac::Mac(World& world, Channel& channel, MacUser& user)
       channel_(channel),
       user_(user),
       access_(world.settings.access.make_access()),
-      listens_(access_->listens()) {}
-
-void Mac::send(const QueuedFrame& frame) {
-    world_.messages.hold(frame.frame.message);
-    access_->send(*this, frame);
-}
+      listens_(access_->listens()),
+      has_own_rates_(!access_->own_rates().empty()),
+      header_(access_->header()) {}
 
 Time Mac::now() const { return world_.now; }
 
@@ -26,8 +23,11 @@ Time Mac::transmit(const AirFrame& air) {
     const bool data = air.kind == AirFrame::data;
     if (data) world_.emit(Transmitted{world_.now, air.frame, air.heard_from});
     if (world_.records.wants<AirSent>()) world_.emit(AirSent{world_.now, air, bytes(air)});
+    const BitRate rate = rate_of(air);
     const Channel::Sending how{
-        .airtime = airtime(air), .rate = rate_of(air), .is_sensed = listens_};
+        .airtime = access_->airtime(world_.medium.radio(air.frame.sender), rate, bytes(air)),
+        .rate = rate,
+        .is_sensed = listens_};
     const auto receptions = channel_.transmit(air, how);
     if (data && air.frame.next_hop != everyone) tell_if_unheard(air.frame, receptions);
     return world_.now + how.airtime;
@@ -52,6 +52,7 @@ std::uint32_t Mac::bytes(const AirFrame& frame) const {
 
 BitRate Mac::rate_of(const AirFrame& frame) const {
     const BitRate sender = world_.medium.radio(frame.frame.sender).rate;
+    if (!has_own_rates_) return sender;
     const NodeId to = frame.frame.next_hop;
     return access_->rate(frame, sender, to == everyone ? sender : world_.medium.radio(to).rate);
 }

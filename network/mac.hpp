@@ -39,9 +39,9 @@ class Mac final : public Air, public ChannelUser {
     std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) {
         return access_->take(node, next_hop);
     }
-    /// Takes a frame that its sender, which is on, wants to send; sent() or lost() tells of its
-    /// end.
-    void send(const QueuedFrame& frame);
+    /// Takes a frame that its sender, which is on, wants to send, and whose message is held for it;
+    /// sent() or lost() tells of its end.
+    void send(const QueuedFrame& frame) { access_->send(*this, frame); }
     void on_timer(NodeId node, std::uint32_t tag) { access_->on_timer(*this, node, tag); }
 
     /// Frames wait for access, so that a queue can always have one more.
@@ -51,7 +51,7 @@ class Mac final : public Air, public ChannelUser {
     /// Bit rates, beside those of the radios, at which frames may go.
     std::span<const BitRate> own_rates() const { return access_->own_rates(); }
     /// [bytes] that access adds to a message
-    std::uint32_t header() const { return access_->header(); }
+    std::uint32_t header() const { return header_; }
     /// True if `frame` is a repetition of one that `node` has already.
     bool is_repeated(NodeId node, const AirFrame& frame) {
         return listens_ && access_->is_repeated(node, frame);
@@ -69,7 +69,7 @@ class Mac final : public Air, public ChannelUser {
 
     // ChannelUser.
     void arrived(const AirFrame& frame, const Arriving& part) override;
-    void sensed(NodeId node, Time begin, Time end) override { access_->energy(node, begin, end); }
+    void sensed(std::span<const Sensing> nodes) override { access_->sensed(nodes); }
 
   private:
     BitRate rate_of(const AirFrame& frame) const;
@@ -80,7 +80,9 @@ class Mac final : public Air, public ChannelUser {
     Channel& channel_;
     MacUser& user_;
     std::unique_ptr<Access> access_;
-    bool listens_;  // as the access protocol does
+    // Of the access protocol, which never changes its mind.
+    bool listens_, has_own_rates_;
+    std::uint32_t header_;
 };
 
 }  // namespace rovernet

@@ -55,7 +55,10 @@ void Routing::originate(NodeId node, MessageId message) {
     call_router([&] { router_->send(*this, node, message); });
 }
 
-void Routing::send_one_hop(const Frame& frame) { mac_.send({frame, std::nullopt}); }
+void Routing::send_one_hop(const Frame& frame) {
+    world_.messages.hold(frame.message);
+    mac_.send({frame, std::nullopt});
+}
 
 void Routing::on_timer(NodeId node, std::uint64_t tag) {
     call_router([&] { router_->on_timer(*this, node, tag); });
@@ -134,12 +137,9 @@ void Routing::on_send(SendHandle handle) {
 /// Sends a frame whose message is held for it.
 void Routing::send_now(const QueuedFrame& frame) {
     const NodeId sender = frame.frame.sender;
-    if (world_.medium.is_on(sender)) {
-        mac_.send(frame);
-    } else {
-        drop(sender, as_received(frame), DropReason::off);
-        tell(frame.frame, SendResult::off);
-    }
+    if (world_.medium.is_on(sender)) return mac_.send(frame);
+    drop(sender, as_received(frame), DropReason::off);
+    tell(frame.frame, SendResult::off);
     world_.release(frame.frame.message);
 }
 

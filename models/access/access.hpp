@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/arrival.hpp"
 #include "models/radio.hpp"
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
@@ -73,8 +74,8 @@ class Access {
     /// Stations listen: they are told what they sense and what they receive, and a unicast that
     /// nobody answers is repeated.
     virtual bool listens() const { return false; }
-    /// `node` will sense a frame on air from `begin` to `end`.
-    virtual void energy(NodeId /*node*/, Time /*begin*/, Time /*end*/) {}
+    /// Nodes that will sense a frame that is on air now.
+    virtual void sensed(std::span<const Sensing> /*nodes*/) {}
     /// A frame ended at `node` and was received, or had errors.
     virtual void received(Air& /*air*/, NodeId /*node*/, const AirFrame& /*frame*/) {}
     virtual void missed(Air& /*air*/, NodeId /*node*/) {}

@@ -185,6 +185,14 @@ void Dcf::finish(Air& air, NodeId node, Time end, std::optional<DropReason> reas
     }
 }
 
+void Dcf::sensed(std::span<const Sensing> nodes) {
+    for (const auto& [node, begin, end] : nodes) {
+        Listening& l = listening_[node.index()];
+        l.backoff.energy(begin, end);
+        l.on_air_until = std::max(l.on_air_until, end);
+    }
+}
+
 void Dcf::received(Air& air, NodeId node, const AirFrame& frame) {
     Station& s = at(node);
     backoff(node).frame_decoded();

@@ -58,11 +58,7 @@ class Dcf final : public Access {
     void switch_off(Air& air, NodeId node) override;
 
     bool listens() const override { return true; }
-    void energy(NodeId node, Time begin, Time end) override {
-        Listening& l = listening_[node.index()];
-        l.backoff.energy(begin, end);
-        l.on_air_until = std::max(l.on_air_until, end);
-    }
+    void sensed(std::span<const Sensing> nodes) override;
     void received(Air& air, NodeId node, const AirFrame& frame) override;
     void missed(Air& air, NodeId node) override;
     bool is_repeated(NodeId node, const AirFrame& frame) override;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/sink.hpp"
 #include "sim/record.hpp"
+#include "sim/sink.hpp"
 
 #include <algorithm>
 #include <chrono>
