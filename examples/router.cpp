@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A routing protocol of one's own: what finds no route is flooded, and everybody who hears a frame
-// learns the next hop towards the robot that it began at. A broken link is told of by route errors.
+// first learns the next hop towards the robot that it began at. Route errors tell of broken links.
 #include "rovernet.hpp"
 
 #include <fmt/format.h>
@@ -28,14 +28,16 @@ struct Learning {
     void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
         const Message& message = link.message(frame.message);
         for (Reception& r : receptions) {
-            next_hop[{r.node, message.origin}] = frame.sender;
             const bool first = seen.insert({r.node, message.uid}).second;
+            if (first) next_hop[{r.node, message.origin}] = frame.sender;  // later ones may loop
             r.delivered = first && r.node == message.to;
-            r.fate = !first ? Fate::duplicate : r.delivered ? Fate::arrived : Fate::waiting;
+            r.fate = r.delivered ? Fate::arrived : first ? Fate::waiting : Fate::duplicate;
+            if (first && frame.ttl == 1) r.fate = Fate::ttl;
             if (message.kind == "error") {  // whoever routes by its sender passes it on
                 const auto route = next_hop.find({r.node, message.to});
                 if (route == next_hop.end() || route->second != frame.sender) continue;
                 next_hop.erase(route);
+                fmt::print("robot {} forgets its way to {}\n", r.node.value, message.to.value);
             }
             if (r.fate != Fate::waiting) continue;
             const double u = link.draw(Purpose::routing_jitter, r.node, frame.message, 0);
@@ -46,11 +48,11 @@ struct Learning {
     }
     void on_sent(LinkLayer& link, const Frame& frame, SendResult result) {
         if (result != SendResult::retries) return;
-        const NodeId to = link.message(frame.message).to;
-        next_hop.erase({frame.sender, to});
-        const MessageId error = link.originate(frame.sender, to, "error", 12, {});
-        send(link, frame.sender, error);
-        link.release(error);
+        const NodeId from = frame.sender, to = link.message(frame.message).to;
+        fmt::print("robot {} is not answered by {}\n", from.value, frame.next_hop.value);
+        next_hop.erase({from, to});
+        const MessageId error = link.originate(from, to, "error", 12, {});
+        send(link, from, error), link.release(error);
         pass_on(link, frame, {}, link.now() + 20ms);  // by another way, if there is one
     }
 };
@@ -60,11 +62,9 @@ int main() {
     for (const Vec3 at : {Vec3{0, 0}, {80, 0}, {160, 0}, {240, 0}, {80, 60}, {160, 60}})
         net.add({.name = {}, .at = at, .radio = {.rate = {1e6}}});
     net.route(Learning{});
-    net.on_receive({3}, [&](const Message& m, const Heard& how) {
-        fmt::print("{:.2f} s: {} over {} hops\n", seconds(net.now()), m.payload, how.hops);
-        net.send({3}, {0}, "yes");
-    });
+    net.on_receive({0}, [&](const Message&) { fmt::print("at {:.2f} s\n", seconds(net.now())); });
+    net.on_receive({3}, [&](const Message&) { net.send({3}, {0}, "yes"); });
     for (int s = 1; s < 6; ++s) net.at(start_of_run + 1s * s, [&] { net.send({0}, {3}, "?"); });
-    net.at(start_of_run + 2500ms, [&] { net.switch_off({1}), net.switch_off({5}); });
+    net.at(start_of_run + 2500ms, [&] { net.switch_off({2}); });
     net.run_for(6s);
 }
