@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/access/access.hpp"
+
+#include <memory>
+#include <string_view>
+
+namespace rovernet {
+
+/// Access model "one_slot": a frame waits a random time of up to `wait`, then goes, over others
+/// too.
+struct OneSlot {
+    static constexpr std::string_view name = "one_slot";
+
+    Duration wait{10'000'000};  ///< [ns]
+
+    std::unique_ptr<Access> make_access() const;
+};
+
+}  // namespace rovernet
