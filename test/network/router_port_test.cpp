@@ -156,6 +156,26 @@ TEST_CASE("router port: a protocol that overhears gets the unicasts for others, 
     }
 }
 
+TEST_CASE("router port: levels stay with their receptions where a robot goes off meanwhile") {
+    const auto levels_of = [](double off_at) {
+        const auto diary = std::make_shared<Diary>(*Row().diary);
+        Network net({.propagation = Friis{}});
+        for (const double x : {0.0, 30.0, 70.0}) {
+            net.add({.name = {}, .at = {x, 0, 0}, .radio = {.rate = {1e6}}});
+        }
+        net.route(Curious{Scripted{.diary = diary}});
+        net.broadcast({0}, std::string(500, 'x'));  // 4 ms
+        net.at(start_of_run + from_seconds(off_at), [&] { net.switch_off({1}); });
+        net.run_for(1s);
+        return diary->levels;
+    };
+    const auto both = levels_of(0.5), one = levels_of(0.001);
+    REQUIRE(both.size() == 2);
+    REQUIRE(one.size() == 1);
+    CHECK(one[0] == both[1]);
+    CHECK(both[0] > both[1]);
+}
+
 TEST_CASE("router port: results of csma: acknowledged, given up, no room, switched off") {
     const Csma one_place{.queue = 1};
     SUBCASE("acknowledged") {
