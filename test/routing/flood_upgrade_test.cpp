@@ -18,8 +18,8 @@ struct Hearer {
     MessageId message = link.message_from({0});
 
     explicit Hearer(bool upgrade) : router(Flood{.ttl = 9, .upgrade = upgrade}) {}
-    Fate hear(Hops ttl) {
-        const Frame frame{.message = message, .sender = {0}, .ttl = ttl, .hops = 1};
+    Fate hear(Hops ttl, NodeId from = {0}) {
+        const Frame frame{.message = message, .sender = from, .ttl = ttl, .hops = 1};
         return link.arrive(router, frame, {1})[0].fate;
     }
 };
@@ -36,6 +36,16 @@ TEST_CASE("flood: a copy that waits takes the highest TTL that the node hears, w
         CHECK(node.link.go().ttl == (upgrade ? 5 : 2));
         CHECK(node.hear(8) == Fate::duplicate);  // it has sent
     }
+}
+
+TEST_CASE("flood: of copies with the same TTL the first is passed on") {
+    Hearer node(true);
+    node.hear(4);
+    node.hear(4, NodeId{7});
+    REQUIRE(node.link.sent.size() == 1);
+    CHECK(node.link.sent[0].queued.heard_from == NodeId{0});
+    node.hear(5, NodeId{7});
+    CHECK(node.link.sent[0].queued.heard_from == NodeId{7});
 }
 
 TEST_CASE("flood: a message that ended at its TTL goes on with a higher one, with upgrade only") {
