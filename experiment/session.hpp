@@ -36,7 +36,7 @@ class Session {
     Session(const Scenario& scenario, NetworkSettings settings);
 
     Network& network() { return *network_; }
-    /// The same, which outlives the session.
+    /// The network, for somebody who keeps it longer than the session.
     std::shared_ptr<Network> shared_network() const { return network_; }
     Time end() const { return end_; }
 

@@ -80,7 +80,7 @@ class Mac final : public Air, public ChannelUser {
     Channel& channel_;
     MacUser& user_;
     std::unique_ptr<Access> access_;
-    // Of the access protocol, which never changes its mind.
+    // What the access protocol says of itself; it never changes.
     bool listens_, has_own_rates_;
     std::uint32_t header_;
 };

@@ -71,7 +71,7 @@ class FloodRouter {
         bool is(State state) const {
             return state == waiting ? value_ >= waiting : value_ == state;
         }
-        /// Of the copy that waits, or has waited, in the state `waiting`.
+        /// Handle of the copy that waits, or has waited, in the state `waiting`.
         SendHandle copy() const { return value_ - waiting; }
 
       private:

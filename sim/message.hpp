@@ -24,7 +24,7 @@ struct Message {
     Time created = start_of_run;
     std::string payload;
     std::uint32_t flow = 0;  ///< of the application, from 1; 0: of none
-    /// Of a routing protocol's own packet, a literal; empty: an application's message.
+    /// Kind of a routing protocol's own packet, a literal; empty: an application's message.
     std::string_view kind = {};
     bool is_routed = false;  ///< it goes by the routing protocol, not over one hop beside it
 };

@@ -90,7 +90,7 @@ class LinkLayer {
     virtual void release(MessageId) = 0;
     /// A uniform draw in (0, 1), keyed by the run, the purpose, the node, the message and `index`.
     virtual double draw(Purpose, NodeId, MessageId, std::uint64_t index) const = 0;
-    /// The same of no message: the node's `index`-th.
+    /// The node's `index`-th uniform draw in (0, 1) for this purpose, of no message.
     virtual double draw(Purpose, NodeId, std::uint64_t index) const = 0;
 
   protected:

@@ -72,7 +72,7 @@ class ReceptionModel {
 
     /// A judge for one Network; null: a frame is received wherever the link budget allows it.
     std::unique_ptr<Judge> make_judge() const { return make_(); }
-    /// That of its judges.
+    /// Judge::interference_cut of its judges.
     std::optional<Db> interference_cut() const {
         const auto judge = make_judge();
         return judge ? judge->interference_cut() : std::nullopt;
