@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 namespace rovernet {
 
@@ -81,11 +80,6 @@ void Engine::switch_robot(NodeId id, bool on) {
     routing.on_switched(id, on);
 }
 
-NodeId Engine::known(NodeId node) const {
-    if (node.index() >= world.size()) throw std::out_of_range("there is no such robot");
-    return node;
-}
-
 void Engine::serve(const Event& event) {
     const auto& [kind, node, data] = event.payload;
     switch (kind) {
@@ -125,22 +119,12 @@ void Engine::count_events() {
     check_at_ = std::min(limit, events.scheduled() + most_pending - events.size());
 }
 
-/// Nodes start in the order of their keys, so that their numbers decide nothing.
-void Engine::start_routing() {
-    if (!routing.router() || !routing.router()->hears_of_starts()) return;
-    std::vector<NodeId> nodes;
-    for (std::uint32_t i = 0; i < world.size(); ++i) nodes.push_back(NodeId{i});
-    std::sort(nodes.begin(), nodes.end(),
-              [this](NodeId a, NodeId b) { return world.key(a) < world.key(b); });
-    for (const NodeId node : nodes) routing.on_start(node);
-}
-
 bool Engine::advance(Time end, std::uint64_t most_events) {
     auto& events = world.events;
     world.end_of_run = end;
     if (!std::exchange(world.running, true)) {
         world.records.begin(run_info());
-        start_routing();
+        routing.start();
     }
     motion.begin_all();
     links.begin();

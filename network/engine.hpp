@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <stdexcept>
 
 namespace rovernet {
 
@@ -31,7 +32,11 @@ class Engine {
     SinkId add_sink(Sink sink);
     void switch_robot(NodeId node, bool on);
     bool advance(Time end, std::uint64_t most_events);
-    NodeId known(NodeId node) const;  ///< @throws std::out_of_range
+    /// @throws std::out_of_range if there is no such robot
+    NodeId known(NodeId node) const {
+        if (node.index() >= world.size()) throw std::out_of_range("there is no such robot");
+        return node;
+    }
 
     World world;
     Applications applications;
@@ -49,7 +54,6 @@ class Engine {
     void serve(const Event& event);
     RunInfo run_info() const;
     void count_events();
-    void start_routing();
 
     std::uint64_t check_at_ = 0;  // scheduled events: no limit is reached before
 };

@@ -3,6 +3,7 @@
 
 #include "network/world.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -62,6 +63,15 @@ void Routing::send_one_hop(const Frame& frame) {
 
 void Routing::on_timer(NodeId node, std::uint64_t tag) {
     call_router([&] { router_->on_timer(*this, node, tag); });
+}
+
+/// Nodes start in the order of their keys, so that their numbers decide nothing.
+void Routing::start() {
+    if (!router_ || !router_->hears_of_starts()) return;
+    std::vector<NodeId> nodes;
+    for (std::uint32_t i = 0; i < world_.size(); ++i) nodes.push_back(NodeId{i});
+    std::sort(nodes.begin(), nodes.end(), [this](NodeId a, NodeId b) { return key(a) < key(b); });
+    for (const NodeId node : nodes) on_start(node);
 }
 
 void Routing::on_start(NodeId node) {

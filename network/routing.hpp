@@ -43,7 +43,9 @@ class Routing final : public LinkLayer, public MacUser {
     // Events.
     void on_timer(NodeId node, std::uint64_t tag);
     void on_send(SendHandle handle);
-    // Beginnings of the run and of a node that is added later, and switches.
+    /// The run begins.
+    void start();
+    // A node is added later, or switched.
     void on_start(NodeId node);
     void on_switched(NodeId node, bool on);
 

@@ -296,7 +296,7 @@ TEST_CASE("router port: the queue gives back frames for one next hop, but the on
         CAPTURE(access.name());
         Row row(access);
         row.diary->send = [](LinkLayer& link, NodeId node, MessageId message) {
-            for (const std::uint32_t to : {0, 0, 2, 0}) {
+            for (const std::uint32_t to : {0U, 0U, 2U, 0U}) {
                 link.send(
                     {.message = message, .sender = node, .ttl = 1, .hops = 1, .next_hop = {to}}, {},
                     link.now());
