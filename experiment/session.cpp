@@ -24,6 +24,12 @@ Session::Session(const Scenario& scenario, NetworkSettings settings)
     populate(*network_, scenario);
 }
 
+Session::~Session() {
+    for (auto& [id, client] : clients_) {
+        for (Subscription& each : client.subscriptions) each.end();
+    }
+}
+
 /// Serves events until `until`, and at most so many. @return true once that time is reached
 bool Session::advance(Time until, std::uint64_t most_events) {
     // What a model refuses only when its turn comes is the scenario's fault, too.
@@ -60,6 +66,9 @@ ClientId Session::attach(const std::vector<NodeId>& robots) {
         if (drivers_.contains(robot)) {
             throw std::invalid_argument(
                 fmt::format("robot {} is driven by another client already", name));
+        }
+        if (std::count(robots.begin(), robots.end(), robot) > 1) {
+            throw std::invalid_argument(fmt::format("robot {} is listed twice", name));
         }
     }
     const ClientId id = next_client_++;

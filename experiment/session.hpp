@@ -34,6 +34,10 @@ class Session {
     explicit Session(const Scenario& scenario);
     /// With settings made of network_settings(scenario).
     Session(const Scenario& scenario, NetworkSettings settings);
+    /// Ends what its clients hear; the network may live on.
+    ~Session();
+    Session(const Session&) = delete;  // what clients hear is told to this one
+    Session& operator=(const Session&) = delete;
 
     Network& network() { return *network_; }
     /// The network, for somebody who keeps it longer than the session.
@@ -50,7 +54,7 @@ class Session {
     bool run(std::optional<double> speed, const std::function<bool(double)>& progress);
 
     /// A client takes robots that nobody else drives. @throws std::invalid_argument, naming one
-    /// that is taken
+    /// that is taken or listed twice
     ClientId attach(const std::vector<NodeId>& robots);
     /// The client leaves, and all that belongs to it: its robots stand still.
     void detach(ClientId client);

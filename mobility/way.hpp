@@ -26,7 +26,7 @@ class Way {
 
     /// The leg to the next corner, at `speed` > 0; nothing at the end of the way.
     std::optional<Leg> next_leg(const Mover& mover, MetersPerSecond speed);
-    /// The same, at the speed of the leg before.
+    /// The next leg of the way, at the speed of the leg before.
     std::optional<Leg> next_leg(const Mover& mover) {
         return left_ ? next_leg(mover, left_->speed) : std::nullopt;
     }

@@ -27,8 +27,8 @@ TEST_CASE("many robots: one that stands takes less than 164 bytes, flooded or no
 }
 
 TEST_CASE("many robots: one on a random waypoint takes less than 350 bytes, flooded or not") {
-    // Of so many robots, 16 bytes each are the queue's buckets that are not full: of a million it
-    // takes 312.
+    // The queue's buckets that are not full take 16 bytes a robot here; of a million robots one
+    // takes 312 bytes in all.
     const auto row =
         flood_bench({.mobility = BenchMobility::random_waypoint, .cpu_s = 1e-9}, 30'000);
     CHECK(row.receptions > 30'000);

@@ -137,6 +137,19 @@ TEST_CASE("session: a robot has one driver; a client that leaves takes all that 
     CHECK(session.heard(second).size() == 1);  // the tick at 3 s
 }
 
+TEST_CASE("session: a network that outlives its session goes on without its clients") {
+    std::shared_ptr<Network> network;
+    {
+        Session session{scenario()};
+        CHECK_THROWS_WITH_AS(session.attach({NodeId{1}, NodeId{1}}), "robot b is listed twice",
+                             std::invalid_argument);
+        session.attach({NodeId{1}});
+        network = session.shared_network();
+    }
+    network->run_for(5s);
+    CHECK(network->metrics().deliveries == 4);  // two ticks, heard by two
+}
+
 TEST_CASE("session: a robot that cannot go where it is driven is stalled") {
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 4 1 255 255 255 255 0");
