@@ -6,6 +6,7 @@
 #include "models/propagation/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
+#include "sim/fate.hpp"
 #include "sim/math.hpp"
 #include "sim/random.hpp"
 #include "traces/fingerprint.hpp"
@@ -43,21 +44,29 @@ double side(std::uint32_t nodes) {
     return decode_range * std::sqrt(std::numbers::pi * nodes / mean_neighbours);
 }
 
-/// Counts what a flood does.
-struct Count {
-    std::uint64_t transmissions = 0, attempts = 0, decoded = 0;
+/// Receptions of the floods of a network.
+struct Tally {
+    std::uint64_t attempts = 0, decoded = 0;
+};
 
-    KindMask kinds() const { return kind_of<Transmitted>() | kind_of<Received>(); }
+/// Counts receptions, where no metrics do.
+struct Count : Tally {
+    KindMask kinds() const { return kind_of<Received>(); }
     void on(const Record& record, const RecordContext&) {
-        if (std::holds_alternative<Transmitted>(record)) {
-            ++transmissions;
-            return;
-        }
         const auto receptions = std::get<Received>(record).receptions;
         attempts += receptions.size();
         for (const Reception& r : receptions) decoded += is_decoded(r.fate);
     }
 };
+
+/// The receptions that metrics counted. Nobody is switched off in a flood bench.
+Tally tally(const MetricValues& metrics) {
+    Tally tally{metrics.receptions, metrics.receptions};
+    for (const Fate lost : {Fate::garbled, Fate::collided, Fate::busy}) {
+        tally.attempts += metrics.drops[loss_codes.place(reason_of(lost).code)].count;
+    }
+    return tally;
+}
 
 /// Frames disturb each other, or their senders listen: more than the decode range matters.
 bool disturbs(const FloodBench& bench) {
@@ -141,10 +150,10 @@ double search_cost(Network& network, std::uint32_t nodes) {
 }
 
 /// Sends one message and runs until nobody forwards it any more.
-void flood(Network& network, NodeId from, const Count& count) {
+void flood(Network& network, NodeId from) {
     network.broadcast(from, "", payload);
-    for (std::uint64_t before = ~std::uint64_t{0}; before != count.transmissions;) {
-        before = count.transmissions;
+    for (std::uint64_t before = ~std::uint64_t{0}; before != network.transmissions();) {
+        before = network.transmissions();
         network.run_for(std::chrono::milliseconds{100});
     }
 }
@@ -160,38 +169,43 @@ FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
                      .access = AccessTable{.model = bench.access, .basic_rates = {{{11e6}}}}.make(),
                      .event_limit = ~std::uint64_t{0},
                      .metrics = bench.recorded});
+    const auto count = std::make_shared<Count>();
     if (bench.recorded) {
         network.add_sink(Fingerprint{});
         network.add_sink(Timeline{network});
+    } else {
+        network.add_sink(Sink{count});
     }
+    const auto tally_now = [&] {
+        return bench.recorded ? tally(network.metrics()) : static_cast<Tally>(*count);
+    };
     add_robots(network, bench, nodes);
     const Duration jitter{bench.access == AccessChoice::csma ? 50'000'000 : 10'000'000};
     network.route(Flood{.ttl = 65535, .upgrade = false, .jitter = jitter});
-    const auto count = std::make_shared<Count>();
-    network.add_sink(Sink{count});
     network.run_for(Duration{0});
 
     std::vector<double> costs;  // of the parts [ns per attempt]
     std::uint32_t origin = 0;
     for (int part = 0; part < 5; ++part) {
-        const std::uint64_t attempts = count->attempts;
+        const std::uint64_t attempts = tally_now().attempts;
         const double begin = cpu_seconds();
         double spent = 0;
         while (spent < bench.cpu_s / 5) {
             origin = static_cast<std::uint32_t>((origin + std::uint64_t{7919}) % nodes);
-            flood(network, NodeId{origin}, *count);
+            flood(network, NodeId{origin});
             spent = cpu_seconds() - begin;
         }
         costs.push_back(
             1e9 * spent /
-            static_cast<double>(std::max<std::uint64_t>(count->attempts - attempts, 1)));
+            static_cast<double>(std::max<std::uint64_t>(tally_now().attempts - attempts, 1)));
     }
     std::sort(costs.begin(), costs.end());
+    const Tally all = tally_now();
     const double bytes = (allocated() - before) / nodes;
     return {.nodes = nodes,
-            .transmissions = count->transmissions,
-            .receptions = count->decoded,
-            .attempts = count->attempts,
+            .transmissions = network.transmissions(),
+            .receptions = all.decoded,
+            .attempts = all.attempts,
             .events = network.events(),
             .ns_per_reception = costs[2],
             .bfs_ns_per_edge = search_cost(network, nodes),

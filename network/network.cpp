@@ -107,6 +107,7 @@ void Network::finish() {
 Time Network::now() const { return engine_->world.now; }
 std::size_t Network::size() const { return engine_->world.size(); }
 std::uint64_t Network::events() const { return engine_->served; }
+std::uint64_t Network::transmissions() const { return engine_->world.transmissions; }
 std::optional<Db> Network::interference_left_out() const {
     return engine_->channel.interference_left_out();
 }

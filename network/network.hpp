@@ -179,8 +179,9 @@ class Network {
     void finish();
 
     Time now() const;
-    std::size_t size() const;      ///< robots
-    std::uint64_t events() const;  ///< served so far
+    std::size_t size() const;             ///< robots
+    std::uint64_t events() const;         ///< served so far
+    std::uint64_t transmissions() const;  ///< frames put on air so far
     /// Bound on what the frames that `sinr` left out (Sinr::interference_cut) would have taken off
     /// a signal to interference ratio so far, if all on air anywhere came from just beyond the cut.
     std::optional<Db> interference_left_out() const;
