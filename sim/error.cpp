@@ -9,7 +9,8 @@
 namespace rovernet {
 namespace {
 
-/// Letters to insert, remove or replace, or neighbours to swap, so that one becomes the other.
+/// Number of letters to insert, remove or replace, and of neighbours to swap, so that one word
+/// becomes the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});

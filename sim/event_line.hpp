@@ -9,18 +9,27 @@
 
 namespace rovernet {
 
-/// Keys in order. They come nearly in order, each stepping in from the back past a few later ones
-/// at most, or in groups, each later than all before.
+/// Sorted run of event keys, for keys that come nearly in order. A key is inserted at most 8 places
+/// from the end; a group of up to 48 keys that are later than all others is appended at once.
+/// Removing the first costs an addition.
+///
+/// EventQueue has two: one for the ends of frames, which come nearly in the order in which the
+/// frames began because frames last about equally long, and one for the nearest of the other
+/// events.
 class EventLine {
   public:
-    static constexpr std::size_t most_at_once = 48;  ///< keys of a group
+    /// Keys in a group at most; append() counts with 6 bits.
+    static constexpr std::size_t most_at_once = 48;
 
+    /// Whether there is no key: the default key stands in front.
     bool empty() const { return front() == EventKey{}; }
+    /// Number of keys, those that were removed left out.
     std::size_t size() const { return keys_.size() - 1 - front_; }
-    /// The least key; if there is none, the default key.
+    /// Least key; the default key if the line is empty.
     EventKey front() const { return keys_[front_]; }
 
-    /// Adds a key, unless it comes before more than a few. @return whether it did
+    /// Inserts a key, unless it belongs before more than 8 others.
+    /// @return whether it was inserted; if not, the caller has to keep it elsewhere
     bool push(EventKey key) {
         std::size_t place = keys_.size() - 1;
         const std::size_t first = size() > few ? place - few : front_;
@@ -33,12 +42,15 @@ class EventLine {
             forget_gone();
         return true;
     }
-    /// Adds keys that come after all others. @param first not after their times, which differ from
-    /// it by less than 2^bits ns
+    /// Appends keys, in any order among themselves, that are later than all in the line.
+    /// @param group  1 to most_at_once keys
+    /// @param first  a time not after any of theirs
+    /// @param bits   their times differ from `first` by less than 2^bits ns
     void append(std::span<const EventKey> group, Time first, int bits);
-    /// Removes front(), if `remove`; there must be one then.
+    /// Removes front(), if `remove` is true; there must be a key then. It takes no branch, for
+    /// callers that do not know from which of two lines the next event comes.
     void pop_if(bool remove) { front_ += remove; }
-    /// Removes every key that `keep` refuses.
+    /// Removes every key for which keep(key) is false. It takes O(n).
     template <class Keep>
     void filter(Keep keep) {
         forget_gone();
@@ -46,17 +58,21 @@ class EventLine {
     }
 
   private:
+    // Places from the end that push() looks at.
     static constexpr std::size_t few = 8;
-    static constexpr std::size_t most_gone = 64;  // places that may always be left unused
+    // Places of removed keys that may always be left unused.
+    static constexpr std::size_t most_gone = 64;
 
+    // Gives back the places of the keys that were removed.
     void forget_gone() {
         keys_.erase(keys_.begin(), keys_.begin() + static_cast<std::ptrdiff_t>(front_));
         front_ = 0;
     }
 
-    // In order, from front_ on, and the default key behind them.
+    // Sorted from front_ on; the default key stands behind them.
     std::vector<EventKey> keys_ = std::vector<EventKey>(1);
-    std::size_t front_ = 0;  // those before it are gone
+    // Place of the least key; the keys before it were removed.
+    std::size_t front_ = 0;
 };
 
 }  // namespace rovernet

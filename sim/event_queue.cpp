@@ -34,8 +34,9 @@ void EventQueue::file(EventKey key) {
     ++filed_;
 }
 
-// Keys below the base can only be spilled if the buckets follow them. That moves what is filed
-// nearby; if that is much, it waits until as much has come in: till then the heap may grow.
+// Keys below the base can only be spilled if the base is lowered, which moves the keys in buckets
+// nearby. If these are many, the spill waits until as many keys have come in, and the heap may
+// grow.
 void EventQueue::spill() {
     for (; !near_.empty(); near_.pop_if(true)) heap_.push(near_.front());
     const Rank least = rank(heap_.top());
@@ -62,8 +63,8 @@ std::size_t EventQueue::filed_below(std::size_t level) const {
     return keys;
 }
 
-// All that shares more digits with the old base than the new base does, now differs from it in the
-// same digit.
+// Keys of levels from `end` on stay in their buckets: they differ from both bases in the same
+// digit.
 void EventQueue::lower_base(Rank base) {
     const std::size_t end = place(base, base_).level;
     base_ = base;
@@ -94,7 +95,8 @@ void EventQueue::refill() {
     near_end_ = ~Rank{0};
 }
 
-// With all digits that these keys share as the base, they fall by that many levels at once.
+// The new base has all digits that the keys of the bucket share: they fall by that many levels at
+// once.
 void EventQueue::deal_out(Place from) {
     const Bucket& bucket = buckets_[from.level][from.digit];
     const Rank any = rank(chunks_[bucket.chunk].keys[0]);

@@ -6,12 +6,12 @@
 namespace rovernet {
 namespace {
 
-/// Unlike ==, tells -0 from 0: a leg must come back as it was given.
+/// Equality of bits. Unlike ==, it tells -0 from 0: a leg must come back as it was given.
 bool same_bits(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-/// Keeps its height and does not turn.
+/// Whether a leg keeps its height and does not turn.
 bool level(const Leg& leg) {
     return same_bits(leg.velocity.z, 0) && same_bits(leg.from.z, leg.to.z) &&
            same_bits(leg.turning, 0);
@@ -41,7 +41,7 @@ void Legs::put(Place& place, const Leg& leg) {
     place.start = leg.start;
     place.from = leg.from;
     place.heading = leg.heading;
-    // Released first, so that the same place serves again.
+    // The old part is released first, so that its place serves again.
     if (place.motion != at_rest) release_motion(place.motion);
     place.motion = rests(leg) ? at_rest : take_motion(leg);
 }

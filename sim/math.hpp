@@ -2,17 +2,21 @@
 #pragma once
 
 /// Elementary functions with the same bits from every compiler and C library, for whatever decides
-/// or prints. Built from + - * / and bit operations, which IEEE 754 rounds in one way only; compile
-/// with -ffp-contract=off and in the default rounding mode. Called as math::log10(x).
+/// or prints. They are built from + - * / and bit operations, which IEEE 754 rounds in one way
+/// only; compile with -ffp-contract=off and in the default rounding mode. The square root needs no
+/// function here: IEEE 754 defines it. Called as math::log10(x).
 namespace rovernet::math {
 
-/// Logarithms; error below 1 ulp, exact wherever the result is an integer (log2(8), log10(1000)).
+/// Natural logarithm; error below 1 ulp. The logarithms to base 2 and 10 are as accurate, and exact
+/// wherever the result is an integer (log2(8), log10(1000)).
 ///
 /// 0 gives -infinity, negative arguments and NaN give NaN, infinity gives infinity; subnormal
 /// arguments are as accurate as others.
 double log(double x);
-double log2(double x);   ///< as log, to base 2
-double log10(double x);  ///< as log, to base 10
+/// Logarithm to base 2, as log().
+double log2(double x);
+/// Logarithm to base 10, as log().
+double log10(double x);
 /// log(1 + x) without the rounding of the sum; error below 1 ulp, +-0 for +-0. -1 gives -infinity,
 /// less than that and NaN give NaN, infinity gives infinity.
 double log1p(double x);
@@ -33,14 +37,14 @@ double expm1(double x);
 /// NaN.
 double erfc(double x);
 
-/// Sine and cosine of x [rad], each with an error below 1 ulp; sin(-x) = -sin(x) and
-/// cos(-x) = cos(x) to the last bit.
+/// Sine and cosine of an angle, each with an error below 1 ulp.
 struct SinCos {
     double sin;
     double cos;
 };
-/// For |x| <= 1e9; beyond (a step from one double to the next is 1e-7 rad there), for infinity and
-/// for NaN both are NaN.
+/// Sine and cosine of x [rad], |x| <= 1e9; sin(-x) = -sin(x) and cos(-x) = cos(x) to the last bit.
+/// For larger |x| (a step from one double to the next is 1e-7 rad there), for infinity and for NaN
+/// both are NaN.
 SinCos sincos(double x);
 
 /// Angle of the vector (x, y) [rad], -pi ... pi with the sign of y, counter-clockwise from the x

@@ -4,10 +4,18 @@
 #include <array>
 #include <cstddef>
 
+// Polynomials of elementary functions: the approximations of sim/math.hpp end in one.
+
 namespace rovernet::math {
 
-/// c[0] + c[1] x + c[2] x^2 + ... with an odd number of coefficients, rounded in the same way by
-/// every compiler. Even and odd terms apart: half the latency of Horner's rule.
+/// Polynomial c[0] + c[1] x + c[2] x^2 + ... with an odd number of coefficients. Every compiler
+/// rounds it in the same way.
+///
+/// Even and odd terms are summed apart, in x^2, and joined at the end: two short chains of
+/// multiplications instead of the long one of Horner's rule, so that it takes half the time until
+/// the result is there. math.cpp and the error rates of models/phy use it.
+///
+/// @param c  coefficients, of the lowest power first
 template <std::size_t N>
 double polynomial(const std::array<double, N>& c, double x) {
     static_assert(N % 2 == 1);

@@ -13,7 +13,7 @@ namespace {
 
 __extension__ using Uint128 = unsigned __int128;
 
-// Of a seed, a replication and a purpose.
+// Key of a seed, a replication and a purpose.
 std::uint64_t stream(std::uint64_t seed, std::uint32_t replication, Purpose purpose) {
     return combine(seed, std::uint64_t{replication} << 16 | static_cast<std::uint16_t>(purpose));
 }

@@ -5,6 +5,7 @@
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
+#include "sim/record_kind.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
@@ -14,80 +15,106 @@
 #include <string_view>
 #include <variant>
 
+// Records: everything that can be observed of a run. The parts of a network give them to
+// World::emit; traces, metrics, the fingerprint and the user's own sinks see records and nothing
+// else. They come in order of time. A record and what it points to is good while a sink handles it.
+
 namespace rovernet {
 
-/// One receiver of one transmission.
+/// Reception of one transmission at one receiver that could decode it if nothing interfered.
+/// Medium::find_receivers fixes node and time when the frame goes on air, whatever moves later;
+/// reception model and routing protocol fill in the rest when it ends.
 struct Reception {
-    Time time;  ///< end of the frame at this receiver
+    /// End of the frame at this receiver.
+    Time time;
     NodeId node;
     Fate fate = Fate::waiting;
-    bool delivered = false;  ///< handed to the application: the node's first copy
+    /// The application gets the message: it is the node's first copy, and for this node.
+    bool delivered = false;
 
-    /// The order in which a transmission arrives.
+    /// Order in which the receptions of a transmission are served: by time, then by node.
     friend bool operator<(const Reception& a, const Reception& b) {
         return a.time != b.time ? a.time < b.time : a.node < b.node;
     }
 };
 
-/// An application hands a message to its router.
+/// An application hands a message to the routing protocol, or to the MAC if it goes over one hop.
+/// Packets of a protocol's own have no Sent. Applications emit it before anything comes of the
+/// message.
 struct Sent {
     Time time;
     NodeId node;
     MessageId message;
-    Hops ttl;              ///< hops that the message may cross
-    std::uint32_t robots;  ///< robots in the network now, the sender included
-    /// Robots that a chain of links joins to the sender now, the sender not included; present only
-    /// if a sink asks for it (see kind_reachable, kind_cheap_reachable).
+    /// Hops that the message may cross.
+    Hops ttl;
+    /// Robots that the message concerns, the sender included: all that are there now; 2 for a
+    /// unicast.
+    std::uint32_t robots;
+    /// Robots of these that a chain of links joins to the sender now, the sender not included;
+    /// present only if a sink asks for it (see kind_reachable, kind_cheap_reachable). It bounds
+    /// what any protocol could reach if nothing moved.
     std::optional<std::uint32_t> reachable;
 };
 
-/// A node puts a frame on air.
+/// A node puts a frame of a message on air. A frame that csma repeats has one for each attempt. The
+/// MAC emits it as the frame begins.
 struct Transmitted {
     Time time;
     Frame frame;
-    std::optional<NodeId> heard_from;  ///< who the frame came from, if the sender forwards it
+    /// Node that the frame came from, if the sender forwards it.
+    std::optional<NodeId> heard_from;
 };
 
-/// A transmission (or a part of it) arrives: receptions in order of time, then of node, after all
-/// earlier records.
+/// A frame of a message ends at some of its receivers: a broadcast at all of them at once, or in
+/// several records if other events lie between; a unicast at the node that it is for. Routing emits
+/// it when the protocol has said what becomes of each copy, and before applications react.
 struct Received {
     Frame frame;
+    /// Receptions in order of time, then of node, later than all earlier records.
     std::span<const Reception> receptions;
-    Duration reserved{0};      ///< [ns] after its end, by a unicast at csma for its acknowledgement
-    std::uint32_t header = 0;  ///< [bytes] that access adds to the message
-    /// [dBm] Received power of each reception; empty unless a sink asks for it (see kind_levels).
+    /// Time [ns] that a unicast at csma reserves after its end, for its acknowledgement.
+    Duration reserved{0};
+    /// Bytes that the access model adds to the message.
+    std::uint32_t header = 0;
+    /// Received power [dBm] of each reception; empty unless a sink asks for it (see kind_levels).
     std::span<const Dbm> levels = {};
 };
 
-/// A copy is lost while it waits.
+/// A node loses a copy other than in a reception: while it waits there, or before it is on its way.
 struct Dropped {
     Time time;
     NodeId node;
-    Frame frame;  ///< as received
+    /// Frame as the node received it. A frame that the access model gives up is as it was to be
+    /// sent.
+    Frame frame;
     DropReason reason;
 };
 
-/// A node begins a new leg.
+/// A node begins a new leg: where it is from `time` on. The first one is that of the begin of the
+/// run, or of the time at which the robot is added. A robot that is switched off or on, or put
+/// elsewhere, has one as well.
 struct Moved {
     Time time;
     NodeId node;
     Leg leg;
 };
 
-/// A node has reached the end of its movement and rests.
+/// A node has reached the end of its movement and rests until it is given another.
 struct Arrived {
     Time time;
     NodeId node;
 };
 
-/// A node found no way to its goal and stays where it is.
+/// A node found no way around the walls to its goal, and stays where it is.
 struct NoWay {
     Time time;
     NodeId node;
-    Vec3 goal;  ///< [m]
+    /// Goal that could not be reached [m].
+    Vec3 goal;
 };
 
 /// From now on `to` can hear `from`. Links are ordered: the way back is a link of its own.
+/// LinkMonitor emits both records of links, at the instant of the change, if a sink wants them.
 struct LinkUp {
     Time time;
     NodeId from;
@@ -101,101 +128,40 @@ struct LinkDown {
     NodeId to;
 };
 
-/// A node's radio is switched on or off.
+/// A node's radio is switched on or off. Robots are on when they are added, without a record.
 struct Switched {
     Time time;
     NodeId node;
     bool on;
 };
 
-/// The MAC puts a frame on air: that of a message, told of by Transmitted too, or one that only
-/// controls access.
+/// The MAC puts a frame on air: that of a message, for which Transmitted comes just before, or a
+/// control frame.
 struct AirSent {
     Time time;
     AirFrame air;
-    std::uint32_t bytes;  ///< what access adds included
-};
-
-/// A frame that only controls access ends at the station that it is for.
-struct ControlReceived {
-    AirFrame air;
-    Reception reception;  ///< fate: waiting, or why it was lost
+    /// Size [bytes], what the access model adds included.
     std::uint32_t bytes;
 };
 
-/// Everything observable. A lost packet is a record: never an exception, never a log line.
+/// A control frame ends at the station that it is for, if that is on.
+struct ControlReceived {
+    AirFrame air;
+    /// Its end; its fate is `waiting` if the station has it, else why it was lost.
+    Reception reception;
+    /// Size [bytes].
+    std::uint32_t bytes;
+};
+
+/// Any record. A lost packet is a record: never an exception, never a line in a log.
 using Record = std::variant<Sent, Transmitted, Received, Dropped, Moved, Arrived, NoWay, Switched,
                             LinkUp, LinkDown, AirSent, ControlReceived>;
 
-/// A set of record kinds, for sinks to say what they want.
-using KindMask = std::uint32_t;
-
-template <class T>
-constexpr KindMask kind_of();
-template <>
-constexpr KindMask kind_of<Sent>() {
-    return 1U << 0;
-}
-template <>
-constexpr KindMask kind_of<Transmitted>() {
-    return 1U << 1;
-}
-template <>
-constexpr KindMask kind_of<Received>() {
-    return 1U << 2;
-}
-template <>
-constexpr KindMask kind_of<Dropped>() {
-    return 1U << 3;
-}
-template <>
-constexpr KindMask kind_of<Moved>() {
-    return 1U << 4;
-}
-template <>
-constexpr KindMask kind_of<Arrived>() {
-    return 1U << 5;
-}
-template <>
-constexpr KindMask kind_of<NoWay>() {
-    return 1U << 6;
-}
-template <>
-constexpr KindMask kind_of<Switched>() {
-    return 1U << 7;
-}
-
-template <>
-constexpr KindMask kind_of<LinkUp>() {
-    return 1U << 8;
-}
-template <>
-constexpr KindMask kind_of<LinkDown>() {
-    return 1U << 9;
-}
-template <>
-constexpr KindMask kind_of<AirSent>() {
-    return 1U << 10;
-}
-template <>
-constexpr KindMask kind_of<ControlReceived>() {
-    return 1U << 11;
-}
-/// Both link records. They cost a search for link changes, which runs only if a sink asks.
-inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();
-
-/// Not a record: asks that Sent carries `reachable`, which costs a search of the network.
-inline constexpr KindMask kind_reachable = 1U << 31;
-/// Not a record: as kind_reachable, as long as that is cheap (Reachability::cheap_searches).
-inline constexpr KindMask kind_cheap_reachable = 1U << 30;
-/// Not a record: asks that Received carries `levels`, which costs a look at each receiver.
-inline constexpr KindMask kind_levels = 1U << 29;
-/// All records, and nothing that costs more.
-inline constexpr KindMask kind_all = 0x1fffffff;
-
-/// What a sink may look up while it handles a record.
+/// State of the network that a sink may look up while it handles a record.
 struct RecordContext {
+    /// Legs of all robots, as they are now.
     const Legs& legs;
+    /// Messages that a frame or a copy still refers to: those of the record are among them.
     const MessageTable& messages;
 };
 

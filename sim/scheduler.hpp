@@ -14,37 +14,56 @@
 
 namespace rovernet {
 
-/// What Scheduler::cancel wants to know; a default handle belongs to no event.
+/// Handle of an event, for Scheduler::cancel; a default handle belongs to no event. It may outlive
+/// its event: a sequence is given only once.
 struct EventHandle {
     std::uint32_t slot = 0;
     std::uint64_t sequence = ~std::uint64_t{0};
 };
 
-/// How much a Scheduler takes before it throws; the defaults are the most that a key can hold.
+/// Limits beyond which a Scheduler throws; the defaults are the most that a key can hold.
 struct SchedulerLimits {
-    std::uint64_t pending = std::uint64_t{1} << 24;    ///< events queued at once
-    std::uint64_t scheduled = std::uint64_t{1} << 36;  ///< calls of schedule() in one run
+    /// Events queued at once.
+    std::uint64_t pending = std::uint64_t{1} << 24;
+    /// Calls of schedule() in one run.
+    std::uint64_t scheduled = std::uint64_t{1} << 36;
 };
 
+/// Throws the error for a limit that is reached.
+/// @param state  "pending" or "scheduled"
 /// @throws RunError "more than {limit} events are {state}; ..."
 [[noreturn]] void throw_too_many_events(const char* state, std::uint64_t limit);
 
-/// The queue of events to come, served in the order of EventKey.
+/// Events to come, served in the order of EventKey: time, priority, then first scheduled, first
+/// served. Engine::advance is its loop: pop(), set the clock, act on the payload.
 ///
-/// Payloads lie apart from the keys in reused slots; memory grows only beyond the most keys that
-/// were ever pending. A cancelled key stays until it comes up, or until half of all keys are dead.
+/// The queue holds keys only, and payloads lie apart from them in slots that are used again; memory
+/// grows only beyond the most keys that were ever pending. A cancelled key stays in the queue until
+/// it comes up, or until half of all keys are cancelled; then all are removed.
 ///
-/// @tparam Payload  movable, default-constructible; best small, and what tells events apart
+/// A typical use, with `handle` kept for an event that may become void:
+///
+///   const auto handle = events.schedule(now + 5ms, Priority::timer, payload);
+///   events.cancel(handle);
+///   while (!events.empty()) {
+///       const auto event = events.pop();
+///       now = event.key.time();
+///       serve(event.payload);
+///   }
+///
+/// @tparam Payload  what an event is about: movable and default-constructible, best small
 template <class Payload>
 class Scheduler {
   public:
     using Key = EventKey;
     using Handle = EventHandle;
+    /// Event that was taken out of the queue.
     struct Event {
         Key key;
         Payload payload;
     };
 
+    /// @param limits  at most the default limits
     explicit Scheduler(SchedulerLimits limits = {}) : limits_(limits) {
         static_assert(std::movable<Payload> && std::default_initializable<Payload>);
         assert(limits.pending <= SchedulerLimits{}.pending);
@@ -60,14 +79,17 @@ class Scheduler {
     }
 
     /// Queues the rest of a popped event under its key, perhaps moved to a later time by Key::at.
-    /// It keeps its place among equals, does not count as scheduled, and cannot be cancelled.
-    /// At most once per pop. @throws RunError as schedule()
+    /// It keeps its place among equals, does not count as scheduled, and cannot be cancelled. At
+    /// most once per pop. Channel does this with a transmission whose receptions lie before and
+    /// after other events.
+    /// @throws RunError as schedule()
     void requeue(Key key, Payload payload) {
         assert(key.sequence() < scheduled_);
         queue(key.time(), key.priority(), key.sequence(), key.sequence() | requeued, payload);
     }
 
-    /// Takes an event out of the queue. False if it was already popped, cancelled or requeued.
+    /// Takes an event out of the queue, and its payload with it. @return false if it was already
+    /// popped, cancelled or requeued
     bool cancel(Handle handle) {
         const std::size_t i = handle.slot;
         if (i >= slots_.size() || slots_[i].tag != handle.sequence) return false;
@@ -91,24 +113,27 @@ class Scheduler {
         return event;
     }
 
-    /// The key of the event that is served next; if there is none, one after every event.
+    /// Key of the event that is served next; if there is none, one after every event.
     Key next_key() const { return queue_.top(); }
-    /// The time of the event that is served next.
+    /// Time of the event that is served next; nothing if there is none.
     std::optional<Time> next_time() const {
         return empty() ? std::nullopt : std::optional(queue_.top().time());
     }
-    /// What the event is about that is served next; there must be one.
+    /// Payload of the event that is served next; there must be one.
     const Payload& next() const { return slots_[queue_.top().slot()].payload; }
-    /// Would an event with this key be served before everything that is queued?
+    /// Whether an event with this key would be served before everything that is queued.
     bool runs_before_next(Key key) const { return key < queue_.top(); }
 
+    /// Whether no event is to come.
     bool empty() const { return queue_.empty(); }
-    std::size_t size() const { return queue_.size() - dead_; }  ///< events queued and not cancelled
-    std::uint64_t scheduled() const { return scheduled_; }      ///< calls of schedule() so far
+    /// Number of events that are queued and not cancelled.
+    std::size_t size() const { return queue_.size() - dead_; }
+    /// Number of calls of schedule() so far.
+    std::uint64_t scheduled() const { return scheduled_; }
 
   private:
-    // The tag of a live slot is its event's sequence, perhaps with `requeued`; that of a free slot
-    // is `released` | the next free slot.
+    // Tags of slots: that of a live slot is its event's sequence, perhaps with `requeued`; that of
+    // a free slot is `released` | the next free slot.
     static constexpr std::uint64_t released = std::uint64_t{1} << 63;
     static constexpr std::uint64_t requeued = std::uint64_t{1} << 62;
     static constexpr std::uint32_t no_slot = 0xffffffff;
@@ -117,6 +142,7 @@ class Scheduler {
         Payload payload;
     };
 
+    // Puts a key into the queue, and tag and payload into a slot. @return the slot
     std::uint32_t queue(Time t, Priority priority, std::uint64_t sequence, std::uint64_t tag,
                         Payload& payload) {
         assert(t >= last_popped_);
@@ -133,24 +159,27 @@ class Scheduler {
         return std::exchange(first_free_, static_cast<std::uint32_t>(slots_[first_free_].tag));
     }
 
-    // Out of line, as it is rare: schedule() takes fewer registers.
+    // Makes one more slot. Out of line, as it is rare: schedule() takes fewer registers.
     [[gnu::noinline]] void add_slot() {
         if (slots_.size() == limits_.pending) throw_too_many_events("pending", limits_.pending);
         slots_.push_back({released | first_free_, Payload{}});
         first_free_ = static_cast<std::uint32_t>(slots_.size() - 1);
     }
 
+    // Frees a slot: it is the first to be taken again.
     void release(std::uint32_t slot) {
         slots_[slot].tag = released | std::exchange(first_free_, slot);
     }
 
+    // Whether a key's event was not cancelled: its slot still has its sequence.
     bool is_live(Key key) const { return (slots_[key.slot()].tag & ~requeued) == key.sequence(); }
 
-    // Keeps a live key on top, so that looking at it changes nothing.
+    // Removes cancelled keys from the top, so that looking at the next event changes nothing.
     void drop_dead_tops() {
         for (; dead_ > 0 && !is_live(queue_.top()); --dead_) queue_.pop();
     }
 
+    // Removes all cancelled keys.
     void purge() {
         queue_.filter([this](Key key) { return is_live(key); });
         dead_ = 0;
@@ -158,9 +187,12 @@ class Scheduler {
 
     EventQueue queue_;
     std::vector<Slot> slots_;
+    // Free slots are chained through their tags.
     std::uint32_t first_free_ = no_slot;
-    std::size_t dead_ = 0;  // cancelled keys that are still in the queue
+    // Cancelled keys that are still in the queue.
+    std::size_t dead_ = 0;
     std::uint64_t scheduled_ = 0;
+    // Time of the last event that was popped; no event is scheduled before it.
     Time last_popped_ = Time::min();
     SchedulerLimits limits_;
 };

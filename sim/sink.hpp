@@ -11,41 +11,58 @@
 #include <string_view>
 #include <utility>
 
-// The port of those who observe a run. A sink is a plain struct that satisfies RecordSink; the
-// handle Sink shares it.
+// The port of those who observe a run: traces, metrics, fingerprints, pictures. A sink is a plain
+// struct that satisfies RecordSink; the handle Sink shares it. examples/own_sink.cpp has one.
+//
+//     struct Losses {
+//         std::uint64_t count = 0;
+//         KindMask kinds() const { return kind_of<Dropped>(); }
+//         void on(const Record&, const RecordContext&) { ++count; }
+//     };
+//     const auto losses = std::make_shared<Losses>();
+//     network.add_sink(Sink{losses});
 
 namespace rovernet {
 
-/// What a sink may want to know of a run before its first record.
+/// Facts about a run that a sink may want before its first record: for the head of a file, say.
 struct RunInfo {
-    std::function<std::string()> scenario;  ///< as TOML, every default filled in; may be empty
-    std::size_t robots;                     ///< so far
-    std::function<std::string_view(NodeId)> name;  ///< of a robot, good until the next is added
+    /// Scenario as TOML, every default filled in. The function may be empty: a network that was
+    /// made in code.
+    std::function<std::string()> scenario;
+    /// Number of robots so far; more may be added.
+    std::size_t robots;
+    /// Name of a robot, good until the next one is added. @throws std::out_of_range
+    std::function<std::string_view(NodeId)> name;
+    /// Seed and replication of the random draws.
     std::uint64_t seed;
     std::uint32_t replication;
 };
 
-/// An observer of records: says once which kinds it wants, then gets each of them in order.
+/// Observer of records. kinds() says once, when it is added, which kinds it wants; on() then gets
+/// each of them, in the order of the run. What it may look up meanwhile is in the context.
+///
+/// A sink only watches: it must not change the network.
 template <class T>
 concept RecordSink = requires(T sink, const Record& record, const RecordContext& context) {
     { std::as_const(sink).kinds() } -> std::convertible_to<KindMask>;
     {sink.on(record, context)};
 };
-/// One that is told when the run begins, before the first record; or when it is added, if that is
+/// Sink that is told when the run begins, before the first record; or when it is added, if that is
 /// later.
 template <class T>
 concept BeginsWithRun = requires(T sink, const RunInfo& run) {
     {sink.begin(run)};
 };
-/// One that is told when the run is over, after the last record.
+/// Sink that is told when the run is over, after the last record: Network::finish() says so.
 template <class T>
 concept FinishesWithRun = requires(T sink) {
     {sink.finish()};
 };
 
-/// Any sink, shared: the caller may keep a handle to ask it for its result.
+/// Handle of any sink, shared: the caller may keep a pointer to the sink and ask it for its result.
 class Sink {
   public:
+    /// @param sink  not null; it is asked for its kinds now
     template <RecordSink T>
     Sink(std::shared_ptr<T> sink)
         : kinds_(sink->kinds()),
@@ -59,10 +76,13 @@ class Sink {
               if constexpr (FinishesWithRun<T>) static_cast<T*>(p)->finish();
           }),
           self_(std::move(sink)) {}
+    /// Moves the sink into the handle, for sinks that nobody asks for a result.
     template <RecordSink T>
     Sink(T sink) : Sink(std::make_shared<T>(std::move(sink))) {}
 
+    /// Kinds of records that it wants.
     KindMask kinds() const { return kinds_; }
+    /// Calls of the sink; begin() and finish() do nothing if it has none.
     void begin(const RunInfo& run) const { begin_(self_.get(), run); }
     void on(const Record& record, const RecordContext& context) const {
         on_(self_.get(), record, context);
@@ -70,6 +90,8 @@ class Sink {
     void finish() const { finish_(self_.get()); }
 
   private:
+    // Functions of the sink, by its type, and the sink itself: a call is one jump, and a sink needs
+    // no base class.
     KindMask kinds_;
     void (*on_)(void*, const Record&, const RecordContext&);
     void (*begin_)(void*, const RunInfo&);

@@ -8,12 +8,20 @@
 
 namespace rovernet {
 
-/// Numbered places for values that come and go: freed places are used again, and a value stays
-/// where it is while others come. Grows only beyond the most that were ever taken at once.
+/// Numbered places for values that come and go, such as frames in flight. A place that was released
+/// is used again, and a value stays where it is while others come: references stay valid. Memory
+/// grows only beyond the most places that were ever taken at once.
+///
+///   const std::size_t slot = flights.take();
+///   flights[slot] = ...;
+///   flights.release(slot);
+///
+/// @tparam T  as for Chunks
 template <class T>
 class Slots {
   public:
-    /// Takes a place; it holds what its last user left there, whose memory may serve again.
+    /// Takes a place, the last that was released. It holds what its last user left there, so that
+    /// its memory (of a vector, say) may serve again; a new place holds T{}.
     std::size_t take() {
         if (free_.empty()) {
             values_.push_back({});
@@ -23,13 +31,17 @@ class Slots {
         free_.pop_back();
         return slot;
     }
+    /// Gives a place back, once. Its value stays, unused.
     void release(std::size_t slot) { free_.push_back(slot); }
 
+    /// Value in a place that is taken; not checked.
     T& operator[](std::size_t slot) { return values_[slot]; }
     const T& operator[](std::size_t slot) const { return values_[slot]; }
 
   private:
+    // Values of all places, taken or not.
     Chunks<T> values_;
+    // Places that were released and not taken again.
     std::vector<std::size_t> free_;
 };
 

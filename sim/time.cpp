@@ -7,7 +7,7 @@
 namespace rovernet {
 namespace {
 
-/// To the nearest integer, from halves away from zero: std::llround(x), which is a call.
+/// Nearest integer, from halves away from zero: std::llround(x), which is a call.
 std::int64_t rounded(double x) {
     const auto whole = static_cast<std::int64_t>(x);
     const double rest = x - static_cast<double>(whole);  // exact

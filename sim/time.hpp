@@ -4,9 +4,13 @@
 #include <chrono>
 #include <cstdint>
 
+// Time is a whole number of nanoseconds: it adds up exactly, and events that are due at one time
+// are so on every machine. Seconds as a double are for formulas and for input only.
+
 namespace rovernet {
 
-/// The simulation's clock: signed 64-bit nanoseconds since the start of the run (292 years).
+/// Clock of the simulation: signed 64-bit nanoseconds since the start of the run (292 years). It
+/// has no now(): World::now says what time it is.
 struct SimClock {
     using rep = std::int64_t;
     using period = std::nano;
@@ -15,17 +19,22 @@ struct SimClock {
     static constexpr bool is_steady = true;
 };
 
-using Duration = SimClock::duration;  ///< [ns], exact
-using Time = SimClock::time_point;    ///< [ns] since the start of the run, exact
+/// Length of time [ns], exact. The literals of std::chrono make one: 10ms.
+using Duration = SimClock::duration;
+/// Point in time [ns] since the start of the run, exact.
+using Time = SimClock::time_point;
 
+/// First instant of a run: 0 s.
 inline constexpr Time start_of_run{};
+/// Time after every other: what does not happen.
 inline constexpr Time never = Time::max();
 
-/// `d` in seconds [s], for formulas; exact below 2^53 ns (104 days).
+/// Length of time in seconds [s], for formulas; exact to the nanosecond below 2^53 ns (104 days).
 constexpr double seconds(Duration d) { return static_cast<double>(d.count()) / 1e9; }
+/// Time since the start of the run [s], as exact.
 constexpr double seconds(Time t) { return seconds(t.time_since_epoch()); }
 
-/// The duration nearest to `s` seconds [s].
+/// Duration nearest to `s` seconds [s]; halves of a nanosecond are rounded away from zero.
 /// @throws std::invalid_argument unless |s| <= 9.2e9 (292 years)
 Duration from_seconds(double s);
 

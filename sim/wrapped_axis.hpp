@@ -8,31 +8,43 @@
 
 namespace rovernet {
 
-/// One axis of a grid whose cells wrap around: so many cells, each so wide, serve the whole line.
+/// Axis of a grid whose cells wrap around: a fixed number of cells of equal width serves the whole
+/// line, cell c standing for every interval c, c + cells, c + 2 cells ...
+///
+/// So a grid needs no bounds and never grows, wherever robots go. Intervals that are far apart may
+/// share a cell: a query has to check what it finds. Two axes make a grid, as in the index of the
+/// medium (NeighbourIndex) and that of the frames on air (OnAir).
 class WrappedAxis {
   public:
+    /// @param width  of a cell [m], > 0
+    /// @param cells  number of cells, > 0
     explicit WrappedAxis(double width = 1, std::size_t cells = 1)
         : width_(width), per_meter_(1 / width), cells_(cells) {}
 
-    double width() const { return width_; }       ///< [m] of a cell
-    std::size_t cells() const { return cells_; }  ///< of the axis
+    /// Width of a cell [m].
+    double width() const { return width_; }
+    /// Number of cells.
+    std::size_t cells() const { return cells_; }
 
-    /// The cell of `x` [m].
+    /// Cell of the coordinate `x` [m], 0 ... cells() - 1.
     std::size_t cell_at(double x) const { return wrapped(unwrapped(x)); }
 
-    /// Cells in one row, or in two where they wrap around: the second begins with cell 0.
+    /// Cells of a query: one row [begin, end), and a second one [0, wrapped_end) where they wrap
+    /// around.
     struct Cells {
         std::size_t begin, end, wrapped_end;
 
+        /// Number of cells, in both rows.
         std::size_t count() const { return end - begin + wrapped_end; }
-        /// Calls use(begin, end) for each row.
+        /// Calls use(begin, end) for each row that has cells.
         template <class Use>
         void each(Use use) const {
             use(begin, end);
             if (wrapped_end > 0) use(std::size_t{0}, wrapped_end);
         }
     };
-    /// Those from `centre` - `reach` to `centre` + `reach` [m], each once; `reach` may be infinite.
+    /// Cells that may hold coordinates from `centre` - `reach` to `centre` + `reach` [m], each
+    /// once; `reach` may be infinite. A margin for rounding is added, so that none is missed.
     Cells near(double centre, double reach) const {
         const double rounding = 1e-9 * (std::abs(centre) + reach);
         const std::int64_t first = unwrapped(centre - reach - rounding);
@@ -43,20 +55,24 @@ class WrappedAxis {
     }
 
   private:
-    static constexpr double far = 1e15;  // [cells] positions beyond it share the last cell
+    // Number of cells from the origin [cells] from which on all positions share the last cell.
+    static constexpr double far = 1e15;
 
+    // Number of the interval that `x` [m] lies in, counted from the origin.
     std::int64_t unwrapped(double x) const {
         return static_cast<std::int64_t>(std::floor(std::min(far, std::max(-far, x * per_meter_))));
     }
+    // Cell that stands for an interval.
     std::size_t wrapped(std::int64_t cell) const {
         const auto n = static_cast<std::int64_t>(cells_);
-        // Most are on the axis as they are: a division would take longer than all else here.
+        // Most intervals are their own cell: a division would take longer than all else here.
         const std::int64_t rest = cell >= 0 && cell < n ? cell : cell % n;
         return static_cast<std::size_t>(rest < 0 ? rest + n : rest);
     }
 
     double width_;
-    double per_meter_;  // [cells]
+    // Cells in a metre [1/m].
+    double per_meter_;
     std::size_t cells_;
 };
 
