@@ -152,7 +152,7 @@ TEST_CASE("coverage: the price of it, as widths beside Student's where that is r
     struct Price {
         double deviation;  ///< of normal values around 0.5, nearly all in [0, 1]
         std::size_t n;
-        double ratio;  ///< as the table in docs/experiments.md has it
+        double ratio;  ///< as the table in docs/intervals.md has it
     };
     for (const auto& [deviation, n, ratio] : {Price{0.05, 10, 5.6},
                                               {0.05, 30, 4.2},

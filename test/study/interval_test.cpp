@@ -41,7 +41,7 @@ TEST_CASE("interval: values with two bounds bet, others have Student's t") {
 
 TEST_CASE("interval: of a ratio that was 1 in every replication it reaches below 1") {
     const auto interval = interval_of(std::vector<double>(30, 1.0), share);
-    CHECK(std::abs(interval->low - 0.8475) < 5e-5);  // as docs/experiments.md says
+    CHECK(std::abs(interval->low - 0.8475) < 5e-5);  // as docs/intervals.md says
     CHECK(interval->high == 1);
 }
 
