@@ -164,12 +164,10 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
                       .sender = medium.radio(a),
                       .receiver = medium.radio(b),
                       .path_loss = medium.path_loss(a, b, at, network.legs()),
-                      .received = {},
-                      .margin = {},
+                      .received = medium.level(a, b, at, network.legs()),
+                      .margin = medium.margin(a, b, at, network.legs()),
                       .up = false,
                       .why_down = {}};
-    report.received = received_power(report.sender, report.receiver, report.path_loss);
-    report.margin = link_budget(report.sender, report.receiver) - report.path_loss;
     report.up = medium.link_up(a, b, at, network.legs());
     if (!report.up) report.why_down = why_down(network, a, b, report);
     if (medium.model(a).shape() == LossShape::by_walls) {

@@ -133,20 +133,19 @@ Array cut_robots(const Graph& graph, const Network& network) {
 }
 
 Table robot_document(const Network& network, const Device& device, NodeId node) {
-    const Vec3 p = network.position(node);
-    const Radio& radio = network.medium().radio(node);
+    const RobotState robot = network.robot(node);
     Table table;
     table.set("name", device.robot);
-    table.set("x_m", p.x);
-    table.set("y_m", p.y);
-    table.set("z_m", p.z);
-    table.set("heading_rad", network.heading(node).value);
-    table.set("on", network.presence(node) == Presence::on);
-    table.set("presence", name_of(network.presence(node)));
-    table.set("model", network.medium().model(node).name());
-    table.set("power_dbm", radio.power.value);
-    table.set("sensitivity_dbm", radio.sensitivity.value);
-    table.set("frequency_hz", radio.frequency.value);
+    table.set("x_m", robot.at.x);
+    table.set("y_m", robot.at.y);
+    table.set("z_m", robot.at.z);
+    table.set("heading_rad", robot.heading.value);
+    table.set("on", robot.presence == Presence::on);
+    table.set("presence", name_of(robot.presence));
+    table.set("model", robot.propagation.name());
+    table.set("power_dbm", robot.radio.power.value);
+    table.set("sensitivity_dbm", robot.radio.sensitivity.value);
+    table.set("frequency_hz", robot.radio.frequency.value);
     table.set("essid", device.essid);
     table.set("ip", device.ip);
     table.set("mac", device.mac);

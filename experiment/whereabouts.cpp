@@ -21,9 +21,9 @@ Whereabouts everybody(const Network& network) {
         const NodeId node{i};
         const Leg& leg = network.legs().leg(node);
         const bool moves = now.time < leg.end;
-        now.robots.push_back({network.name(node), network.position(node),
-                              moves ? leg.velocity : Vec3{}, network.heading(node).value,
-                              network.presence(node)});
+        RobotState robot = network.robot(node);
+        now.robots.push_back({std::move(robot.name), robot.at, moves ? leg.velocity : Vec3{},
+                              robot.heading.value, robot.presence});
     }
     return now;
 }

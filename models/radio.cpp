@@ -12,8 +12,4 @@ Dbm noise_floor(Hertz bandwidth, Db noise_figure) {
 
 Dbm noise_floor(const Radio& radio) { return noise_floor(radio.bandwidth, radio.noise_figure); }
 
-Duration airtime(const Radio& radio, std::uint32_t bytes) {
-    return radio.preamble + from_seconds(8.0 * bytes / radio.rate.value);
-}
-
 }  // namespace rovernet

@@ -5,7 +5,6 @@
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -94,33 +93,10 @@ struct Radio {
     }
 };
 
-/// The largest path loss [dB] at which `to` still receives `from`:
-/// power + gain - cable loss of the transmitter, + gain - cable loss - sensitivity of the receiver.
-/// Source: the 2007 thesis, table 3.1, with the sensitivity subtracted as it must be.
-constexpr Db link_budget(const Radio& from, const Radio& to) {
-    return (from.power - to.sensitivity) + from.antenna_gain - from.cable_loss + to.antenna_gain -
-           to.cable_loss;
-}
-
-/// The largest path loss [dB] at which `to` senses that `from` sends; no less than link_budget.
-constexpr Db sensing_budget(const Radio& from, const Radio& to) {
-    const Dbm threshold = to.carrier_sense_threshold.value_or(to.sensitivity);
-    return link_budget(from, to) + std::max(Db{0}, to.sensitivity - threshold);
-}
-
-/// Received power [dBm] after `path_loss` between the antennas.
-constexpr Dbm received_power(const Radio& from, const Radio& to, Db path_loss) {
-    return from.power + from.antenna_gain - from.cable_loss - path_loss + to.antenna_gain -
-           to.cable_loss;
-}
-
 /// Thermal noise at 290 K in a bandwidth, plus the receiver's noise figure:
 /// -173.975 dBm + 10 log10(B / 1 Hz) + NF. Source: k T_0 with the CODATA 2018 value of k.
 Dbm noise_floor(Hertz bandwidth, Db noise_figure);
 /// That of a radio's receiver.
 Dbm noise_floor(const Radio& radio);
-
-/// Time on air of `bytes` [bytes]: preamble + bits / rate, rounded to the nearest nanosecond.
-Duration airtime(const Radio& radio, std::uint32_t bytes);
 
 }  // namespace rovernet

@@ -59,6 +59,7 @@ Channel::Channel(World& world, ChannelUser& user) : world_(world), user_(user) {
     if (!judge) return;
     interference_.emplace(Interference::Settings{.medium = &world.medium,
                                                  .legs = &world.legs,
+                                                 .phy = &world.phy,
                                                  .all_frames = world.settings.reference,
                                                  .seed = world.settings.seed,
                                                  .replication = world.settings.replication},
@@ -164,7 +165,7 @@ void Channel::goes(NodeId node, const Leg& leg) {
 }
 
 void Channel::check(BitRate rate) const {
-    if (interference_) interference_->rule().check(rate);
+    if (interference_) interference_->rule().check(world_.phy, rate);
 }
 
 std::optional<Db> Channel::interference_left_out() const {

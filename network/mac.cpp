@@ -25,7 +25,8 @@ Time Mac::transmit(const AirFrame& air) {
     if (world_.records.wants<AirSent>()) world_.emit(AirSent{world_.now, air, bytes(air)});
     const BitRate rate = rate_of(air);
     const Channel::Sending how{
-        .airtime = access_->airtime(world_.medium.radio(air.frame.sender), rate, bytes(air)),
+        .airtime =
+            world_.phy.airtime(world_.medium.radio(air.frame.sender).preamble, rate, bytes(air)),
         .rate = rate,
         .is_sensed = listens_};
     const auto receptions = channel_.transmit(air, how);
@@ -59,7 +60,7 @@ BitRate Mac::rate_of(const AirFrame& frame) const {
 
 Duration Mac::airtime(const AirFrame& frame) const {
     const Radio& radio = world_.medium.radio(frame.frame.sender);
-    return access_->airtime(radio, rate_of(frame), bytes(frame));
+    return world_.phy.airtime(radio.preamble, rate_of(frame), bytes(frame));
 }
 
 void Mac::access_timer(NodeId node, Time at, std::uint32_t tag) {

@@ -126,12 +126,21 @@ Radians Network::heading(NodeId node) const {
     return {wrapped(engine_->world.legs.leg(node).heading_at(now()))};
 }
 
-Presence Network::presence(NodeId node) const {
-    if (engine_->world.medium.is_on(engine_->known(node))) return Presence::on;
-    const auto away = engine_->away.find(node);
-    return away == engine_->away.end() ? Presence::off : away->second;
+RobotState Network::robot(NodeId node) const {
+    const Medium& medium = engine_->world.medium;
+    Presence presence = Presence::on;
+    if (!medium.is_on(engine_->known(node))) {
+        const auto away = engine_->away.find(node);
+        presence = away == engine_->away.end() ? Presence::off : away->second;
+    }
+    return {.name = name(node),
+            .at = position(node),
+            .heading = heading(node),
+            .radius = engine_->motion.body(node).radius,
+            .presence = presence,
+            .radio = medium.radio(node),
+            .propagation = medium.model(node)};
 }
-Meters Network::radius(NodeId node) const { return engine_->motion.body(node).radius; }
 const NetworkSettings& Network::settings() const { return engine_->world.settings; }
 
 std::vector<Neighbour> Network::links(NodeId node, Time t) const {

@@ -2,92 +2,32 @@
 #pragma once
 
 #include "mobility/movement.hpp"
-#include "models/access/no_access.hpp"
-#include "models/links/link_search.hpp"
 #include "models/medium/medium.hpp"
 #include "models/medium/neighbour.hpp"
-#include "models/propagation/friis.hpp"
-#include "models/propagation/propagation.hpp"
-#include "models/radio.hpp"
-#include "models/reception/judge.hpp"
+#include "network/robot.hpp"
+#include "network/settings.hpp"
 #include "network/subscription.hpp"
-#include "sim/fields.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
 #include "sim/router.hpp"
-#include "sim/scheduler.hpp"
 #include "sim/sink.hpp"
 #include "sim/time.hpp"
-#include "traces/metrics.hpp"
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
 
-/// A robot as it joins a Network.
-struct Robot {
-    std::string name;    ///< unique; its random draws depend on it. Empty: "r" and its number
-    Vec3 at;             ///< [m] where it starts
-    Meters radius{0.2};  ///< of its body, for ways around walls
-    Radio radio = {};
-    std::optional<Propagation> propagation = std::nullopt;  ///< the Network's default if not given
-    Movement move = Fixed{};
-    Radians heading{0};                                                  ///< at the start
-    MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};  ///< > 0
-    /// Within turn_rates: it turns in place before it moves off; none: it turns at once.
-    std::optional<RadiansPerSecond> turn_rate = std::nullopt;
-};
-
-/// Whether a robot takes part in what happens.
-enum class Presence {
-    on,            ///< it is there, its radio is on
-    off,           ///< it is there, switched off
-    not_departed,  ///< it is not there yet, and off: where it is means where it will appear
-    left,          ///< it is not there any more, and off: where it is means where it was last
-};
-
-template <>
-struct EnumNames<Presence> {
-    static constexpr std::array<std::string_view, 4> values = {"on", "off", "not_departed", "left"};
-};
-
 /// How a message came.
 struct Heard {
     int hops;  ///< that it crossed
-};
-
-/// What a Network is made with.
-struct NetworkSettings {
-    std::uint64_t seed = 1;
-    std::uint32_t replication = 0;
-    Propagation propagation = Friis{};             ///< of robots that do not have their own
-    std::shared_ptr<const Scene> scene = nullptr;  ///< null: an open field
-    /// Planners of the scene, if some are kept from an earlier run in it; see KeptPlanners.
-    std::shared_ptr<Planners> planners = nullptr;
-    Meters floor_height{3};                   ///< [m] of one storey
-    LinkSearch links = {};                    ///< how link changes are looked for
-    ReceptionModel reception = Threshold{};   ///< what becomes of frames at a receiver
-    AccessModel access = NoAccess{};          ///< how robots get access to the medium
-    bool propagation_delay = true;            ///< frames travel at the speed of light
-    std::uint64_t event_limit = 100'000'000;  ///< a run that needs more events fails
-    /// For tests: looks at every pair of robots; receptions at different times are separate events.
-    /// Slow, and the same to the last record.
-    bool reference = false;
-    bool metrics = true;            ///< keep Metrics
-    MetricParts metric_parts = {};  ///< which parts of the traffic they count one by one
-    /// The scenario as TOML for sinks that ask for it, see RunInfo; empty: a network made in code.
-    std::function<std::string()> scenario = {};
-    Duration warmup{0};  ///< Metrics leave out the messages that are sent before it is over
 };
 
 /// A sink of a Network.
@@ -194,8 +134,7 @@ class Network {
     std::vector<Neighbour> links(NodeId node, Time t) const;
     /// Appends to `out` who would hear `node` if it sent now, in no order to rely on.
     void find_hearers(NodeId node, std::vector<NodeId>& out);
-    Presence presence(NodeId node) const;  ///< now
-    Meters radius(NodeId node) const;      ///< of its body
+    RobotState robot(NodeId node) const;  ///< now
     const NetworkSettings& settings() const;
     const Legs& legs() const;
     const Medium& medium() const;  ///< its radio and model among all else

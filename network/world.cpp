@@ -26,7 +26,8 @@ World::World(NetworkSettings given)
               .all_pairs = settings.reference,
               .interference_cut = settings.reception.interference_cut(),
               .seed = settings.seed,
-              .replication = settings.replication}) {
+              .replication = settings.replication}),
+      phy(settings.access.phy()) {
     if (!positive.contains(settings.floor_height.value)) {
         throw_out_of_range("network", "floor_height", positive.text, settings.floor_height.value);
     }

@@ -64,6 +64,7 @@ struct World {
     Scheduler<Occurrence> events;
     Legs legs;
     Medium medium;
+    const Phy phy;  // that the access protocol's frames go by
     MessageTable messages;
     Recorder records;
     std::function<void(MessageId)> on_forgotten = {};

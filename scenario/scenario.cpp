@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/scenario.hpp"
 
-#include "models/phy/error_rate.hpp"
+#include "models/phy/phy.hpp"
 #include "models/propagation/disc.hpp"
 #include "scenario/flow_names.hpp"
 #include "scenario/located.hpp"
@@ -133,30 +133,33 @@ void check_traffic(const Scenario& scenario) {
 }
 
 /// A bit rate whose errors sinr can compute.
-void check_modulation(std::string_view key, BitRate rate, Location where) {
-    if (modulation_of(rate)) return;
-    throw InputError(where, fmt::format("{}: found {} Mbit/s; [reception] model = \"sinr\" knows "
-                                        "1, 2, 5.5, 11 and 6, 9, 12, 18, 24, 36, 48, 54 Mbit/s",
-                                        key, rate.value / 1e6));
+void check_coding(const Phy& phy, std::string_view key, BitRate rate, Location where) {
+    if (phy.coding(rate)) return;
+    std::vector<double> known;  // [Mbit/s]
+    for (const BitRate each : phy.rates()) known.push_back(each.value / 1e6);
+    throw InputError(
+        where, fmt::format("{}: found {} Mbit/s; [reception] model = \"sinr\" knows {} Mbit/s", key,
+                           rate.value / 1e6, fmt::join(known, ", ")));
 }
 
 /// The rung "sinr" needs levels, and rates whose errors it knows.
 void check_sinr(const Scenario& scenario) {
     if (scenario.reception.model != ReceptionChoice::sinr) return;
     const AccessTable& access = scenario.access;
+    const Phy phy = access.make().phy();
     if (access.model == AccessChoice::csma && access.basic_rates) {
         for (const BitRate rate : *access.basic_rates) {
-            check_modulation("basic_rates", rate, scenario.access_where);
+            check_coding(phy, "basic_rates", rate, scenario.access_where);
         }
     }
-    const auto check = [](const PropagationTable& propagation, Location propagation_where,
-                          const Radio& radio, Location rate_where) {
+    const auto check = [&](const PropagationTable& propagation, Location propagation_where,
+                           const Radio& radio, Location rate_where) {
         if (propagation.make().name() == Disc::name) {
             throw InputError(propagation_where,
                              "model: \"disc\" has no levels for [reception] model = \"sinr\"; "
                              "expected another, such as \"friis\"");
         }
-        check_modulation("rate", radio.rate, rate_where);
+        check_coding(phy, "rate", radio.rate, rate_where);
     };
     for (const RobotTable& robot : scenario.robots) {
         const bool own = robot.propagation.has_value();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "models/arrival.hpp"
-#include "models/radio.hpp"
+#include "models/phy/wifi.hpp"
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
 #include "sim/record.hpp"
@@ -91,10 +91,8 @@ class Access {
     }
     /// Rates, beside those of the radios, at which frames may go.
     virtual std::span<const BitRate> own_rates() const { return {}; }
-    /// [ns] that `bytes` at that rate are on air
-    virtual Duration airtime(const Radio& radio, BitRate /*rate*/, std::uint32_t bytes) const {
-        return rovernet::airtime(radio, bytes);
-    }
+    /// The physical layer that its frames go by.
+    virtual Phy phy() const { return Wifi{}; }
 };
 
 /// The settings of an access protocol.
@@ -118,6 +116,7 @@ class AccessModel {
     std::unique_ptr<Access> make_access() const { return make_(); }
     /// As its protocols do.
     bool listens() const { return make_access()->listens(); }
+    Phy phy() const { return make_access()->phy(); }
 
   private:
     std::string_view name_;

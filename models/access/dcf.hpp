@@ -66,9 +66,7 @@ class Dcf final : public Access {
     std::uint32_t header() const override { return settings_.header; }
     BitRate rate(const AirFrame& frame, BitRate sender, BitRate receiver) const override;
     std::span<const BitRate> own_rates() const override { return settings_.basic_rates; }
-    Duration airtime(const Radio& radio, BitRate rate, std::uint32_t bytes) const override {
-        return wifi_airtime(settings_.standard, radio.preamble, rate, bytes);
-    }
+    Phy phy() const override { return Wifi{.framing = settings_.standard}; }
 
   private:
     enum class State : std::uint8_t { idle, contending, awaiting_cts, awaiting_ack };

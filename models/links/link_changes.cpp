@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "models/links/link_changes.hpp"
 
+#include "models/link_gain.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,16 +62,16 @@ class Search {
           from_(from),
           to_(to),
           settings_(settings),
-          budget_(link_budget(medium.radio(from), medium.radio(to))),
-          reach_(medium.model(from).reach(budget_, medium.radio(from).frequency).value) {}
+          reach_(medium.model(from)
+                     .reach(link_budget(medium.radio(from), medium.radio(to)),
+                            medium.radio(from).frequency)
+                     .value) {}
 
     std::optional<Time> next_change(Time after, Time until);
 
   private:
     bool is_up(Time t) const { return medium_.link_up(from_, to_, t, legs_); }
-    double margin(Time t) const {
-        return (budget_ - medium_.path_loss(from_, to_, t, legs_)).value;
-    }
+    double margin(Time t) const { return medium_.margin(from_, to_, t, legs_).value; }
     bool changed(double some_margin) const { return (some_margin >= 0) != up_; }
     bool out_of_reach(Time t) const;
     StraightMotion motion(NodeId node, Time t) const;
@@ -96,7 +98,6 @@ class Search {
     const NodeId from_;
     const NodeId to_;
     const LinkSearch& settings_;
-    const Db budget_;
     const double reach_;  // [m] beyond it the link is down
     bool up_ = false;     // at the begin of the search
     bool exact_ = false;  // a change can be found to the nanosecond

@@ -50,7 +50,11 @@ Vec3 Medium::antenna(NodeId node, Time t, const Legs& legs) const {
     return p;
 }
 
-LinkBatch Medium::batch(NodeId from, Vec3 origin) const {
+Pose Medium::pose(NodeId node, Time t, const Legs& legs) const {
+    return {antenna(node, t, legs), Radians{legs.leg(node).heading_at(t)}};
+}
+
+LinkBatch Medium::batch(NodeId from, Vec3 origin, Time t, std::uint64_t frame) const {
     return {.frequency = radio(from).frequency,
             .from = origin,
             .to = {},
@@ -59,7 +63,9 @@ LinkBatch Medium::batch(NodeId from, Vec3 origin) const {
             .scene = settings_.scene,
             .floor_height = settings_.floor_height,
             .seed = settings_.seed,
-            .replication = settings_.replication};
+            .replication = settings_.replication,
+            .at = t,
+            .frame = frame};
 }
 
 Db Medium::left_out(std::size_t frames) const {
@@ -75,16 +81,26 @@ Db Medium::left_out(std::size_t frames) const {
 
 bool Medium::link_up(NodeId from, NodeId to, Time t, const Legs& legs) const {
     return from != to && is_on(from) && is_on(to) && may_link(from, to) &&
-           path_loss(from, to, t, legs) <= link_budget(radio(from), radio(to));
+           margin(from, to, t, legs) >= Db{0};
+}
+
+Dbm Medium::level(NodeId from, NodeId to, Time t, const Legs& legs) const {
+    return received_power(radio(from), path_loss(from, to, t, legs), gain(from, to, t, legs));
+}
+
+Db Medium::margin(NodeId from, NodeId to, Time t, const Legs& legs) const {
+    return link_budget(radio(from), radio(to), gain(from, to, t, legs)) -
+           path_loss(from, to, t, legs);
 }
 
 Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    return {loss(from, to, antenna(from, t, legs), antenna(to, t, legs), Db{infinity})};
+    return {loss(from, to, antenna(from, t, legs), antenna(to, t, legs), t, 0, Db{infinity})};
 }
 
 /// Path loss [dB] from `from` here to `to` there.
-double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Db give_up) const {
-    LinkBatch link = batch(from, here);
+double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
+                    Db give_up) const {
+    LinkBatch link = batch(from, here, t, frame);
     link.to = {&there, 1};
     link.to_keys = {&keys_[to.index()], 1};
     double db = 0;

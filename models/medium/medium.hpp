@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/arrival.hpp"
+#include "models/link_gain.hpp"
 #include "models/medium/candidates.hpp"
 #include "models/medium/medium_settings.hpp"
 #include "models/medium/neighbour_index.hpp"
@@ -19,6 +20,7 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -123,7 +125,7 @@ class Medium {
 
     /// Those that hear `from` at `t`, which must not decrease; good until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
-        find(from, Strength::decodable, t, legs);
+        find(from, Strength::decodable, t, legs, 0);
         return found_.kept();
     }
 
@@ -134,6 +136,16 @@ class Medium {
 
     /// Path loss [dB] from `from` to `to` at `t`, with nothing given up.
     Db path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const;
+    /// Gain of the antennas and cables between two nodes at `t`.
+    LinkGain gain(NodeId from, NodeId to, Time t, const Legs& legs) const {
+        return LinkGain::of(radio(from), radio(to), [&] {
+            return std::pair{pose(from, t, legs), pose(to, t, legs)};
+        });
+    }
+    /// Received power [dBm] at `to` of what `from` sends at `t`: the local mean.
+    Dbm level(NodeId from, NodeId to, Time t, const Legs& legs) const;
+    /// Path loss [dB] that the link could still bear at `t`; negative: it is too weak.
+    Db margin(NodeId from, NodeId to, Time t, const Legs& legs) const;
 
     /// `to` can hear `from` at `t`: both are on, may link, and the budget allows it. A switched-off
     /// or gated link is down whatever its level.
@@ -143,6 +155,7 @@ class Medium {
 
     /// A node's antenna at `t` [m].
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
+    Pose pose(NodeId node, Time t, const Legs& legs) const;
 
   private:
     using Entry = NeighbourIndex::Entry;
@@ -159,11 +172,12 @@ class Medium {
     void list_stations();
     void choose_cells();
     void measure(std::size_t begin, std::size_t end, const Legs& legs);
-    void find(NodeId from, Strength strength, Time t, const Legs& legs);
+    void find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame);
     void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_alike(NodeId from, Time t, const Legs& legs);
     void find_in_table(NodeId from, Strength strength, Time t, const Legs& legs);
-    void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs);
+    void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs,
+                       std::uint64_t frame);
     void tell_arrivals(Time end, Receivers& out) const;
     void look_from(NodeId from, Time t, const Legs& legs);
     void share_draws();
@@ -172,8 +186,13 @@ class Medium {
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
     std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there);
-    LinkBatch batch(NodeId from, Vec3 origin) const;
-    double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Db give_up) const;
+    LinkBatch batch(NodeId from, Vec3 origin, Time t, std::uint64_t frame) const;
+    double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
+                Db give_up) const;
+    /// The key of the frame that a node sends at `t`, see LinkBatch: there is but one.
+    std::uint64_t frame_key(NodeId from, Time t) const {
+        return combine(key(from), static_cast<std::uint64_t>((t - start_of_run).count()));
+    }
 
     Settings settings_;
     std::vector<std::uint64_t> keys_;  // by node

@@ -84,7 +84,7 @@ void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use
 
 /// Those for whom a signal of `from` is strong enough: in found_ who can decode it, in sensors_ the
 /// others.
-void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs) {
+void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame) {
     const std::tuple search{from, strength, t, changes_};
     if (std::exchange(last_, search) == search) return;  // a message is sent where it was asked for
     found_.clear();
@@ -96,7 +96,7 @@ void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs) {
                        ? find_alike(from, t, legs)
                        : find_in_range(from, strength, t, legs);
         case Decision::by_table: return find_in_table(from, strength, t, legs);
-        case Decision::by_loss: return find_in_reach(from, strength, t, legs);
+        case Decision::by_loss: return find_in_reach(from, strength, t, legs, frame);
     }
 }
 
@@ -167,14 +167,16 @@ void Medium::share_draws() {
     for (const Entry& e : index_.entries()) shares_.push_back(draws_.share(key(e.node)));
 }
 
-void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs) {
+void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs,
+                           std::uint64_t frame) {
     measure(measured_, keys_.size(), legs);  // the reach depends on it
     const Radio& mine = kinds_.radio(kind(from));
     const bool fixed = settings_.keep_losses && !settings_.all_pairs && rests(legs.leg(from), t);
     candidates_.clear();
     visit(from, kinds_.squared_reach(kind(from), strength), t, legs,
           [&](const Entry& e, Vec3 p, double d2) {
-              const Db budget = kinds_.budget(strength, mine, kinds_.radio(e.label));
+              const Db budget =
+                  kinds_.budget(strength, mine, kinds_.radio(e.label), gain(from, e.node, t, legs));
               candidates_.add({.node = e.node,
                                .rests = fixed && !e.moves,
                                .key = key(e.node),
@@ -182,11 +184,13 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
                                .squared_distance = d2,
                                .budget_db = budget.value});
           });
-    candidates_.compute_losses(model(from), batch(from, origin_), from, pairs_);
+    candidates_.compute_losses(model(from), batch(from, origin_, t, frame), from, pairs_);
     for (const Candidate& c : candidates_.all()) {
         if (c.loss_db > c.budget_db) continue;
-        const bool decodes = strength == Strength::decodable ||
-                             c.loss_db <= link_budget(mine, kinds_.radio(kind(c.node))).value;
+        const auto budget = [&] {
+            return link_budget(mine, kinds_.radio(kind(c.node)), gain(from, c.node, t, legs));
+        };
+        const bool decodes = strength == Strength::decodable || c.loss_db <= budget().value;
         (decodes ? found_ : sensors_).put({c.node, c.squared_distance}, true);
     }
 }
@@ -210,7 +214,8 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
         case Decision::by_loss: {
             const Radio &sender = kinds_.radio(mine), &receiver = kinds_.radio(theirs);
             const Db most = kinds_.budget(Strength::disturbing, sender, receiver);
-            const Db lost{loss(frame.from, to, frame.origin, there, most)};
+            const std::uint64_t key = frame_key(frame.from, frame.begin);
+            const Db lost{loss(frame.from, to, frame.origin, there, frame.begin, key, most)};
             if (lost > most) return std::nullopt;
             level_dbm = received_power(sender, receiver, lost).value;
         }
@@ -225,7 +230,8 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
 
 Dbm Medium::level(const Arrival& arrival, NodeId to) const {
     const Vec3 there{std::sqrt(arrival.squared_distance), 0, 0};
-    const Db lost{loss(arrival.from, to, {}, there, Db{std::numeric_limits<double>::infinity()})};
+    const Db lost{loss(arrival.from, to, {}, there, arrival.begin, 0,
+                       Db{std::numeric_limits<double>::infinity()})};
     return received_power(kinds_.radio(kind(arrival.from)), kinds_.radio(kind(to)), lost);
 }
 
@@ -249,13 +255,13 @@ Duration Medium::delay(double distance) const {
 }
 
 void Medium::find_receivers(NodeId from, Time start, Time end, const Legs& legs, Receivers& out) {
-    find(from, Strength::decodable, start, legs);
+    find(from, Strength::decodable, start, legs, frame_key(from, start));
     tell_arrivals(end, out);
 }
 
 std::span<const Medium::Found> Medium::find_sensors(NodeId from, Time start, Time end,
                                                     const Legs& legs, Receivers& out) {
-    find(from, Strength::detectable, start, legs);
+    find(from, Strength::detectable, start, legs, frame_key(from, start));
     tell_arrivals(end, out);
     return sensors_.kept();
 }
@@ -306,8 +312,9 @@ bool Medium::hears(NodeId from, NodeId to, Time t, const Legs& legs) {
                 .in_range(d2, draws_.bits(key(from), key(to)));
         case Decision::by_loss: break;
     }
-    const Db budget = link_budget(kinds_.radio(mine), kinds_.radio(theirs));
-    return loss(from, to, here, there, budget) <= budget.value;
+    const Db budget =
+        link_budget(kinds_.radio(mine), kinds_.radio(theirs), gain(from, to, t, legs));
+    return loss(from, to, here, there, t, 0, budget) <= budget.value;
 }
 
 std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
@@ -316,7 +323,7 @@ std::uint32_t Medium::reachable(NodeId from, Time t, const Legs& legs) {
     seen[from.index()] = true;
     const std::size_t all = keys_.size() - off_ + (is_on(from) ? 0 : 1);
     for (std::size_t next = 0; next < frontier.size() && frontier.size() < all; ++next) {
-        find(frontier[next], Strength::decodable, t, legs);
+        find(frontier[next], Strength::decodable, t, legs, 0);
         for (const auto [node, squared_distance] : found_.kept()) {
             if (seen[node.index()]) continue;
             seen[node.index()] = true;

@@ -13,16 +13,13 @@ int link_quality(Db margin) {
 
 std::vector<Neighbour> neighbours(const Medium& medium, const Legs& legs, NodeId node, Time t) {
     std::vector<Neighbour> heard;
-    const Radio& here = medium.radio(node);
     for (std::uint32_t i = 0; i < legs.size(); ++i) {
         const NodeId from{i};
         if (!medium.link_up(from, node, t, legs)) continue;
-        const Db loss = medium.path_loss(from, node, t, legs);
-        const Radio& there = medium.radio(from);
         heard.push_back({.node = from,
-                         .level = received_power(there, here, loss),
-                         .noise = noise_floor(here),
-                         .quality = link_quality(link_budget(there, here) - loss)});
+                         .level = medium.level(from, node, t, legs),
+                         .noise = noise_floor(medium.radio(node)),
+                         .quality = link_quality(medium.margin(from, node, t, legs))});
     }
     return heard;
 }

@@ -61,9 +61,7 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
     // All match as long as all have the same network, or none is gated.
     const bool gated = kinds_.back().membership.gated;
     gated_ = gated_ || (gated && (essids_.size() > 2 || channels_.size() > 1));
-    Radio sender;
-    sender.power = Dbm{0};
-    sender.antenna_gain = sender.cable_loss = Db{0};
+    const Radio sender{.power = Dbm{0}, .antenna_gain = Db{0}, .cable_loss = Db{0}};
     for (const Strength s : strengths) {
         Db& best = best_budget_[static_cast<std::size_t>(s)];
         if (budget(s, sender, plain) <= best) continue;
@@ -73,11 +71,12 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
     return static_cast<Kind>(kinds_.size() - 1);
 }
 
-Db RadioKinds::budget(Strength strength, const Radio& from, const Radio& to) const {
-    if (strength == Strength::decodable) return link_budget(from, to);
-    const Db detectable = sensing_budget(from, to);
+Db RadioKinds::budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain) const {
+    const Db decodable = link_budget(from, to, gain);
+    if (strength == Strength::decodable) return decodable;
+    const Db detectable = sensing_budget(from, to, gain);
     if (strength == Strength::detectable || !interference_cut_) return detectable;
-    return std::max(detectable, link_budget(from, to) + (to.sensitivity - weakest_disturbing(to)));
+    return std::max(detectable, decodable + (to.sensitivity - weakest_disturbing(to)));
 }
 
 Dbm RadioKinds::weakest_disturbing(const Radio& to) const {
@@ -92,7 +91,7 @@ double RadioKinds::squared_reach(Kind from, Strength strength) {
     if (std::isnan(reach2)) {
         const Radio& sender = radio(from);
         const Db most = best_budget_[static_cast<std::size_t>(strength)] + Db{sender.power.value} +
-                        sender.antenna_gain - sender.cable_loss;
+                        LinkGain::most(sender, sender).sender;
         const double reach = model(from).reach(most, sender.frequency, highest_).value * slack;
         reach2 = reach * reach;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/link_gain.hpp"
 #include "models/medium/link_range.hpp"
 #include "models/medium/loss_bounds.hpp"
 #include "models/medium/membership.hpp"
@@ -57,7 +58,11 @@ class RadioKinds {
     }
 
     /// The largest path loss [dB] at which a signal is strong enough.
-    Db budget(Strength strength, const Radio& from, const Radio& to) const;
+    Db budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain) const;
+    /// The same between antennas in whatever poses, at most.
+    Db budget(Strength strength, const Radio& from, const Radio& to) const {
+        return budget(strength, from, to, LinkGain::most(from, to));
+    }
     /// The weakest signal [dBm] that disturbs `to`; there must be a cut.
     Dbm weakest_disturbing(const Radio& to) const;
     /// No antenna of any station has been or is higher [m] than this; must not decrease.

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double guess = 0.5;  // what knows nothing of a bit is wrong about it half the time
 
-constexpr std::array<double, 12> rates_mbps{1, 2, 5.5, 11, 6, 9, 12, 18, 24, 36, 48, 54};
+constexpr std::array<BitRate, 12> all_rates{
+    {{1e6}, {2e6}, {5.5e6}, {11e6}, {6e6}, {9e6}, {12e6}, {18e6}, {24e6}, {36e6}, {48e6}, {54e6}}};
 
 double dbpsk(double S) { return 0.5 * math::exp(-22 * S); }
 
@@ -140,10 +141,12 @@ double unclamped(Modulation modulation, double S) {
 
 }  // namespace
 
+std::span<const BitRate> modulated_rates() { return all_rates; }
+
 std::optional<Modulation> modulation_of(BitRate rate) {
-    const auto found = std::find(rates_mbps.begin(), rates_mbps.end(), rate.value / 1e6);
-    if (found == rates_mbps.end()) return std::nullopt;
-    return static_cast<Modulation>(found - rates_mbps.begin());
+    const auto found = std::find(all_rates.begin(), all_rates.end(), rate);
+    if (found == all_rates.end()) return std::nullopt;
+    return static_cast<Modulation>(found - all_rates.begin());
 }
 
 Hertz bandwidth_of(Modulation modulation) {
@@ -166,7 +169,7 @@ Db certain_sinr(Modulation modulation) {
     // So much less than 1 rounds to 1.
     constexpr double nothing = -0x1p-55;
     static const auto certain = [] {
-        std::array<Db, rates_mbps.size()> out;
+        std::array<Db, all_rates.size()> out;
         for (std::size_t i = 0; i < out.size(); ++i) {
             double fails = -50, succeeds = 50;  // [dB]
             while (succeeds - fails > 1e-3) {

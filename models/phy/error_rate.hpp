@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace rovernet {
 
@@ -25,6 +26,8 @@ enum class Modulation : std::uint8_t {
     ofdm_54,  ///< 64-QAM, rate 3/4
 };
 
+/// The bit rates [bit/s] of the modulations, in their order.
+std::span<const BitRate> modulated_rates();
 /// The modulation of a bit rate: 1, 2, 5.5, 11 Mb/s are DSSS and CCK; 6, 9, 12, 18, 24, 36, 48,
 /// 54 Mb/s are OFDM; nothing for other rates.
 std::optional<Modulation> modulation_of(BitRate rate);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "models/phy/wifi.hpp"
 
+#include "models/phy/error_rate.hpp"
+
 #include <cmath>
 
 namespace rovernet {
@@ -18,6 +20,27 @@ Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, st
         static_cast<std::int64_t>(std::ceil((service_and_tail + bits) / bits_per_symbol - 1e-9));
     const Duration extension = standard == WifiStandard::g ? Duration{6us} : Duration{0};
     return preamble + symbols * 4us + extension;
+}
+
+Duration Wifi::airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const {
+    if (framing) return wifi_airtime(*framing, preamble, rate, bytes);
+    return preamble + from_seconds(8.0 * bytes / rate.value);
+}
+
+std::span<const BitRate> Wifi::rates() const { return modulated_rates(); }
+
+std::optional<Coding> Wifi::coding(BitRate rate) const {
+    const auto modulation = modulation_of(rate);
+    if (!modulation) return std::nullopt;
+    return static_cast<Coding>(*modulation);
+}
+
+double Wifi::log_success(Coding coding, double sinr) const {
+    return rovernet::log_success(static_cast<Modulation>(coding), sinr);
+}
+
+Db Wifi::certain_sinr(Coding coding) const {
+    return rovernet::certain_sinr(static_cast<Modulation>(coding));
 }
 
 }  // namespace rovernet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/phy/phy.hpp"
 #include "sim/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -8,6 +9,8 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -64,6 +67,28 @@ inline std::vector<BitRate> mandatory_rates(WifiStandard standard) {
 /// the service and before the tail bits (17.4.3), with 6 us of signal extension for 802.11g
 /// (18.5.3).
 Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, std::uint32_t bytes);
+
+/// Physical layer "wifi": IEEE 802.11b, a and g. Error rates: models/phy/error_rate.hpp; the coding
+/// is the Modulation.
+struct Wifi {
+    static constexpr std::string_view name = "wifi";
+
+    /// How long frames last: as wifi_airtime() of this standard says; without one, the preamble and
+    /// bits / rate, rounded to the nearest nanosecond.
+    std::optional<WifiStandard> framing = std::nullopt;
+
+    static constexpr auto fields() {
+        return describe(field("framing", &Wifi::framing,
+                              "standard whose symbols and fields frames are made of; without one "
+                              "they last as long as their bits"));
+    }
+
+    Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const;
+    std::span<const BitRate> rates() const;
+    std::optional<Coding> coding(BitRate rate) const;
+    double log_success(Coding coding, double sinr) const;
+    Db certain_sinr(Coding coding) const;
+};
 
 /// Sizes of frames [bytes]; 802.11-2020, 9.3.1 and 9.3.2, check sequence included.
 inline constexpr std::uint32_t rts_bytes = 20;

@@ -5,6 +5,7 @@
 #include "scene/scene.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
+#include "sim/time.hpp"
 #include "sim/units.hpp"
 
 #include <concepts>
@@ -19,6 +20,9 @@
 namespace rovernet {
 
 /// One transmitter and its receivers: all that a propagation model may know.
+///
+/// A propagation model is a pure function of places and keys: its losses are kept for robots at
+/// rest. Time and frame are for what varies behind it.
 struct LinkBatch {
     Hertz frequency;                         ///< [Hz] the transmitter's
     Vec3 from;                               ///< [m] its antenna
@@ -29,6 +33,8 @@ struct LinkBatch {
     Meters floor_height{3};                  ///< [m] of one storey
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
+    Time at = start_of_run;   ///< when the frame begins, or the link is looked at
+    std::uint64_t frame = 0;  ///< key of the frame, for random draws; 0: the link's local mean
 
     std::size_t size() const { return to.size(); }
     /// Between the antennas of the i-th link [m], in three dimensions.

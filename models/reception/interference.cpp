@@ -14,7 +14,8 @@ std::uint64_t Interference::add(Emission frame, BitRate rate,
     frame.heard_within = medium.heard_within();
     frame.squared_reach = medium.squared_reach(frame.from);
     const std::uint64_t serial = on_air_.add(frame);
-    judge_->begins({on_air_[serial], rate, medium.radio(frame.from).preamble, receptions});
+    judge_->begins(
+        {on_air_[serial], *settings_.phy, rate, medium.radio(frame.from).preamble, receptions});
     return serial;
 }
 

@@ -24,6 +24,7 @@ class Interference {
     struct Settings {
         Medium* medium = nullptr;       ///< not null; outlives this
         const Legs* legs = nullptr;     ///< not null; outlives this; the same nodes as the medium
+        const Phy* phy = nullptr;       ///< not null; outlives this
         bool all_frames = false;        ///< looks at every frame on air, for tests
         std::uint64_t seed = 1;         ///< of random draws
         std::uint32_t replication = 0;  ///< of random draws

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/arrival.hpp"
+#include "models/phy/phy.hpp"
 #include "sim/record.hpp"
 #include "sim/units.hpp"
 
@@ -21,6 +22,7 @@ class Interference;
 /// A frame that goes on air, as judging it may take.
 struct SentFrame {
     const Emission& emission;
+    const Phy& phy;                         ///< of the network; outlives the judge
     BitRate rate;                           ///< of its payload
     Duration preamble;                      ///< [ns] before its payload
     std::span<const Reception> receptions;  ///< of those that can decode it, in order
@@ -50,7 +52,7 @@ class Judge {
     /// Frames on air at a time, at most, so far; counted where there is a cut.
     virtual std::size_t most_on_air() const { return 0; }
     /// @throws std::invalid_argument for a bit rate that frames cannot be judged at
-    virtual void check(BitRate /*rate*/) const {}
+    virtual void check(const Phy& /*phy*/, BitRate /*rate*/) const {}
 };
 
 /// The settings of a reception model.

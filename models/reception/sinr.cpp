@@ -31,7 +31,7 @@ double SinrReceiver::log_success_of(const Arrival& judged, const SinrFrame& fram
     const double noise_mw = math::exp10(frame.noise.value / 10);
     if (here_.empty()) {
         const double bits = seconds(frame.payload) * frame.rate;
-        return bits * log_success(frame.modulation, signal / noise_mw);
+        return bits * frame.phy->log_success(frame.coding, signal / noise_mw);
     }
     const Time begin = judged.end - frame.payload;
     changes_.assign({begin, judged.end});
@@ -51,7 +51,8 @@ double SinrReceiver::log_success_of(const Arrival& judged, const SinrFrame& fram
         for (std::size_t k = 0; k < here_.size(); ++k) {
             if (here_[k]->begin <= from && here_[k]->end >= to) disturbing += power_mw_[k];
         }
-        sum += seconds(to - from) * frame.rate * log_success(frame.modulation, signal / disturbing);
+        sum += seconds(to - from) * frame.rate *
+               frame.phy->log_success(frame.coding, signal / disturbing);
     }
     return sum;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "models/arrival.hpp"
-#include "models/phy/error_rate.hpp"
+#include "models/phy/phy.hpp"
 #include "models/reception/judge.hpp"
 #include "sim/math.hpp"
 #include "sim/record.hpp"
@@ -40,7 +40,8 @@ struct Sinr {
 
 /// What judging a frame takes beside what is on air.
 struct SinrFrame {
-    Modulation modulation;
+    const Phy* phy;
+    Coding coding;
     double rate;       ///< [bit/s]
     Duration payload;  ///< [ns] how much of its end is payload
     Dbm noise = {};    ///< [dBm] of the receiver
@@ -82,7 +83,7 @@ class SinrReceiver {
         for (Arrival* a : here_) level(*a);
         sort_here(level, before);
         if (is_certain(signal, frame)) return Fate::waiting;
-        if (draw() < success(log_success_of(signal, frame))) return Fate::waiting;
+        if (draw() < math::exp(log_success_of(signal, frame))) return Fate::waiting;
         return lost;
     }
 
@@ -126,7 +127,7 @@ class SinrReceiver {
     bool sends_within(Time after, Time until) const;
     bool is_certain(const Arrival& judged, const SinrFrame& frame) const {
         return here_.empty() &&
-               Dbm{judged.level_dbm} - frame.noise >= certain_sinr(frame.modulation);
+               Dbm{judged.level_dbm} - frame.noise >= frame.phy->certain_sinr(frame.coding);
     }
     double log_success_of(const Arrival& judged, const SinrFrame& frame);
 

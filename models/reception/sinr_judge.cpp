@@ -18,8 +18,8 @@ class SinrJudge final : public Judge {
     bool looks_back() const override { return true; }
     std::optional<Db> interference_cut() const override { return model_.interference_cut; }
     std::size_t most_on_air() const override { return most_on_air_; }
-    void check(BitRate rate) const override {
-        if (modulation_of(rate)) return;
+    void check(const Phy& phy, BitRate rate) const override {
+        if (phy.coding(rate)) return;
         throw std::invalid_argument(
             fmt::format("sinr knows the rates of 802.11b, a and g, not {} bit/s", rate.value));
     }
@@ -55,7 +55,8 @@ void SinrJudge::begins(const SentFrame& frame) {
     if (emission.from.index() >= numbers_.size()) numbers_.resize(emission.from.index() + 1);
     if (emission.flight >= sent_.size()) sent_.resize(emission.flight + std::size_t{1});
     Sent& sent = sent_[emission.flight];
-    sent.frame = {.modulation = *modulation_of(frame.rate),
+    sent.frame = {.phy = &frame.phy,
+                  .coding = *frame.phy.coding(frame.rate),
                   .rate = frame.rate.value,
                   .payload = emission.end - emission.begin - frame.preamble};
     sent.number = numbers_[emission.from.index()]++;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/coverage.hpp"
 
+#include "models/link_gain.hpp"
 #include "sim/random.hpp"
 
 #include <fmt/format.h>

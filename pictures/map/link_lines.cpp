@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/link_lines.hpp"
 
+#include "models/link_gain.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +46,7 @@ std::optional<double> margin(const Network& network, NodeId from, NodeId to, Tim
         distance(medium.antenna(from, at, network.legs()), medium.antenna(to, at, network.legs()));
     if (d > slack * medium.model(from).reach(budget, sender.frequency).value) return std::nullopt;
     if (!medium.link_up(from, to, at, network.legs())) return std::nullopt;
-    return (budget - medium.path_loss(from, to, at, network.legs())).value;
+    return medium.margin(from, to, at, network.legs()).value;
 }
 
 void stroke(Svg& svg, const std::string& data, std::size_t grade, bool dashed, bool seam) {

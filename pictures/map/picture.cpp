@@ -3,6 +3,7 @@
 
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
+#include "models/link_gain.hpp"
 #include "pictures/map/heat_layer.hpp"
 #include "pictures/map/link_lines.hpp"
 #include "pictures/map/map_axes.hpp"
@@ -142,10 +143,10 @@ Extent Painter::extent() const {
     Extent out;
     for (std::uint32_t i = 0; i < network_.size(); ++i) {
         const NodeId node{i};
-        const Presence presence = network_.presence(node);
-        const bool there = presence == Presence::on || presence == Presence::off;
+        const RobotState robot = network_.robot(node);
+        const bool there = robot.presence == Presence::on || robot.presence == Presence::off;
         if (!there && source_ != node) continue;
-        out.include(network_.legs().position(node, options_.at), network_.radius(node).value);
+        out.include(robot.at, robot.radius.value);
     }
     if (ways_) ways_->include_in(out);
     const Scene& scene = network_.scene();
@@ -226,7 +227,7 @@ std::string Painter::paint() {
                           picture_caption(network_, options_.at, end, source_), text_width);
     plot.top = margin + heading.height();
 
-    RobotMarks robots(network_, source_, options_.trails, options_.at, plot);
+    RobotMarks robots(network_, source_, options_.trails, plot);
     LabelPlaces places({plot.left, plot.top, plot.right(), plot.bottom()});
     if (links_) links_->keep_off(places, robots);
     robots.place_names(places);

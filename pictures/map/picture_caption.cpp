@@ -23,7 +23,7 @@ std::string time_text(Time at, Time end) {
 std::string absent_text(const Network& network) {
     std::size_t to_come = 0, left = 0;
     for (std::uint32_t i = 0; i < network.size(); ++i) {
-        const Presence presence = network.presence(NodeId{i});
+        const Presence presence = network.robot(NodeId{i}).presence;
         to_come += presence == Presence::not_departed;
         left += presence == Presence::left;
     }
@@ -38,8 +38,8 @@ std::string absent_text(const Network& network) {
 std::vector<std::string> model_texts(const Network& network) {
     std::vector<std::string> out;
     for (std::uint32_t i = 0; i < network.size(); ++i) {
-        const Propagation& model = network.medium().model(NodeId{i});
-        if (i > 0 && model == network.medium().model(NodeId{i - 1})) continue;
+        const Propagation& model = network.robot(NodeId{i}).propagation;
+        if (i > 0 && model == network.robot(NodeId{i - 1}).propagation) continue;
         std::string text = model_text(model);
         if (std::find(out.begin(), out.end(), text) == out.end()) out.push_back(std::move(text));
     }
@@ -58,14 +58,14 @@ std::string presence_text(Presence presence) {
 
 void append_coverage(std::vector<std::string>& parts, const Network& network, NodeId source) {
     constexpr std::size_t longest_name = 40;
-    const Radio& radio = network.medium().radio(source);
-    parts.push_back(fmt::format(
-        "coverage of {}{}: {} for a radio like its own, antenna {:.6g} m up",
-        shortened(network.name(source), longest_name), presence_text(network.presence(source)),
-        network.medium().model(source).is_random() ? "median level" : "level",
-        radio.antenna_height.value));
+    const RobotState robot = network.robot(source);
     parts.push_back(
-        fmt::format("{:.4g} dBm at {:.6g} MHz", radio.power.value, radio.frequency.value / 1e6));
+        fmt::format("coverage of {}{}: {} for a radio like its own, antenna {:.6g} m up",
+                    shortened(robot.name, longest_name), presence_text(robot.presence),
+                    robot.propagation.is_random() ? "median level" : "level",
+                    robot.radio.antenna_height.value));
+    parts.push_back(fmt::format("{:.4g} dBm at {:.6g} MHz", robot.radio.power.value,
+                                robot.radio.frequency.value / 1e6));
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ std::vector<std::string> picture_caption(const Network& network, Time at, Time e
     if (!source) return parts;
     append_coverage(parts, network, *source);
     if (models.size() > 1) {
-        parts.push_back("its model is " + model_text(network.medium().model(*source)));
+        parts.push_back("its model is " + model_text(network.robot(*source).propagation));
     }
     return parts;
 }

@@ -82,14 +82,15 @@ LegendItem sample(std::string text, Presence presence, bool stands_out) {
 }  // namespace
 
 RobotMarks::RobotMarks(const Network& network, std::optional<NodeId> standing_out, bool colored,
-                       Time at, const Plot& plot) {
+                       const Plot& plot) {
     for (std::uint32_t i = 0; i < network.size(); ++i) {
         const NodeId node{i};
-        marks_.push_back({.name = network.name(node),
-                          .at = plot.at(network.legs().position(node, at)),
-                          .radius = std::max(least_radius, network.radius(node).value * plot.scale),
-                          .heading = network.legs().leg(node).heading_at(at),
-                          .presence = network.presence(node),
+        RobotState robot = network.robot(node);
+        marks_.push_back({.name = std::move(robot.name),
+                          .at = plot.at(robot.at),
+                          .radius = std::max(least_radius, robot.radius.value * plot.scale),
+                          .heading = robot.heading.value,
+                          .presence = robot.presence,
                           .stands_out = standing_out == node,
                           .rim = colored ? robot_color(node) : ink});
     }

@@ -35,7 +35,7 @@ class RobotMarks {
   public:
     /// @param standing_out  whose coverage is drawn
     /// @param colored       each has a rim of its own colour, that of its trail
-    RobotMarks(const Network& network, std::optional<NodeId> standing_out, bool colored, Time at,
+    RobotMarks(const Network& network, std::optional<NodeId> standing_out, bool colored,
                const Plot& plot);
 
     const RobotMark& operator[](NodeId node) const { return marks_[node.index()]; }

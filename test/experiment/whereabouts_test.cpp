@@ -71,15 +71,15 @@ TEST_CASE("whereabouts: the answers are in the order of the times") {
 TEST_CASE("network: a robot that is taken away is silent until it is switched on") {
     Network net;
     const NodeId a = net.add({.name = "a", .at = {}, .radius = {0.7}});
-    CHECK(net.presence(a) == Presence::on);
-    CHECK(net.radius(a).value == 0.7);
+    CHECK(net.robot(a).presence == Presence::on);
+    CHECK(net.robot(a).radius.value == 0.7);
     net.take_away(a, Presence::not_departed);
-    CHECK(net.presence(a) == Presence::not_departed);
+    CHECK(net.robot(a).presence == Presence::not_departed);
     CHECK_FALSE(net.medium().is_on(a));
     net.switch_on(a);
-    CHECK(net.presence(a) == Presence::on);
+    CHECK(net.robot(a).presence == Presence::on);
     net.switch_off(a);
-    CHECK(net.presence(a) == Presence::off);
+    CHECK(net.robot(a).presence == Presence::off);
     net.take_away(a, Presence::left);
-    CHECK(net.presence(a) == Presence::left);
+    CHECK(net.robot(a).presence == Presence::left);
 }

@@ -2,6 +2,7 @@
 // What meets what on air, against a search over all pairs of frames that knows nothing of how the
 // network keeps them.
 #include "mobility/waypoints.hpp"
+#include "models/link_gain.hpp"
 #include "models/propagation/list.hpp"
 #include "models/reception/list.hpp"
 #include "network/network.hpp"
@@ -61,8 +62,10 @@ struct Log {
             const Frame& frame = sent->frame;
             const Radio& radio = net->medium().radio(frame.sender);
             const Message& message = context.messages[frame.message];
-            Sending sending{
-                frame.sender, sent->time, sent->time + airtime(radio, message.size), {}};
+            Sending sending{frame.sender,
+                            sent->time,
+                            sent->time + Wifi{}.airtime(radio.preamble, radio.rate, message.size),
+                            {}};
             for (std::uint32_t i = 0; i < context.legs.size(); ++i) {
                 sending.robots.push_back(
                     {net->medium().antenna(NodeId{i}, sent->time, context.legs),

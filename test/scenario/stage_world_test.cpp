@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/stage_world.hpp"
 
+#include "models/link_gain.hpp"
 #include "models/radio.hpp"
 #include "scenario/propagation_table.hpp"
 #include "scenario/quantity.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/medium/medium.hpp"
 
+#include "models/link_gain.hpp"
 #include "models/propagation/list.hpp"
 #include "test/scene/drawn_map.hpp"
 

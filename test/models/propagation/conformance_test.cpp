@@ -109,6 +109,15 @@ TEST_CASE("every model: the loss is finite and not negative, at no distance and 
     });
 }
 
+TEST_CASE("every model: the loss depends on neither the time nor the frame: it may be kept") {
+    const World world;
+    LinkBatch later = world.batch();
+    later.at = start_of_run + Duration{12'345'678'901};
+    later.frame = 77;
+    for_each_variant(
+        [&](const auto& model) { CHECK(losses(model, world.batch()) == losses(model, later)); });
+}
+
 TEST_CASE("every model: low frequencies and short ways do not make a gain") {
     for_each_variant([&](const auto& model) {
         if constexpr (FrequencyCheckedModel<std::remove_cvref_t<decltype(model)>>) {

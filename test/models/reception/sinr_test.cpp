@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "models/reception/sinr.hpp"
 
+#include "models/phy/wifi.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cstddef>
@@ -36,7 +38,9 @@ struct Receiver {
         return frames.size() - 1;
     }
     Fate judge(std::size_t judged) {
-        const SinrFrame frame{.modulation = Modulation::cck_11,
+        static const Phy phy{Wifi{}};
+        const SinrFrame frame{.phy = &phy,
+                              .coding = *phy.coding({11e6}),
                               .rate = 11e6,
                               .payload = Duration{100'000},
                               .noise = Dbm{-94}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/contour.hpp"
 
+#include "models/link_gain.hpp"
 #include "models/propagation/friis.hpp"
 #include "test/scene/drawn_map.hpp"
 

@@ -2,6 +2,7 @@
 #include "pictures/map/coverage.hpp"
 
 #include "experiment/build.hpp"
+#include "models/link_gain.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/log_distance.hpp"
 #include "scenario/toml.hpp"

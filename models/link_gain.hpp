@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/radio.hpp"
+#include "sim/geometry.hpp"
+#include "sim/units.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rovernet {
+
+/// An antenna as a link sees it: where it is, and where its robot heads.
+struct Pose {
+    Vec3 antenna;        ///< [m]
+    Radians heading{0};  ///< counter-clockwise from the x axis
+};
+
+/// What antennas and cables add to the level of a frame [dB], by end of the link. Gains are added
+/// here and nowhere else.
+struct LinkGain {
+    Db sender, receiver;
+
+    /// The largest gains, whatever the poses of the antennas: they bound the search for receivers.
+    static constexpr LinkGain most(const Radio& from, const Radio& to) {
+        return {from.antenna_gain - from.cable_loss, to.antenna_gain - to.cable_loss};
+    }
+    /// The gains of antennas in their poses. All antennas are isotropic, so that poses are not
+    /// asked for, and cost nothing.
+    /// @param poses  returns the Pose of the sender's antenna and that of the receiver's, as a pair
+    template <class Poses>
+    static constexpr LinkGain of(const Radio& from, const Radio& to, const Poses& /*poses*/) {
+        return most(from, to);
+    }
+};
+
+/// The largest path loss [dB] at which `to` still receives `from`:
+/// power + gain - cable loss of the transmitter, + gain - cable loss - sensitivity of the receiver.
+/// Source: the 2007 thesis, table 3.1, with the sensitivity subtracted as it must be.
+constexpr Db link_budget(const Radio& from, const Radio& to, LinkGain gain) {
+    return (from.power - to.sensitivity) + gain.sender + gain.receiver;
+}
+constexpr Db link_budget(const Radio& from, const Radio& to) {
+    return link_budget(from, to, LinkGain::most(from, to));
+}
+
+/// The largest path loss [dB] at which `to` senses that `from` sends; no less than link_budget.
+constexpr Db sensing_budget(const Radio& from, const Radio& to, LinkGain gain) {
+    const Dbm threshold = to.carrier_sense_threshold.value_or(to.sensitivity);
+    return link_budget(from, to, gain) + std::max(Db{0}, to.sensitivity - threshold);
+}
+constexpr Db sensing_budget(const Radio& from, const Radio& to) {
+    return sensing_budget(from, to, LinkGain::most(from, to));
+}
+
+/// Received power [dBm] after `path_loss` between the antennas.
+constexpr Dbm received_power(const Radio& from, Db path_loss, LinkGain gain) {
+    return from.power + gain.sender - path_loss + gain.receiver;
+}
+constexpr Dbm received_power(const Radio& from, const Radio& to, Db path_loss) {
+    return received_power(from, path_loss, LinkGain::most(from, to));
+}
+
+}  // namespace rovernet

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/fields.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace rovernet {
+
+/// A modulation and coding: its number among those of a physical layer.
+enum class Coding : std::uint8_t {};
+
+/// A physical layer: how long frames are on air, and how likely their bits are right. A plain
+/// struct whose functions are pure.
+///
+/// - `airtime(preamble, rate, bytes)`: time [ns] that `bytes` are on air behind a preamble [ns]
+/// - `rates()`: bit rates [bit/s] whose error rates are known
+/// - `coding(rate)`: the coding of such a rate; nothing for another rate
+/// - `log_success(coding, sinr)`: natural logarithm of the probability that a bit is right, at this
+///   ratio of signal to interference and noise [-], which holds for the whole bit
+/// - `certain_sinr(coding)`: from this ratio on, a frame of any length is right
+template <class T>
+concept PhysicalLayer = std::copyable<T> &&
+    requires(const T& phy, Duration preamble, BitRate rate, std::uint32_t bytes, Coding coding,
+             double sinr) {
+    { T::name } -> std::convertible_to<std::string_view>;
+    { phy.airtime(preamble, rate, bytes) } -> std::same_as<Duration>;
+    { phy.rates() } -> std::convertible_to<std::span<const BitRate>>;
+    { phy.coding(rate) } -> std::same_as<std::optional<Coding>>;
+    { phy.log_success(coding, sinr) } -> std::same_as<double>;
+    { phy.certain_sinr(coding) } -> std::same_as<Db>;
+};
+
+/// Any physical layer, held by value and shared between its copies.
+class Phy {
+  public:
+    /// @throws std::invalid_argument if a parameter is out of its range
+    template <class T>
+    requires(!std::same_as<T, Phy> && PhysicalLayer<T>) Phy(T phy)
+        : self_(std::make_shared<Holder<T>>(std::move(phy))) {}
+
+    std::string_view name() const { return self_->name(); }
+    Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const {
+        return self_->airtime(preamble, rate, bytes);
+    }
+    std::span<const BitRate> rates() const { return self_->rates(); }
+    std::optional<Coding> coding(BitRate rate) const { return self_->coding(rate); }
+    double log_success(Coding coding, double sinr) const {
+        return self_->log_success(coding, sinr);
+    }
+    Db certain_sinr(Coding coding) const { return self_->certain_sinr(coding); }
+
+  private:
+    struct Concept {
+        virtual ~Concept() = default;
+        virtual std::string_view name() const = 0;
+        virtual Duration airtime(Duration, BitRate, std::uint32_t) const = 0;
+        virtual std::span<const BitRate> rates() const = 0;
+        virtual std::optional<Coding> coding(BitRate) const = 0;
+        virtual double log_success(Coding, double) const = 0;
+        virtual Db certain_sinr(Coding) const = 0;
+    };
+    template <class T>
+    struct Holder final : Concept {
+        explicit Holder(T p) : phy(std::move(p)) {
+            if constexpr (Described<T>) check_fields(phy, T::name);
+        }
+        std::string_view name() const override { return T::name; }
+        Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const override {
+            return phy.airtime(preamble, rate, bytes);
+        }
+        std::span<const BitRate> rates() const override { return phy.rates(); }
+        std::optional<Coding> coding(BitRate rate) const override { return phy.coding(rate); }
+        double log_success(Coding coding, double sinr) const override {
+            return phy.log_success(coding, sinr);
+        }
+        Db certain_sinr(Coding coding) const override { return phy.certain_sinr(coding); }
+        T phy;
+    };
+    std::shared_ptr<const Concept> self_;
+};
+
+}  // namespace rovernet

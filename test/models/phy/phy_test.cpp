@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "models/phy/phy.hpp"
+
+#include "models/phy/error_rate.hpp"
+#include "models/phy/list.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+/// Calls visit(phy) for every physical layer of the list, with its defaults.
+template <class Visit>
+void for_each_phy(Visit visit) {
+    std::apply([&](const auto&... each) { (visit(Phy(each)), ...); }, PhysicalLayers{});
+}
+
+}  // namespace
+
+TEST_CASE("every phy: a frame of no bytes takes its preamble; more bytes never take less time") {
+    for_each_phy([](const Phy& phy) {
+        for (const BitRate rate : phy.rates()) {
+            CHECK(phy.airtime(Duration{5'000}, rate, 0) == Duration{5'000});
+            Duration before{0};
+            for (std::uint32_t bytes = 0; bytes < 300; ++bytes) {
+                const Duration now = phy.airtime(Duration{5'000}, rate, bytes);
+                CHECK(now >= before);
+                before = now;
+            }
+        }
+    });
+}
+
+TEST_CASE(
+    "every phy: bits are the surer the stronger the signal, and certain from certain_sinr on") {
+    for_each_phy([](const Phy& phy) {
+        for (const BitRate rate : phy.rates()) {
+            REQUIRE(phy.coding(rate));
+            double before = -std::log(2.0) - 1e-12;
+            for (double db = -30; db < 40; db += 0.5) {
+                const double now = phy.log_success(*phy.coding(rate), std::pow(10, db / 10));
+                CHECK(now >= before);
+                CHECK(now <= 0);
+                before = now;
+            }
+            const double enough = std::pow(10, phy.certain_sinr(*phy.coding(rate)).value / 10);
+            CHECK(std::exp(8e4 * phy.log_success(*phy.coding(rate), enough)) == 1);
+        }
+    });
+}
+
+TEST_CASE("every phy: a rate that it does not list has no coding") {
+    for_each_phy([](const Phy& phy) {
+        CHECK(!phy.coding({3.25e6}));
+        CHECK(!phy.coding({0}));
+    });
+}
+
+TEST_CASE("wifi: twelve rates, and the error rates of their modulations") {
+    const Phy phy = Wifi{};
+    CHECK(phy.rates().size() == 12);
+    CHECK(phy.log_success(*phy.coding(54_Mbps), 30) == log_success(Modulation::ofdm_54, 30));
+    CHECK(phy.certain_sinr(*phy.coding(1_Mbps)) == certain_sinr(Modulation::dsss_1));
+}
+
+TEST_CASE("wifi: with a standard's framing frames last whole microseconds or symbols") {
+    // 802.11-2020, 17.4.3: 16 + 8 * 100 + 6 bits in symbols of 216 bits, 4 us each.
+    CHECK(Wifi{WifiStandard::a}.airtime(Duration{20'000}, 54_Mbps, 100) ==
+          Duration{20'000 + 4 * 4'000});
+    CHECK(Wifi{WifiStandard::b}.airtime(Duration{192'000}, 11_Mbps, 64) ==
+          Duration{192'000 + 47'000});
+}
+
+TEST_CASE("wifi: 64 bytes at 11 Mb/s behind a long preamble take 238,545 ns") {
+    CHECK(Wifi{}.airtime(Duration{192'000}, 11_Mbps, 64) ==
+          Duration{192'000 + 46'545});  // 512 / 11 us = 46.5454 us
+}
+
+TEST_CASE("wifi: the airtime is rounded to the nearest nanosecond; no byte takes the preamble") {
+    CHECK(Wifi{}.airtime(Duration{192'000}, 11_Mbps, 0) == Duration{192'000});
+    CHECK(Wifi{}.airtime(Duration{0}, 11_Mbps, 1) == Duration{727});
+    CHECK(Wifi{}.airtime(Duration{0}, 3_Mbps, 1) == Duration{2667});
+    CHECK(Wifi{}.airtime(Duration{0}, 1_Mbps, 0xffffffff) == Duration{34'359'738'360'000});
+}
