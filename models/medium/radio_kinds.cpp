@@ -57,7 +57,7 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
                       .cheapest = cheapest_decision(propagation, plain.frequency),
                       .noise = noise_floor(plain)});
     heights_.push_back(plain.antenna_height.value);
-    heights_matter_ = heights_matter_ || propagation.shape() == LossShape::by_heights;
+    heights_matter_ = heights_matter_ || propagation.is_bounded_by_height();
     // All match as long as all have the same network, or none is gated.
     const bool gated = kinds_.back().membership.gated;
     gated_ = gated_ || (gated && (essids_.size() > 2 || channels_.size() > 1));

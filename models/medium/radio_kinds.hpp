@@ -72,7 +72,7 @@ class RadioKinds {
         for (Alike& each : kinds_) each.reach2 = {};
     }
     Meters highest() const { return highest_; }
-    /// Some model's loss depends on the heights of the antennas.
+    /// The bound of some model's range takes the heights of the antennas.
     bool heights_matter() const { return heights_matter_; }
     /// [m^2] A signal is strong enough for nobody farther away; may be infinite.
     double squared_reach(Kind from, Strength strength);

@@ -4,6 +4,7 @@
 #include "models/propagation/disc.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/itu_indoor.hpp"
+#include "models/propagation/itu_site_general.hpp"
 #include "models/propagation/log_distance.hpp"
 #include "models/propagation/raytrace_2007.hpp"
 #include "models/propagation/two_ray.hpp"
@@ -13,7 +14,8 @@
 namespace rovernet {
 
 /// The propagation models that scenario files know by name, cheapest first.
-using PropagationModels = std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, Raytrace2007>;
+using PropagationModels =
+    std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, ItuSiteGeneral, Raytrace2007>;
 
 /// Calls `visit.template operator()<Model>()` for each listed model.
 template <class Visitor>

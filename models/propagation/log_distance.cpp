@@ -7,7 +7,7 @@
 namespace rovernet {
 
 ShadowedLoss LogDistance::shadowed_loss(Hertz f) const {
-    return {.at_reference = free_space_db(reference_distance.value, f),
+    return {.at_reference = free_space_db(reference_distance.value, f) + excess.value,
             .per_decade = 10 * exponent,
             .reference_distance = reference_distance.value,
             .sigma = sigma.value};
@@ -15,7 +15,8 @@ ShadowedLoss LogDistance::shadowed_loss(Hertz f) const {
 
 Meters LogDistance::reach(Db loss, Hertz f) const {
     const double d0 = reference_distance.value;
-    const double more = loss.value + ShadowedLoss::cut_sigmas * sigma.value - free_space_db(d0, f);
+    const double more =
+        loss.value + ShadowedLoss::cut_sigmas * sigma.value - (free_space_db(d0, f) + excess.value);
     return {more < 0 ? 0 : d0 * math::exp10(more / (10 * exponent))};
 }
 

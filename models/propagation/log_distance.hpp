@@ -6,8 +6,9 @@
 namespace rovernet {
 
 /// Log-distance path loss [dB] with log-normal shadowing of the link:
-///   L(d) = L0 + 10 n log10(d / d0) + X,   L0 + X for d <= d0,   with L0 = free space at d0;
-///   X normal with mean 0 and standard deviation sigma, cut at 5 sigma; the sum is never negative.
+///   L(d) = L0 + 10 n log10(d / d0) + X,   L0 + X for d <= d0,   with L0 = free space at d0 +
+///   excess; X normal with mean 0 and standard deviation sigma, cut at 5 sigma; the sum is never
+///   negative.
 ///
 /// X is a function of seed, replication and the unordered pair of robots: the same in both
 /// directions, at every time and for every number of looks. The cut (5.7e-7 of draws) bounds the
@@ -20,6 +21,7 @@ struct LogDistance {
     double exponent = 2.5;           ///< n [-], > 0; 2 free space, about 4 an obstructed office
     Db sigma{5};                     ///< standard deviation [dB], >= 0
     Meters reference_distance{1.0};  ///< d0 [m], > 0
+    Db excess{0};                    ///< loss at d0 beyond that of free space [dB]; may be negative
 
     static constexpr auto fields() {
         return describe(field("exponent", &LogDistance::exponent, positive,
@@ -27,7 +29,9 @@ struct LogDistance {
                         field("sigma", &LogDistance::sigma, non_negative,
                               "standard deviation of the link's shadowing; 0 for the median"),
                         field("reference_distance", &LogDistance::reference_distance, positive,
-                              "d0, below which the loss is held"));
+                              "d0, below which the loss is held"),
+                        field("excess", &LogDistance::excess,
+                              "loss at d0 beyond that of free space; what a fit finds"));
     }
 
     LossShape shape() const {
@@ -35,7 +39,7 @@ struct LogDistance {
     }
 
     bool is_random() const { return sigma.value > 0; }
-    LogDistance median() const { return {exponent, Db{0}, reference_distance}; }
+    LogDistance median() const { return {exponent, Db{0}, reference_distance, excess}; }
     ShadowedLoss shadowed_loss(Hertz f) const;
     Meters reach(Db loss, Hertz f) const;
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;

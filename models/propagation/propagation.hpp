@@ -127,6 +127,8 @@ class Propagation {
     Meters reach(Db loss, Hertz frequency, Meters highest = anything) const {
         return self_->reach(loss, frequency, highest);
     }
+    /// Its bound takes the heights of the antennas.
+    bool is_bounded_by_height() const { return self_->is_bounded_by_height(); }
     void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
     LossShape shape() const { return self_->shape(); }
     /// What to build a ShadowedRange of; nothing if the model is not a ShadowedModel.
@@ -152,6 +154,7 @@ class Propagation {
         virtual std::string_view name() const = 0;
         virtual void loss(const LinkBatch&, Db, std::span<double>) const = 0;
         virtual Meters reach(Db, Hertz, Meters) const = 0;
+        virtual bool is_bounded_by_height() const = 0;
         virtual void check_frequency(Hertz) const = 0;
         virtual LossShape shape() const = 0;
         virtual std::optional<ShadowedLoss> shadowed_loss(Hertz) const = 0;
@@ -172,6 +175,7 @@ class Propagation {
             if constexpr (BoundedModel<T>) return model.reach(loss, frequency);
             return anything;
         }
+        bool is_bounded_by_height() const override { return BoundedByHeight<T>; }
         void check_frequency(Hertz frequency) const override {
             if constexpr (FrequencyCheckedModel<T>) model.check_frequency(frequency);
         }

@@ -3,36 +3,89 @@
 
 #include "models/propagation/propagation.hpp"
 
+#include <array>
+#include <string_view>
+
 namespace rovernet {
 
-/// Two-ray ground reflection, simplified:
-///   L(d) = free space + max(0, 20 log10(d / dc)),   dc = 4 pi ht hr / lambda,   never negative:
-/// beyond the crossover dc this is d^4 / (ht hr)^2, whatever the frequency.
+/// Equation of a TwoRay model.
+enum class TwoRayForm {
+    ns2,    ///< simplified, as in ns-2: free space, then d^4
+    exact,  ///< the sum of the two rays, with their peaks and nulls
+};
+template <>
+struct EnumNames<TwoRayForm> {
+    static constexpr std::array<std::string_view, 2> values = {"ns2", "exact"};
+};
+
+/// Direction of the electric field over the ground.
+enum class Polarization { vertical, horizontal };
+template <>
+struct EnumNames<Polarization> {
+    static constexpr std::array<std::string_view, 2> values = {"vertical", "horizontal"};
+};
+
+/// Two-ray ground reflection [dB], never negative.
 ///
-/// d is the distance between the antennas, ht and hr are their heights: their z above a flat ground
-/// at z = 0. An antenna below `lowest_antenna`, or below the ground, counts as that high; the
-/// equation would lose everything at height 0. Valid over open, flat ground that reflects without
-/// loss, for heights of a wavelength and more and d well above ht + hr. Leaves out the peaks and
-/// nulls of the two rays before the crossover (39 dB deep in the last one for 1.5 m at 2.4 GHz),
-/// walls and every obstacle.
+/// Distances: d1 is that of the antennas, d2 the length of the way by the ground; ht and hr are the
+/// heights of the antennas: their z above a flat ground at z = 0. An antenna below
+/// `lowest_antenna`, or below the ground, counts as that high; the equations would lose everything
+/// at height 0.
+///
+/// Form "ns2":   L = free space(d1) + max(0, 20 log10(d1 / dc)),   dc = 4 pi ht hr / lambda:
+/// beyond the crossover dc this is d1^4 / (ht hr)^2, whatever the frequency. It leaves out the
+/// peaks and nulls before the crossover (39 dB deep in the last one for 1.5 m at 2.4 GHz).
 /// Source: T. S. Rappaport, Wireless Communications, 2nd ed., section 4.6, with the crossover of
 /// the ns-2 manual, section 18.2.
+///
+/// Form "exact": L = free space(d1) - 20 log10 |1 + G (d1 / d2) exp(-j k (d2 - d1))|,
+///   d2 - d1 = 4 ht hr / (d1 + d2),   k = 2 pi / lambda,   sin t = (ht + hr) / d2,
+///   G = (sin t - z) / (sin t + z) for horizontal polarization,
+///   G = (e sin t - z) / (e sin t + z) for vertical,   z = sqrt(e - cos^2 t),
+/// with the relative permittivity e of a ground without loss. Source: Rappaport, section 4.6 and
+/// equations 4.24 and 4.25. The loss is not monotone: it falls by up to 6 dB below free space, and
+/// rises without bound in a null.
+///
+/// Valid over open, flat ground, for heights of a wavelength and more. Walls and obstacles are not
+/// seen.
 struct TwoRay {
     static constexpr std::string_view name = "two_ray";
 
     Meters lowest_antenna{0.1};  ///< [m] above the ground, > 0
+    TwoRayForm form = TwoRayForm::ns2;
+    Polarization polarization = Polarization::vertical;  ///< of form "exact"
+    double ground_permittivity = 15;                     ///< e [-], >= 1; of form "exact"
 
     static constexpr auto fields() {
-        return describe(field("lowest_antenna", &TwoRay::lowest_antenna, positive,
-                              "height above z = 0 that a lower antenna counts as having"));
+        return describe(
+            field("lowest_antenna", &TwoRay::lowest_antenna, positive,
+                  "height above z = 0 that a lower antenna counts as having"),
+            field("form", &TwoRay::form,
+                  "ns2: free space, then the 4th power of the distance; exact: the sum of the two "
+                  "rays"),
+            field("polarization", &TwoRay::polarization, "of form exact: vertical or horizontal"),
+            field("ground_permittivity", &TwoRay::ground_permittivity,
+                  Range{.low = 1, .text = ">= 1"},
+                  "of form exact: relative permittivity of the ground, 3 very dry to 30 wet"));
     }
 
-    LossShape shape() const { return LossShape::by_heights; }
+    LossShape shape() const {
+        return form == TwoRayForm::exact ? LossShape::unknown : LossShape::by_heights;
+    }
 
-    /// No antenna is higher than `highest`: the loss is never less than that of free space, nor
-    /// than that between two antennas of that height beyond their crossover, 40 log10(d / h).
+    /// Bound on the range where no antenna is higher than h = `highest`. Form "ns2": the loss is
+    /// never less than that of free space, nor than that between two antennas of that height beyond
+    /// their crossover, 40 log10(d / h). Form "exact": two fields in phase double the amplitude of
+    /// free space (6.02 dB); and where d1 >= 1 m that amplitude is multiplied by at most
+    ///   A / d1,   A = 2 h^2 + 2 k h^2 + 4 h g / sqrt(e - 1),   g = 1 (horizontal) or e (vertical),
+    /// the sum of the bounds of 1 - d1 / d2, of the phase and of 1 + G, so that L grows with
+    /// 40 log10 d1.
     Meters reach(Db loss, Hertz f, Meters highest) const;
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+
+  private:
+    void exact_loss(const LinkBatch& links, std::span<double> out_db) const;
+    double height(double z) const { return z > lowest_antenna.value ? z : lowest_antenna.value; }
 };
 
 }  // namespace rovernet

@@ -22,8 +22,10 @@ struct Ground {
     Legs legs{};
     Medium medium{{.scene = &scene}};
     test::Draw draw;
+    TwoRay model;
 
-    explicit Ground(std::uint32_t seed) : draw(seed) {}
+    explicit Ground(std::uint32_t seed)
+        : draw(seed), model{.form = seed % 2 ? TwoRayForm::ns2 : TwoRayForm::exact} {}
 
     Leg leg(Time now, double top) {
         const Vec3 from{draw.uniform(0, 2000), draw.uniform(0, 2000), draw.uniform(0, top)};
@@ -38,7 +40,7 @@ struct Ground {
     }
     void add(Time now, double top) {
         medium.add({.power = {10}, .antenna_height = {draw.uniform(0, 2)}}, legs.size() + 1,
-                   TwoRay{});
+                   model);
         legs.add(leg(now, top));
     }
     void replace(Time now, double top) {

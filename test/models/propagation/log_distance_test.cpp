@@ -133,3 +133,14 @@ TEST_CASE("log_distance: without sigma nothing is drawn: keys and seeds do not m
     median.loss(without_keys, {test::no_give_up}, {&out, 1});
     CHECK(out == plain);
 }
+
+TEST_CASE("log-distance: the excess is added at every distance, and shifts the reach") {
+    const LogDistance plain{.exponent = 3, .sigma = 0_dB};
+    LogDistance more = plain;
+    more.excess = 7.5_dB;
+    for (const double d : {0.2, 1.0, 40.0}) {
+        CHECK(near(test::loss_at(more, d), test::loss_at(plain, d) + 7.5, 1e-12));
+    }
+    CHECK(near(more.reach(Db{90}, 2450_MHz).value,
+               plain.reach(Db{90}, 2450_MHz).value * std::pow(10, -7.5 / 30), 1e-9));
+}

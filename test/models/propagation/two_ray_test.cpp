@@ -49,6 +49,45 @@ TEST_CASE("two-ray: losses are those of the vectors, on the slant distance") {
     }
 }
 
+TEST_CASE("two-ray, exact: losses are those of the vectors, over three grounds") {
+    const test::Vectors vectors("two_ray.csv");
+    const TwoRay horizontal{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
+    const TwoRay vertical{.form = TwoRayForm::exact};
+    TwoRay mirror = horizontal;
+    mirror.ground_permittivity = 1e300;  // reflects all, with the opposite sign
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        const double d = vectors.number(i, "d_ground_m"), ht = vectors.number(i, "ht_m");
+        const double hr = vectors.number(i, "hr_m");
+        const Hertz f{vectors.number(i, "f_Hz")};
+        CAPTURE(d);
+        CAPTURE(ht);
+        const auto is_near = [&](const TwoRay& model, const char* column) {
+            return near(loss_over_ground(ht, hr, d, f, model), vectors.number(i, column),
+                        test::vector_tolerance);
+        };
+        CHECK(is_near(mirror, "exact_G-1_dB"));
+        CHECK(is_near(horizontal, "exact_eps15_H_dB"));
+        CHECK(is_near(vertical, "exact_eps15_V_dB"));
+    }
+}
+
+TEST_CASE("two-ray, exact: far away it is the fourth power of the distance, to the last digits") {
+    TwoRay mirror{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
+    mirror.ground_permittivity = 1e300;
+    // (d^2 / (ht hr))^2; what is left out falls with (ht / d)^2 and (k ht hr / d)^2.
+    CHECK(near(loss_over_ground(1.5, 1.5, 1e8, 2450_MHz, mirror),
+               20 * std::log10(1e16 / (1.5 * 1.5)), 1e-6));
+}
+
+TEST_CASE("two-ray, exact: a ground as thin as air reflects nothing") {
+    const TwoRay air{.form = TwoRayForm::exact, .ground_permittivity = 1};
+    for (const double d : {1.0, 30.0, 1e4}) {
+        const double slant = std::hypot(d, 1.0);
+        CHECK(near(loss_over_ground(3, 2, d, 2450_MHz, air), free_space_db(slant, 2450_MHz),
+                   tolerance));
+    }
+}
+
 TEST_CASE("two-ray: levels are those of ns-2.35, with its speed of light") {
     const test::Vectors vectors("peer_ns2_loss.csv");
     int compared = 0;
