@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rovernet {
 
@@ -28,6 +29,13 @@ struct Material {
 struct WallRate {
     double per_crossing = 0;  ///< [dB]
     double per_metre = 0;     ///< [dB/m]
+};
+
+/// What crossings of walls take, by the walls' drawn thickness.
+struct WallRates {
+    std::vector<WallRate> light;  ///< by material, of walls that are thinner than ...
+    std::vector<WallRate> heavy;  ///< by material, of others
+    Meters thinnest_heavy;        ///< ... this [m]
 };
 
 /// The rate of `material` at `frequency`; one that follows the model takes `usual_per_metre`

@@ -113,8 +113,10 @@ void Scene::add_map(const OccupancyGrid& grid) {
     const auto used = materials_of(grid);
     for (const std::uint8_t material : used) {
         const auto walls = solid_rectangles(grid, WallsOf{material});
-        layers_.push_back(
-            {frame, walls, index(walls), material, materials_[material].height.value});
+        const auto indexed = index(walls);
+        layers_.push_back({frame, walls, indexed,
+                           std::make_shared<const WallThickness>(frame, indexed), material,
+                           materials_[material].height.value});
     }
     const bool walls_are_all = used.size() == 1 && !has_unknown(grid);
     obstacles_.emplace_back(frame, walls_are_all ? layers_.back().walls
@@ -189,6 +191,31 @@ double Scene::wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double 
         if (sum > enough) break;
     }
     return sum;
+}
+
+double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
+                        std::vector<Crossing>& scratch) const {
+    if (comes_before(b, a)) std::swap(a, b);
+    crossings(a, b, scratch);
+    if (scratch.empty()) return 0;
+    const double length = distance(a, b);
+    double sum = 0;
+    for (const Crossing& c : scratch) {
+        const Vec3 middle = a + ((c.entry + c.exit) / (2 * length)) * (b - a);
+        const bool heavy = wall_thickness(middle) >= rates.thinnest_heavy;
+        const WallRate& rate = (heavy ? rates.heavy : rates.light)[c.material];
+        sum += rate.per_crossing + rate.per_metre * c.length;
+        if (sum > enough) break;
+    }
+    return sum;
+}
+
+Meters Scene::wall_thickness(Vec3 p) const {
+    double most = 0;
+    for (const WallLayer& layer : layers_) {
+        most = std::max(most, layer.thickness->at(layer.frame.to_cells(p)));
+    }
+    return {most};
 }
 
 bool Scene::occupied(Vec3 p) const {

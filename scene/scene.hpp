@@ -69,6 +69,12 @@ class Scene {
     /// @param scratch  any vector, for its memory
     double wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
                      std::vector<Crossing>& scratch) const;
+    /// The same, by the drawn thickness of each wall in the middle of the segment's way through it.
+    double wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
+                     std::vector<Crossing>& scratch) const;
+    /// Drawn thickness of the walls at a point, whatever their height [m]; 0 outside of walls. See
+    /// WallThickness.
+    Meters wall_thickness(Vec3 p) const;
     /// What its walls are made of; at least one.
     const std::vector<Material>& materials() const { return materials_; }
     /// All walls follow the propagation model and are infinitely high: their length tells all.

@@ -35,6 +35,10 @@ class WallIndex {
     WallIndex(int columns, int rows, const std::vector<CellRectangle>& rectangles);
 
     bool empty() const { return rectangles_.empty(); }
+    int columns() const { return columns_; }
+    int rows() const { return rows_; }
+    /// The cell is solid; none outside of the map is.
+    bool solid(int column, int row) const;
     int tile_columns() const { return tile_columns_; }
     int tile_rows() const { return tile_rows_; }
     /// The rectangles inside one tile.
@@ -78,7 +82,6 @@ class WallIndex {
     void walk_tiles(CellPoint a, CellPoint b, Merge& merge) const;
     template <class Merge>
     void walk_line(CellPoint a, CellPoint b, Merge& merge) const;
-    bool solid(int column, int row) const;
 
     int columns_ = 0;
     int rows_ = 0;

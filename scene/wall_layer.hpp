@@ -3,6 +3,7 @@
 
 #include "scene/map_frame.hpp"
 #include "scene/wall_index.hpp"
+#include "scene/wall_thickness.hpp"
 #include "sim/geometry.hpp"
 
 #include <cstddef>
@@ -17,7 +18,8 @@ struct WallLayer {
     MapFrame frame;
     std::vector<CellRectangle> rectangles;   ///< disjoint, as few as the map's cutting gives
     std::shared_ptr<const WallIndex> walls;  ///< of these rectangles
-    std::size_t material = 0;                ///< index into the scene's materials
+    std::shared_ptr<const WallThickness> thickness;  ///< of these walls
+    std::size_t material = 0;                        ///< index into the scene's materials
     double height =
         std::numeric_limits<double>::infinity();  ///< [m] the walls stand from 0 to here
 

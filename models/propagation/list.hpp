@@ -6,6 +6,7 @@
 #include "models/propagation/itu_indoor.hpp"
 #include "models/propagation/itu_site_general.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "models/propagation/multi_wall.hpp"
 #include "models/propagation/raytrace_2007.hpp"
 #include "models/propagation/two_ray.hpp"
 
@@ -14,8 +15,8 @@
 namespace rovernet {
 
 /// The propagation models that scenario files know by name, cheapest first.
-using PropagationModels =
-    std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, ItuSiteGeneral, Raytrace2007>;
+using PropagationModels = std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, ItuSiteGeneral,
+                                     MultiWall, Raytrace2007>;
 
 /// Calls `visit.template operator()<Model>()` for each listed model.
 template <class Visitor>

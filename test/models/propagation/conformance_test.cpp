@@ -53,6 +53,10 @@ std::vector<TwoRay> variants() {
              .ground_permittivity = 1}};
 }
 template <>
+std::vector<MultiWall> variants() {
+    return {{}, {.exponent = 3, .excess = -10_dB, .light_wall = 0_dB, .floor_saving = 1}};
+}
+template <>
 std::vector<ItuSiteGeneral> variants() {
     return {{}, {.site = Site::industrial, .los = LineOfSight::no}, {.los = LineOfSight::yes}};
 }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "models/propagation/multi_wall.hpp"
+
+#include "models/propagation/friis.hpp"
+#include "sim/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace rovernet {
+namespace {
+
+constexpr Meters thinnest_heavy_wall{0.1};
+
+double at_1_m(const MultiWall& model, Hertz f) { return free_space_db(1, f) + model.excess.value; }
+
+/// k^e for a whole number of floors k > 0.
+double power(double k, double e) { return math::exp2(e * math::log2(k)); }
+
+double floors_db(const MultiWall& model, double k) {
+    if (k == 0) return 0;
+    return model.floor_loss.value * power(k, (k + 2) / (k + 1) - model.floor_saving);
+}
+
+/// The rates of the scene's materials where walls that follow the model take `usual`.
+std::vector<WallRate> rates_with(const LinkBatch& links, Db usual) {
+    std::vector<WallRate> rates;
+    for (const Material& material : links.scene->materials()) {
+        rates.push_back(material.follows_model() ? WallRate{usual.value, 0}
+                                                 : wall_rate(material, links.frequency, 0));
+    }
+    return rates;
+}
+
+}  // namespace
+
+Meters MultiWall::reach(Db loss, Hertz f) const {
+    const double more = loss.value - at_1_m(*this, f);
+    return {more < 0 ? 0 : math::exp10(more / (10 * exponent))};
+}
+
+void MultiWall::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+    const double at_1 = at_1_m(*this, links.frequency);
+    const WallRates walls{rates_with(links, light_wall), rates_with(links, heavy_wall),
+                          thinnest_heavy_wall};
+    std::vector<Crossing> scratch;
+    const auto storey = [&](Vec3 p) { return std::floor(p.z / links.floor_height.value); };
+    const double here = storey(links.from);
+    constexpr double most_floors = 1000;
+    for (std::size_t i = 0; i < out_db.size(); ++i) {
+        const double between = std::min(std::abs(storey(links.to[i]) - here), most_floors);
+        const double way = at_1 + 10 * exponent * math::log10(std::max(links.distance(i), 1.0)) +
+                           floors_db(*this, between);
+        out_db[i] = std::max(0.0, way);
+        if (way > give_up.value) continue;
+        constexpr double slack = 1e-9;  // [dB] more than rounding takes
+        out_db[i] =
+            std::max(0.0, way + links.scene->wall_loss(links.from, links.to[i], walls,
+                                                       give_up.value - way + slack, scratch));
+    }
+}
+
+}  // namespace rovernet

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "scene/wall_thickness.hpp"
+
+#include "scene/scene.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <thread>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+constexpr int side = 200;      // [cells]
+constexpr double cell = 0.02;  // [m]
+
+/// A map with one straight wall through its middle at an angle, drawn by the centres of its cells.
+OccupancyGrid with_wall(double thickness, double angle) {
+    OccupancyGrid grid;
+    grid.columns = grid.rows = side;
+    grid.cell_width = grid.cell_height = cell;
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            const double x = (column + 0.5 - side / 2) * cell, y = (row + 0.5 - side / 2) * cell;
+            const double off = std::abs(-std::sin(angle) * x + std::cos(angle) * y);
+            grid.cells.push_back(off <= thickness / 2 ? Cell::occupied : Cell::free);
+        }
+    return grid;
+}
+
+constexpr Vec3 middle{side * cell / 2 + 1e-4, side* cell / 2 + 1e-4, 0};
+
+}  // namespace
+
+TEST_CASE("wall thickness: that of a straight wall at any angle, within 8 % and its outline") {
+    for (const double thickness : {0.1, 0.3, 0.6}) {
+        for (int degrees = 0; degrees < 180; degrees += 5) {
+            CAPTURE(thickness);
+            CAPTURE(degrees);
+            const Scene scene(with_wall(thickness, degrees * std::numbers::pi / 180));
+            const double found = scene.wall_thickness(middle).value;
+            constexpr double most_over = 1.0824;  // 1 / cos 22.5 degrees
+            CHECK(found >= thickness - 2 * cell);
+            CHECK(found <= thickness * most_over + 2 * cell * std::numbers::sqrt2);
+        }
+    }
+}
+
+TEST_CASE("wall thickness: none outside of walls; at a crossing of walls that of the thinner") {
+    OccupancyGrid grid = with_wall(0.1, 0);
+    for (std::size_t i = 0; i < grid.cells.size(); ++i) {
+        if (i % side >= 90 && i % side < 110) grid.cells[i] = Cell::occupied;  // 40 cm, upright
+    }
+    const Scene scene(grid);
+    CHECK(scene.wall_thickness({0.5, 0.5}).value == 0);
+    CHECK(scene.wall_thickness({-1, 2}).value == 0);
+    CHECK(scene.wall_thickness({2, 0.5}).value == doctest::Approx(0.4));
+    CHECK(scene.wall_thickness({0.5, 2}).value == doctest::Approx(0.12));
+    CHECK(Scene{}.wall_thickness({0, 0}).value == 0);
+}
+
+TEST_CASE("wall thickness: threads that ask for the first time together get the same") {
+    const Scene scene(with_wall(0.3, 0.5));
+    std::vector<double> found(4);
+    std::vector<std::thread> threads;
+    for (double& each : found) {
+        threads.emplace_back([&] { each = scene.wall_thickness(middle).value; });
+    }
+    for (std::thread& each : threads) each.join();
+    for (const double each : found) CHECK(each == found.front());
+    CHECK(found.front() > 0);
+}
