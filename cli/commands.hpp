@@ -62,6 +62,7 @@ struct LossArguments {
     std::vector<std::string> parameters;
     std::string frequency = "2450 MHz";
     std::vector<std::string> distances;
+    std::vector<std::string> heights;
     std::optional<std::string> wall;
     bool json = false;
 };

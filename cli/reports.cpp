@@ -85,7 +85,17 @@ void loss(const LossArguments& a) {
     std::vector<Meters> distances;
     for (const auto& text : a.distances) distances.push_back(option_length("--distance", text));
     const Meters wall = a.wall ? option_length("--wall", *a.wall) : Meters{0};
-    const auto rows = loss_table(a.model, a.parameters, frequency, distances, wall);
+    if (a.heights.size() > 2) {
+        throw InputError({"--heights", 0, 0, true},
+                         fmt::format("found {} heights; expected that of both antennas, or those "
+                                     "of the sender and of the receiver: 1.5,0.3",
+                                     a.heights.size()));
+    }
+    const Meters standard = Radio{}.antenna_height;
+    const LossAntennas heights{
+        a.heights.empty() ? standard : option_length("--heights", a.heights.front()),
+        a.heights.empty() ? standard : option_length("--heights", a.heights.back())};
+    const auto rows = loss_table(a.model, a.parameters, frequency, distances, heights, wall);
     if (!a.json) {
         fmt::print("{:>14} {:>14}\n", "distance [m]", "loss [dB]");
         for (const auto& [d, l] : rows) fmt::print("{:>14} {:>14.6f}\n", d.value, l.value);
@@ -94,6 +104,10 @@ void loss(const LossArguments& a) {
     Table table;
     table.set("model", a.model);
     table.set("frequency_hz", frequency.value);
+    if (!a.heights.empty()) {
+        table.set("from_height_m", heights.from.value);
+        table.set("to_height_m", heights.to.value);
+    }
     Array list;
     for (const auto& [d, l] : rows) {
         Table row;

@@ -12,17 +12,21 @@ void add_models(CLI::App& app) {
 }
 
 void add_loss(CLI::App& app) {
-    const auto [loss, a] = add_command(
-        app, "loss", "Median path loss of a model over distance, antennas 1 m above the ground",
-        cli::loss);
+    const auto [loss, a] =
+        add_command(app, "loss", "Median path loss of a model over distance", cli::loss);
     add_examples(loss, {"rovernet loss friis --distance 1,10,100",
-                        "rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5"});
+                        "rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5",
+                        "rovernet loss two_ray form=exact --distance 36 --heights 1.5,1.5"});
     loss.add_option("MODEL", a.model, "its name; see rovernet models")->required();
     loss.add_option("PARAMETERS", a.parameters, "param=value ...");
     loss.add_option("--frequency", a.frequency, "such as \"2450 MHz\"")->capture_default_str();
     loss.add_option("--distance", a.distances, "such as 1,10,100 or \"1 km\"")
         ->delimiter(',')
         ->required();
+    loss.add_option("--heights", a.heights,
+                    "antennas above the ground, such as 1.5 or, unlike each other, 1.5,0.3; 1 m if "
+                    "not given")
+        ->delimiter(',');
     loss.add_option("--wall", a.wall, "length of wall on the way, such as 0.5");
     add_json(loss, a.json);
 }

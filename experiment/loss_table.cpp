@@ -70,7 +70,8 @@ Duration option_time(const std::string& option, const std::string& text) {
 
 std::vector<LossRow> loss_table(const std::string& model,
                                 const std::vector<std::string>& parameters, Hertz frequency,
-                                const std::vector<Meters>& distances, Meters wall) {
+                                const std::vector<Meters>& distances, LossAntennas heights,
+                                Meters wall) {
     const Location option{"loss " + model, 0, 0, true};
     Value document{Table{}};
     document.where = option;
@@ -93,10 +94,9 @@ std::vector<LossRow> loss_table(const std::string& model,
             throw InputError(option, fmt::format("{} m of wall do not fit into a way of {} m",
                                                  wall.value, d.value));
         }
-        const double height = Radio{}.antenna_height.value;
-        const Vec3 to{d.value, 0, height};
+        const Vec3 to{d.value, 0, heights.to.value};
         const LinkBatch link{.frequency = frequency,
-                             .from = {0, 0, height},
+                             .from = {0, 0, heights.from.value},
                              .to = {&to, 1},
                              .from_key = 0,
                              .to_keys = {&key, 1},

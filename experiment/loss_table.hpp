@@ -15,13 +15,20 @@ struct LossRow {
     Db loss;
 };
 
+/// Heights of the antennas above the ground [m], >= 0.
+struct LossAntennas {
+    Meters from, to;
+};
+
 /// Median path loss (shadowing off) of a listed model over distance.
 /// @param parameters  "name=value" each; what is not given takes the model's default
-/// @param wall        of the way that lies in walls
+/// @param distances   [m] horizontal
+/// @param wall        [m] length of the way that lies in walls
 /// @throws InputError whose place is the option that is wrong
 std::vector<LossRow> loss_table(const std::string& model,
                                 const std::vector<std::string>& parameters, Hertz frequency,
-                                const std::vector<Meters>& distances, Meters wall);
+                                const std::vector<Meters>& distances, LossAntennas heights,
+                                Meters wall);
 
 /// A quantity from the command line: its text, or a bare number in SI units.
 /// @throws InputError whose place is `option`
