@@ -179,9 +179,14 @@ Scene random_scene(test::Draw& draw, bool rich) {
 TEST_CASE("link changes: what dense sampling sees is found, for every model and direction") {
     constexpr auto time = 4s;
     constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};
-    const std::vector<Propagation> models{Friis{}, LogDistance{}, Raytrace2007{.wall_factor = 0.1},
+    const std::vector<Propagation> models{Friis{},
+                                          LogDistance{},
+                                          Raytrace2007{.wall_factor = 0.1},
                                           Raytrace2007{.coefficient = 22, .wall_factor = 0.02},
-                                          Raytrace2007{.coefficient = 20}};
+                                          Raytrace2007{.coefficient = 20},
+                                          MultiWall{},
+                                          ItuSiteGeneral{},
+                                          TwoRay{.form = TwoRayForm::exact}};
     for (std::size_t m = 0; m < models.size(); ++m) {
         const bool rich = m == 4;
         test::Draw draw(static_cast<std::uint32_t>(100 + m));
