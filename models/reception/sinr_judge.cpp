@@ -80,6 +80,9 @@ void SinrJudge::judge(Interference& air, const Emission& judged, Frames others,
         const auto arrives = air.arrival(frame, node);
         if (!arrives) return;
         arrivals_.push_back(*arrives);
+        constexpr double slack = 1 + 1e-9;  // of a square root, squared
+        const double heard_within2 = frame.heard_within * frame.heard_within * slack;
+        if (arrives->squared_distance > heard_within2) return;  // not a receiver
         arrivals_.back().lock = lock_of(sent_[frame.flight], node);
     };
     add(judged);
