@@ -39,8 +39,7 @@ struct Ground {
                 .to = from + 2.0 * velocity};
     }
     void add(Time now, double top) {
-        medium.add({.power = {10}, .antenna_height = {draw.uniform(0, 2)}}, legs.size() + 1,
-                   model);
+        medium.add({.power = {10}, .antenna_height = {draw.uniform(0, 2)}}, legs.size() + 1, model);
         legs.add(leg(now, top));
     }
     void replace(Time now, double top) {
