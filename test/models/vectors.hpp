@@ -35,8 +35,11 @@ inline std::vector<std::string> csv_cells(const std::string& line) {
 class Vectors {
   public:
     /// @param file  in test/data
-    explicit Vectors(const std::string& file) {
-        std::ifstream in(std::string(ROVERNET_TEST_DATA) + "/" + file);
+    explicit Vectors(const std::string& file)
+        : Vectors(std::string(ROVERNET_TEST_DATA) + "/", file) {}
+    /// @param folder  with a slash at its end
+    Vectors(const std::string& folder, const std::string& file) {
+        std::ifstream in(folder + file);
         for (std::string line; std::getline(in, line);) {
             if (line.empty() || line[0] == '#') continue;
             (header_.empty() ? header_ : rows_.emplace_back()) = csv_cells(line);
