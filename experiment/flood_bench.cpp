@@ -158,6 +158,18 @@ void flood(Network& network, NodeId from) {
     }
 }
 
+/// Floods from one robot after another for so long. @return CPU time that it took [s]
+double flood_for(Network& network, double cpu_s, std::uint32_t nodes, std::uint32_t& origin) {
+    const double begin = cpu_seconds();
+    double spent = 0;
+    while (spent < cpu_s) {
+        origin = static_cast<std::uint32_t>((origin + std::uint64_t{7919}) % nodes);
+        flood(network, NodeId{origin});
+        spent = cpu_seconds() - begin;
+    }
+    return spent;
+}
+
 }  // namespace
 
 FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
@@ -188,16 +200,9 @@ FloodBenchRow flood_bench(const FloodBench& bench, std::uint32_t nodes) {
     std::uint32_t origin = 0;
     for (int part = 0; part < 5; ++part) {
         const std::uint64_t attempts = tally_now().attempts;
-        const double begin = cpu_seconds();
-        double spent = 0;
-        while (spent < bench.cpu_s / 5) {
-            origin = static_cast<std::uint32_t>((origin + std::uint64_t{7919}) % nodes);
-            flood(network, NodeId{origin});
-            spent = cpu_seconds() - begin;
-        }
-        costs.push_back(
-            1e9 * spent /
-            static_cast<double>(std::max<std::uint64_t>(tally_now().attempts - attempts, 1)));
+        const double spent = flood_for(network, bench.cpu_s / 5, nodes, origin);
+        const std::uint64_t more = std::max<std::uint64_t>(tally_now().attempts - attempts, 1);
+        costs.push_back(1e9 * spent / static_cast<double>(more));
     }
     std::sort(costs.begin(), costs.end());
     const Tally all = tally_now();

@@ -117,3 +117,17 @@ TEST_CASE("many robots: what is asked of a robot that is not there is refused") 
     CHECK_THROWS_AS(net.on_link_lost({1}, [](NodeId) {}), std::out_of_range);
     CHECK_THROWS_AS(net.on_receive({1}, [](const Message&) {}), std::out_of_range);
 }
+
+TEST_CASE("a flood bench counts the same, recorded or not, also frames that are lost") {
+    for (const ReceptionChoice reception :
+         {ReceptionChoice::threshold, ReceptionChoice::collision}) {
+        const FloodBench plain{.reception = reception, .cpu_s = 1e-9};
+        FloodBench recorded = plain;
+        recorded.recorded = true;
+        const auto a = flood_bench(plain, 500), b = flood_bench(recorded, 500);
+        CHECK(a.transmissions == b.transmissions);
+        CHECK(a.receptions == b.receptions);
+        CHECK(a.attempts == b.attempts);
+        CHECK((a.attempts > a.receptions) == (reception == ReceptionChoice::collision));
+    }
+}
