@@ -15,7 +15,7 @@
 
 namespace rovernet::bench {
 
-/// Poisson traffic of many robots to one in the same place, at the access rung "aloha": the share
+/// Poisson traffic of many robots to one in the same place, at the access model "aloha": the share
 /// of the time in which a frame gets through.
 /// @param load  G [-]: frames that begin in the time of one
 /// @param slot  0: pure, else that of a frame, 1 ms

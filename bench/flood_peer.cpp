@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The flood of bench/peers in rovernet, for bench/peers/run: prints one line of JSON.
-//   --movement=FILE --rung=threshold|csma|csma_collision --header=36 --messages=20 --interval=3
+//   --movement=FILE --model=threshold|csma|csma_collision --header=36 --messages=20 --interval=3
 //   --ttl=100 --jitter=0.05
 //   --loss=two_ray --payload=64 --seed=1 --cca_us=13 --turnaround_us=5
 // The loss is log-distance from the crossover on, of the same levels, unless it is two_ray.
@@ -64,7 +64,7 @@ NetworkSettings settings(const Options& options, bool listens) {
         out.propagation =
             LogDistance{.exponent = 4, .sigma = Db{0}, .reference_distance = crossover};
         if (options.text("loss", "") == "two_ray") out.propagation = TwoRay{};
-        if (options.text("rung", "") == "csma") {
+        if (options.text("model", "") == "csma") {
             out.reception = Sinr{};
         } else {
             out.reception = Collision{};
@@ -86,7 +86,7 @@ NetworkSettings settings(const Options& options, bool listens) {
 
 int main(int argc, char** argv) {
     const Options options(argc, argv);
-    const bool listens = options.text("rung", "threshold").starts_with("csma");
+    const bool listens = options.text("model", "threshold").starts_with("csma");
     const Usage begin = Usage::now();
     Network net(settings(options, listens));
     MovementFile file(options.text("movement", ""), MovementSyntax::tolerant);
@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
         "{{\"peer\":\"rovernet{}\",\"nodes\":{},\"messages\":{},\"delivery_ratio\":{:.6f},"
         "\"transmissions\":{},\"receptions\":{},\"setup_cpu_s\":{:.6f},\"run_cpu_s\":{:.6f},"
         "\"rss_mb\":{:.1f},\"delivery_by_message\":[{:.6f}]}}\n",
-        listens ? "_" + options.text("rung", "") : "", count, messages,
+        listens ? "_" + options.text("model", "") : "", count, messages,
         sum / static_cast<double>(shares.size()), tally->transmissions, tally->receptions,
         ready.cpu_s - begin.cpu_s, done.cpu_s - ready.cpu_s, done.rss_mb, fmt::join(shares, ","));
 }

@@ -24,7 +24,7 @@ namespace rovernet {
 namespace {
 
 constexpr double decode_range = 250;    // [m]
-constexpr double sensing_range = 550;   // [m] at the rungs where frames disturb each other
+constexpr double sensing_range = 550;   // [m] of reception models with interference
 constexpr double mean_neighbours = 12;  // where there is no border
 constexpr std::uint32_t payload = 64;   // [bytes]
 
@@ -84,7 +84,7 @@ Propagation model(const FloodBench& bench) {
 /// A radio that reaches as far as the bench wants, at the median.
 Radio radio(const FloodBench& bench) {
     Radio radio{.rate = {11e6}, .preamble = std::chrono::microseconds{96}};
-    // Well above the noise at the decode range, as the rung "sinr" needs it.
+    // Well above the noise at the decode range, as the reception model "sinr" needs it.
     constexpr Dbm level_at_decode_range{-80};
     if (has_levels(bench)) {
         radio.power = level_at_decode_range + Db{free_space_db(1, radio.frequency)} +

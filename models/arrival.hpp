@@ -21,7 +21,7 @@ struct Emission {
     std::uint64_t serial = 0;  ///< its number, in the order of sending
 };
 
-/// What a receiver at the rung "sinr" made of a frame that it could decode.
+/// What a receiver of the model "sinr" made of a frame that it could decode.
 enum class Lock : std::uint8_t {
     open,    ///< not decided yet
     held,    ///< it locked on to it
@@ -42,7 +42,7 @@ struct Arrival {
     double squared_distance;  ///< [m^2] from where it was sent
     NodeId from;              ///< its sender
     bool own = false;         ///< the node sends it itself, and hears nothing else
-    Lock* lock = nullptr;     ///< at the rung "sinr", if the node can decode it
+    Lock* lock = nullptr;     ///< reception model "sinr": if the node can decode it
 
     bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
 };

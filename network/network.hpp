@@ -76,7 +76,7 @@ class Network {
     void unicast(NodeId node, NodeId to, std::string payload,
                  std::optional<std::uint32_t> size = {}, std::uint32_t flow = 0);
     /// From now on `node` always has a message of `size` [bytes] to send to `to`, or to everyone in
-    /// one hop. @throws std::invalid_argument without an access rung: nothing would hold it back
+    /// one hop. @throws std::invalid_argument without an access model: nothing would hold it back
     void saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow = 0);
     // Callbacks: each is called until its Subscription is ended.
 

@@ -142,7 +142,7 @@ void check_coding(const Phy& phy, std::string_view key, BitRate rate, Location w
                            rate.value / 1e6, fmt::join(known, ", ")));
 }
 
-/// The rung "sinr" needs levels, and rates whose errors it knows.
+/// Reception model "sinr" needs levels, and rates whose errors it knows.
 void check_sinr(const Scenario& scenario) {
     if (scenario.reception.model != ReceptionChoice::sinr) return;
     const AccessTable& access = scenario.access;

@@ -47,10 +47,10 @@ struct SinrFrame {
     Dbm noise = {};    ///< [dBm] of the receiver
 };
 
-/// Receivers at this rung: judges frames, one at a time.
+/// Receivers of this model: judges frames, one at a time.
 class SinrReceiver {
   public:
-    explicit SinrReceiver(const Sinr& rung = {}) : rung_(rung) {}
+    explicit SinrReceiver(const Sinr& settings = {}) : settings_(settings) {}
 
     /// What becomes of `signal`, whose receiver can decode it, when it has ended: waiting if the
     /// frame is decoded. Locks of frames that began by then are decided, and kept with them.
@@ -119,9 +119,9 @@ class SinrReceiver {
             const bool on_air = a->begin <= t && t < a->end && a != &preamble;
             if (on_air) others_mw += math::exp10(level(*a) / 10);
         }
-        if (others_mw == 0) return Dbm{level(preamble)} - noise >= rung_.preamble_threshold;
+        if (others_mw == 0) return Dbm{level(preamble)} - noise >= settings_.preamble_threshold;
         const double disturbing_db = 10 * math::log10(others_mw + math::exp10(noise.value / 10));
-        return Dbm{level(preamble)} - Dbm{disturbing_db} >= rung_.preamble_threshold;
+        return Dbm{level(preamble)} - Dbm{disturbing_db} >= settings_.preamble_threshold;
     }
     bool is_free_for(const Arrival& arrival) const;
     bool sends_within(Time after, Time until) const;
@@ -131,7 +131,7 @@ class SinrReceiver {
     }
     double log_success_of(const Arrival& judged, const SinrFrame& frame);
 
-    Sinr rung_;
+    Sinr settings_;
     std::vector<Arrival*> here_;  // what is or was on air at the node, in order of its beginning
     std::vector<Time> changes_;
     std::vector<double> power_mw_;

@@ -252,7 +252,7 @@ TEST_CASE("MAC trace: a broadcast has a line at its sender and one at each robot
     CHECK(count(text, " MAC ") == 3);
 }
 
-TEST_CASE("MAC trace: without a header of the access rung a frame is as large as its message") {
+TEST_CASE("MAC trace: without a header of the access model a frame is as large as its message") {
     const auto unicast = [](Network& net) { net.unicast({1}, {2}, "", 64); };
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Aloha{}}}) {
         const std::string text = row(access, unicast);

@@ -69,7 +69,7 @@ TEST_CASE("gate: none on either side lets every radio in") {
     CHECK(links_between({.essid = "x"}, {.essid = "y", .channel = 3, .gate = Gate::none}) == 2);
 }
 
-TEST_CASE("success rate: the same frames get through at every reception rung") {
+TEST_CASE("success rate: the same frames get through at every reception model") {
     const auto expected = through(0.5, true);
     CHECK(expected.second > 900);
     CHECK(through(0.5, true, Collision{}) == expected);

@@ -249,7 +249,7 @@ TEST_CASE("csma: saturated broadcasts go one hop, without a router, at the formu
     }
 }
 
-TEST_CASE("saturated traffic without an access rung is refused") {
+TEST_CASE("saturated traffic without an access model is refused") {
     Room cell(2, NoAccess{});
     CHECK_THROWS_AS(cell.net.saturate(cell.nodes[0], cell.nodes[1], 10), std::invalid_argument);
     CHECK_THROWS_AS(cell.net.unicast(cell.nodes[0], cell.nodes[0], "x"), std::invalid_argument);
@@ -290,12 +290,12 @@ std::string flooded(const ReceptionModel& reception, const AccessModel& access, 
 
 TEST_CASE("grid and one event per transmission give the records of all pairs and an event each") {
     for (const Db shadowing : {Db{0}, Db{4}}) {
-        for (const ReceptionModel& rung :
+        for (const ReceptionModel& model :
              {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
             for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Csma{}}}) {
-                CAPTURE(rung.name());
-                CHECK(flooded(rung, access, shadowing, false) ==
-                      flooded(rung, access, shadowing, true));
+                CAPTURE(model.name());
+                CHECK(flooded(model, access, shadowing, false) ==
+                      flooded(model, access, shadowing, true));
             }
         }
     }

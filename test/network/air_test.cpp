@@ -93,7 +93,7 @@ struct Playground {
     std::uint32_t seed;
     test::Draw draw;
     Propagation propagation;
-    Collision rung;
+    Collision reception;
     Network net;
     std::vector<Radio> radios{};
     std::shared_ptr<Log> log = std::make_shared<Log>();
@@ -102,7 +102,7 @@ struct Playground {
         : seed(number),
           draw(number),
           propagation(model),
-          rung(collision),
+          reception(collision),
           net({.seed = number,
                .propagation = model,
                .reception = collision,
@@ -186,7 +186,7 @@ struct Playground {
         return std::any_of(log->sendings.begin(), log->sendings.end(), [&](const Sending& g) {
             const auto other = g.from == node ? std::nullopt : heard(g, node);
             return other && other->begin <= mine.begin && mine.begin < other->end &&
-                   other->level_dbm >= mine.level_dbm + rung.capture_ratio.value;
+                   other->level_dbm >= mine.level_dbm + reception.capture_ratio.value;
         });
     }
 
@@ -199,8 +199,10 @@ struct Playground {
             const bool own = g.from == node;
             const auto other = own ? Heard{g.begin, g.end, 1e300} : heard(g, node);
             if (!other || mine.begin >= other->end || other->begin >= mine.end) continue;
-            const bool in_order = mine.begin <= other->begin || rung.capture == CaptureOrder::later;
-            if (in_order && mine.level_dbm >= other->level_dbm + rung.capture_ratio.value) continue;
+            const bool in_order =
+                mine.begin <= other->begin || reception.capture == CaptureOrder::later;
+            if (in_order && mine.level_dbm >= other->level_dbm + reception.capture_ratio.value)
+                continue;
             if (!own && !in_order && was_let_pass(*other, node)) continue;
             if (!own) return Fate::collided;
             fate = Fate::busy;
@@ -280,8 +282,8 @@ struct OpenField {
     Network net;
     std::shared_ptr<Log> log = std::make_shared<Log>();
 
-    explicit OpenField(ReceptionModel rung = Collision{})
-        : net({.propagation = Friis{}, .reception = rung, .metrics = false}) {
+    explicit OpenField(ReceptionModel model = Collision{})
+        : net({.propagation = Friis{}, .reception = model, .metrics = false}) {
         log->net = &net;
         net.add_sink(Sink{log});
         net.route(Flood{.ttl = 1});

@@ -133,16 +133,16 @@ TEST_CASE("load: 10,000 robots in one place cost a transmission one event, and h
 
 TEST_CASE("load: of 1,000 robots in one place 30 send at once, and nobody gets anything") {
     constexpr int robots = 1000, senders = 30;
-    for (const ReceptionModel& rung : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
-        CAPTURE(rung.name());
-        Watched crowd(disc(1, rung));
+    for (const ReceptionModel& model : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
+        CAPTURE(model.name());
+        Watched crowd(disc(1, model));
         crowd.add_crowd(robots);
         for (std::uint32_t k = 0; k < senders; ++k) crowd.send(k, 1ms);
         crowd.send(7, 2ms);
         crowd.net.run_until(start_of_run + 1900us);
         const auto busy = crowd.copies->count(Fate::busy);
         // Senders lose what they hear to each other; sinr says that they were busy.
-        CHECK(busy == (rung.name() == "collision" ? 0 : senders * (senders - 1)));
+        CHECK(busy == (model.name() == "collision" ? 0 : senders * (senders - 1)));
         CHECK(crowd.copies->count(Fate::collided) == senders * (robots - 1) - busy);
         CHECK(crowd.copies->all.size() == senders * (robots - 1));
         crowd.net.run_for(1s);
@@ -170,11 +170,11 @@ TEST_CASE("load: 300 robots in one place flood with sinr and csma, one frame eac
 
 TEST_CASE("load: a crowd that talks on takes no more memory") {
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Csma{}}}) {
-        for (const ReceptionModel& rung :
+        for (const ReceptionModel& model :
              {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}}) {
-            CAPTURE(rung.name());
+            CAPTURE(model.name());
             CAPTURE(access.name());
-            Network net(disc(1, rung, access));
+            Network net(disc(1, model, access));
             net.route(Flood{.ttl = 2});
             constexpr std::uint32_t robots = 30;
             for (std::uint32_t i = 0; i < robots; ++i) net.add({.name = {}, .at = {}});
@@ -269,8 +269,8 @@ TEST_CASE("load: a robot comes home over 1e9 m, and its links are found on the w
 }
 
 TEST_CASE("load: at a range of zero only those in one place hear each other") {
-    for (const ReceptionModel& rung : {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}}) {
-        Watched world(disc(0, rung));
+    for (const ReceptionModel& model : {ReceptionModel{Threshold{}}, ReceptionModel{Collision{}}}) {
+        Watched world(disc(0, model));
         world.add({0, 0, 1e-9, 5, 1e9});
         for (std::uint32_t i = 0; i < 5; ++i) world.send(i, i * 1ms);
         world.net.run_for(1s);
@@ -311,16 +311,16 @@ TEST_CASE("load: two frames of one nanosecond are both received at threshold, th
 }
 
 TEST_CASE("load: two frames of one nanosecond and one level are both lost") {
-    for (const ReceptionModel& rung : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
-        CAPTURE(rung.name());
-        Watched hidden(disc(15, rung));
+    for (const ReceptionModel& model : {ReceptionModel{Collision{}}, ReceptionModel{Sinr{}}}) {
+        CAPTURE(model.name());
+        Watched hidden(disc(15, model));
         hidden.add({0, 20, 10, 10});
         for (const std::uint32_t node : {0U, 1U}) hidden.send(node, 1ms);
         hidden.net.run_for(1s);
         CHECK(hidden.copies->count(Fate::collided) == 4);
         CHECK(hidden.copies->all.size() == 4);
 
-        Watched near(disc(15, rung));
+        Watched near(disc(15, model));
         near.add({0, 10, 5});
         for (const std::uint32_t node : {0U, 1U}) near.send(node, 1ms);
         near.net.run_for(1s);

@@ -61,7 +61,7 @@ struct Setting {
     bool reference = false;
 };
 
-/// Every rung and every way to flood.
+/// Every model and every way to flood.
 inline std::vector<Setting> settings() {
     using namespace std::chrono_literals;
     const LogDistance shadowed{.exponent = 3, .sigma = 4_dB};

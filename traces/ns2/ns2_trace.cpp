@@ -18,7 +18,7 @@ namespace {
 
 /// The PLCP preamble and header at 1 Mb/s, which ns-2 counts among a frame's bytes.
 constexpr std::uint32_t plcp_bytes = 24;
-/// [bytes] that a frame with this header of the access rung has on air beside its message.
+/// [bytes] that a frame with this header of the access model has on air beside its message.
 constexpr std::uint32_t on_air(std::uint32_t header) { return header ? header + plcp_bytes : 0; }
 
 /// What a MAC wrote into a packet; nothing: it has not seen it.

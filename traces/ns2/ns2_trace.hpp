@@ -42,7 +42,7 @@ enum class MacTrace { off, on };
 /// ttl is that carried on air, in a `D RTR TTL` line too (ns-2 shows 0 there).
 ///
 /// The size in an `s MAC` line, and of a frame that is lost on air, is that on air. A frame with a
-/// header of the access rung counts 24 bytes more, the PLCP's (802.11-2020, 15.2.2: 144 + 48 bits),
+/// header of the access model counts 24 bytes more, the PLCP's (802.11-2020, 15.2.2: 144 + 48 bits),
 /// as ns-2 counts them at any rate and standard; those that control access do so when they are
 /// received, too: RTS 44, CTS and ACK 38, id 0. Their lines have no network part; they show no
 /// transmitter of a CTS or an ACK, which do not carry it, and in the new format no type and size.

@@ -19,8 +19,8 @@ Arrival frame(std::int64_t begin, std::int64_t end, double level) {
             .from = NodeId{1}};
 }
 
-bool survives(const Collision& rung, Arrival f, Arrival g) {
-    return rung.survives(f, g, [](const Arrival& a, const Arrival& b, Db by) {
+bool survives(const Collision& model, Arrival f, Arrival g) {
+    return model.survives(f, g, [](const Arrival& a, const Arrival& b, Db by) {
         return a.level_dbm >= b.level_dbm + by.value;
     });
 }
@@ -37,12 +37,12 @@ TEST_CASE("collision: frames that overlap are lost, frames that touch are not") 
 }
 
 TEST_CASE("collision: the first frame survives if it is stronger by the capture ratio, exactly") {
-    const Collision rung{.capture_ratio = Db{10}};
+    const Collision model{.capture_ratio = Db{10}};
     const Arrival first = frame(0, 100, -50);
     for (const double weaker : {9.99, 10.0}) {
         const Arrival second = frame(50, 150, -50 - weaker);
-        CHECK(survives(rung, first, second) == (weaker >= 10));
-        CHECK_FALSE(survives(rung, second, first));
+        CHECK(survives(model, first, second) == (weaker >= 10));
+        CHECK_FALSE(survives(model, second, first));
     }
 }
 
@@ -55,20 +55,20 @@ TEST_CASE("collision: of two frames that begin together the stronger captures") 
 TEST_CASE("collision: a later frame captures only where that is allowed") {
     const Arrival weak = frame(0, 100, -80), strong = frame(50, 150, -50);
     for (const auto order : {CaptureOrder::first, CaptureOrder::later}) {
-        const Collision rung{.capture = order};
-        CHECK_FALSE(survives(rung, weak, strong));
-        CHECK(survives(rung, strong, weak) == (order == CaptureOrder::later));
+        const Collision model{.capture = order};
+        CHECK_FALSE(survives(model, weak, strong));
+        CHECK(survives(model, strong, weak) == (order == CaptureOrder::later));
     }
 }
 
 TEST_CASE("collision: a node that sends hears nothing, before, during and after") {
     const Arrival own = own_frame(NodeId{0}, at(90), at(200));
     for (const auto order : {CaptureOrder::first, CaptureOrder::later}) {
-        const Collision rung{.capture = order};
-        CHECK_FALSE(survives(rung, frame(0, 100, -10), own));
-        CHECK_FALSE(survives(rung, frame(90, 200, -10), own));
-        CHECK_FALSE(survives(rung, frame(150, 250, -10), own));
-        CHECK(survives(rung, frame(200, 300, -10), own));
+        const Collision model{.capture = order};
+        CHECK_FALSE(survives(model, frame(0, 100, -10), own));
+        CHECK_FALSE(survives(model, frame(90, 200, -10), own));
+        CHECK_FALSE(survives(model, frame(150, 250, -10), own));
+        CHECK(survives(model, frame(200, 300, -10), own));
     }
 }
 
@@ -105,11 +105,11 @@ TEST_CASE("collision: who is stronger is asked only where it decides") {
     };
     Arrival f = frame(0, 100, -50), before = frame(-50, 50, -70), after = frame(100, 200, -70);
     Arrival during = frame(20, 30, -70), own = own_frame(NodeId{0}, at(20), at(30));
-    const Collision rung;
-    CHECK_FALSE(rung.survives(f, before, is_stronger));
-    CHECK(rung.survives(f, after, is_stronger));
-    CHECK_FALSE(rung.survives(f, own, is_stronger));
+    const Collision model;
+    CHECK_FALSE(model.survives(f, before, is_stronger));
+    CHECK(model.survives(f, after, is_stronger));
+    CHECK_FALSE(model.survives(f, own, is_stronger));
     CHECK(asked == 0);
-    CHECK(rung.survives(f, during, is_stronger));
+    CHECK(model.survives(f, during, is_stronger));
     CHECK(asked == 1);
 }

@@ -21,8 +21,8 @@ constexpr Time at(std::int64_t us) { return start_of_run + Duration{1000 * us}; 
 
 /// One node, and frames of 11 Mb/s whose levels are given.
 struct Receiver {
-    Sinr rung{};
-    SinrReceiver receiver{rung};
+    Sinr model{};
+    SinrReceiver receiver{model};
     std::vector<Arrival> frames{};
     std::deque<Lock> locks{};
     double draw = 0.5;
@@ -73,7 +73,7 @@ TEST_CASE("sinr: of frames that begin together it locks on to the strongest, who
 }
 
 TEST_CASE("sinr: so it does if any preamble is found") {
-    Receiver r{.rung = {.preamble_threshold = Db{-1000}}};
+    Receiver r{.model = {.preamble_threshold = Db{-1000}}};
     const auto weak = r.hear(NodeId{1}, at(0), at(100), -80);
     const auto strong = r.hear(NodeId{2}, at(0), at(100), -40);
     CHECK(r.judge(weak) == Fate::collided);
