@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenario/scenario.hpp"
+#include "scenario/traffic_table.hpp"
 
 #include <string_view>
 #include <vector>

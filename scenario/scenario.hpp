@@ -3,7 +3,6 @@
 
 #include "models/links/link_search.hpp"
 #include "models/radio.hpp"
-#include "routing/list.hpp"
 #include "scenario/access_table.hpp"
 #include "scenario/metrics_table.hpp"
 #include "scenario/movement_table.hpp"
@@ -11,8 +10,11 @@
 #include "scenario/reader.hpp"
 #include "scenario/reception_table.hpp"
 #include "scenario/robot_table.hpp"
+#include "scenario/routing_table.hpp"
 #include "scenario/scene_table.hpp"
 #include "scenario/study_table.hpp"
+#include "scenario/trace_table.hpp"
+#include "scenario/traffic_table.hpp"
 #include "scenario/value.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
@@ -71,54 +73,6 @@ struct LinksTable {
                               "a link change behind walls is known to this"),
                         field("min_dwell", &LinksTable::min_dwell, dwell,
                               "of models of unknown shape: shorter states of a link are missed"));
-    }
-};
-
-/// [routing]: the chosen protocol, and the parameters given for any listed one.
-struct RoutingTable {
-    std::size_t protocol = 0;  ///< index into RoutingProtocols
-    RoutingProtocols parameters;
-
-    /// @throws std::invalid_argument if a parameter is out of its range
-    Router make() const;
-};
-
-/// What traffic is made of.
-enum class TrafficKind { broadcast, unicast };
-template <>
-struct EnumNames<TrafficKind> {
-    static constexpr std::array<std::string_view, 2> values = {"broadcast", "unicast"};
-};
-
-/// [[traffic]]
-struct TrafficTable {
-    TrafficKind kind = TrafficKind::broadcast;
-    std::string name = {};          ///< of the flow; unique, without blanks and commas
-    std::string from;               ///< "random" if there is no such robot: another one each time
-    std::optional<std::string> to;  ///< of a unicast
-    bool saturate = false;          ///< there is always a message to send
-    std::string payload;
-    std::optional<Bytes> size;
-    std::optional<Duration> start;  ///< none: when `from` arrives at the end of its movement
-    std::optional<Duration> every;
-    std::optional<Duration> stop;
-    std::optional<int> count;
-    Location from_where = {}, to_where = {}, payload_where = {};
-};
-
-/// [trace]
-enum class Ns2Choice { none, old_format, new_format };
-template <>
-struct EnumNames<Ns2Choice> {
-    static constexpr std::array<std::string_view, 3> values = {"none", "old", "new"};
-};
-struct TraceTable {
-    Ns2Choice ns2 = Ns2Choice::none;
-    bool mac = false;  ///< lines of the MAC layer, too
-
-    static constexpr auto fields() {
-        return describe(field("ns2", &TraceTable::ns2, "wireless trace format of ns-2.35"),
-                        field("mac", &TraceTable::mac, "lines of the MAC layer in it, too"));
     }
 };
 
