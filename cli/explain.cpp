@@ -22,7 +22,7 @@ void explain(const ExplainArguments& a) {
     const StoredRun& run = found.run;
     const Measurement& m = run.measurement;
     const std::string lacking = incompleteness(counts_of(inventory_of(store)));
-    if (!lacking.empty()) notice(fmt::format("this run is of a study that is {}", lacking));
+    if (!lacking.empty()) notice(fmt::format("the study of this run is {}", lacking));
     const std::string command = run_command(store, found.point, run.replication);
     Table table;
     table.set("run", run.id);

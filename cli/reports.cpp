@@ -155,7 +155,7 @@ void models(const PrintArguments& a) {
 void trace_stats(const TraceArguments& a) {
     const MetricValues metrics = trace_metrics(a.file);
     if (metrics.messages == 0) {
-        notice(a.file + ": no message is sent in it");
+        notice(a.file + ": no message was sent in this trace");
     }
     Table table;
     append_metrics(table, metrics);

@@ -53,12 +53,13 @@ void begin_afresh(const SweepArguments& a, const std::string& path) {
             fmt::format("{}: throw away {}{}?", path, runs.empty() ? "its 0 runs" : runs,
                         has_shards ? " and its shards on Slurm" : "");
         if (isatty(STDIN_FILENO) == 0) {
-            throw std::invalid_argument("--fresh: " + question + " Say so with --yes");
+            throw std::invalid_argument("--fresh: " + question + " Confirm it with --yes");
         }
         to_terminal(question + " [y/N] ");
         std::string answer;
         std::getline(std::cin, answer);
-        if (answer != "y" && answer != "yes") throw std::invalid_argument("nothing was changed");
+        if (answer != "y" && answer != "yes")
+            throw std::invalid_argument("not confirmed: nothing was changed");
     }
     std::optional<WriteLock> nobody_else_writes;  // or what they write is lost with its file
     if (std::filesystem::exists(path)) nobody_else_writes.emplace(path);
@@ -137,8 +138,9 @@ void sweep(const SweepArguments& a) {
     if (a.dry_run && !on_slurm) return print_plan(a, study);
     if ((a.shard || on_slurm || !a.merge.empty()) && study.table().precision) {
         throw std::invalid_argument(
-            "--shard, --merge, --executor slurm: how often a precision repeats is known to a whole "
-            "sweep only; expected replications instead");
+            "--shard, --merge, --executor slurm: the number of runs has to be known before, and "
+            "with "
+            "precision the sweep decides it as it goes; expected replications instead");
     }
     const std::string path = store_path(a);
     if (a.fresh && !a.dry_run) begin_afresh(a, path);

@@ -256,7 +256,9 @@ void Builder::add_traffic() {
                     .purpose = Purpose::traffic_source,
                     .a = name_key(table.name)}});
         if (source->from.empty()) {
-            throw InputError(table.from_where, "from: there is no robot to send; expected two");
+            throw InputError(
+                table.from_where,
+                "from: no robot is left that could send; expected at least two robots");
         }
         if (table.start) {
             expect(table.from, *table.start, [source] { send_and_repeat(source); });

@@ -147,9 +147,10 @@ Movement MotionBuilder::make(Model model, const MoveTable& move, const RobotTabl
     if constexpr (LedModel<Model>) {
         model.leader = ids_.find(move.leader)->second;
         if (robot.count || ids_.find(name)->second != model.leader) return model;
-        throw InputError(move.leader_where, fmt::format("leader: robot \"{}\" cannot go by itself; "
-                                                        "expected another robot",
-                                                        name));
+        throw InputError(move.leader_where,
+                         fmt::format("leader: robot \"{}\" cannot follow itself; "
+                                     "expected another robot",
+                                     name));
     } else {
         if constexpr (std::same_as<Model, Patrol>) {
             for (Vec3 at = from; const Vec3 place : model.path) {

@@ -17,8 +17,8 @@ bool LinkWatch::later(const Entry& p, const Entry& q) {
 void LinkWatch::grow(std::size_t robots) {
     if (robots > most_robots) {
         throw RunError(
-            fmt::format("links of {} robots are asked for, of which there are {}; at "
-                        "most {} robots can be watched",
+            fmt::format("{} robots have {} links to be watched; expected at "
+                        "most {} robots",
                         robots, robots * (robots - 1), most_robots));
     }
     robots_ = robots;

@@ -10,31 +10,59 @@
 #include <string_view>
 #include <vector>
 
+// Access to the medium as a scenario file gives it:
+//
+//     [access]
+//     model = "csma"
+//     standard = "802.11g"
+//     basic_rates = ["6 Mb/s"]
+
 namespace rovernet {
 
-/// How robots get access to the medium.
+/// Words of [access] model: how robots get access to the medium.
+///
+/// - none: a frame goes on air at once, whatever else is there
+/// - aloha: a robot's own frames wait for one another; it does not listen
+/// - csma: the distributed coordination function (DCF) of IEEE 802.11
 enum class AccessChoice { none, aloha, csma };
 template <>
 struct EnumNames<AccessChoice> {
     static constexpr std::array<std::string_view, 3> values = {"none", "aloha", "csma"};
 };
 
-/// [access]: keys of csma that are not given are those of its standard.
+/// [access]: the chosen model and the parameters of all. Those of csma that are not given are its
+/// standard's; one that is given for a model that is not chosen is checked and kept.
 struct AccessTable {
     AccessChoice model = AccessChoice::none;
+    /// Slot [ns]: of the backoff of csma, by default the standard's; of aloha frames begin at
+    /// multiples of it, by default 0: pure ALOHA.
     std::optional<Duration> slot = std::nullopt;
+    /// Frames that wait at a robot at most; one more is dropped (IFQ).
     int queue = 50;
+    /// Standard whose timing and airtimes csma has.
     WifiStandard standard = WifiStandard::b;
+    /// Times of csma [ns]: interframe spaces, time until energy is sensed, time from deciding to
+    /// sending, time until an answer is noticed. `difs` is `sifs` and two slots if it is not given.
     std::optional<Duration> sifs = std::nullopt, difs = std::nullopt, cca_time = std::nullopt,
                             turnaround = std::nullopt, rx_start_delay = std::nullopt;
+    /// Contention window of csma, least and largest [slots].
     std::optional<int> cw_min = std::nullopt, cw_max = std::nullopt;
+    /// Basic rates of csma [bit/s]: broadcasts and RTS go at the lowest, CTS and ACK at the highest
+    /// that is not above the rate of what they answer.
     std::optional<std::vector<BitRate>> basic_rates = std::nullopt;
+    /// Waiting of csma after a frame with errors: longer (EIFS), as if an acknowledgement followed.
     bool eifs = true;
+    /// Attempts at a unicast of csma, and at one behind an RTS, before it is given up (RET); 0: no
+    /// end.
     int short_retries = Csma{}.short_retries;
     int long_retries = Csma{}.long_retries;
+    /// Size [bytes], header included, above which a unicast of csma asks with an RTS first.
     Bytes rts_threshold{Csma{}.rts_threshold};
+    /// Size [bytes] that csma adds to a message.
     Bytes header{Csma{}.header};
 
+    /// Ranges here hold for each key alone; read_scenario() checks what csma needs of several
+    /// together.
     static constexpr auto fields() {
         constexpr Range counts{.low = 1, .high = 1000000, .text = "from 1 to 1000000"};
         constexpr Range window{.low = 0, .high = 65535, .text = "from 0 to 65535"};
@@ -61,8 +89,10 @@ struct AccessTable {
             field("rts_threshold", &A::rts_threshold, "larger unicasts ask with an RTS first"),
             field("header", &A::header, "that access adds to a message"));
     }
+    /// Chosen model with its parameters. network_settings() asks for it.
     AccessModel make() const;
-    Csma csma() const;  ///< its settings, whatever the model
+    /// Settings of csma, whatever the model: for checks of the table.
+    Csma csma() const;
 };
 
 }  // namespace rovernet

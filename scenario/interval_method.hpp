@@ -8,8 +8,12 @@
 
 namespace rovernet {
 
-/// How the interval of a mean is made: by Student's t, which supposes that means are normal, or by
-/// betting, which supposes only that the values have bounds.
+/// Method by which the interval of a mean is made.
+///
+/// - `t`: Student's t, which supposes that means are normal.
+/// - `betting`: supposes only that the values have bounds; wider, but right for ratios near 0 or 1.
+///
+/// [study] interval chooses one; interval_of() in study/interval.hpp makes both.
 enum class IntervalMethod { t, betting };
 
 template <>

@@ -5,15 +5,26 @@
 
 #include <optional>
 
+// Metrics beyond the usual ones, as a scenario file asks for them:
+//
+//     [metrics]
+//     robots = true
+//     topology = true
+
 namespace rovernet {
 
 /// [metrics]: what is measured beyond the totals of a run. What is not asked for costs nothing.
+/// network_settings() and the run make the parts of Metrics, and the sink Topology, of it.
 struct MetricsTable {
-    /// `reach`, which takes a look at every robot for every message; none: only while cheap
+    /// Share of the robots that a chain of links joins to the sender as it sends, which takes a
+    /// look at every robot for every message; none: only as long as it is cheap.
     std::optional<bool> reach = {};
-    bool flows = true;      ///< each [[traffic]] table by itself
-    bool robots = false;    ///< what each robot gets
-    bool topology = false;  ///< degree, components, speed, how long links last
+    /// Metrics of each [[traffic]] table by itself.
+    bool flows = true;
+    /// Metrics of what each robot gets.
+    bool robots = false;
+    /// Metrics of the network's shape: degree, components, mean speed, lifetime of links.
+    bool topology = false;
 
     static constexpr auto fields() {
         return describe(

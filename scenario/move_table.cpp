@@ -68,7 +68,7 @@ void read_leader(TableReader& table, MoveTable& move) {
     }
 }
 
-/// A robot with a place of its own starts there.
+/// Start of a model that can draw one: a robot with a place of its own starts there.
 template <class Model>
 void settle_start(Model& model, TableReader& table, bool placed) {
     if constexpr (DrawnModel<Model>) {

@@ -21,22 +21,37 @@
 #include <variant>
 #include <vector>
 
+// Movements as a scenario file gives them. Models of mobility/ that describe their parameters are
+// read as they are; the others (fixed, waypoints, goal) have a table here. MotionBuilder makes a
+// Movement of each.
+//
+//     move = { model = "random_waypoint", area = [["0 m", "0 m"], ["100 m", "50 m"]] }
+
 namespace rovernet {
 
-/// move = { model = "fixed" }
+/// The robot stays where it is. It is the default:
+///
+///   move = { model = "fixed" }
 struct FixedTable {
     static constexpr std::string_view name = "fixed";
     static constexpr auto fields() { return describe(); }
 };
 
-/// move = { model = "waypoints", ... }
+/// The robot goes from place to place, around the walls, and then rests:
+///
+///   move = { model = "waypoints", path = [["5 m", "3 m"], ["5 m", "9 m"]], speed = "1 m/s" }
 struct WaypointsTable {
+    /// Order of the places: as they are given, or shuffled anew in each replication.
     enum class Order { given, shuffled };
     static constexpr std::string_view name = "waypoints";
 
-    std::vector<Vec3> path;  ///< [m]
+    /// Places to go to [m], at least one.
+    std::vector<Vec3> path;
+    /// Speed on the way [m/s], > 0; of no effect with `times`.
     MetersPerSecond speed{1};
-    std::optional<std::vector<Duration>> times;  ///< one per point of the path; instead of speed
+    /// Times at which the robot is at each place of the path [ns], as many as there are places,
+    /// each later than the one before; instead of a speed.
+    std::optional<std::vector<Duration>> times;
     Order order = Order::given;
 
     static constexpr auto fields() {
@@ -48,17 +63,23 @@ struct WaypointsTable {
             field("order", &WaypointsTable::order, "given, or shuffled anew in each replication"));
     }
 };
+/// Words of the order in files.
 template <>
 struct EnumNames<WaypointsTable::Order> {
     static constexpr std::array<std::string_view, 2> values = {"given", "shuffled"};
 };
 
-/// move = { model = "goal", ... }
+/// The robot goes to one place, around the walls, and then rests:
+///
+///   move = { model = "goal", to = ["5 m", "9 m"], speed = "1 m/s" }
 struct GoalTable {
     static constexpr std::string_view name = "goal";
 
-    std::optional<Vec3> to;   ///< [m]
-    std::vector<Vec3> among;  ///< [m] one of them is drawn in each replication, instead of `to`
+    /// Place to go to [m]; either this or `among` is given.
+    std::optional<Vec3> to;
+    /// Places of which one is drawn in each replication [m].
+    std::vector<Vec3> among;
+    /// Speed on the way [m/s], > 0.
     MetersPerSecond speed{1};
 
     static constexpr auto fields() {
@@ -69,39 +90,48 @@ struct GoalTable {
     }
 };
 
-/// The movement models that scenario files know by name.
+/// Movement models that scenario files know by name. A model that is added here is read, checked,
+/// printed, documented and swept: all of that follows from its fields().
 using MoveModels = std::variant<FixedTable, WaypointsTable, GoalTable, Patrol, Follow, Group,
                                 RandomWaypoint, RandomDirection, RandomWalk, GaussMarkov>;
 
-/// A model that goes by another robot.
+/// Movement model of a robot that goes by another one: its leader, which the file gives by name.
 template <class Model>
 concept LedModel = requires(Model model) {
     model.leader;
 };
 
-/// A model that can draw its robot's first place.
+/// Movement model that can draw its robot's first place.
 template <class Model>
 concept DrawnModel = requires(Model model) {
     model.start;
 };
 
-/// A movement as a file gives it, and where, for errors found when it is built.
+/// Movement as a file gives it: one model with its parameters, and its places for errors that are
+/// found when it is built.
 struct MoveTable {
+    /// Chosen model with its parameters.
     MoveModels model;
-    std::string leader = {};  ///< name of the robot that a led model goes by
+    /// Name of the robot that a led model goes by; empty for others.
+    std::string leader = {};
+    /// Places of the table and of its key `leader`.
     Location where = {}, leader_where = {};
 
-    /// The model draws where the robot starts.
+    /// Whether the model draws where the robot starts: a [[robot]] needs no `at` then.
     bool draws_place() const;
+    /// Name of the model.
     std::string_view name() const {
         return std::visit([](const auto& m) { return std::decay_t<decltype(m)>::name; }, model);
     }
 };
 
-/// Reads move = { ... }. @param placed  the robot has a place to start from
+/// Reads move = { ... }.
+/// @param placed  whether the robot has a place to start from, so that its model draws none
+/// @throws InputError for an unknown model or key, a value out of its range, and a parameter that
+/// the model cannot do without
 MoveTable read_move(const Value& value, bool placed);
 
-/// The reverse.
+/// Table that reads back as the same movement.
 Table move_document(const MoveTable& move);
 
 }  // namespace rovernet

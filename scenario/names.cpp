@@ -17,7 +17,8 @@ class Names {
         for (const FileRobot& robot : scenario.movement.robots) names_.emplace(robot.name, nullptr);
     }
 
-    /// @param key  that names the robot, at `where`
+    /// Checks that there is a robot of that name.
+    /// @param key  key that names it, at `where`
     void check(const std::string& name, std::string_view key, const Location& where) const {
         if (names_.contains(name)) return;
         const std::string near = suggestion(name);
@@ -56,7 +57,7 @@ class Names {
     std::map<std::string, const RobotTable*, std::less<>> names_;
 };
 
-/// Where an address was given first, and by whom.
+/// Addresses by the robot to which each was given first.
 using Given = std::map<std::string, const RobotTable*, std::less<>>;
 
 void check_address(Given& given, const std::optional<std::string>& address, std::string_view what,

@@ -7,18 +7,31 @@
 
 #include <cstddef>
 
+// Propagation as a scenario file gives it:
+//
+//     [propagation]
+//     model = "log_distance"
+//     exponent = 2.7
+//     sigma = "4 dB"
+
 namespace rovernet {
 
-/// [propagation]: the chosen model, and the parameters given for any listed model.
+/// [propagation]: the chosen model, and the parameters that were given for any listed model. Those
+/// of other models are kept, so that one key, or a study, swaps the model.
 struct PropagationTable {
-    std::size_t model = 1;  ///< index into PropagationModels
+    /// Index into PropagationModels; by default friis.
+    std::size_t model = 1;
+    /// One struct for each listed model, with its parameters.
     PropagationModels parameters;
 
+    /// Chosen model, ready for use.
     /// @throws std::invalid_argument if a parameter is out of its range
     Propagation make() const;
 };
 
-/// A listed model from the table of a [propagation], shadowing off.
+/// Listed model made of a table like [propagation], shadowing off: its median loss. `rovernet loss`
+/// tabulates it.
+/// @throws InputError as read_propagation()
 Propagation median_propagation(const Value& table);
 
 }  // namespace rovernet

@@ -80,7 +80,7 @@ std::string unit_names(const Kind& kind) {
                                               found, kind.what, unit_names(kind), suggestion));
 }
 
-/// What people write in full or in other ways.
+/// Unit that is meant by one written in full or in another way.
 std::string_view usual_unit(std::string_view name) {
     constexpr std::pair<std::string_view, std::string_view> others[] = {
         {"sec", "s"},       {"secs", "s"},     {"second", "s"},    {"seconds", "s"},
@@ -96,7 +96,7 @@ std::string_view usual_unit(std::string_view name) {
     return found == std::end(others) ? name : found->second;
 }
 
-/// "did you mean ...?" for a unit that is misspelt, in its capitals above all.
+/// Suggestion "did you mean ...?" for a unit that is misspelt, first of all in its capitals.
 std::string nearest_unit(const Kind& kind, std::string_view name) {
     const auto same_letter = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
     std::vector<std::string> names;
@@ -142,7 +142,7 @@ double bare(const Value& value, std::string_view key, Dimension dimension, doubl
                                              : within(value, key, k, number);
     }
     within(value, key, k, number);
-    // 2.4 is of gigahertz, 2400 of megahertz.
+    // A number such as 2.4 is of gigahertz, 2400 of megahertz.
     const bool small = dimension == Dimension::frequency && std::abs(number) < 100;
     reject(value, key, k, fmt::format("found the number {} without a unit", number),
            fmt::format("did you mean \"{} {}\"?", number, k.units[small ? 1 : 0].name));
@@ -215,7 +215,7 @@ std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts)
             for (const std::string& text : texts) read_quantity(Value(text), "", dimension);
             return dimension;
         } catch (const InputError&) {
-            // In another, perhaps.
+            // The texts may be quantities of another dimension.
         }
     }
     return std::nullopt;

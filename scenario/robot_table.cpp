@@ -24,7 +24,7 @@ PlaceTable read_place(const Value& value) {
     return place;
 }
 
-/// A message for one robot needs words, and a sender needs a message that came.
+/// Checks the receiver of a message: it needs a message to send, and "sender" one that came.
 void check_receiver(const ReactionTable& reaction, TableReader& table) {
     if (!reaction.to) return;
     if (!reaction.send) table.missing("send", "send = \"F\": to needs it");
@@ -119,7 +119,7 @@ void read_air(TableReader& table, RobotTable& robot, const Scenario& scenario) {
     }
     if (const Value* propagation = table.take("propagation")) {
         robot.own_model = propagation->table() && propagation->table()->find("model");
-        // Who chooses a model chooses its parameters with it: none are inherited.
+        // A model of its own comes with its own parameters: none are inherited.
         robot.propagation = robot.own_model ? PropagationTable{} : scenario.propagation;
         robot.propagation_where = propagation->where;
         read_propagation(*propagation, *robot.propagation);

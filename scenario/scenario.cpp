@@ -40,7 +40,7 @@ std::vector<std::string> model_names() {
     return names;
 }
 
-/// The name becomes a folder's.
+/// Checks the name of the run, which becomes that of a folder.
 void check_run_name(TableReader& document, const std::string& name) {
     if (const Value* table = document.take("scenario")) {
         if (const Value* given = table->table()->find("name"))
@@ -66,10 +66,10 @@ void check_receiver(const TrafficTable& traffic) {
     if (!traffic.to || *traffic.to != traffic.from) return;
     throw InputError(
         traffic.to_where,
-        fmt::format("to: found \"{}\", who sends it; expected another robot", *traffic.to));
+        fmt::format("to: found \"{}\", which is the sender; expected another robot", *traffic.to));
 }
 
-/// Traffic that stops before it starts says nothing.
+/// Checks that traffic does not stop before it starts.
 void check_stop(const TrafficTable& traffic, TableReader& table) {
     if (!traffic.stop || !traffic.start || *traffic.stop > *traffic.start) return;
     throw InputError(table.take("stop")->where,
@@ -84,7 +84,7 @@ TrafficTable read_traffic(const Value& value) {
     table.read("kind", traffic.kind);
     if (table.read("name", traffic.name) && !is_flow_name(traffic.name)) {
         throw InputError(table.take("name")->where,
-                         fmt::format("name: found \"{}\"; expected letters without blanks and "
+                         fmt::format("name: found \"{}\"; expected a name without blanks and "
                                      "commas, as it ends the names of metrics",
                                      traffic.name));
     }
@@ -113,7 +113,7 @@ TrafficTable read_traffic(const Value& value) {
     if (traffic.saturate && traffic.every) {
         throw InputError(
             table.take("every")->where,
-            "every: saturated traffic has always a message to send; expected no every");
+            "every: saturated traffic always has a message to send; expected no every");
     }
     if (!traffic.every && (traffic.stop || traffic.count)) {
         table.missing("every", "every = \"3 s\": stop and count need it");
@@ -121,28 +121,29 @@ TrafficTable read_traffic(const Value& value) {
     return traffic;
 }
 
-/// Saturated traffic without an access model would send without end at once.
+/// Checks that saturated traffic has an access model: otherwise it would send without end at once.
 void check_traffic(const Scenario& scenario) {
     if (scenario.access.model != AccessChoice::none) return;
     for (const TrafficTable& traffic : scenario.traffic) {
         if (!traffic.saturate) continue;
         throw InputError(traffic.from_where,
-                         "saturate: nothing holds this robot back; expected [access] model = "
+                         "saturate: without an access model this robot would send without end at "
+                         "once; expected [access] model = "
                          "\"csma\" or \"aloha\"");
     }
 }
 
-/// A bit rate whose errors sinr can compute.
+/// Checks a bit rate: reception model "sinr" can compute its errors.
 void check_coding(const Phy& phy, std::string_view key, BitRate rate, Location where) {
     if (phy.coding(rate)) return;
     std::vector<double> known;  // [Mbit/s]
     for (const BitRate each : phy.rates()) known.push_back(each.value / 1e6);
-    throw InputError(
-        where, fmt::format("{}: found {} Mbit/s; [reception] model = \"sinr\" knows {} Mbit/s", key,
-                           rate.value / 1e6, fmt::join(known, ", ")));
+    throw InputError(where, fmt::format("{}: found {} Mbit/s; expected a rate whose errors "
+                                        "[reception] model = \"sinr\" can compute: {} Mbit/s",
+                                        key, rate.value / 1e6, fmt::join(known, ", ")));
 }
 
-/// Reception model "sinr" needs levels, and rates whose errors it knows.
+/// Checks what reception model "sinr" needs: levels, and rates whose errors it knows.
 void check_sinr(const Scenario& scenario) {
     if (scenario.reception.model != ReceptionChoice::sinr) return;
     const AccessTable& access = scenario.access;
@@ -182,7 +183,7 @@ std::vector<T> read_list(TableReader& document, std::string_view key, auto&& rea
     return list;
 }
 
-/// [[traffic]]: flows, and files of flows; a lone [traffic] may be a file, too.
+/// Reads [[traffic]]: flows, and files of flows; a lone [traffic] may be a file, too.
 void read_all_traffic(TableReader& document, Scenario& out) {
     const auto is_file = [](const Value& v) { return v.table() && v.table()->find("file"); };
     const Value* value = document.take("traffic");
@@ -206,7 +207,7 @@ void read_section(TableReader& document, std::string_view key, T& out) {
     table.reject_unknown();
 }
 
-/// Values that suit another access model, but not csma.
+/// Checks values that suit other access models, but not csma.
 void check_csma(const AccessTable& access, const Table& table) {
     constexpr double longest = 1e9;  // [s] of a backoff; see read_value of a time
     const WifiTiming timing = access.csma().timing;
@@ -228,7 +229,8 @@ void check_csma(const AccessTable& access, const Table& table) {
     }
 }
 
-/// Radios of OFDM have its preamble and its highest rate, unless [radio] says otherwise.
+/// Reads [access]. Radios of OFDM have its preamble and its highest rate, unless [radio] says
+/// otherwise.
 void read_access(TableReader& document, Scenario& out) {
     const Value* access = document.take("access");
     if (access) out.access_where = access->where;
@@ -254,7 +256,7 @@ void read_routing(TableReader& document, RoutingTable& out) {
     table.reject_unknown();
 }
 
-/// The robots that the movement file names; they need no [[robot]].
+/// Reads [movement], and the robots that its file names; they need no [[robot]].
 void read_movement(TableReader& document, Scenario& out) {
     read_section(document, "movement", out.movement);
     const Value* section = document.take("movement");
@@ -271,7 +273,8 @@ void read_movement(TableReader& document, Scenario& out) {
     out.notices.insert(out.notices.end(), notices.begin(), notices.end());
 }
 
-/// A random waypoint model that does not start in its stationary state slows down for a while.
+/// Notices random waypoint models that do not start in their stationary state: they slow down for a
+/// while.
 void note_decay(Scenario& out) {
     for (const RobotTable& robot : out.robots) {
         const auto* model = std::get_if<RandomWaypoint>(&robot.move.model);
@@ -287,7 +290,7 @@ void note_decay(Scenario& out) {
     }
 }
 
-/// A network needs somebody.
+/// Checks that there is a robot.
 void check_robots(TableReader& document, const Scenario& scenario) {
     if (!scenario.robots.empty() || !scenario.movement.robots.empty()) return;
     if (!scenario.scene.world) document.missing("robot", "[[robot]] with a name and a place");

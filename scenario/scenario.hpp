@@ -26,16 +26,25 @@
 #include <string>
 #include <vector>
 
-// A scenario file as plain structs: every table and key has one struct and field of the same name.
+// A scenario file as plain structs: every table and key has one struct and field of the same name,
+// with every default. experiment/build.hpp makes a Network of it.
+//
+//     table and key of the file                         struct and field
+//     [scenario] seed     ---- read_scenario() --->     Scenario::scenario.seed
+//     [radio] power       <---- to_document() -----     Scenario::radio.power
 
 namespace rovernet {
 
-/// [scenario]
+/// [scenario]: what concerns the run as a whole.
 struct ScenarioTable {
+    /// Name of the run and of its output folder.
     std::string name = "run";
+    /// Simulated time [ns], > 0.
     Duration duration = std::chrono::seconds{60};
+    /// Seed of every random draw, and number of the independent repetition.
     std::uint64_t seed = 1;
     std::uint64_t replication = 0;
+    /// Events that a run may need; one that needs more fails.
     std::uint64_t event_limit = 100'000'000;
 
     static constexpr auto fields() {
@@ -51,8 +60,9 @@ struct ScenarioTable {
     }
 };
 
-/// [medium]
+/// [medium]: what holds for all radios.
 struct MediumTable {
+    /// Frames travel at the speed of light; otherwise they arrive at once.
     bool propagation_delay = true;
 
     static constexpr auto fields() {
@@ -61,9 +71,11 @@ struct MediumTable {
     }
 };
 
-/// [links]: how link changes are looked for
+/// [links]: how link changes are looked for, see LinkSearch.
 struct LinksTable {
+    /// Error of the time of a change behind walls [ns].
     Duration tolerance = LinkSearch{}.tolerance;
+    /// Duration [ns] below which a state of a link may be missed, for models of unknown shape.
     Duration min_dwell = LinkSearch{}.min_dwell;
 
     static constexpr auto fields() {
@@ -76,72 +88,103 @@ struct LinksTable {
     }
 };
 
-/// A whole scenario with every default filled in.
+/// Whole scenario, with every default filled in and every name and value checked.
+/// network_settings() and populate() of experiment/build make a Network of it; a member has the
+/// name of its table.
 struct Scenario {
-    std::string file;  ///< as the user named it; maps are relative to it
+    /// Scenario file as the user named it; the paths in it are relative to its folder.
+    std::string file;
     ScenarioTable scenario;
     SceneTable scene;
-    std::shared_ptr<const Scene> walls;  ///< if they are loaded already: those of a Stage world
+    /// Scene if it is loaded already, by load_scenario() or for a Stage world; null: not yet, or an
+    /// open field.
+    std::shared_ptr<const Scene> walls;
+    /// Defaults of robots' radios, with the places of the keys that are given.
     Radio radio;
     RadioPlaces radio_places;
     MediumTable medium;
     PropagationTable propagation;
+    /// Places of tables, for what is found wrong once everything is read.
     Location propagation_where;
     ReceptionTable reception;
     AccessTable access;
+    /// Place of [access] basic_rates if it is given, or else of the table.
     Location access_where;
     LinksTable links;
     MovementTable movement;
+    /// Robots in the order of the file, those of a world first; robots that only a movement file
+    /// names are in `movement`.
     std::vector<RobotTable> robots;
     RoutingTable routing;
+    /// Flows, in the order of the file; each has a name.
     std::vector<TrafficTable> traffic;
     TraceTable trace;
     MetricsTable metrics;
+    /// Points of `rovernet sweep`; a plain run looks at `warmup` and `metrics` only.
     StudyTable study;
-    std::vector<std::string> notices;  ///< what a person should know of the files read
+    /// Notices: what a person should know of the files that were read.
+    std::vector<std::string> notices;
 };
 
-/// Reads a scenario from its document. @throws InputError at the first mistake
+/// Reads a scenario from its document, and checks it: names, addresses, memory, and values that do
+/// not go together. A key that no table knows is an error. Movement and traffic files that it names
+/// are read; its map is not.
+/// @param document  table of tables, as read_toml() gives it
+/// @param file      as the user named it, for paths in the document and for errors
+/// @throws InputError at the first mistake
 Scenario read_scenario(const Value& document, const std::string& file);
 
-/// Reads [propagation] or a robot's own over `out`. @throws InputError at the first mistake
+/// Reads [propagation], or a robot's own table, over `out`. Keys of models that are not chosen may
+/// stand in it.
+/// @throws InputError at the first mistake, such as a parameter that the chosen model lacks
 void read_propagation(const Value& value, PropagationTable& out);
-/// The reverse: the chosen model's parameters, and those of others that differ from their defaults.
+/// Table that reads back as the same propagation: the chosen model's parameters, and those of
+/// others that differ from their defaults.
 Table propagation_document(const PropagationTable& propagation);
 
 struct WorldFile;
 
-/// What the command line says over a scenario file.
+/// Options of the command line over a scenario file.
 struct ScenarioOptions {
-    std::vector<std::string> set = {};         ///< "path=value"
-    std::vector<std::string> world_path = {};  ///< folders, relative to where we are
-    std::vector<std::string> bitmaps = {};     ///< "OLD=NEW"
+    /// Assignments "path=value", see set_option(): --set.
+    std::vector<std::string> set = {};
+    /// Folders where parts of a Stage world are looked for, relative to the current one:
+    /// --world-path.
+    std::vector<std::string> world_path = {};
+    /// Other names of its bitmaps, "OLD=NEW": --bitmap.
+    std::vector<std::string> bitmaps = {};
+    /// A missing part of a world is a notice: --lenient.
     bool lenient = false;
 };
 
-/// A scenario file, or a Stage world (NAME.world) or movement file as a scenario of its own, with
-/// what the command line says over it. Scenarios are made from it, with more settings or none.
+/// Scenario file, or a Stage world (NAME.world) or movement file as a scenario of its own, with
+/// what the command line says over it. The file is read once; a study makes a scenario of it for
+/// each of its points.
 class ScenarioFile {
   public:
-    /// @param path  "-": a scenario from standard input, relative to the current folder
-    /// @throws InputError
+    /// @param path  file; "-": a scenario from standard input, relative to the current folder
+    /// @throws InputError for what is no scenario, with what it is and what to do
     ScenarioFile(const std::string& path, const ScenarioOptions& options);
 
-    /// The scenario with these values (by path, as for --set) over the file's.
+    /// Scenario with these values (by path, as for --set) over the file's.
     /// @throws InputError at the first mistake, at the value's place if that is wrong
     Scenario scenario(const Table& settings = {}) const;
 
   private:
+    // The file as it was named, and its document with the command line's values over it.
     std::string path_;
     Value document_;
-    std::vector<std::string> notices_;        // of reading the world
+    // Notices of reading the world, and the world if [scene] names one.
+    std::vector<std::string> notices_;
     std::shared_ptr<const WorldFile> world_;  // if [scene] names one
 };
 
-/// ScenarioFile(path, options).scenario(), with its map loaded and its robots looked at there.
+/// Scenario of ScenarioFile(path, options), with its map loaded and its robots looked at there.
+/// Commands that need one scenario call it.
+/// @throws InputError as ScenarioFile, and for the map
 Scenario load_scenario(const std::string& path, const ScenarioOptions& options);
 
-/// The scenario as a document with every default; it reads back as the same scenario.
+/// Document of a scenario with every default; it reads back as the same scenario.
 Table to_document(const Scenario& scenario);
 
 }  // namespace rovernet

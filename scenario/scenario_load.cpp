@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 bool is_world(const std::string& path) { return fs::path(path).extension() == ".world"; }
 
-/// The world that a configuration of Player names, if it does.
+/// World that a configuration of Player names; "NAME.world" if it names none.
 std::string world_of(const std::string& player_file) {
     std::ifstream file(player_file);
     for (std::string line; std::getline(file, line);) {
@@ -32,7 +32,7 @@ std::string world_of(const std::string& player_file) {
     return "NAME.world";
 }
 
-/// A file of another kind is no scenario, however alike it looks: says what it is, and what to do.
+/// Refuses files of other kinds by their endings, and says what to do with them.
 void refuse_others(const std::string& path) {
     struct Kind {
         std::string_view endings, what;
@@ -44,7 +44,7 @@ void refuse_others(const std::string& path) {
         {".inc", "a part of a Stage world; expected the world that includes it (.world)"},
         {".db", "a study's store, not a scenario; rovernet results shows what is in it"},
         {".tr", "a trace, not a scenario; rovernet trace stats shows its metrics"},
-        {".json", "not a scenario; of a run, scenario.toml beside it is"}};
+        {".json", "not a scenario; the scenario of a run is the file scenario.toml beside it"}};
     const std::string ending = fs::path(path).extension().string();
     if (ending.empty() || !fs::is_regular_file(path)) return;
     if (ending == ".cfg") {
@@ -110,7 +110,7 @@ void append(Value& scene, std::string_view key, const std::vector<std::string>& 
     scene.table()->set(key, std::move(list));
 }
 
-/// What the command line says about worlds, as keys of [scene].
+/// Adds what the command line says about worlds, as keys of [scene].
 void apply_world_options(Table& document, const ScenarioOptions& options, const fs::path& folder) {
     Value* scene = document.find("scene");
     if (!scene || !scene->table() || !scene->table()->find("world")) return;

@@ -29,7 +29,7 @@ Table section(const TrafficTable& traffic) {
     return table;
 }
 
-/// The chosen protocol with its parameters.
+/// Table of the chosen protocol with its parameters.
 Table routing_document(const RoutingTable& routing) {
     Table document;
     std::size_t index = 0;

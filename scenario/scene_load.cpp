@@ -56,15 +56,15 @@ struct Pixels {
     std::size_t all = 0, walls = 0;
 };
 
-/// A material that no wall is made of was meant otherwise.
+/// Notices a material that no wall is made of, or not all of its pixels: it was meant otherwise.
 void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view map,
                  std::vector<std::string>& notices) {
     if (pixels.walls == pixels.all && pixels.all > 0) return;
     const bool has_grey = material.grey || material.greys;
     if (!has_grey) {
-        return notices.push_back(fmt::format(
-            "{}: material \"{}\" has no grey, and a map has no colours: it counts nowhere",
-            material.where.text(), material.name));
+        return notices.push_back(
+            fmt::format("{}: material \"{}\" has no grey, and a map has no colours: it is not used",
+                        material.where.text(), material.name));
     }
     if (pixels.all == 0) {
         return notices.push_back(

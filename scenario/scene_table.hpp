@@ -14,18 +14,36 @@
 #include <string>
 #include <vector>
 
+// Maps, worlds and their materials as a scenario file gives them, and the scenes that they make:
+//
+//     [scene]
+//     map = "office.png"
+//     size = ["40 m", "20 m"]
+//
+//     [scene.materials]
+//     brick = { grey = 100, itu = "brick", thickness = "0.2 m" }
+
 namespace rovernet {
 
-/// [scene.materials] NAME = { ... }: what walls of a grey level or a colour are made of.
+/// [scene.materials] NAME = { ... }: what walls of a grey level or a colour are made of. Its loss
+/// is given by `per_crossing` and `per_metre`, which add up, or by `itu` and `thickness`.
 struct MaterialTable {
-    std::optional<int> grey;                ///< mean of red, green and blue, 0 ... 255, or ...
-    std::optional<std::vector<int>> greys;  ///< ... from the first to the second of these
-    std::optional<std::string> color;       ///< of a Stage model
+    /// Grey level of its walls in a map: mean of red, green and blue, 0 ... 255; or `greys`.
+    std::optional<int> grey;
+    /// Grey levels of its walls in a map, first and last.
+    std::optional<std::vector<int>> greys;
+    /// Colour of its walls in a Stage world.
+    std::optional<std::string> color;
+    /// Loss of a wall [dB], however thick.
     std::optional<Db> per_crossing;
+    /// Loss per length inside [dB/m].
     std::optional<DbPerMeter> per_metre;
+    /// Material of ITU-R P.2040 of which each wall is a slab, of `thickness` [m].
     std::optional<ItuMaterial> itu;
     std::optional<Meters> thickness;
+    /// Height of its walls [m]; none: [scene] wall_height.
     std::optional<Meters> height;
+    /// Name, the table's key, and its place.
     std::string name = {};
     Location where = {};
 
@@ -41,23 +59,33 @@ struct MaterialTable {
             field("thickness", &MaterialTable::thickness, positive, "of the slab"),
             field("height", &MaterialTable::height, positive, "of its walls"));
     }
-    /// It is what walls of this grey level are made of.
+    /// Whether walls of this grey level are made of it.
     bool has_grey(int level) const {
         return grey == level || (greys && (*greys)[0] <= level && level <= (*greys)[1]);
     }
 };
 
-/// [scene]
+/// [scene]: the map or the Stage world, and what its walls are made of. Without either it is an
+/// open field.
 struct SceneTable {
-    std::optional<std::string> map;           ///< ROS map.yaml, or a picture with a `size`
-    std::optional<std::vector<Meters>> size;  ///< [m] width and height of a picture
-    std::optional<std::string> world;         ///< Stage world, instead of a map
+    /// ROS map.yaml, or a picture with a `size`; relative to the scenario file.
+    std::optional<std::string> map;
+    /// Width and height of a picture [m]: two lengths > 0.
+    std::optional<std::vector<Meters>> size;
+    /// Stage world, instead of a map; its robots join those of the file.
+    std::optional<std::string> world;
+    /// Folders where includes and bitmaps of the world are looked for, too; bitmaps by other names,
+    /// "OLD=NEW"; a missing one is a notice.
     std::optional<std::vector<std::string>> world_path;
     std::optional<std::vector<std::string>> bitmaps;
     bool lenient = false;
+    /// Height of one storey [m], for losses by floor.
     Meters floor_height{3};
+    /// Height [m] of walls whose material has none; none: endless.
     std::optional<Meters> wall_height;
+    /// Materials in their order: the first that fits a wall counts.
     std::vector<MaterialTable> materials = {};
+    /// Place of the key `map` or `world`.
     Location map_where = {};
 
     static constexpr auto fields() {
@@ -78,22 +106,25 @@ struct SceneTable {
     }
 };
 
-/// Reads [scene]. @throws InputError
+/// Reads [scene]; the map itself is not looked at.
+/// @throws InputError at the first mistake
 SceneTable read_scene(const Value& value);
-/// The reverse.
+/// Table that reads back as the same scene, with every default but `lenient`.
 Table scene_document(const SceneTable& scene);
 
-/// How the scene's world is to be read; folders relative to the scenario `file`.
+/// Options with which the scene's world is to be read; folders relative to the scenario `file`.
 WorldOptions world_options(const SceneTable& scene, const std::string& file);
 
-/// The scene's map; null for an open field.
-/// @param file     of the scenario
+/// Scene of the map; null for an open field. A file NAME.materials.toml beside it has materials,
+/// too, which come after those of the scenario.
+/// @param file     scenario file, whose folder the map is relative to
 /// @param notices  appended: materials that make no wall, though the map has their grey
 /// @throws InputError naming the scenario's line, then the map's own error
 std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file,
                                       std::vector<std::string>& notices);
 
-/// The walls of the scene's world; null if it has none.
+/// Scene of the walls of the scene's world; null if it has none.
+/// @param world    the world, which is read already
 /// @param notices  appended
 /// @throws InputError with its place in the world
 std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::string& file,

@@ -13,7 +13,7 @@
 namespace rovernet {
 namespace {
 
-/// The 2007 device's models and ours.
+/// Models of the 2007 device, and their names here.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> models{{
     {"friis", "friis"},
     {"ITU indoor", "itu_indoor"},
@@ -32,7 +32,7 @@ const std::vector<std::string>& wifi_keys() {
     return keys;
 }
 
-/// Keys of every model of Stage: no business of the radio.
+/// Whether every model of Stage has this key: it does not concern the radio.
 bool is_model_key(std::string_view key) {
     constexpr std::array<std::string_view, 20> keys{
         "name",           "color",         "color_rgba",      "pose",         "size",
@@ -99,7 +99,8 @@ class Reader {
     StageRadio out_;
 };
 
-/// Stage draws a whole number from 0 to 100 and lets the message pass if it is at most the rate.
+/// Success rate: Stage draws a whole number from 0 to 100 and lets the message pass if it is at
+/// most the rate.
 void Reader::success_rate() {
     const auto* p = wifi_.find("link_success_rate");
     if (!p) return;

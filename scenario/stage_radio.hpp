@@ -9,18 +9,35 @@
 #include <string>
 #include <vector>
 
+// Radios of Stage worlds. The radio of the 2007 device was a sensor of its robot, `wifi`, with keys
+// and units of its own; here they become those of a scenario file.
+
 namespace rovernet {
 
-/// The wifi of a Stage robot as tables of a [[robot]]: only what the world gives, each value with
-/// its place.
+/// Radio of a Stage robot: its wifi as tables of a [[robot]], only what the world gives, each value
+/// with its place.
 struct StageRadio {
-    Table radio = {};        ///< power, sensitivity, frequency, essid, ip, netmask, mac, ...
-    Table propagation = {};  ///< model and its parameters, those of other models too
-    std::optional<Value> seed = {};         ///< random_seed
-    bool model_given = false;               ///< else that of [propagation] rules
-    std::vector<std::string> notices = {};  ///< keys that a wifi does not have, one each
+    /// Keys of `radio`: power, sensitivity, frequency, essid, ip, netmask, mac, ...
+    Table radio = {};
+    /// Keys of `propagation`: the model and its parameters, those of other models too.
+    Table propagation = {};
+    /// Seed of all draws of the 2007 device: random_seed.
+    std::optional<Value> seed = {};
+    /// The wifi names a model; otherwise that of [propagation] rules.
+    bool model_given = false;
+    /// Notices of keys that a wifi does not have, one each.
+    std::vector<std::string> notices = {};
 };
 
+/// Reads the wifi of a robot. Units are those of the world: power [mW], sensitivity [dBm],
+/// frequency [MHz], range in the world's unit of length. Models and parameters have other names
+/// there:
+///
+///   friis, ITU indoor, log distance,   friis, itu_indoor, log_distance,
+///   raytrace, simple                   raytrace_2007, disc
+///   plc, ple                           coefficient, exponent
+///   link_success_rate n                success_rate (n + 1) / 101: a draw from 0 to 100 is <= n
+///
 /// @throws InputError for a model that Stage does not know and for values of the wrong kind
 StageRadio stage_radio(const WorldEntity& wifi, const WorldUnits& units);
 

@@ -22,7 +22,7 @@ Value placed(Value value, const Location& where) {
     return value;
 }
 
-/// "a, b and 3 more".
+/// List of words for a notice: "a, b and 3 more".
 std::string listed(const std::vector<std::string>& words) {
     constexpr std::size_t most = 10;
     std::string text;
@@ -85,7 +85,7 @@ class Gatherer {
     std::set<std::string> noted_;
 };
 
-/// Names that robots have, so that the nameless get none of them.
+/// Gathers names that robots have, so that the nameless get none of them.
 void Gatherer::reserve_names(const WorldEntity& parent) {
     for (const auto& child : parent.children) {
         const WorldProperty* name = child.find("name");

@@ -51,7 +51,7 @@ Amount read_amount(const Value& range, std::string_view path, std::string_view k
                                  key, value->description()));
 }
 
-/// Without the digits that are only the rounding of a sum: 0.3, not 0.30000000000000004.
+/// Number without the digits that are only the rounding of a sum: 0.3, not 0.30000000000000004.
 double without_noise(double v) {
     const std::string text = fmt::format("{:.12g}", v);
     std::from_chars(text.data(), text.data() + text.size(), v);
@@ -99,7 +99,7 @@ Array expand(const Value& range, std::string_view path) {
     return values;
 }
 
-/// A table in place of values is a range if its keys are those of one, and no longer path.
+/// Whether a table in place of values is a range { from, to, step }, and not a longer path.
 bool is_range(const Table& table) {
     return std::any_of(table.entries.begin(), table.entries.end(), [](const Entry& entry) {
         const bool known = entry.key == "from" || entry.key == "to" || entry.key == "step";
@@ -166,13 +166,13 @@ void read_zip(const Value& value, StudyTable& study) {
         const Location& where = (*value.array())[i].where;
         for (const std::string& path : group) {
             if (!seen.insert(path).second) {
-                throw InputError(where, fmt::format("zip: \"{}\" is there twice", path));
+                throw InputError(where, fmt::format("zip: \"{}\" is listed twice", path));
             }
             const std::size_t n = varied(study, path, where, "zip").values.size();
             const std::size_t first = varied(study, group.front(), where, "zip").values.size();
             if (n == first) continue;
             throw InputError(where, fmt::format("zip: \"{}\" has {} values and \"{}\" has {}; "
-                                                "expected as many",
+                                                "expected as many of each",
                                                 group.front(), first, path, n));
         }
     }

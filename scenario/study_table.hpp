@@ -10,36 +10,63 @@
 #include <string>
 #include <vector>
 
+// [study]: the points of a study, how often each is run and what is told of it. `rovernet sweep`
+// runs it; of a plain run `warmup` and `metrics` say what is measured, all else is left alone.
+//
+//     [study]
+//     replications = 10
+//     vary."routing.ttl" = [1, 2, 3]
+//     vary."radio.power" = { from = "10 dBm", to = "20 dBm", step = "5 dBm" }
+
 namespace rovernet {
 
-/// A key of the scenario and the values that it takes in a study.
+/// Key of the scenario and the values that it takes in a study.
 struct Vary {
-    std::string path;  ///< as for --set: "radio.power", "robot.NAME.radio.power"
+    /// Path of the key, as for --set: "radio.power", "robot.NAME.radio.power".
+    std::string path;
+    /// Place of the path in the file.
     Location where;
-    Array values;  ///< at least one
+    /// Values, at least one; a range { from, to, step } is written out.
+    Array values;
 };
 
-/// What a study leaves out: the points whose keys all have one of these values.
+/// Points that a study leaves out: those whose keys all have one of these values. In the file:
+///
+///   exclude = [{ "propagation.model" = "disc", "reception.model" = "sinr" }]
 using Exclusion = std::vector<Vary>;
 
-/// When measuring begins.
+/// Time after which measuring begins.
 struct Warmup {
+    /// Time since the start of the run [ns]; messages that are sent before do not count.
     Duration given{0};
-    bool mser5 = false;  ///< found by MSER-5 in each run instead
+    /// The time is found by MSER-5 in each run instead.
+    bool mser5 = false;
 };
 
-/// [study]
+/// [study], and what it says of points and metrics.
 struct StudyTable {
+    /// Independent repetitions of each point, at least.
     int replications = 1;
+    /// Probability that an interval covers the true mean [-].
     double confidence = 0.95;
-    std::optional<IntervalMethod> interval;  ///< by the metric if not given: see method_for()
+    /// Method of intervals; by default it depends on the metric, see method_for().
+    std::optional<IntervalMethod> interval;
+    /// Half-width of the interval of the first metric, in its unit, until which runs are added;
+    /// none: `replications` runs, and no more.
     std::optional<double> precision;
+    /// Repetitions for `precision` at most.
     int max_replications = 1000;
     Warmup warmup;
+    /// Metrics that results and pictures show first, and where each is named.
     std::vector<std::string> metrics;
-    std::vector<Location> metric_places;  ///< where each of them is named
+    std::vector<Location> metric_places;
+    /// Keys that vary, in the order of the file.
     std::vector<Vary> vary;
-    std::vector<std::vector<std::string>> zip;  ///< paths that vary together, value by value
+    /// Groups of paths that vary together, value by value; all others vary in every combination:
+    ///
+    ///   zip = [["radio.power", "radio.sensitivity"]]
+    std::vector<std::vector<std::string>> zip;
+    /// Points that are left out.
     std::vector<Exclusion> exclude;
 
     static constexpr auto fields() {
@@ -58,10 +85,12 @@ struct StudyTable {
     }
 };
 
-/// Reads [study] of a scenario whose run takes `duration`. @throws InputError at the first mistake
+/// Reads [study].
+/// @param duration  of a run; a warmup must be shorter
+/// @throws InputError at the first mistake
 StudyTable read_study(const Value& value, Duration duration);
 
-/// The reverse, with every list written out.
+/// Table that reads back as the same study, with every list written out.
 Table study_document(const StudyTable& study);
 
 }  // namespace rovernet

@@ -141,7 +141,8 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
         if (error == std::errc{} && end == step.data() + step.size()) {
             if (index < list->size()) return (*list)[index];
             throw InputError(
-                option, fmt::format("there is no number {}; the list has {}", index, list->size()));
+                option, fmt::format("there is no item {}; the list has {}, counted from 0", index,
+                                    list->size()));
         }
         std::vector<std::string> names;
         for (auto& item : *list) {
@@ -172,7 +173,7 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
     return *table->find(step);
 }
 
-/// What was probably meant where the parser says these words.
+/// Advice on what was probably meant where the parser says these words.
 std::string_view advice_for(std::string_view description) {
     struct Slip {
         std::string_view words, advice;
@@ -191,7 +192,7 @@ std::string_view advice_for(std::string_view description) {
     return "";
 }
 
-/// What the parser says, and what was probably meant.
+/// Message of the parser, and what was probably meant.
 std::string parse_message(std::string_view description) {
     constexpr std::string_view twice = "cannot redefine existing ";
     if (const auto found = description.find(twice); found != description.npos) {
@@ -211,7 +212,7 @@ std::string parse_message(std::string_view description) {
     return fmt::format("not TOML: {}{}{}", description, advice.empty() ? "" : "; ", advice);
 }
 
-/// All that the stream has. @throws InputError if that is more than a scenario is long
+/// Text of the whole stream. @throws InputError if it is longer than 64 MiB
 std::string bounded_text(std::istream& in, const std::string& source) {
     std::string text;
     std::vector<char> portion(64 * 1024);
@@ -305,7 +306,7 @@ void set_option(Value& document, const std::string& assignment, const std::strin
         try {
             value = *parse_toml("v = " + text, "").table()->find("v");
         } catch (const InputError&) {
-            // Not TOML: the text itself is meant, as the shell has eaten its quotes.
+            // The text is no TOML and is meant itself: the shell has eaten its quotes.
         }
     }
     const auto relocate = [&](const auto& self, Value& v) -> void {

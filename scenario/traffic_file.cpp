@@ -57,14 +57,14 @@ class Reader {
     }
 
   private:
-    /// What sends or receives on a node.
+    /// Agent of ns-2, which sends or receives on a node.
     struct Agent {
         bool sends = false;
         std::optional<std::uint32_t> node = std::nullopt;
         std::string peer = {};
         Location where = {};  // of its node
     };
-    /// What makes an agent send; the defaults are those of ns-2.35.
+    /// Application of ns-2, which makes an agent send; the defaults are those of ns-2.35.
     struct App {
         double size = 210, rate = 448e3;  // [bytes], [bit/s]
         std::optional<double> interval = std::nullopt;
@@ -90,7 +90,7 @@ class Reader {
         if (v < least || v > 1e9) fail(word, expected);
         return v;
     }
-    /// "64k", "0.5Mb" or 64000 [bit/s].
+    /// Bit rate [bit/s] such as "64k", "0.5Mb" or 64000.
     double rate(const Word& word) const {
         constexpr std::string_view expected = "a bit rate such as 64k or 0.5Mb";
         double v = 0;
@@ -140,7 +140,7 @@ void Reader::command() {
     if (!agents_.contains(name)) fail(first, "an agent or an application that was made before");
 }
 
-/// set NAME [new CLASS]
+/// Command  set NAME [new CLASS]
 void Reader::make() {
     constexpr std::string_view classes =
         "Agent/UDP, Agent/Null, Agent/LossMonitor or Application/Traffic/CBR";
@@ -174,7 +174,7 @@ void Reader::tell_simulator() {
     }
 }
 
-/// $ns_ at TIME "$cbr_(0) start"
+/// Command  $ns_ at TIME "$cbr_(0) start"
 void Reader::schedule() {
     const Time time = moment(word(2), lines_.where());
     if (word(3).text.starts_with("$god")) return;
@@ -189,7 +189,7 @@ void Reader::schedule() {
     }
 }
 
-/// $cbr_(0) set KEY VALUE, or $cbr_(0) attach-agent $udp_(0)
+/// Command  $cbr_(0) set KEY VALUE  or  $cbr_(0) attach-agent $udp_(0)
 void Reader::tell(App& app) {
     if (word(1).text == "attach-agent") {
         app.agent = reference(word(2));

@@ -8,23 +8,38 @@
 
 namespace rovernet {
 
-/// The flows of an ns-2 traffic file, and what a person should know of them.
+/// Flows of an ns-2 traffic file, and what a person should know of them.
 struct TrafficFile {
-    std::vector<TrafficTable> flows;  ///< unicasts from n0, n1, ... in the order of the file
+    /// Unicasts between n0, n1, ... in the order in which the file makes their applications;
+    /// without names.
+    std::vector<TrafficTable> flows;
+    /// Notices: that intervals are not drawn as ns-2 would.
     std::vector<std::string> notices;
 };
 
 /// Reads an ns-2 traffic file, as cbrgen.tcl writes it: constant bit rate over UDP.
 ///
-/// A flow is a CBR application on a UDP agent on a node, connected to an agent on another node. Its
-/// packetSize_ (210 B), interval_ or rate_ (448 kb/s) and maxpkts_ count; defaults are those of
+/// A flow is a CBR application on a UDP agent on a node, connected to an agent on another node:
+///
+///   set udp_(0) [new Agent/UDP]
+///   $ns_ attach-agent $node_(1) $udp_(0)
+///   set null_(0) [new Agent/Null]
+///   $ns_ attach-agent $node_(2) $null_(0)
+///   set cbr_(0) [new Application/Traffic/CBR]
+///   $cbr_(0) set packetSize_ 512
+///   $cbr_(0) attach-agent $udp_(0)
+///   $ns_ connect $udp_(0) $null_(0)
+///   $ns_ at 2.5 "$cbr_(0) start"
+///
+/// Its packetSize_ (210 B), interval_ or rate_ (448 kb/s) and maxpkts_ count; defaults are those of
 /// ns-2.35. Flows that nothing starts are left out. The first packet goes out at the start, none at
 /// or after the stop.
 /// @throws InputError with file, line and column for what is none of that, such as TCP
 TrafficFile read_traffic_file(const std::string& path);
 
-/// Adds the flows of the file that `value`, a table with the key `file`, names.
-/// @throws InputError
+/// Adds the flows of the file that `value`, a table with the key `file`, names: [traffic] file =
+/// "cbr.tcl". The path is relative to the scenario file.
+/// @throws InputError as read_traffic_file(), or at the key if the file cannot be read
 void read_flows(const Value& value, Scenario& out);
 
 }  // namespace rovernet

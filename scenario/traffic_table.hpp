@@ -11,28 +11,50 @@
 #include <string>
 #include <string_view>
 
+// Traffic as a scenario file gives it:
+//
+//     [[traffic]]
+//     from = "A"
+//     payload = "hello"
+//     start = "1 s"
+//     every = "3 s"
+//     count = 20
+
 namespace rovernet {
 
-/// What traffic is made of.
+/// Words of [[traffic]] kind: messages to everyone by the routing protocol, or to one robot in one
+/// hop.
 enum class TrafficKind { broadcast, unicast };
 template <>
 struct EnumNames<TrafficKind> {
     static constexpr std::array<std::string_view, 2> values = {"broadcast", "unicast"};
 };
 
-/// [[traffic]]
+/// [[traffic]]: one flow. `from` sends a message at `start`, and every `every` from then on until
+/// `stop`, or until it was sent `count` times.
 struct TrafficTable {
     TrafficKind kind = TrafficKind::broadcast;
-    std::string name = {};          ///< of the flow; unique, without blanks and commas
-    std::string from;               ///< "random" if there is no such robot: another one each time
-    std::optional<std::string> to;  ///< of a unicast
-    bool saturate = false;          ///< there is always a message to send
+    /// Name of the flow, which ends the names of its metrics; see name_flows().
+    std::string name = {};
+    /// Robot that sends; "random", if no robot has that name: another robot each time.
+    std::string from;
+    /// Robot that a unicast is for.
+    std::optional<std::string> to;
+    /// There is always a message to send: a new one as soon as one is sent. It needs an access
+    /// model.
+    bool saturate = false;
+    /// Text of the message.
     std::string payload;
+    /// Size on air; none: the length of the payload.
     std::optional<Bytes> size;
-    std::optional<Duration> start;  ///< none: when `from` arrives at the end of its movement
+    /// Time of the first message [ns]; none: when `from` arrives at the end of its movement.
+    std::optional<Duration> start;
+    /// Interval between messages [ns]; none: there is one message.
     std::optional<Duration> every;
+    /// Time from which on none is sent [ns], and number of messages at most; none: no end.
     std::optional<Duration> stop;
     std::optional<int> count;
+    /// Places of keys, for errors and notices.
     Location from_where = {}, to_where = {}, payload_where = {};
 };
 

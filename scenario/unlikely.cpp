@@ -17,7 +17,8 @@ namespace {
 std::string shown(Hertz f) { return quantity_text(f.value, Dimension::frequency); }
 std::string shown(BitRate rate) { return quantity_text(rate.value, Dimension::bit_rate); }
 
-/// A receiver that needs more than a milliwatt hears nobody farther than a hand's breadth away.
+/// Refuses sensitivities above 0 dBm: such a receiver hears nobody farther than a hand's breadth
+/// away.
 void check_sensitivity(const Radio& radio, const RadioPlaces& places) {
     const double dbm = radio.sensitivity.value;
     if (dbm <= 0) return;
@@ -62,7 +63,7 @@ void note_rate(Scenario& out, std::string_view key, BitRate rate, const Location
                            name_of(out.access.standard), shown(rate), fmt::join(rates, ", ")));
 }
 
-/// A robot starts switched on: what changes nothing was meant otherwise.
+/// Notices switching that changes nothing: a robot starts switched on.
 void note_switching(Scenario& out, const RobotTable& robot) {
     std::vector<std::pair<Duration, bool>> switches;  // false, off, comes first at one time
     for (const Duration t : robot.off) switches.emplace_back(t, false);
@@ -115,7 +116,7 @@ void for_each_start(const RobotTable& robot, const auto& visit) {
     }
 }
 
-/// A payload is words: one that reads as a size was meant as the size of the message.
+/// Notices payloads that read as a size: they were meant as the size of the message.
 void note_payloads(Scenario& out) {
     Affected sizes;
     for (const TrafficTable& traffic : out.traffic) {
@@ -124,7 +125,7 @@ void note_payloads(Scenario& out) {
         if (traffic.size || !number || shared_dimension({words}) != Dimension::size) continue;
         sizes.add([&] {
             return fmt::format(
-                "{0}: payload: \"{1}\" is words, {2} bytes on air; did you mean "
+                "{0}: payload: \"{1}\" is a text of {2} bytes on air; did you mean "
                 "size = \"{1}\"?",
                 traffic.payload_where.text(), words, words.size());
         });

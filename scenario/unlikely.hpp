@@ -3,13 +3,20 @@
 
 #include "scenario/scenario.hpp"
 
+// Values that are in their range and hardly meant. A notice goes to the user and changes nothing:
+// the command prints it on standard error.
+
 namespace rovernet {
 
-/// Looks for values that each stand in their range and are hardly meant together: a notice each.
-/// @throws InputError for one that cannot be meant: a receiver that hears nothing
+/// Notices radios, switching times and payloads that are each in their range and hardly meant: a
+/// frequency of 2.45 MHz, a rate that the standard does not have, a robot that is switched on and
+/// is on already, a payload "64 B".
+/// @throws InputError for a sensitivity above 0 dBm, which cannot be meant: such a receiver hears
+/// nothing
 void note_unlikely(Scenario& scenario);
 
-/// Notices robots that start beyond the map, or in a wall of a world that is read leniently.
+/// Notices robots that start beyond the map, or in a wall of a world that is read leniently (in any
+/// other that is an error later).
 /// @param scene  the scenario's; null: an open field
 void note_places(Scenario& scenario, const Scene* scene);
 
@@ -17,7 +24,7 @@ void note_places(Scenario& scenario, const Scene* scene);
 /// they are the same at every point.
 void note_own_models(Scenario& scenario);
 
-/// Adds a notice, unless it is there.
+/// Adds a notice, unless it is there already.
 void add_notice(std::vector<std::string>& notices, std::string notice);
 
 }  // namespace rovernet

@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-// Defined here, where Entry is complete.
+// Members of Table are defined here, where Entry is complete.
 Table::Table() = default;
 Table::Table(const Table&) = default;
 Table::Table(Table&&) noexcept = default;

@@ -161,7 +161,7 @@ std::string coverage_text(const Answers& answers) {
         texts.push_back(fmt::format("averaged over {}", fmt::join(answers.averaged, ", ")));
     }
     if (!answers.along.empty()) {
-        texts.push_back(fmt::format("{} {} with the row", fmt::join(answers.along, ", "),
+        texts.push_back(fmt::format("{} {} with each row", fmt::join(answers.along, ", "),
                                     answers.along.size() == 1 ? "goes" : "go"));
     }
     std::map<std::string, std::uint64_t> undefined;
@@ -175,7 +175,7 @@ std::string coverage_text(const Answers& answers) {
     for (const Answer& answer : answers.list) {
         if (&answer != &answers.list.front() && answer.metric == answers.list.front().metric) break;
         if (answer.left_out == 0) continue;
-        texts.push_back(fmt::format("{} without the {} of {} cells that not every row has",
+        texts.push_back(fmt::format("{} without {} of {} cells, which not every row has",
                                     answer.metric, answer.left_out, answer.cells));
     }
     for (const auto& [metric, count] : undefined) {

@@ -189,7 +189,8 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
     const std::vector<std::string> paths = varied_paths(store);
     const bool cdf = q.kind == ChartKind::cdf;
     if (q.x.empty() && !cdf) throw std::invalid_argument("-x: expected a key that varies");
-    if (cdf && !q.x.empty()) throw std::invalid_argument("-x: a cdf has its metric there: use -y");
+    if (cdf && !q.x.empty())
+        throw std::invalid_argument("-x: a cdf has its metric on the x axis; give it with -y");
     if (q.kind == ChartKind::heat_map && q.by.empty()) {
         throw std::invalid_argument("--by: a heat map needs a key for its rows");
     }

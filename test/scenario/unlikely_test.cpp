@@ -84,7 +84,7 @@ TEST_CASE("unlikely: a payload that reads as a size is a notice, once for all of
     };
     check_notice(
         robot_a + traffic("payload = \"64 B\""),
-        {":6:11: payload: \"64 B\" is words, 4 bytes on air", "did you mean size = \"64 B\"?"});
+        {":6:11: payload: \"64 B\" is a text of 4 bytes on air", "did you mean size = \"64 B\"?"});
     check_notice(robot_a + traffic("payload = \"1.5 kB\"") + traffic("payload = \"2 kB\""),
                  {"size = \"1.5 kB\"?; and 1 more"});
     for (const char* words : {"F", "", "64", "64 m", "64 Bits", "B"}) {

@@ -111,7 +111,7 @@ TEST_CASE("balance: means over the cells that every row has keep the order that 
     CHECK(all.list[1].gaps.failed == 3);
     CHECK(all.list[2].gaps.failed == 4);
     CHECK(coverage_text(all) ==
-          "averaged over traffic.0.every; reach without the 4 of 8 cells that not every row has; 7 "
+          "averaged over traffic.0.every; reach without 4 of 8 cells, which not every row has; 7 "
           "runs failed");
     // Held at one value, nothing is averaged over, and each row has its own n.
     const Answers held = answers(store, {.group_by = by_ttl, .where = {{"traffic.0.every", "2"}}});
@@ -170,7 +170,7 @@ TEST_CASE("balance: keys that go together are no averages") {
     const Answers all = answers(store, {.metrics = {"reach"}, .group_by = by_ttl});
     CHECK(all.averaged.empty());
     CHECK(all.along == std::vector<std::string>{"radio.power"});
-    CHECK(has(coverage_text(all), "radio.power goes with the row"));
+    CHECK(has(coverage_text(all), "radio.power goes with each row"));
 }
 
 TEST_CASE("balance: a combination that the study excludes from one row is a missing cell") {
