@@ -27,8 +27,8 @@ MessageId Applications::new_message(NodeId id, NodeId to, std::string payload, O
                                .is_routed = is_routed});
 }
 
-/// Robots that a chain of links joins to the sender now, of those that a message is for; if a sink
-/// asks for it. Sinks that want it only while it is cheap never get it again once it was not.
+/// Number of robots that a message is for and that a chain of links joins to the sender now, if a
+/// sink asks for it. Sinks that want it only while it is cheap never get it again once it was not.
 std::optional<std::uint32_t> Applications::reachable(NodeId from, NodeId to) {
     World& w = world_;
     if (reachability_.searches() > Reachability::cheap_searches + w.transmissions) {
@@ -40,7 +40,7 @@ std::optional<std::uint32_t> Applications::reachable(NodeId from, NodeId to) {
     return reachability_.count(w.medium, from, w.now, w.legs);
 }
 
-/// @throws std::invalid_argument if there is no such other robot
+/// Checks the destination of a message. @throws std::invalid_argument if it is no other robot
 void Applications::check_destination(NodeId from, NodeId to) const {
     if (to != everyone && (to.index() >= world_.size() || to == from)) {
         throw std::invalid_argument("a unicast needs another robot to go to");
@@ -85,7 +85,7 @@ void Applications::saturate(NodeId id, NodeId to, Outgoing what) {
     for (int waiting = 0; waiting < 2; ++waiting) send_one_hop(id, to, {}, what);
 }
 
-/// A saturated node has sent a frame: here is the next.
+/// Sends the next frame of a saturated node, 1 us after the last one.
 void Applications::has_room(NodeId id) {
     if (saturated_.empty()) return;
     const auto found = saturated_.find(id);
@@ -124,7 +124,7 @@ void Applications::react(NodeId id, std::uint64_t handed_over) {
     const Message heard = world_.messages[message];  // a copy: reactions may send
     world_.release(message);
     if (!world_.medium.is_on(id)) return;
-    // Looked up anew each time: a reaction may add some.
+    // The list is looked up anew each time: a reaction may add callbacks.
     for (std::size_t i = 0; i < on_receive_[id.index()].size(); ++i) {
         const auto reaction = on_receive_[id.index()][i];
         reaction(heard, how);
@@ -132,7 +132,7 @@ void Applications::react(NodeId id, std::uint64_t handed_over) {
     on_receive_[id.index()].erase_if([](const auto& each) { return each.has_ended(); });
 }
 
-/// The run is over: drops the messages that have arrived nowhere and are still under way.
+/// Drops the messages that have arrived nowhere and are still under way, as the run is over.
 void Applications::cut_off() {
     world_.messages.for_each_at_its_origin([this](MessageId id) {
         const Message& m = world_.messages[id];

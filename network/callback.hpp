@@ -9,28 +9,43 @@
 
 namespace rovernet {
 
-/// A function of the user's that the network calls until its Subscription is ended. Shared, so that
-/// it keeps its state and outlives its being ended while it runs.
+/// Function of the user's that the network calls until its Subscription is ended.
+///
+/// Copies share the function and its state. So a callback that is ended while it runs, or while an
+/// event for it waits, is kept until then and is not called again:
+///
+///   Callback<> callback(std::move(action));
+///   world.schedule(time, callback);
+///   return callback.subscription();
+///
+/// @tparam Arguments  of the function
 template <class... Arguments>
 class Callback {
   public:
+    /// Callback without a function, to be assigned to; calling it is an error.
     Callback() = default;
+    /// Callback of a function, which must not be empty.
     explicit Callback(std::function<void(Arguments...)> call)
         : state_(std::make_shared<State>(State{std::move(call)})) {}
 
+    /// Calls the function, unless the callback was ended.
     void operator()(Arguments... arguments) const {
         if (!has_ended()) state_->call(arguments...);
     }
+    /// Whether it was ended: whoever keeps it may drop it.
     bool has_ended() const { return state_->ended; }
+    /// Right to end it, for the user.
     Subscription subscription() const {
         return Subscription(std::shared_ptr<bool>(state_, &state_->ended));
     }
 
   private:
+    /// Function, and whether it was ended; the Subscription points to the flag.
     struct State {
         std::function<void(Arguments...)> call;
         bool ended = false;
     };
+    // Null for a callback without a function.
     std::shared_ptr<State> state_;
 };
 

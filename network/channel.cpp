@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t most_counted = 64;
 
-/// Counts for each of a few receptions, to which nothing has happened yet, how many come before it:
-/// more comparisons than other ways to sort take, but none that is mispredicted. All come within
-/// 2^31 ns from `first` on.
+/// Sorts up to 64 receptions, which have time and node only, by counting for each how many come
+/// before it: more comparisons than other ways to sort take, but no branch to mispredict.
+/// @param first  a time not after any of theirs, and less than 2^31 ns before all of them
 void sort_by_counting(std::span<Reception> all, Time first) {
     std::array<std::int64_t, most_counted + 1> order;
     order[all.size()] = std::numeric_limits<std::int64_t>::max();  // if they are odd, makes a pair
@@ -27,7 +27,7 @@ void sort_by_counting(std::span<Reception> all, Time first) {
         const Duration after{order[i] >> 32};
         return Reception{first + after, NodeId{static_cast<std::uint32_t>(order[i])}};
     };
-    // Two at a time: half the loads.
+    // Two receptions are counted at a time: half the loads.
     const std::size_t even = (all.size() + 1) / 2 * 2;
     for (std::size_t i = 0; i < even; i += 2) {
         std::size_t before = 0, before_next = 0;
@@ -116,7 +116,7 @@ void Channel::find_sensors(Flight& flight, Time end) {
     user_.sensed(sensed_);
 }
 
-/// Looks at what each receiver gets.
+/// Computes the received power of each reception.
 void Channel::find_levels(Flight& flight, Time end) {
     Medium& medium = world_.medium;
     const NodeId sender = flight.air.frame.sender;
@@ -132,7 +132,7 @@ void Channel::find_levels(Flight& flight, Time end) {
     }
 }
 
-/// Keeps a frame for as long as it may meet others.
+/// Adds a frame to the interference; it stays there for as long as it may overlap with others.
 void Channel::put_on_air(std::size_t slot, const Sending& how) {
     Flight& flight = flights_[slot];
     forget_frames();
@@ -143,7 +143,7 @@ void Channel::put_on_air(std::size_t slot, const Sending& how) {
                                          how.rate, flight.receivers.all());
 }
 
-/// Forgets those that matter no more.
+/// Forgets frames that matter to no other any more, and frees their flights.
 void Channel::forget_frames() {
     interference_->forget(world_.now,
                           [&](const Emission& frame) { flights_.release(frame.flight); });
@@ -170,7 +170,7 @@ void Channel::check(BitRate rate) const {
 
 std::optional<Db> Channel::interference_left_out() const {
     if (!interference_ || !interference_->rule().interference_cut()) return std::nullopt;
-    // Beside the frame that is received.
+    // One of the frames on air is the one that is received.
     const std::size_t most = interference_->rule().most_on_air();
     return world_.medium.left_out(std::max<std::size_t>(most, 1) - 1);
 }
@@ -190,9 +190,9 @@ void Channel::garble(Flight& flight) const {
     }
 }
 
-/// The last time up to which receptions can be served in a row, the first of which is now, by
-/// `key`: what a reception sets off happens no sooner than least_reaction after it, and whatever is
-/// queued takes its turn.
+/// Last time up to which receptions can be served in a row, the first of which is now, by `key`.
+/// What a reception sets off happens no sooner than least_reaction after it; events in the queue
+/// take their turn.
 Time Channel::served_until(EventKey key) const {
     if (world_.settings.reference) return key.time();
     const Time most = std::min(key.time() + least_reaction, world_.end_of_run);
@@ -201,7 +201,7 @@ Time Channel::served_until(EventKey key) const {
     return key.at(next.time()) < next ? next.time() : next.time() - Duration{1};
 }
 
-/// The receptions that are served next, by `key`; now is when the last of them ends.
+/// Receptions that are served next, by `key`; sets World::now to the end of the last of them.
 std::span<Reception> Channel::next_of(Flight& flight, EventKey key) const {
     const auto rest = flight.receivers.all().subspan(flight.arrived);
     const Time until = served_until(key);
@@ -216,9 +216,9 @@ std::span<Reception> Channel::next_of(Flight& flight, EventKey key) const {
     return rest.first(count);
 }
 
-/// Serves the receptions of a transmission by one event: all, if nothing else can happen in
-/// between. Otherwise as many as come before that; then the event is queued again for the rest, in
-/// its old place among equal times.
+/// Serves receptions of a transmission: all, if nothing else can happen in between. Otherwise it
+/// serves as many as come before that, and queues the event again for the rest, in its old place
+/// among equal times.
 void Channel::arrive(const Event& event) {
     Flight& flight = flights_[event.payload.data];
     for (auto key = event.key;;) {

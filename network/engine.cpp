@@ -95,10 +95,10 @@ void Engine::serve(const Event& event) {
     }
 }
 
-/// Throws if too many events wait or were scheduled, or sees when that may be so next.
+/// Throws at the limits of events; otherwise computes after how many more events to check again.
 void Engine::count_events() {
     const auto& events = world.events;
-    // The queue ends there; an event may add more than one.
+    // Margin below the size of the queue: one event may add several.
     constexpr std::uint64_t most_pending = SchedulerLimits{}.pending / 16 * 15;
     if (events.size() > most_pending) {
         throw RunError(

@@ -18,26 +18,39 @@
 
 namespace rovernet {
 
-/// What stands behind a Network: its parts, and the loop that serves their events.
+/// Inside of a Network: its parts, and the loop that serves their events.
 ///
 /// A message goes down from Applications through Routing and Mac to Channel, which finds who can
 /// decode it; from there receptions come up the same way. Motion and LinkMonitor stand beside them.
+/// Network is the face that users see: it checks little and passes calls on. docs/inside.md has a
+/// picture.
 class Engine {
   public:
+    /// Makes all parts, and Metrics if the settings want them.
     /// @throws std::invalid_argument if a setting is out of its range
     explicit Engine(NetworkSettings settings);
 
+    /// As the functions of Network of these names; add_sink() also asks the parts for what the sink
+    /// wants.
     void reserve(std::size_t robots);
     NodeId add(Robot robot);
     SinkId add_sink(Sink sink);
+    /// Switches a robot's radio, in the order that records and protocols rely on: channel, medium,
+    /// MAC, record, links, motion, routing. Nothing happens if it is as wanted.
     void switch_robot(NodeId node, bool on);
+    /// Serves events up to `end`, in order, at most so many. It begins what has not begun: the run
+    /// itself, movements, the watch of links.
+    /// @return whether `end` is reached; otherwise there are events left
+    /// @throws RunError at the limits of events
     bool advance(Time end, std::uint64_t most_events);
+    /// Checks a robot's id that a user gave.
     /// @throws std::out_of_range if there is no such robot
     NodeId known(NodeId node) const {
         if (node.index() >= world.size()) throw std::out_of_range("there is no such robot");
         return node;
     }
 
+    /// Parts, in the order in which they are made; each keeps references to those that it calls.
     World world;
     Applications applications;
     Routing routing;
@@ -45,17 +58,25 @@ class Engine {
     Channel channel;
     LinkMonitor links;
     Motion motion;
+    /// Names of robots, by their number.
     NameTable names;
-    std::map<NodeId, Presence> away;  // robots that are not there: off, and why
+    /// Robots that are not there, and why; all of them are off.
+    std::map<NodeId, Presence> away;
+    /// Metrics of the run, a sink like others; null if the settings want none.
     std::shared_ptr<Metrics> metrics;
-    std::uint64_t served = 0;  // events
+    /// Events served so far.
+    std::uint64_t served = 0;
 
   private:
+    // Hands an event to the part that it is for.
     void serve(const Event& event);
+    // Facts for sinks that begin now.
     RunInfo run_info() const;
+    // Looks at the limits of events, and when that is needed next.
     void count_events();
 
-    std::uint64_t check_at_ = 0;  // scheduled events: no limit is reached before
+    // Number of scheduled events up to which no limit can be reached.
+    std::uint64_t check_at_ = 0;
 };
 
 }  // namespace rovernet

@@ -8,19 +8,24 @@
 
 namespace rovernet {
 
-/// A list that is mostly empty: takes a pointer's size until there is something in it.
+/// List that is mostly empty: it takes a pointer's size until there is something in it. For a table
+/// with an entry for each of a million nodes, of which few have values: callbacks, say.
 template <class T>
 class Few {
   public:
+    /// Whether there are no values; then there is no memory either.
     bool empty() const { return !values_; }
+    /// Number of values.
     std::size_t size() const { return values_ ? values_->size() : 0; }
+    /// Value number `i` < size().
     const T& operator[](std::size_t i) const { return (*values_)[i]; }
+    /// Adds a value behind the others; references to them become void.
     void push_back(T value) {
         if (!values_) values_ = std::make_unique<std::vector<T>>();
         values_->push_back(std::move(value));
     }
 
-    /// Removes those of which gone(value) is true.
+    /// Removes the values for which gone(value) is true; the last one takes the memory with it.
     template <class Gone>
     void erase_if(Gone gone) {
         if (!values_) return;
@@ -29,6 +34,7 @@ class Few {
     }
 
   private:
+    // Null if there are no values.
     std::unique_ptr<std::vector<T>> values_;
 };
 

@@ -61,7 +61,7 @@ void LinkMonitor::on_link_lost(NodeId node, Callback<NodeId> react) {
     on_lost_[node].push_back(std::move(react));
 }
 
-/// Calls back who waits for `node` to hear `from` no more.
+/// Schedules the callbacks of a node that cannot hear `from` any more.
 void LinkMonitor::tell_lost(NodeId node, NodeId from) {
     auto& reactions = on_lost_.at(node);
     std::erase_if(reactions, [](const auto& each) { return each.has_ended(); });

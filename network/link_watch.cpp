@@ -46,7 +46,8 @@ void LinkWatch::look_at(NodeId node, Time now) {
     drop_stale();
 }
 
-/// What is pending for the pair is void; if it is not what was told, that is a change now.
+/// Looks anew at a pair: what is pending for it is void. A state that differs from what was told is
+/// a change now.
 void LinkWatch::look_at(NodeId from, NodeId to, Time now) {
     if (from == to) return;
     if (settings_.medium->link_up(from, to, now, *settings_.legs) != is_up(from, to))
@@ -76,7 +77,7 @@ void LinkWatch::search(NodeId from, NodeId to, Time after) {
         expect(from, to, until < ends && moving ? until : never, false);
 }
 
-/// `never` is nothing to expect.
+/// Sets what is pending for a pair; at `never` nothing is.
 void LinkWatch::expect(NodeId from, NodeId to, Time time, bool change) {
     const std::size_t i = pair(from, to);
     state_[i] = static_cast<std::uint8_t>((state_[i] & up) | (change ? 0 : look_again));
@@ -89,7 +90,7 @@ void LinkWatch::expect(NodeId from, NodeId to, Time time, bool change) {
     std::push_heap(heap_.begin(), heap_.end(), later);
 }
 
-/// Leaves something pending on top, and keeps the heap's size in proportion to what is.
+/// Removes stale entries from the top of the heap, and all of them if most are stale.
 void LinkWatch::drop_stale() {
     constexpr std::size_t few = 1024;
     while (!heap_.empty() && stale(heap_.front())) {

@@ -17,7 +17,7 @@
 
 namespace rovernet {
 
-/// From `time` on `to` can hear `from`, or cannot any more.
+/// Change of a link: from `time` on `to` can hear `from`, or cannot any more.
 struct LinkChange {
     Time time;
     NodeId from;
@@ -26,23 +26,33 @@ struct LinkChange {
     friend bool operator==(const LinkChange&, const LinkChange&) = default;
 };
 
-/// All links of a network: the state of every ordered pair of robots and when it changes next.
+/// Watch over all links of a network: the state of every ordered pair of robots, and when it
+/// changes next.
 ///
-/// Tell it at once of every new leg and every switch; it tells when to call `advance`, and there
-/// every change once, in the order of (time, from, to). A leg that ends must be replaced at its
-/// end. Links count as down before `start`. A pair takes 9 bytes and 16 more while a change is
-/// pending: 225 MB for 5000 robots, the most it watches. A new leg costs a search for each pair
+/// It must be told at once of every new leg and every switch; it tells when to call `advance`,
+/// which tells every change once, in the order of (time, from, to). A leg that ends must be
+/// replaced at its end. Links count as down before `start`. A new leg costs a search for each pair
 /// with that robot, see next_link_change; robots at rest cost nothing.
+///
+/// A pair takes 9 bytes and 16 more while a change is pending: 225 MB for 5000 robots, the most it
+/// watches.
 class LinkWatch {
   public:
+    /// Number of robots beyond which it refuses.
     static constexpr std::size_t most_robots = 5000;
 
+    /// What it looks at.
     struct Settings {
-        const Medium* medium = nullptr;  ///< not null; outlives the watch, as do the others
-        const Legs* legs = nullptr;      ///< not null; the same nodes as the medium
-        const Scene* scene = nullptr;    ///< not null; the medium's
+        /// Medium that decides on links; not null. All of these outlive the watch.
+        const Medium* medium = nullptr;
+        /// Legs of the same nodes; not null.
+        const Legs* legs = nullptr;
+        /// Scene of the medium; not null.
+        const Scene* scene = nullptr;
+        /// Precision of the search.
         LinkSearch search = {};
     };
+    /// Receiver of changes.
     using Tell = std::function<void(const LinkChange&)>;
 
     explicit LinkWatch(const Settings& settings) : settings_(settings) {}
@@ -50,52 +60,67 @@ class LinkWatch {
     /// Looks at all pairs; those that are up change at `now`.
     /// @throws RunError if there are too many robots
     void start(Time now);
-    /// The robot's leg was replaced at `now`, or its radio was switched on or off.
+    /// Takes note that the robot's leg was replaced at `now`, or its radio switched on or off.
     void changed(NodeId node, Time now) { look_at(node, now); }
-    /// The medium and the legs have one more robot, the last.
+    /// Takes note of one more robot, the last, in medium and legs.
     /// @throws RunError if there are too many robots
     void added(NodeId node, Time now);
 
-    /// When `advance` has to be called next; then it may have to look only, and no change to tell.
+    /// Time at which `advance` has to be called next; nothing if nothing is pending. There may be
+    /// no change to tell then, but a search to go on with.
     std::optional<Time> next() const;
     /// Tells the changes due at or before `now`. `tell` must not call back.
     void advance(Time now, const Tell& tell);
 
-    /// As told so far.
+    /// State of a link, as told so far.
     bool is_up(NodeId from, NodeId to) const { return (state_[pair(from, to)] & up) != 0; }
 
   private:
+    /// Time at which something is pending for a pair.
     struct Entry {
         Time time;
         NodeId from;
         NodeId to;
     };
-    // Bits of a pair's state.
+    // Bits of a pair's state: the link is up; what is pending is no change, but a search to go on
+    // with.
     static constexpr std::uint8_t up = 1;
-    static constexpr std::uint8_t look_again = 2;  // what is pending is no change
+    static constexpr std::uint8_t look_again = 2;
 
-    // Pairs with the last robot come last, so that a robot more moves none.
+    // Index of an ordered pair. Pairs with the last robot come last, so that one more robot moves
+    // none.
     static std::size_t pair(NodeId from, NodeId to) {
         const std::size_t i = from.index(), j = to.index();
         return i < j ? j * j + i : i * i + i + j;
     }
+    // Order of the heap, the earliest on top.
     static bool later(const Entry& p, const Entry& q);
 
+    // Makes room for the pairs of so many robots.
     void grow(std::size_t robots);
+    // Looks anew at all pairs of a robot, or at one of them.
     void look_at(NodeId node, Time now);
     void look_at(NodeId from, NodeId to, Time now);
+    // Searches for the next change of a pair, and expects it.
     void search(NodeId from, NodeId to, Time after);
+    // Sets what is pending for a pair.
     void expect(NodeId from, NodeId to, Time time, bool change);
+    // Whether something else is pending for the pair by now.
     bool stale(const Entry& entry) const { return next_[pair(entry.from, entry.to)] != entry.time; }
     void drop_stale();
+    // Walls that the search for this sender's links needs.
     const WallPassages& walls_for(NodeId from);
 
     Settings settings_;
     std::size_t robots_ = 0;
-    std::vector<Time> next_;           // of each pair; never: nothing pending
-    std::vector<std::uint8_t> state_;  // of each pair
-    std::vector<Entry> heap_;          // the earliest first; entries of before a new look are stale
-    std::size_t pending_ = 0;          // pairs with something pending
+    // Time of what is pending, by pair; never: nothing is.
+    std::vector<Time> next_;
+    // Bits of the state, by pair.
+    std::vector<std::uint8_t> state_;
+    // What is pending, the earliest first; entries of before a new look are stale.
+    std::vector<Entry> heap_;
+    // Pairs with something pending.
+    std::size_t pending_ = 0;
     std::optional<WallPassages> walls_;
     const WallPassages no_walls_ = {};
 };

@@ -34,7 +34,8 @@ Time Mac::transmit(const AirFrame& air) {
     return world_.now + how.airtime;
 }
 
-/// Tells of a unicast whose destination cannot hear it, where no missing acknowledgement does.
+/// Emits a record of a unicast whose destination cannot hear it, if no missing acknowledgement
+/// tells.
 void Mac::tell_if_unheard(const Frame& frame, std::span<const Reception> receptions) {
     const auto is_it = [&](const Reception& r) { return r.node == frame.next_hop; };
     if (listens_ || std::any_of(receptions.begin(), receptions.end(), is_it)) return;
@@ -76,7 +77,7 @@ void Mac::arrived(const AirFrame& frame, const Arriving& part) {
     if (listens_) tell_stations(frame, part.receptions);
 }
 
-/// What the stations hear of a frame beside its message: its end, and what it reserves.
+/// Tells the access model at whose station the frame ends, received or missed.
 void Mac::tell_stations(const AirFrame& frame, std::span<const Reception> receptions) {
     const AirFrame air = frame;
     const Medium& medium = world_.medium;

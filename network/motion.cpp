@@ -18,7 +18,7 @@ void check_place(Vec3 at) {
     }
 }
 
-/// The leg that waits for the node, if one does; it waits no more.
+/// Takes the leg that waits for the node, if one does.
 std::optional<Leg> taken(std::map<NodeId, Leg>& waiting, NodeId id) {
     if (waiting.empty()) return std::nullopt;
     const auto found = waiting.extract(id);
@@ -74,7 +74,7 @@ Mover Motion::mover(NodeId id) {
                       .b = robot.movements}};
 }
 
-/// Movements that begin at one time are scheduled in the order of the robots' keys: the order in
+/// Begins movements. Their events are scheduled in the order of the robots' keys: the order in
 /// which robots were added decides nothing.
 void Motion::begin_all() {
     beginning_ = true;
@@ -100,7 +100,7 @@ void Motion::expect_leg_end(NodeId id) {
                            {Occurrence::Kind::leg_end, id, world_.legs.version(id)});
 }
 
-/// Calls back who waits for the robot to come to rest.
+/// Schedules the callbacks of a robot that comes to rest.
 void Motion::tell_arrival(NodeId id) {
     const auto reactions = on_arrival_.find(id);
     if (reactions == on_arrival_.end()) return;
@@ -150,7 +150,7 @@ void Motion::begin_leg(NodeId id, const Leg& leg) {
               .turning = turn / seconds(turning)});
 }
 
-/// Replaces the leg, and tells of it.
+/// Replaces the leg, and emits Moved.
 void Motion::take(NodeId id, const Leg& leg) {
     put(id, leg);
     world_.emit(Moved{world_.now, id, leg});
@@ -165,7 +165,7 @@ void Motion::put(NodeId id, const Leg& leg) {
     links_.look_at(id);
 }
 
-/// What the robot was about to do is void.
+/// Forgets what the robot was about to do.
 void Motion::end_movement(NodeId id) {
     Moving& robot = nodes_.at(id.index());
     ++robot.movements;

@@ -20,59 +20,86 @@ namespace rovernet {
 
 struct World;
 
-/// A robot's body and how it can move; those alike that were added in a row share one.
+/// Body of a robot, and how it can move; robots alike that were added in a row share one.
 struct Body {
+    /// Radius [m], for ways around walls.
     Meters radius;
+    /// Speed that no movement exceeds [m/s]; may be infinite.
     MetersPerSecond top_speed;
+    /// Rate of turning in place before it moves off [rad/s]; none: it turns at once.
     std::optional<RadiansPerSecond> turn_rate;
     friend bool operator==(const Body&, const Body&) = default;
 };
 
-/// Where robots go: one leg after the other, as their movement models say.
+/// Motion of all robots: one leg after the other, as their movement models say.
+///
+/// A movement is asked for a leg when it begins, when a leg ends, and when the robot is switched on
+/// for the first time. The leg is written into Legs, Channel, Medium and LinkMonitor are told,
+/// Moved is emitted, and an event is queued for its end. Nothing happens in between.
 class Motion {
   public:
+    /// @param channel  told before a leg changes, and what the new one is
+    /// @param links    told after that
     Motion(World& world, Channel& channel, LinkMonitor& links)
         : world_(world), channel_(channel), links_(links) {}
 
+    /// Checks the body, heading and place of a robot before it is added.
     /// @throws std::invalid_argument for a parameter out of its range
     static void check(const Robot& robot);
     /// Adds the next node, which stands still until begin_all().
     NodeId add(Robot robot);
-    /// Begins the movements that have not begun.
+    /// Begins the movements that have not begun. A robot that is off stands; its movement begins
+    /// when it is switched on. Engine calls it whenever the run goes on.
     void begin_all();
-    /// Serves the event of a leg's end, unless another leg has taken its place.
+    /// Serves the event of a leg's end, unless another leg has taken its place: the versions differ
+    /// then.
     void on_leg_end(NodeId node, std::uint64_t version);
 
     /// Replaces the node's movement, now.
     void move(NodeId node, Movement movement);
     /// Puts a robot somewhere else at once, at rest; its movement is over.
+    /// @throws std::invalid_argument for a coordinate that is not finite or beyond 1e15 m
     void place(NodeId node, Vec3 at);
-    /// The robot was switched off: it stands still. Or on: it goes on.
+    /// Stops a robot that was switched off, and keeps its leg.
     void pause(NodeId node);
+    /// Moves a robot on that was switched on: what is left of its leg takes as long as before.
     void resume(NodeId node);
+    /// Calls react() whenever the node comes to rest at the end of a movement, 1 us later.
     void on_arrival(NodeId node, Callback<> react) {
         on_arrival_[node].push_back(std::move(react));
     }
 
+    /// Body of a node.
     /// @throws std::out_of_range if there is no such node
     const Body& body(NodeId node) { return bodies_[nodes_.at(node.index()).body]; }
 
   private:
-    /// There may be millions: what only few robots have lies in the maps below.
+    /// State of one robot. There may be millions: what only few robots have lies in the maps below.
     struct Moving {
-        std::uint32_t body : 31 = 0;   // index into bodies_
-        std::uint32_t moving : 1 = 0;  // its movement has begun
-        std::uint32_t movements = 0;   // begun so far
+        /// Index into bodies_.
+        std::uint32_t body : 31 = 0;
+        /// Its movement has begun.
+        std::uint32_t moving : 1 = 0;
+        /// Number of movements that were replaced so far: part of the key of its draws.
+        std::uint32_t movements = 0;
         Movement movement = {};
     };
 
+    // View of a robot that its movement model gets: where it is, its body, the planner, its draws.
     Mover mover(NodeId node);
+    // Asks the movement for the next leg, or begins the one that waits for a turn to end.
     void next_leg(NodeId node);
+    // Takes a leg of the movement, after turning towards it if the robot turns in place.
     void begin_leg(NodeId node, const Leg& leg);
+    // Forgets what the robot was about to do.
     void end_movement(NodeId node);
+    // Replaces the leg and emits Moved.
     void take(NodeId node, const Leg& leg);
+    // Replaces the leg and tells those who have to know, without a record.
     void put(NodeId node, const Leg& leg);
+    // Queues the event of the leg's end.
     void expect_leg_end(NodeId node);
+    // Lets those react who wait for the robot to come to rest.
     void tell_arrival(NodeId node);
 
     World& world_;
@@ -80,12 +107,18 @@ class Motion {
     LinkMonitor& links_;
     Chunks<Moving> nodes_;
     std::vector<Body> bodies_;
-    std::map<NodeId, Leg> interrupted_;  // by switching off
-    std::map<NodeId, Leg> after_turn_;   // begins when the turn on the current leg is over
+    // Legs that switching off interrupted.
+    std::map<NodeId, Leg> interrupted_;
+    // Legs that begin when the turn on the current leg is over.
+    std::map<NodeId, Leg> after_turn_;
+    // Callbacks by node.
     std::map<NodeId, std::vector<Callback<>>> on_arrival_;
-    std::size_t begun_ = 0;        // nodes whose movement has begun
-    std::vector<NodeId> set_off_;  // of them, those that something comes of ...
-    bool beginning_ = false;       // ... while movements begin
+    // Nodes whose movement has begun: the first so many.
+    std::size_t begun_ = 0;
+    // Nodes that need an event while begin_all() is at work; they get it in the order of their
+    // keys.
+    std::vector<NodeId> set_off_;
+    bool beginning_ = false;
 };
 
 }  // namespace rovernet

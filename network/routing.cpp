@@ -10,7 +10,7 @@
 namespace rovernet {
 namespace {
 
-/// A frame on its way as its sender received it.
+/// Frame on its way, as its sender received it.
 Frame as_received(const QueuedFrame& sending) {
     Frame frame = sending.frame;
     if (!sending.heard_from) return frame;
@@ -65,7 +65,7 @@ void Routing::on_timer(NodeId node, std::uint64_t tag) {
     call_router([&] { router_->on_timer(*this, node, tag); });
 }
 
-/// Nodes start in the order of their keys, so that their numbers decide nothing.
+/// Starts the nodes in the order of their keys, so that their numbers decide nothing.
 void Routing::start() {
     if (!router_ || !router_->hears_of_starts()) return;
     std::vector<NodeId> nodes;
@@ -218,7 +218,7 @@ void Routing::hand_up(const Frame& frame, std::span<Reception> receptions,
 /// Hands up those that got through to nodes that are on; says which are off.
 void Routing::hand_up_heard(const Frame& frame, const Arriving& part) {
     const std::span<Reception> receptions = part.receptions;
-    // Together, and picked without a branch: it would be mispredicted for many.
+    // Receptions are picked without a branch, which would be mispredicted for many.
     heard_.resize(receptions.size());
     heard_levels_.resize(part.levels.size());
     places_.resize(receptions.size());

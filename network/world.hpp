@@ -21,62 +21,85 @@
 
 namespace rovernet {
 
-/// What all parts of a running network share: time, events, robots' legs and radios, messages and
-/// records.
+/// World of a running network: what all its parts share. Time, events, robots' legs and radios,
+/// messages and records are here; what only one part writes is in that part.
 struct World {
+    /// Makes an empty world.
     /// @throws std::invalid_argument if a setting is out of its range
     explicit World(NetworkSettings given);
-    World(const World&) = delete;  // the parts refer to it
+    /// Copies are forbidden: the parts refer to it.
+    World(const World&) = delete;
     World& operator=(const World&) = delete;
 
+    /// Gives a record to all sinks that want its kind.
     template <class R>
     void emit(const R& record) {
         records.emit(record, {legs, messages});
     }
+    /// Number of robots.
     std::size_t size() const { return legs.size(); }
-    /// Stores a message that is made now, held once by the caller; its uid is given here.
+    /// Stores a message that is made now, held once by the caller. Its uid and time of creation are
+    /// given here.
     MessageId new_message(Message message) {
         message.uid = next_uid++;
         message.created = now;
         return messages.add(std::move(message));
     }
+    /// Key of a robot, XXH64 of its name: draws and orders depend on it, not on the robot's number.
     std::uint64_t key(NodeId node) const { return medium.key(node); }
-    /// A uniform draw in (0, 1) of this run.
+    /// Uniform draw in (0, 1) of this run.
+    /// @param a, b   what it is about, see Purpose
+    /// @param index  number among several such draws
     double draw(Purpose purpose, std::uint64_t a, std::uint64_t b, std::uint64_t index) const {
         return uniform({settings.seed, settings.replication, purpose, a, b, index});
     }
-    /// One frame or waiting copy fewer refers to the message; tells when nothing does any more.
+    /// Counts one frame or waiting copy fewer of a message; the routing protocol is told when none
+    /// is left.
     void release(MessageId id) {
         if (messages.release(id) && on_forgotten) on_forgotten(id);
     }
 
-    /// Calls `call` at `time`, and every `period` from then on unless that is 0.
+    /// Calls `call` at `time`, and every `period` [ns] from then on unless that is 0.
     /// @throws std::invalid_argument if that is before now
     void schedule(Time time, Callback<> call, Duration period = {});
-    /// Calls what waits in that slot of `actions`.
+    /// Serves the event of an action: calls what waits in that slot, and queues it again if it has
+    /// a period.
     void act(std::size_t slot);
 
+    /// Settings as they were given.
     NetworkSettings settings;
+    /// Scene of the settings, or an open field; never null.
     const Scene* scene;
+    /// Ways around the walls of the scene, shared with other runs if the settings say so.
     std::shared_ptr<Planners> planners;
-    Time now = start_of_run, end_of_run = start_of_run;  // of the current run_until
-    bool running = false;                                // the run has begun
+    /// Time of the event that is served, and end of the current run_until().
+    Time now = start_of_run, end_of_run = start_of_run;
+    /// The run has begun.
+    bool running = false;
+    /// Events to come.
     Scheduler<Occurrence> events;
+    /// Where robots are, what their radios reach, what is said, and who observes.
     Legs legs;
     Medium medium;
     const Phy phy;  // that the access protocol's frames go by
     MessageTable messages;
     Recorder records;
+    /// Called when nothing refers to a message any more; Routing sets it.
     std::function<void(MessageId)> on_forgotten = {};
-    std::uint64_t next_uid = 0;       // of messages
-    std::uint64_t transmissions = 0;  // so far
-    bool levels_wanted = false;       // somebody asks for received powers
+    /// Messages made so far: the uid of the next.
+    std::uint64_t next_uid = 0;
+    /// Frames put on air so far.
+    std::uint64_t transmissions = 0;
+    /// Somebody asks for received powers: a sink, or the routing protocol.
+    bool levels_wanted = false;
 
   private:
+    /// Action of the user's that is due, and its period [ns]; 0: once.
     struct Action {
         Callback<> call = {};
         Duration period{0};
     };
+    // Actions by the slot that their event carries.
     Slots<Action> actions_;
 };
 
