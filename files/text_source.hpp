@@ -22,7 +22,7 @@ class TextSource {
     /// @throws InputError if `path` is no file that can be read; later calls too, if it is damaged
     explicit TextSource(const std::string& path);
 
-    /// What has been read and not yet taken; valid until the next call of more().
+    /// Bytes that have been read and not yet taken; valid until the next call of more().
     std::string_view window() const { return {buffer_.data() + begin_, end_ - begin_}; }
     /// Makes the window longer; it moves. False at the end of the file.
     bool more();
@@ -32,7 +32,7 @@ class TextSource {
     }
     /// Moves the window's begin; n <= window().size().
     void take(std::size_t n) { begin_ += n; }
-    /// How many bytes have been taken since the start.
+    /// Number of bytes that have been taken since the start.
     std::uint64_t taken() const { return before_buffer_ + begin_; }
     /// Back to the start of the file.
     void rewind();

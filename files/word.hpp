@@ -12,10 +12,10 @@ namespace rovernet {
 /// A piece of a movement file's line; empty: the line ends there.
 struct Word {
     std::string_view text;
-    int column = 1;  ///< from 1
+    int column = 1;  ///< column, from 1
 };
 
-// What a movement file may say at most.
+// Limits of what a movement file may say.
 inline constexpr std::uint32_t most_file_robots = 10'000'000;
 inline constexpr double largest_coordinate = 1e9;  ///< |coordinate| [m]
 inline constexpr double fastest = 1e9;             ///< [m/s]

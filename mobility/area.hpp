@@ -12,10 +12,10 @@
 
 namespace rovernet {
 
-/// Where a movement begins.
+/// Place where a movement begins.
 enum class StartPlace {
     uniform,  ///< drawn, uniform in the area; after the start of the run it begins where it is
-    here,     ///< where the robot is
+    here,     ///< place where the robot is
 };
 template <>
 struct EnumNames<StartPlace> {
@@ -43,14 +43,15 @@ struct Area {
     double to_border(Vec3 p) const;
     /// The place inside that is nearest to `p`.
     Vec3 clamped(Vec3 p) const;
-    /// Where the ray from `p` inside along `direction`, a vector in the plane of length 1, leaves:
-    /// exactly on the border.
+    /// Point where the ray from `p` inside along `direction`, a vector in the plane of length 1,
+    /// leaves: exactly on the border.
     Vec3 exit(Vec3 p, Vec3 direction) const;
 
     /// A place, uniform among those where the mover's body has room and, on a map, is on it; at the
     /// mover's height. None if 10,000 draws find none.
     std::optional<Vec3> free_place(const Mover& mover, Draws& draws) const;
-    /// Where a movement begins: at the mover for StartPlace::here or after the start of the run.
+    /// Place where a movement begins: at the mover for StartPlace::here or after the start of the
+    /// run.
     /// @throws std::invalid_argument if that lies outside
     std::optional<Vec3> first_place(const Mover& mover, StartPlace start, Draws& draws,
                                     std::string_view model) const;
@@ -59,13 +60,13 @@ struct Area {
 /// Shorter legs [m] are none: the robot stands at an obstacle or a border.
 inline constexpr double least_leg = 1e-6;
 
-/// How far the mover can go straight from where it is towards `to`: `to`, or a micrometre before
-/// it would touch an obstacle or leave the map; where it is, if it cannot go at all.
+/// Point up to which the mover can go straight from where it is towards `to`: `to`, or a micrometre
+/// before it would touch an obstacle or leave the map; where it is, if it cannot go at all.
 Vec3 straight_stop(const Mover& mover, Vec3 to);
 
 /// The vector of length 1 at `angle` [rad], counter-clockwise from the x axis.
 Vec3 direction_of(double angle);
-/// Any direction in the plane, all equally likely: a vector of length 1.
+/// Direction in the plane, all equally likely: a vector of length 1.
 Vec3 any_direction(const Mover& mover, Draws& draws);
 
 }  // namespace rovernet

@@ -19,7 +19,7 @@ namespace rovernet {
 ///
 /// All lengths of the search are in this norm, which makes it an exact bound on an empty map.
 struct CellNorm {
-    double width, height, diagonal;  ///< of a cell [m]
+    double width, height, diagonal;  ///< sides and diagonal of a cell [m]
 
     explicit CellNorm(const MapFrame& frame)
         : width(frame.cell_width()),
@@ -38,10 +38,10 @@ struct CellNorm {
 struct PathEnd {
     struct Access {
         int cell;
-        double length;  ///< in CellNorm [m]
+        double length;  ///< length in CellNorm [m]
     };
     CellPoint at;
-    std::vector<Access> ways;  ///< one for each cell
+    std::vector<Access> ways;  ///< access to each cell
 };
 
 /// Finds shortest ways over the cells of a map by A*, best first to within half a cell.
@@ -67,7 +67,7 @@ class CellSearch {
   private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    /// What is known of a cell.
+    /// Knowledge of a cell.
     struct Reached {
         double so_far = infinity;  // [m] from the start
         int before = -1;           // the cell before it on the way; -1: the start

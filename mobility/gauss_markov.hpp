@@ -27,13 +27,14 @@ namespace rovernet {
 struct GaussMarkov {
     static constexpr std::string_view name = "gauss_markov";
 
-    std::vector<Vec3> area = {};                           ///< [m] as in the other models
-    MetersPerSecond mean_speed{1};                         ///< [m/s], >= 0
-    MetersPerSecond speed_sigma{0.2};                      ///< [m/s], >= 0
-    std::optional<Radians> mean_direction = std::nullopt;  ///< at first; none: drawn, uniform
-    Radians direction_sigma{0.4};                          ///< >= 0
-    double memory = 0.75;                                  ///< a [-], 0 ... 1
-    Duration step = std::chrono::seconds{1};               ///< [ns], from 1 us
+    std::vector<Vec3> area = {};       ///< [m] as in the other models
+    MetersPerSecond mean_speed{1};     ///< [m/s], >= 0
+    MetersPerSecond speed_sigma{0.2};  ///< [m/s], >= 0
+    std::optional<Radians> mean_direction =
+        std::nullopt;                         ///< direction at first; none: drawn, uniform
+    Radians direction_sigma{0.4};             ///< >= 0
+    double memory = 0.75;                     ///< a [-], 0 ... 1
+    Duration step = std::chrono::seconds{1};  ///< [ns], from 1 us
     StartPlace start = StartPlace::uniform;
 
     static constexpr auto fields() {

@@ -41,7 +41,7 @@ struct Group {
     struct Progress {
         Draws draws = {};
         Time arrival = start_of_run;  // the end of the interval
-        Way way = {};                 // until then
+        Way way = {};                 // way until then
     } progress = {};
 };
 

@@ -25,9 +25,9 @@ inline constexpr Range turn_rates{.low = 1e-8, .text = ">= 1e-8 rad/s"};
 struct Mover {
     Time now;
     Vec3 position;       ///< [m] now
-    Meters radius;       ///< of the robot's body
+    Meters radius;       ///< radius of the robot's body
     Planners& planners;  ///< ways around the scene's walls
-    const Legs& legs;    ///< where everybody is, for models that go by others
+    const Legs& legs;    ///< legs of all robots, for models that go by others
     double heading = 0;  ///< [rad] now, counter-clockwise from the x axis
     static constexpr MetersPerSecond any_speed{std::numeric_limits<double>::infinity()};
     MetersPerSecond top_speed = any_speed;  ///< [m/s] no leg of the library's models is faster
@@ -48,7 +48,7 @@ struct Mover {
 /// The movement is over, the robot has arrived: it rests where it is.
 struct AtRest {};
 
-/// There is no way to the goal: the robot rests where it is.
+/// Answer that there is no way to the goal: the robot rests where it is.
 struct Blocked {
     Vec3 goal;  ///< [m]
 };

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// From place to place and round again for ever, around the walls where there are any.
+/// Patrol from place to place and round again for ever, around the walls where there are any.
 ///
 /// A place without a way to it ends the movement: Blocked. So does a round in which nothing has to
 /// be gone, at rest.
@@ -30,10 +30,10 @@ struct Patrol {
     /// @throws std::invalid_argument for a parameter out of its range
     Step next_leg(Mover& mover);
 
-    /// How far the robot is; left to the model.
+    /// Progress of the robot; left to the model.
     struct Progress {
         std::size_t next = 0;  // place of the path
-        Way way = {};          // to the one before
+        Way way = {};          // way to the place before
     } progress = {};
 };
 

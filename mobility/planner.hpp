@@ -34,11 +34,11 @@ class Planner {
     /// None if an end lies off the map or nearer to an obstacle than the radius, or if there is no
     /// way. Corners between the ends are at the height of `from`.
     std::optional<std::vector<Vec3>> shortest_path(Vec3 from, Vec3 to);
-    /// There is a way, without searching for it.
+    /// Whether there is a way, without searching for it.
     bool has_way(Vec3 from, Vec3 to) const;
 
   private:
-    /// Both ends of a way around obstacles, in one part of the map.
+    /// Ends of a way around obstacles, in one part of the map.
     struct Ends {
         PathEnd start, goal;
     };

@@ -8,8 +8,8 @@
 
 namespace rovernet {
 
-/// Where `leader` will be at `t` >= mover.now [m], as far as its present leg says, at the mover's
-/// own height.
+/// Position of `leader` at `t` >= mover.now [m], as far as its present leg says, at the mover's own
+/// height.
 /// @throws std::invalid_argument if there is no such robot
 Vec3 foreseen(const Mover& mover, NodeId leader, Time t, std::string_view model);
 

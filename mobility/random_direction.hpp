@@ -15,7 +15,7 @@ namespace rovernet {
 
 /// The law of the direction in which a robot leaves a border.
 enum class BorderTurn {
-    cosine,   ///< of density cos of the angle to the border's normal (Lambert's law)
+    cosine,   ///< density cos of the angle to the border's normal (Lambert's law)
     uniform,  ///< all angles are equally likely
 };
 template <>
@@ -23,8 +23,8 @@ struct EnumNames<BorderTurn> {
     static constexpr std::array<std::string_view, 2> values = {"cosine", "uniform"};
 };
 
-/// In a random direction as far as the border of the area or a wall, at a speed uniform between the
-/// two; a rest; and again in a new direction: the random direction model.
+/// Movement in a random direction as far as the border of the area or a wall, at a speed uniform
+/// between the two; a rest; and again in a new direction: the random direction model.
 ///
 /// With border_turn = cosine, an open field, no pause and min_speed > 0 it is stationary from a
 /// uniform start: the density of places is uniform at all times, and the first speed is drawn with

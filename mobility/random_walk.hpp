@@ -12,8 +12,8 @@
 
 namespace rovernet {
 
-/// Every `step` a new direction, uniform, and a new speed, uniform between the two; the borders of
-/// the area reflect: the random walk model.
+/// Random walk: every `step` a new direction, uniform, and a new speed, uniform between the two;
+/// the borders of the area reflect: the random walk model.
 ///
 /// On an open field, from a uniform start, the density of places is uniform and that of speeds is
 /// as drawn at all times. Where a wall or the map's end would be hit, the step ends a micrometre
@@ -47,7 +47,7 @@ struct RandomWalk {
         bool begun = false;
         Draws draws = {};
         Time step_end = start_of_run;
-        Vec3 direction = {};  // of length 1
+        Vec3 direction = {};  // vector of length 1
         MetersPerSecond speed = {};
     } progress = {};
 

@@ -14,19 +14,19 @@
 
 namespace rovernet {
 
-/// How a random waypoint movement begins. After the start of the run always as `here`.
+/// Start of a random waypoint movement. After the start of the run it is always `here`.
 enum class StartState {
-    stationary,  ///< as if it had gone on for ever
-    uniform,     ///< at a place uniform in the area, with a new trip: the mean speed decays
-    here,        ///< where the robot is, with a new trip: the mean speed decays
+    stationary,  ///< state as if it had gone on for ever
+    uniform,     ///< place uniform in the area, with a new trip: the mean speed decays
+    here,        ///< place where the robot is, with a new trip: the mean speed decays
 };
 template <>
 struct EnumNames<StartState> {
     static constexpr std::array<std::string_view, 3> values = {"stationary", "uniform", "here"};
 };
 
-/// To a place uniform in the area, around the walls where there are any, at a speed uniform between
-/// the two; a rest; and again: the random waypoint model.
+/// Random waypoint movement: to a place uniform in the area, around the walls where there are any,
+/// at a speed uniform between the two; then a rest; and again.
 ///
 /// On a map, places are uniform among those where the robot's body has room and to which there is a
 /// way; ways may leave the area. Blocked if 200 draws find none. Speeds above the robot's top speed
@@ -36,9 +36,9 @@ struct EnumNames<StartState> {
 /// that it and its rest take on average, and met at a uniform moment of that time; while it moves,
 /// its speed has density 1/v. Exact on an open field. On a map a way longer than twice the area's
 /// diagonal counts as that long. Needs min_speed > 0, as the slowest trips would last for ever.
-/// Sources: D. Johnson, D. Maltz, Dynamic source routing in ad hoc wireless networks, 1996;
-/// W. Navidi, T. Camp, Stationary distributions for the random waypoint mobility model, IEEE TMC
-/// 3(1), 2004; J. Yoon, M. Liu, B. Noble, Random waypoint considered harmful, INFOCOM 2003.
+/// Sources: D. Johnson, D. Maltz, Dynamic source routing in ad hoc wireless networks, 1996; W.
+/// Navidi, T. Camp, Stationary distributions for the random waypoint mobility model, IEEE TMC 3(1),
+/// 2004; J. Yoon, M. Liu, B. Noble, Random waypoint considered harmful, INFOCOM 2003.
 struct RandomWaypoint {
     static constexpr std::string_view name = "random_waypoint";
 

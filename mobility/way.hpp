@@ -30,15 +30,15 @@ class Way {
     std::optional<Leg> next_leg(const Mover& mover) {
         return left_ ? next_leg(mover, left_->speed) : std::nullopt;
     }
-    /// What is left of the way from where the mover is [m].
+    /// Rest of the way from where the mover is [m].
     double length_left(const Mover& mover) const;
 
   private:
     struct Left {
         std::vector<Vec3> corners;   // the next one last; one at least
-        MetersPerSecond speed = {};  // of the last leg
+        MetersPerSecond speed = {};  // speed of the last leg
     };
-    std::unique_ptr<Left> left_;  // what is still to come; null: nothing
+    std::unique_ptr<Left> left_;  // rest of the way; null: nothing
 };
 
 }  // namespace rovernet

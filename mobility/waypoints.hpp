@@ -17,8 +17,8 @@ struct TimedPoint {
     TimedPoint(Duration t, Vec3 p) : time(start_of_run + t), position(p) {}
 };
 
-/// From place to place, around the walls where there are any: by timetable (`timed`), then along
-/// `path` at `speed`.
+/// Movement from place to place, around the walls where there are any: by timetable (`timed`), then
+/// along `path` at `speed`.
 ///
 /// Between two timed places the speed is constant. A timed place whose time has passed when its
 /// turn comes is left out.
@@ -30,14 +30,14 @@ struct Waypoints {
     /// @throws std::invalid_argument unless speed > 0 and the places are finite
     Step next_leg(Mover& mover);
 
-    /// Where the robot is in its lists; left to the model.
+    /// Progress of the robot in its lists; left to the model.
     struct Progress {
-        std::size_t places = 0;  // of both lists, taken up so far
-        Way way = {};            // to the last of them
+        std::size_t places = 0;  // places of both lists, taken up so far
+        Way way = {};            // way to the last of them
     } progress = {};
 };
 
-/// To one place, around the walls.
+/// Movement to one place, around the walls.
 struct ToGoal {
     Vec3 to;                   ///< [m]
     MetersPerSecond speed{1};  ///< [m/s], > 0

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// What a node does with a second copy of a message.
+/// Treatment of a second copy of a message.
 enum class Duplicates { suppress, forward };
 
 template <>
@@ -62,7 +62,7 @@ class FloodRouter {
     void forget(MessageId message);
 
   private:
-    /// What a node made of the copies that it heard so far.
+    /// Knowledge of a node: what it made of the copies that it heard so far.
     class Knowledge {
       public:
         enum State : std::uint32_t { unheard, ended, waiting };
@@ -75,10 +75,10 @@ class FloodRouter {
         SendHandle copy() const { return value_ - waiting; }
 
       private:
-        std::uint32_t value_;  // from `waiting` on: and the copy's number
+        std::uint32_t value_;  // a State; from `waiting` on with the copy's handle added
     };
 
-    /// What the nodes know of a message.
+    /// Knowledge of all nodes of one message.
     class Known {
       public:
         std::size_t size() const { return 64 * settled_.size(); }
@@ -86,18 +86,18 @@ class FloodRouter {
             settled_.resize((nodes + 63) / 64);
             if (later_copies_matter) of_nodes_.resize(size());
         }
-        /// Another copy is a duplicate for the node, whatever its TTL.
+        /// Whether another copy is a duplicate for the node, whatever its TTL.
         bool is_settled(NodeId node) const {
             return settled_[node.index() / 64] >> node.index() % 64 & 1;
         }
         void settle(NodeId node) {
             settled_[node.index() / 64] |= std::uint64_t{1} << node.index() % 64;
         }
-        /// If later copies matter.
+        /// Knowledge of a node; only if later copies matter.
         Knowledge& operator[](NodeId node) { return of_nodes_[node.index()]; }
 
       private:
-        // By bits: those of a million nodes stay in a cache.
+        // A bit for each node: those of a million nodes stay in a cache.
         std::vector<std::uint64_t> settled_;
         std::vector<Knowledge> of_nodes_;
     };
@@ -110,14 +110,14 @@ class FloodRouter {
     }
     void make_room(std::size_t message, std::size_t nodes);
     bool forwards_all() const { return flood_.duplicates == Duplicates::forward; }
-    /// Also those that are not the first of its message.
+    /// Whether copies matter that are not the first of their message.
     bool later_copies_matter() const { return forwards_all() || flood_.upgrade; }
     bool is_duplicate(LinkLayer& link, const Frame& frame, NodeId node, Known& known);
     void take(LinkLayer& link, const Frame& frame, Known& known, Reception& reception);
     SendHandle forward(LinkLayer& link, const Frame& frame, const Reception& reception);
 
     Flood flood_;
-    std::vector<Known> known_;  // by message
+    std::vector<Known> known_;  // knowledge by message
     Sieve<Reception*> news_;    // under work, kept for its memory
 };
 

@@ -24,12 +24,14 @@ struct FreeSpace {
     /// @param radius  [m], >= 0
     FreeSpace(const Scene& scene, Meters radius);
 
-    /// Per cell, rows from the bottom: 1 if the centre keeps the radius from every obstacle.
+    /// Flag of each cell, rows from the bottom: 1 if the centre keeps the radius from every
+    /// obstacle.
     std::vector<std::uint8_t> free;
-    /// Per cell: bit d is set if the robot may go straight to the centre of neighbour
+    /// Bits of each cell: bit d is set if the robot may go straight to the centre of neighbour
     /// cell_steps[d]. A diagonal step needs both cells beside it: no corner is cut.
     std::vector<std::uint8_t> steps;
-    /// Per cell: the number of the part of the map that steps join it to; -1 if it is not free.
+    /// Number of each cell: that of the part of the map that steps join it to; -1 if it is not
+    /// free.
     std::vector<std::int32_t> part;
 };
 

@@ -30,15 +30,15 @@ class MapFrame {
         cosine_ = cosine;
     }
 
-    /// In cells. A coordinate within cell_tolerance of a grid line is put on it, so that decimals
-    /// such as 0.15 m in cells of 0.05 m mean what they say.
+    /// Point in cells. A coordinate within cell_tolerance of a grid line is put on it, so that
+    /// decimals such as 0.15 m in cells of 0.05 m mean what they say.
     CellPoint to_cells(Vec3 p) const {
         const double x = p.x - origin_.x;
         const double y = p.y - origin_.y;
         return {snap((cosine_ * x + sine_ * y) / cell_width_),
                 snap((cosine_ * y - sine_ * x) / cell_height_)};
     }
-    /// In metres, at height z [m].
+    /// Point in metres, at height z [m].
     Vec3 to_world(CellPoint p, double z = 0) const {
         const double x = p.u * cell_width_;
         const double y = p.v * cell_height_;

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// Where robots must not go on one map.
+/// Obstacles on one map: where robots must not go.
 class Obstacles {
   public:
     /// @param index  not null

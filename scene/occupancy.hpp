@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// What a map says of a cell. A wall stops radio and robots; the unknown stops robots only.
+/// State of a cell of a map. A wall stops radio and robots; the unknown stops robots only.
 enum class Cell : std::uint8_t { free, occupied, unknown };
 
 /// A map of equal rectangular cells, placed in the world.
@@ -25,8 +25,9 @@ struct OccupancyGrid {
     std::vector<Cell> cells;  ///< columns * rows; row 0 is the bottom row
     /// Mean of red, green and blue of each cell's pixel [0..255]; empty if there is no picture.
     std::vector<std::uint8_t> greys = {};
-    std::uint8_t material = 0;  ///< of all walls, an index into the scene's materials
-    std::vector<std::uint8_t> cell_materials = {};  ///< of each cell, instead; empty if all are one
+    std::uint8_t material = 0;  ///< material of all walls, an index into the scene's
+    std::vector<std::uint8_t> cell_materials =
+        {};  ///< material of each cell, instead; empty if all are one
 
     /// Material of the cell with that index; says something of walls only.
     std::uint8_t material_of(std::size_t cell) const {

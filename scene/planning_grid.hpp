@@ -7,8 +7,7 @@
 
 namespace rovernet {
 
-/// One grid for planning ways among several maps: free where no obstacle of any map enters the
-/// cell.
+/// Grid for planning ways among several maps: free where no obstacle of any map enters the cell.
 ///
 /// Its cells are as small as the finest map's with more than one cell, and lie as those of the
 /// first such map do; at most 4 million, then larger. A lone wall (a map of one cell) stays a wall,

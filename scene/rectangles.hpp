@@ -17,7 +17,7 @@ struct CellRectangle {
     friend constexpr bool operator==(CellRectangle, CellRectangle) = default;
 };
 
-/// Which cells make up a set of rectangles.
+/// Cells that make up a set of rectangles.
 enum class Solid {
     walls,     ///< occupied cells: what radio sees
     obstacles  ///< occupied and unknown cells: where robots must not go
@@ -29,7 +29,7 @@ enum class Solid {
 /// the rectangle grown right then up and the one grown up then right. None can grow right or up.
 std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, Solid solid);
 
-/// The same for the walls of one material.
+/// Cells that are walls of one material.
 struct WallsOf {
     std::uint8_t material;  ///< index into the scene's materials
 };

@@ -9,26 +9,27 @@
 
 namespace rovernet {
 
-/// What became of each message of a run, in the order in which they were sent: a series in time, to
+/// Deliveries of each message of a run, in the order in which they were sent: a series in time, to
 /// tell the beginning of a run from its steady state.
 class DeliverySeries {
   public:
     KindMask kinds() const { return kind_of<Sent>() | kind_of<Received>(); }
     void on(const Record& record, const RecordContext& context);
 
-    /// When each message was sent, ascending.
+    /// Time at which each message was sent, ascending.
     const std::vector<Time>& sent() const { return sent_; }
-    /// Of each message: deliveries / (robots when it was sent - 1) [-]; 0 for a lone robot's.
+    /// Delivery ratio of each message: deliveries / (robots when it was sent - 1) [-]; 0 for a lone
+    /// robot's.
     std::vector<double> delivered() const;
 
   private:
     /// The message that a slot of the table had at its last Sent. Packets of a router have none.
     struct Known {
         std::uint64_t uid = ~std::uint64_t{0};
-        std::size_t place = 0;  // in the series
+        std::size_t place = 0;  // its place in the series
     };
 
-    std::vector<Known> known_;  // by MessageId
+    std::vector<Known> known_;  // messages by MessageId
     std::vector<Time> sent_;
     std::vector<std::uint32_t> others_;      // robots that might have got it
     std::vector<std::uint32_t> deliveries_;  // and those that did

@@ -10,7 +10,7 @@
 
 namespace rovernet {
 
-/// One number for the behaviour of a run: any difference in what happened changes it.
+/// Fingerprint of a run: one number for its behaviour. Any difference in what happened changes it.
 ///
 /// XXH64 (seed 0) over, per record, its kind (the bit number of kind_of, one byte) and its integers
 /// in little endian:
@@ -39,7 +39,7 @@ class Fingerprint {
     }
     void on(const Record& record, const RecordContext& context);
 
-    /// Of the records so far.
+    /// Fingerprint of the records so far.
     std::uint64_t value() const;
     /// value() as 16 hexadecimal digits.
     std::string text() const;

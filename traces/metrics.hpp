@@ -13,9 +13,9 @@
 
 namespace rovernet {
 
-/// How many copies were lost for one reason.
+/// Number of copies that were lost for one reason.
 struct DropCount {
-    std::string_view reason;  ///< as in an ns-2 trace
+    std::string_view reason;  ///< code as in an ns-2 trace
     std::uint64_t count = 0;
     friend bool operator==(const DropCount&, const DropCount&) = default;
 };
@@ -30,7 +30,7 @@ struct LatencyValues {
     friend bool operator==(const LatencyValues&, const LatencyValues&) = default;
 };
 
-/// All codes of reasons for which a copy goes no further, each once: the order of
+/// Codes of all reasons for which a copy goes no further, each once: the order of
 /// MetricValues::drops. DUP comes first, then the others in the order of their table
 /// (sim/fate.hpp).
 inline constexpr auto loss_codes = [] {
@@ -51,7 +51,7 @@ inline constexpr auto loss_codes = [] {
     return codes;
 }();
 
-/// What part of the traffic comes to: the messages of one flow, or those for one robot.
+/// Values of a part of the traffic: the messages of one flow, or those for one robot.
 struct PartValues {
     std::uint64_t messages = 0;    ///< sent: of the flow, or for the robot
     std::uint64_t expected = 0;    ///< deliveries, if every message reached whom it was for
@@ -63,7 +63,7 @@ struct PartValues {
     friend bool operator==(const PartValues&, const PartValues&) = default;
 };
 
-/// What Metrics measure beside the totals.
+/// Parts that Metrics measure beside the totals.
 struct MetricParts {
     /// Costs a search of the network for every message; nothing: only while that is cheap.
     std::optional<bool> reach = {};
@@ -71,8 +71,8 @@ struct MetricParts {
     bool robots = false;  ///< messages by whom they are for
 };
 
-/// What a run, or a trace read back, amounts to. The values are computed from integers, so that
-/// they are the same to the last digit in whatever portions the records arrive.
+/// Values of a run, or of a trace read back. The values are computed from integers, so that they
+/// are the same to the last digit in whatever portions the records arrive.
 struct MetricValues {
     std::uint64_t messages = 0;       ///< sent by applications
     std::uint64_t transmissions = 0;  ///< frames put on air
@@ -109,14 +109,14 @@ struct MetricValues {
     /// Source: S.-Y. Ni et al., as above.
     std::optional<double> saved_rebroadcasts;
 
-    std::optional<LatencyValues> latency;  ///< of the deliveries; nothing without them
+    std::optional<LatencyValues> latency;  ///< latency of the deliveries; nothing without any
 
-    std::optional<double> mean_hops;  ///< of the deliveries [-]; nothing without them
-    std::uint32_t max_hops = 0;       ///< of the deliveries [-]
+    std::optional<double> mean_hops;  ///< hops of a delivery [-]; nothing without any
+    std::uint32_t max_hops = 0;       ///< most hops of a delivery [-]
     std::vector<std::uint64_t> hops;  ///< deliveries that crossed h hops, h = 0 ... max_hops
 
-    std::vector<PartValues> flows;   ///< by flow - 1, if they are counted
-    std::vector<PartValues> robots;  ///< by robot, if they are counted
+    std::vector<PartValues> flows;   ///< values by flow - 1, if they are counted
+    std::vector<PartValues> robots;  ///< values by robot, if they are counted
 
     friend bool operator==(const MetricValues&, const MetricValues&) = default;
 };
@@ -145,15 +145,15 @@ class Metrics {
     MetricValues values() const;
 
   private:
-    /// What is known of a message in the table. A slot begins anew with every message, also with
-    /// one that has no Sent, such as a router's own.
+    /// Knowledge of a message in the table. A slot begins anew with every message, also with one
+    /// that has no Sent, such as a router's own.
     struct Flood {
         std::uint64_t uid = ~std::uint64_t{0};
         std::vector<std::uint64_t> forwarders;   ///< bit n: robot n has put it on air
         std::uint32_t others = 0;                ///< robots that it is for
         std::optional<std::uint32_t> reachable;  ///< see Sent
     };
-    /// How often each fate and each reason of a drop was seen.
+    /// Number of times that each fate and each reason of a drop was seen.
     template <class Reason, Reason last>
     struct Counts {
         std::array<std::uint64_t, static_cast<std::size_t>(last) + 1> of{};
@@ -190,11 +190,11 @@ class Metrics {
     std::uint64_t reachable_ = 0;      ///< sum of reachable ...
     std::uint64_t reached_ = 0;        ///< ... and the deliveries of messages that carried it
     std::uint64_t forwarders_ = 0;     ///< distinct (message, robot other than the origin)
-    std::vector<Duration> delays_;     ///< of the deliveries, in no order
+    std::vector<Duration> delays_;     ///< delays of the deliveries, in no order
     std::vector<std::uint64_t> hops_;  // deliveries by their hops
-    std::vector<Flood> floods_;        ///< by MessageId
-    std::vector<PartValues> flows_;    ///< by flow - 1
-    std::vector<PartValues> robots_;   ///< by robot, but for broadcasts: ...
+    std::vector<Flood> floods_;        ///< floods by MessageId
+    std::vector<PartValues> flows_;    ///< values by flow - 1
+    std::vector<PartValues> robots_;   ///< values by robot, but for broadcasts: ...
     std::uint64_t broadcasts_ = 0;     ///< ... these, of everybody, ...
     std::vector<std::uint64_t> own_broadcasts_;  ///< ... less its own
 };

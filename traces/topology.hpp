@@ -12,8 +12,8 @@
 
 namespace rovernet {
 
-/// What the network was like while it was measured, whatever was sent. Nothing where nothing is to
-/// be averaged over.
+/// Shape of the network while it was measured, whatever was sent. Nothing where nothing is to be
+/// averaged over.
 struct TopologyValues {
     /// Robots that hear a robot [-]: the mean over time and over the robots that are on.
     std::optional<double> degree_mean;
@@ -37,14 +37,14 @@ class Topology {
     KindMask kinds() const { return kind_links | kind_of<Moved>() | kind_of<Switched>(); }
     void on(const Record& record, const RecordContext& context);
 
-    /// Once, when the run has ended at `end`.
+    /// Values of a run that has ended at `end`; asked for once.
     TopologyValues values(Time end);
 
   private:
     struct Robot {
         bool is_there = false;
         bool on = true;
-        Time since = start_of_run, until = start_of_run;  // of its leg
+        Time since = start_of_run, until = start_of_run;  // begin and end of its leg
         double speed = 0;                                 // [m/s] on it
     };
 

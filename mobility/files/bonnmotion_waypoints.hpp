@@ -52,7 +52,7 @@ class BonnMotionNumbers {
     Word word_;
 };
 
-/// What stands in a line for each waypoint: time x y, perhaps z, perhaps a status.
+/// Columns of a line for each waypoint: time x y, perhaps z, perhaps a status.
 struct PlaceColumns {
     bool z = false;
     bool status = false;
@@ -64,7 +64,7 @@ struct PlaceColumns {
 struct Waypoint {
     Time time = {};
     Vec3 place = {};     ///< [m]
-    bool first = false;  ///< of its node
+    bool first = false;  ///< the first of its node
 };
 
 /// The first of `candidates` that the whole file agrees with, and how many waypoints there are.

@@ -12,7 +12,7 @@
 
 namespace rovernet {
 
-/// One thing that a movement file says of one robot.
+/// Command of a movement file to one robot.
 struct MovementCommand {
     enum class Kind : std::uint8_t {
         appear,  ///< is at `to` from now on, its radio on
@@ -36,10 +36,10 @@ struct FileRobot {
     Time appears = start_of_run;
 };
 
-/// How strictly a movement file is read.
+/// Strictness with which a movement file is read.
 enum class MovementSyntax {
     strict,    ///< a line that means nothing is an error
-    tolerant,  ///< such a line is left out, with one notice for all of them
+    tolerant,  ///< a line that means nothing is left out, with one notice for all
 };
 
 /// A file of movements, read command by command in order of time.
@@ -59,7 +59,7 @@ class MovementFile {
 
     const std::vector<FileRobot>& robots() const;
     const std::vector<std::string>& notices() const;
-    /// Where the last command ends.
+    /// Time at which the last command ends.
     Time end() const;
 
     /// The next command, in order of time, then as in the file; none at the end.

@@ -11,7 +11,7 @@
 
 namespace rovernet {
 
-/// What a MovementFile does for one kind of file. One that is made has read the file through.
+/// Reader of one kind of file, for MovementFile. When it is made, it has read the file through.
 struct MovementFile::Reader {
     virtual ~Reader() = default;
     virtual std::optional<MovementCommand> next() = 0;

@@ -10,7 +10,7 @@
 
 namespace rovernet {
 
-/// What a robot did: its legs in order, each from where the one before ended. It rests in the time
+/// Track of a robot: its legs in order, each from where the one before ended. It rests in the time
 /// between two legs and after the last. A leg that starts elsewhere is a jump; one that starts
 /// before the end of the one before ends that.
 struct Track {

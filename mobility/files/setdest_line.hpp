@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// One line of an ns-2 movement file.
+/// Line of an ns-2 movement file.
 struct SetdestLine {
     enum class Kind : std::uint8_t {
         nothing,  ///< blank, a comment, or what only ns-2's god is told
@@ -20,7 +20,7 @@ struct SetdestLine {
     Kind kind = Kind::nothing;
     std::uint32_t node = 0;
     Time time = {};
-    std::uint8_t axis = 0;  ///< of `place` and `jump`: 0 = X_, 1 = Y_, 2 = Z_
+    std::uint8_t axis = 0;  ///< axis of `place` and `jump`: 0 = X_, 1 = Y_, 2 = Z_
     double x = 0;           ///< [m]; of `place` and `jump`: the coordinate
     double y = 0;           ///< [m]
     double speed = 0;       ///< [m/s]

@@ -34,14 +34,14 @@ class XmlTags {
     std::string_view name() const { return name_; }
     /// An attribute's value, with its character references resolved; valid until the next call.
     std::optional<Word> value(std::string_view attribute);
-    /// Where the tag begins; after value(), the line of that value.
+    /// Place where the tag begins; after value(), the line of that value.
     const Location& where() const { return where_; }
     const std::string& source() const { return source_.name(); }
 
   private:
     struct Attribute {
         std::string_view name;
-        std::string_view value;  // as it is written
+        std::string_view value;  // text as it is written
     };
 
     bool find_tag();
@@ -57,7 +57,7 @@ class XmlTags {
     [[noreturn]] void fail(std::string_view found, std::string_view expected);
 
     TextSource source_;
-    int line_ = 1;                  ///< of the window's begin
+    int line_ = 1;                  ///< line of the window's begin
     std::uint64_t line_start_ = 0;  ///< bytes before this line
     std::size_t length_ = 0;        ///< bytes of the tag, with which the window begins
 

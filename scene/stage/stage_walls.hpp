@@ -13,8 +13,9 @@ namespace rovernet {
 /// The walls of a Stage world: one grid for each bitmap, box, outline and boundary wall, in the
 /// order of the file. Grids may touch and overlap.
 struct StageWalls {
-    std::vector<OccupancyGrid> grids;  ///< their `material` is an index into `materials`
-    /// One for each colour of a wall model, named like the colour; none gives a loss of its own.
+    std::vector<OccupancyGrid> grids;  ///< grids, whose `material` is an index into `materials`
+    /// Materials, one for each colour of a wall model, named like the colour; none gives a loss of
+    /// its own.
     std::vector<Material> materials;
     std::vector<std::string> notices;  ///< each "file:line: text"
 };

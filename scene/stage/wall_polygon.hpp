@@ -44,7 +44,7 @@ Extent extent_of(const std::vector<Vec3>& points);
 /// The grid's origin is relative to the body.
 OccupancyGrid filled(const WallPolygon& polygon, double cell);
 
-/// How much work filled() has, in cells and edges looked at.
+/// Work that filled() has, in cells and edges looked at.
 double filling_work(const WallPolygon& polygon, double cell);
 
 }  // namespace rovernet

@@ -10,7 +10,7 @@
 
 namespace rovernet {
 
-/// What a model of a Stage world is to a radio.
+/// Role of a model of a Stage world for radio.
 enum class WorldRole {
     robot,    ///< a position
     wall,     ///< a model
@@ -19,8 +19,8 @@ enum class WorldRole {
     ignored,  ///< sensors, tools, windows
 };
 
-/// By the type. A type that Stage does not know is a robot if it has a wifi, else a wall if it has
-/// a bitmap: so it is with macros whose include is missing.
+/// Role of a model, by its type. A type that Stage does not know is a robot if it has a wifi, else
+/// a wall if it has a bitmap: so it is with macros whose include is missing.
 WorldRole world_role(const WorldEntity& entity);
 
 /// The types of Stage 2 to 4.
@@ -29,7 +29,7 @@ const std::vector<std::string>& stage_types();
 /// The `wifi` of a model: its own and those of its parts, not those of other positions in it.
 std::vector<const WorldEntity*> wifis(const WorldEntity& entity);
 
-/// What one unit of the file is.
+/// Units of the file.
 struct WorldUnits {
     double metres = 1;   ///< [m] by unit_length: "m", "cm" or "mm"
     double degrees = 1;  ///< [deg] by unit_angle: "degrees" or "radians"

@@ -9,16 +9,16 @@
 
 namespace rovernet {
 
-/// Where the includes and bitmaps of a world are looked for: the folder of the world, then
+/// Search for the includes and bitmaps of a world: in the folder of the world, then
 /// WorldOptions::search_path, then the folders of the environment variable STAGEPATH.
 class WorldSearch {
   public:
     /// @param world_path  the top file, as the user named it
     WorldSearch(const std::string& world_path, const WorldOptions& options);
 
-    /// What a search has come to.
+    /// Result of a search.
     struct Result {
-        std::optional<std::string> path = {};  ///< of the first regular file there is
+        std::optional<std::string> path = {};  ///< path of the first regular file there is
         std::vector<std::string> tried = {};   ///< every place looked at, in order
 
         /// The places tried, for an error: "a, b and c".

@@ -16,30 +16,30 @@ struct WorldToken {
     enum class Kind : std::uint8_t {
         word,         ///< a letter, then letters, digits and . - _ [ ]
         number,       ///< digits with an optional sign and point; no exponent
-        text,         ///< in double quotes, on one line, without escapes
+        text,         ///< text in double quotes, on one line, without escapes
         open,         ///< (
         close,        ///< )
         open_tuple,   ///< [
         close_tuple,  ///< ]
         line_end,
-        file_end,  ///< of the top file
+        file_end,  ///< end of the top file
     };
     Kind kind = Kind::file_end;
-    std::string text = {};  ///< as written, without quotes
+    std::string text = {};  ///< text as it is written, without quotes
     double number = 0;
     int file = 0;  ///< index into WorldTokens::files
     int line = 1;
     int column = 1;  ///< [bytes] from 1
 
-    /// What it is, for errors: "the word \"size\"", "\"(\"", "the end of the line".
+    /// Words for it in errors: "the word \"size\"", "\"(\"", "the end of the line".
     std::string description() const;
 };
 
 /// A world file in pieces, its includes in their places, comments and blanks left out.
 struct WorldTokens {
     std::vector<WorldToken> tokens = {};    ///< the last one is the file's end
-    std::vector<std::string> files = {};    ///< as found; the top file first
-    std::vector<std::string> notices = {};  ///< of includes that are left out
+    std::vector<std::string> files = {};    ///< files as they were found, the top one first
+    std::vector<std::string> notices = {};  ///< notices of includes that are left out
 
     Location where(const WorldToken& token) const {
         return {files[static_cast<std::size_t>(token.file)], token.line, token.column};

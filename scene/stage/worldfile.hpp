@@ -19,7 +19,7 @@ struct WorldProperty {
     std::string name;
     std::vector<WorldAtom> values;
     bool is_tuple = false;
-    Location where;  ///< of the name
+    Location where;  ///< place of the name
 
     /// The number or text. @throws InputError if the value is anything else
     double number() const;
@@ -38,7 +38,7 @@ struct WorldEntity {
     const WorldProperty* find(std::string_view name) const;
 };
 
-/// How Stage worlds are read.
+/// Options of reading Stage worlds.
 struct WorldOptions {
     std::vector<std::string> search_path =
         {};  ///< folders for includes and bitmaps, then STAGEPATH

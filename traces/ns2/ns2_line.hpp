@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// What a packet line of an ns-2 trace tells of a robot's message, in either format.
+/// Packet line of an ns-2 trace, in either format: what it tells of a robot's message.
 struct Ns2Packet {
     enum class Event : std::uint8_t {
         sent,          ///< `s AGT`
@@ -28,8 +28,8 @@ struct Ns2Packet {
         lost           ///< `D MAC` with the reason: SLP, ERR, COL, BSY or DUP
     };
     Event event{};
-    Fate loss = Fate::off;              ///< of a lost one
-    DropReason drop = DropReason::off;  ///< of a dropped one
+    Fate loss = Fate::off;              ///< fate of a copy that is lost in a reception
+    DropReason drop = DropReason::off;  ///< reason for which a copy is dropped
     Time time;
     NodeId node;
     std::optional<NodeId> heard_from;  ///< the last hop, once a MAC has seen the packet
@@ -37,7 +37,7 @@ struct Ns2Packet {
     std::uint64_t uid = 0;
     std::uint32_t size = 0;  ///< [bytes]
     std::uint16_t ttl = 0;
-    bool for_one = false;  ///< it names its destination
+    bool for_one = false;  ///< the line names its destination
     int uid_column = 0;
     int ttl_column = 0;
 };
@@ -57,7 +57,7 @@ struct Ns2Reachable {
     std::uint32_t robots = 0;
 };
 
-/// Nothing (monostate) for a line that ns-2 writes but a Ns2Trace does not.
+/// Content of a line; nothing (monostate) for one that ns-2 writes but a Ns2Trace does not.
 using Ns2Line = std::variant<std::monostate, Ns2Packet, Ns2Move, Ns2Reachable>;
 
 /// Numbers of robots are below this, so that a broken number does not eat the memory.

@@ -38,13 +38,13 @@ enum class MacTrace { off, on };
 /// | ControlReceived    | `r MAC`, or `D MAC` with the reason                                 |
 ///
 /// Times are exact [ns], 9 decimals; 5 in an `M` line. The id of a packet is the message's uid, its
-/// type `message`, its size [bytes] the message's but on air (see below); ports are 0. The
-/// ttl is that carried on air, in a `D RTR TTL` line too (ns-2 shows 0 there).
+/// type `message`, its size [bytes] the message's but on air (see below); ports are 0. The ttl is
+/// that carried on air, in a `D RTR TTL` line too (ns-2 shows 0 there).
 ///
 /// The size in an `s MAC` line, and of a frame that is lost on air, is that on air. A frame with a
-/// header of the access model counts 24 bytes more, the PLCP's (802.11-2020, 15.2.2: 144 + 48 bits),
-/// as ns-2 counts them at any rate and standard; those that control access do so when they are
-/// received, too: RTS 44, CTS and ACK 38, id 0. Their lines have no network part; they show no
+/// header of the access model counts 24 bytes more, the PLCP's (802.11-2020, 15.2.2: 144 + 48
+/// bits), as ns-2 counts them at any rate and standard; those that control access do so when they
+/// are received, too: RTS 44, CTS and ACK 38, id 0. Their lines have no network part; they show no
 /// transmitter of a CTS or an ACK, which do not carry it, and in the new format no type and size.
 ///
 /// Source: the output of ns-2.35, and its cmu-trace.cc.
@@ -56,7 +56,8 @@ class Ns2Trace {
                       MacTrace mac = MacTrace::off);
     Ns2Trace(Ns2Trace&&) noexcept;
     Ns2Trace& operator=(Ns2Trace&&) noexcept;
-    /// As close(), but silent; if an exception is on its way, removes what has been written.
+    /// Closes the trace as close(), but silently; if an exception is on its way, removes what has
+    /// been written.
     ~Ns2Trace();
 
     KindMask kinds() const {
