@@ -22,7 +22,7 @@ class Least : public benchmark::BenchmarkReporter {
     /// @param per  [-] pieces of work in an iteration: times are of one piece
     explicit Least(double per = 1) : per_(per) {}
 
-    /// From now on run() times `iterations` of `call` in each of three repetitions.
+    /// Adds a call: run() times `iterations` of `call` in each of three repetitions.
     static void add(const char* name, void (*call)(benchmark::State&), std::size_t argument,
                     int iterations) {
         benchmark::RegisterBenchmark(name, call)
@@ -45,7 +45,7 @@ class Least : public benchmark::BenchmarkReporter {
         const auto found = ns_.find({name, std::to_string(argument)});
         return found == ns_.end() ? 0 : found->second;
     }
-    /// How many times as long as `base` it takes.
+    /// Ratio of its time to that of `base`.
     double times(const std::string& name, const std::string& base, std::size_t argument) const {
         return ns(name, argument) / ns(base, argument);
     }

@@ -14,7 +14,7 @@
 /// goes wrong.
 namespace rovernet::cli {
 
-/// What a command may end with.
+/// Exit codes of commands.
 enum ExitCode {
     ok = 0,
     failed = 1,
@@ -85,7 +85,7 @@ void links(const LinksArguments& arguments);
 
 struct SceneArguments : FileArguments {
     std::string at = "0 s";
-    std::optional<std::string> size;  ///< of a bare picture, WIDTHxHEIGHT in metres
+    std::optional<std::string> size;  ///< size of a bare picture, WIDTHxHEIGHT in metres
     bool json = false;
 };
 void scene(const SceneArguments& arguments);
@@ -129,7 +129,7 @@ struct StudyArguments : FileArguments {
     std::uint64_t workers = 0;  ///< 0: as many as processors
     std::optional<std::string> timeout, memory;
     bool fail_fast = false, json = false;
-    std::string command;  ///< as typed
+    std::string command;  ///< command as it was typed
 };
 
 struct SweepArguments : StudyArguments {

@@ -6,7 +6,7 @@
 
 namespace rovernet::cli {
 
-/// What is said on standard error.
+/// Amount of what is said on standard error.
 enum class Verbosity { errors, notices, everything };
 void set_verbosity(Verbosity verbosity);
 /// Progress is shown: somebody looks at standard error, and wants more than errors.

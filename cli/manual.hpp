@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <string>
 
-/// What is generated from the commands as they are declared.
+/// Texts that are generated from the commands as they are declared.
 namespace rovernet::cli {
 
 /// Shows these lines under "Examples" in the command's --help and in the man page.

@@ -35,7 +35,7 @@ std::pair<CLI::App&, Arguments&> add_command(CLI::App& parent, const char* name,
     return {*command, *arguments};
 }
 
-/// What is made from the commands as they are declared.
+/// Arguments of the commands that print what is made from the commands as they are declared.
 struct ManualArguments {
     const CLI::App* app = nullptr;
     std::string shell;
@@ -43,12 +43,12 @@ struct ManualArguments {
 void print_completion(const ManualArguments& arguments);
 void print_man_page(const ManualArguments& arguments);
 
-/// FILE and the options that go over it, but for those of one run.
+/// Adds FILE and the options that go over it, but for those of one run.
 void add_study_file(CLI::App& command, FileArguments& arguments, const char* what);
-/// FILE and the options that go over it.
+/// Adds FILE and the options that go over it.
 void add_file(CLI::App& command, FileArguments& arguments, const char* what);
 void add_json(CLI::App& command, bool& json);
-/// How the intervals of means are made: t or betting.
+/// Method of intervals of means: t or betting.
 void add_interval(CLI::App& command, std::optional<std::string>& interval);
 
 constexpr const char* any_file =
@@ -57,12 +57,12 @@ constexpr const char* any_file =
 /// Checks of an option's text, whose errors say what was found and expected.
 CLI::Validator above_zero();
 CLI::Validator not_negative();
-/// From 0 to 2^63 - 1, as in a file.
+/// Whole number from 0 to 2^63 - 1, as in a file.
 CLI::Validator whole_number();
 
-/// run, sweep, compare. @param typed  the command line as it was typed
+/// Adds run, sweep, compare. @param typed  the command line as it was typed
 void add_run_commands(CLI::App& app, const std::string& typed);
-/// link, links, scene, where, draw, move.
+/// Adds link, links, scene, where, draw, move.
 void add_scene_commands(CLI::App& app);
 /// results, plot, explain.
 void add_result_commands(CLI::App& app);

@@ -7,7 +7,7 @@
 
 namespace rovernet::cli {
 
-/// From now on Ctrl-C (SIGINT) and SIGTERM end the process at once, with exit code 130.
+/// Lets Ctrl-C (SIGINT) and SIGTERM end the process at once from now on, with exit code 130.
 void end_on_signals();
 
 /// While one of these lives, signals to stop are counted only, for a command that has something to
@@ -24,7 +24,7 @@ class HeldStop {
 /// @throws RunError as write_files()
 void write_whole(const std::vector<OutputFile>& files);
 
-/// How often the process was asked to stop while that was held.
+/// Number of times that the process was asked to stop while that was held.
 int stops_asked();
 
 }  // namespace rovernet::cli

@@ -8,7 +8,8 @@
 
 namespace rovernet::cli {
 
-/// How far a sweep is, on standard error: a line that changes on a terminal, else one every 10 s.
+/// Display of a sweep's progress, on standard error: a line that changes on a terminal, else one
+/// every 10 s.
 class SweepDisplay {
   public:
     SweepDisplay();

@@ -7,9 +7,9 @@
 
 namespace rovernet::cli {
 
-/// What a command is at: shown on a terminal once it has taken a second, until it is done, with the
-/// share that is done and the time left if these are told; with --verbose its time is told. One at
-/// a time.
+/// Display of what a command is at: shown on a terminal once it has taken a second, until it is
+/// done, with the share that is done and the time left if these are told; with --verbose its time
+/// is told. One at a time.
 class Waiting {
   public:
     /// @param what  "reading office.toml"
@@ -18,7 +18,7 @@ class Waiting {
     Waiting(const Waiting&) = delete;
     Waiting& operator=(const Waiting&) = delete;
 
-    /// This share of it is done, 0 ... 1: cheap, to be told often.
+    /// Tells the share that is done, 0 ... 1: cheap, to be called often.
     void tell(double share);
 
   private:

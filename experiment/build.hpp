@@ -6,7 +6,7 @@
 
 namespace rovernet {
 
-/// What a Network for this scenario is made with; loads the map.
+/// Settings of a Network for this scenario; loads its map.
 /// @throws InputError naming the scenario's line, then the map's own error
 NetworkSettings network_settings(const Scenario& scenario);
 

@@ -9,19 +9,20 @@
 
 namespace rovernet {
 
-/// Where a scenario's robots start and how they move, checked against the map.
+/// Builder of motion: where a scenario's robots start and how they move, checked against the map.
 class MotionBuilder {
   public:
-    /// What a robot does in answer to something is a plan of its own, with draws of its own.
+    /// Plan of a robot: its movement from the start, or one in answer to something. Each has its
+    /// own draws.
     using Plan = std::uint64_t;
     static constexpr Plan from_the_start = 0;
 
-    /// Both must outlive it.
+    /// Makes a builder, which scenario and network must outlive.
     MotionBuilder(Network& network, const Scenario& scenario);
 
-    /// Where the robot starts. @throws InputError if there is no room for it
+    /// Start of the robot. @throws InputError if there is no room for it
     Vec3 start(const RobotTable& table, const std::string& name);
-    /// How the robot moves from `from` on. @throws InputError for a way that there is not
+    /// Movement of the robot from `from` on. @throws InputError for a way that there is not
     Movement movement(const MoveTable& move, const RobotTable& robot, const std::string& name,
                       Vec3 from, Plan plan);
 
@@ -49,7 +50,7 @@ class MotionBuilder {
     Network& network_;
     const Scenario& scenario_;
     std::map<const MoveTable*, Movement> shared_;     // whose copies share their parameters
-    std::map<std::string, NodeId, std::less<>> ids_;  // of all robots, built or to be
+    std::map<std::string, NodeId, std::less<>> ids_;  // ids of all robots, built or to be
 };
 
 }  // namespace rovernet

@@ -9,14 +9,14 @@
 
 namespace rovernet {
 
-/// How the robots of a flood bench move.
+/// Movement of the robots of a flood bench.
 enum class BenchMobility { fixed, random_waypoint };
 template <>
 struct EnumNames<BenchMobility> {
     static constexpr std::array<std::string_view, 2> values = {"static", "random_waypoint"};
 };
 
-/// What a flood bench measures: floods of 64-byte messages, 11 Mb/s behind a short preamble, that
+/// Settings of a flood bench: floods of 64-byte messages, 11 Mb/s behind a short preamble, that
 /// every robot forwards once, over robots uniform in a square that hear each other up to 250 m and
 /// have 12 neighbours on average where there is no border.
 struct FloodBench {
@@ -24,16 +24,17 @@ struct FloodBench {
     ReceptionChoice reception = ReceptionChoice::threshold;
     AccessChoice access = AccessChoice::none;       ///< csma: jitter of 50 ms instead of 10 ms
     BenchMobility mobility = BenchMobility::fixed;  ///< random waypoint: 1-20 m/s, no rest
-    Db shadowing{0};                                ///< of each link; 0: links go by distance alone
-    bool recorded = false;  ///< with metrics, fingerprint and timeline, as `rovernet run`
-    double cpu_s = 2;       ///< [s] of CPU that each row takes, at least
+    Db shadowing{0};  ///< shadowing of each link; 0: links go by distance alone
+    bool recorded =
+        false;         ///< records go to metrics, fingerprint and timeline, as in `rovernet run`
+    double cpu_s = 2;  ///< [s] of CPU that each row takes, at least
     std::uint64_t seed = 1;
 };
 
-/// One size of network.
+/// Result for one size of network.
 struct FloodBenchRow {
     std::uint32_t nodes;
-    std::uint64_t transmissions;  ///< of all floods
+    std::uint64_t transmissions;  ///< transmissions of all floods
     std::uint64_t receptions;     ///< decoded, duplicates included
     std::uint64_t attempts;       ///< robots within the decode range of a transmission
     std::uint64_t events;         ///< served

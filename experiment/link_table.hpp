@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// What a wireless device says of itself.
+/// Description of a wireless device, as it says it of itself.
 struct Device {
     std::string robot, ip, mac, essid;
     Hertz frequency;
@@ -27,14 +27,14 @@ struct LinkTable {
     struct Row {
         Device neighbour;
         int quality;  ///< 0 ... 100, see link_quality
-        Dbm level;    ///< of the neighbour's signal here
+        Dbm level;    ///< received power of the neighbour's signal here
         Dbm noise;    ///< here
     };
     Device device;
-    std::vector<Row> rows;  ///< in the order of the robots
+    std::vector<Row> rows;  ///< rows in the order of the robots
 };
 
-/// Every robot's device. Addresses that were not given are made: ip 10.0.0.1 for the first robot
+/// Devices of all robots. Addresses that were not given are made: ip 10.0.0.1 for the first robot
 /// and so on, mac 02:00:00:00:00:01; a number that a robot has been given is passed over.
 std::vector<Device> devices(const Network& network);
 

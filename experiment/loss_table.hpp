@@ -36,7 +36,7 @@ Hertz option_frequency(const std::string& option, const std::string& text);
 Meters option_length(const std::string& option, const std::string& text);
 Duration option_time(const std::string& option, const std::string& text);
 
-/// Every listed model: name, and per parameter its name, default, range and meaning.
+/// List of the models: name, and per parameter its name, default, range and meaning.
 Array list_models();
 
 }  // namespace rovernet

@@ -6,14 +6,14 @@
 
 namespace rovernet {
 
-/// What to leave out at the start of a series.
+/// Start of a series that is left out.
 struct Truncation {
-    std::size_t observations = 0;  ///< to delete, a multiple of 5
+    std::size_t observations = 0;  ///< observations to delete, a multiple of 5
     bool conclusive = false;       ///< false: the series is too short to tell, make it longer
     friend bool operator==(const Truncation&, const Truncation&) = default;
 };
 
-/// How many observations to delete at the start of a series so that what remains tells most about
+/// Number of observations to delete at the start of a series so that what remains tells most about
 /// its steady state: the rule MSER-5.
 ///
 /// The means Y1 ... Ym of consecutive batches of 5 are made, up to 4 observations at the end

@@ -19,7 +19,7 @@
 namespace rovernet {
 
 struct RunOptions {
-    std::optional<std::string> folder;  ///< for the results; run_folder() if not given
+    std::optional<std::string> folder;  ///< folder for the results; run_folder() if not given
     std::optional<double> speed;        ///< simulated per real seconds; unpaced if not given
     /// Told the share that is done, 0 ... 1, now and then; false stops the run.
     std::function<bool(double)> progress = {};
@@ -42,7 +42,7 @@ struct RunResult {
     double wall_s = 0;                        ///< [s] of real time
     std::string started;                      ///< UTC, ISO 8601
     std::shared_ptr<const Timeline> timeline;
-    std::shared_ptr<const Network> network;  ///< as the run left it
+    std::shared_ptr<const Network> network;  ///< network as the run left it
 };
 
 /// Runs a scenario and writes summary.json, scenario.toml and the trace that it asks for into its
@@ -53,7 +53,8 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options);
 /// The metrics as the tables of summary.json and of `rovernet trace stats --json` show them.
 void append_metrics(Table& table, const MetricValues& metrics);
 
-/// What [metrics] asks for beside the totals, as tables by name: "flows", "robots", "topology".
+/// Metrics that [metrics] asks for beside the totals, as tables by name: "flows", "robots",
+/// "topology".
 /// @param measured  what the run measured, without its warm-up
 /// @param topology  null: not measured
 void append_parts(Table& table, const Scenario& scenario, const Network& network,
@@ -61,15 +62,15 @@ void append_parts(Table& table, const Scenario& scenario, const Network& network
 /// The sink for them that [metrics] asks for, added to the network; null: it does not.
 std::shared_ptr<Topology> add_topology(Network& network, const Scenario& scenario, Duration warmup);
 
-/// What `run --json` prints: the results; times and the machine's part are in summary.json only.
-/// Its timeline is empty: write_summary() renders that.
+/// Document that `run --json` prints: the results; times and the machine's part are in summary.json
+/// only. Its timeline is empty: write_summary() renders that.
 Table run_summary(const Scenario& scenario, const RunResult& result);
 /// Writes such a summary as JSON, piece by piece, with the timeline.
 void write_summary(const Table& summary, const Timeline& timeline, const Write& write);
 
-/// Now, as "2025-06-30T23:59:59Z".
+/// Time of day now, as "2025-06-30T23:59:59Z".
 std::string utc_now();
-/// This machine's name.
+/// Name of this machine.
 std::string host_name();
 
 /// The robot of that name. @throws std::invalid_argument, naming some that there are
@@ -88,14 +89,14 @@ struct LinkReport {
     Time at;
     double distance_m;
     std::vector<Crossing> walls;
-    std::vector<std::string> materials;  ///< of the walls, one each
-    std::vector<Db> wall_losses;         ///< what each wall takes; part of the path loss
+    std::vector<std::string> materials;  ///< materials of the walls, one each
+    std::vector<Db> wall_losses;         ///< loss of each wall; part of the path loss
     double wall_m;
     Radio sender, receiver;
     Db path_loss;
     Dbm received;
     Db margin;
-    bool up;               ///< and both robots are on
+    bool up;               ///< the link is up, and both robots are on
     std::string why_down;  ///< "B is off", say; empty if it is up
 };
 

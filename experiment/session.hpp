@@ -13,14 +13,14 @@
 
 namespace rovernet {
 
-/// Somebody outside who drives robots of a Session.
+/// Client outside that drives robots of a Session.
 using ClientId = std::uint32_t;
 
-/// What a robot of a client heard.
+/// Message that a robot of a client heard.
 struct HeardMessage {
     Time time;
     NodeId at;
-    NodeId from;  ///< who sent it first
+    NodeId from;  ///< robot that sent it first
     int hops;
     std::string payload;
     friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
@@ -32,11 +32,11 @@ class Session {
   public:
     /// @throws InputError for what only shows on the map
     explicit Session(const Scenario& scenario);
-    /// With settings made of network_settings(scenario).
+    /// Makes a session with settings of network_settings(scenario).
     Session(const Scenario& scenario, NetworkSettings settings);
     /// Ends what its clients hear; the network may live on.
     ~Session();
-    Session(const Session&) = delete;  // what clients hear is told to this one
+    Session(const Session&) = delete;  // callbacks of the network refer to it
     Session& operator=(const Session&) = delete;
 
     Network& network() { return *network_; }
@@ -64,12 +64,13 @@ class Session {
     /// Drives ahead and turns, as Driven does, until the next command or for `timeout`.
     void drive(ClientId client, NodeId robot, MetersPerSecond speed, RadiansPerSecond turn_rate,
                std::optional<Duration> timeout = {});
-    /// Any other movement: Waypoints to a goal, Fixed to stand still.
+    /// Gives a robot any other movement: Waypoints to a goal, Fixed to stand still.
     void move(ClientId client, NodeId robot, Movement movement);
     /// The robot sends to everyone, or over one hop to `to`.
     void send(ClientId client, NodeId robot, std::optional<NodeId> to, std::string payload);
 
-    /// What the client's robots heard since it asked last, in order of time and then of robot.
+    /// Messages that the client's robots heard since it asked last, in order of time and then of
+    /// robot.
     std::vector<HeardMessage> heard(ClientId client);
     /// The robot was told to drive ahead and cannot.
     bool is_stalled(NodeId robot) const;
@@ -87,7 +88,7 @@ class Session {
     Client& client_of(ClientId client);
     void check_robot(ClientId client, NodeId robot);
 
-    std::string file_;  // of the scenario, for errors
+    std::string file_;  // file of the scenario, for errors
     std::shared_ptr<Network> network_;
     Time end_;
     std::map<ClientId, Client> clients_;

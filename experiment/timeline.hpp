@@ -17,7 +17,7 @@
 
 namespace rovernet {
 
-/// What a person wants to know of a run with few robots: who said something for the first time, who
+/// Timeline of a run with few robots, for a person: who said something for the first time, who
 /// heard of it when and over how many hops, who arrived where, whose way was blocked, who failed.
 ///
 /// An entry takes 24 bytes, a place 16 more, who heard what 16 or so; text is made of it when it is
@@ -88,8 +88,9 @@ class Timeline {
     Chunks<Entry> entries_;
     std::deque<Words> words_;  // stable: the index refers to their payloads
     std::map<std::pair<NodeId, std::string_view>, std::uint32_t> word_index_;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> by_message_;  // its uid and words
-    std::vector<std::pair<double, double>> places_;                    // [m]
+    std::vector<std::pair<std::uint64_t, std::uint32_t>>
+        by_message_;                                 // uid and words of each message
+    std::vector<std::pair<double, double>> places_;  // [m]
     Pairs known_;
 };
 

@@ -6,8 +6,9 @@
 
 namespace rovernet {
 
-/// How long after the start of a scenario's run its metrics begin, as [study] warmup says. With
-/// "mser5" it makes a first run and applies mser5() to the series of each message's delivery ratio.
+/// Time after the start of a scenario's run at which its metrics begin, as [study] warmup says.
+/// With "mser5" it makes a first run and applies mser5() to the series of each message's delivery
+/// ratio.
 /// @param settings  network_settings(scenario), and planners that are kept
 Duration warmup_of(const Scenario& scenario, NetworkSettings settings);
 

@@ -6,7 +6,7 @@
 
 namespace rovernet {
 
-// What the statistics of study/ ask of their arguments. `owner` begins the error's text.
+// Checks of arguments, for the statistics of study/. `owner` begins the error's text.
 
 /// @throws std::invalid_argument unless every value is finite
 void check_finite(std::span<const double> values, std::string_view owner);

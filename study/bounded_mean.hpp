@@ -44,10 +44,10 @@ struct BoundedMean {
 ///         confidence is not in (0, 1)
 BoundedMean bounded_mean(std::span<const double> values, const Bounds& bounds, double confidence);
 
-/// How many replications in all would make the interval as narrow as 2 * wanted, if those to come
-/// were as these are: the least N with W(m)^(N/n) large enough at both ends, each gambler's wealth
-/// growing as fast as hitherto. Only an estimate: run more and ask again. At least n; nothing if
-/// 10^9 would not do.
+/// Number of replications in all that would make the interval as narrow as 2 * wanted, if those to
+/// come were as these are: the least N with W(m)^(N/n) large enough at both ends, each gambler's
+/// wealth growing as fast as hitherto. Only an estimate: run more and ask again. At least n;
+/// nothing if 10^9 would not do.
 /// @param  wanted  half-width > 0, in the metric's unit; others as for bounded_mean()
 std::optional<std::size_t> bounded_mean_replications(std::span<const double> values,
                                                      const Bounds& bounds, double wanted,

@@ -13,16 +13,17 @@ namespace rovernet {
 
 /// A row of a table of results: the points that agree in the keys that it is grouped by.
 struct Row {
-    Table settings;                                    ///< path -> value, of those keys
-    std::vector<std::optional<std::uint32_t>> points;  ///< by combination; none where excluded
+    Table settings;  ///< path -> value, of those keys
+    std::vector<std::optional<std::uint32_t>>
+        points;  ///< points by combination; none where excluded
 };
 
 /// The rows of a table, and what differs between the points of one row.
 struct Rows {
     std::vector<std::string> averaged;  ///< keys with several values in a row
     std::vector<std::string> along;     ///< keys with one value in each row, not in all the same
-    std::vector<Table> combinations;    ///< of the averaged keys' values, as they come
-    std::vector<Row> list;              ///< as their first points come
+    std::vector<Table> combinations;    ///< combinations of the averaged keys' values, as they come
+    std::vector<Row> list;              ///< rows, as their first points come
 };
 
 /// @param group_by  paths that vary
@@ -54,11 +55,11 @@ class Cells {
 
     Gaps gaps(std::size_t row) const;
 
-    std::uint64_t count() const;   ///< of one row
-    std::uint64_t common() const;  ///< of them, those that every row has
+    std::uint64_t count() const;   ///< cells of one row
+    std::uint64_t common() const;  ///< cells that every row has
 
-    /// Which rows lack cells of replications that others have, in words, a line each; empty if
-    /// means over all cells are of the same cells in every row.
+    /// Rows that lack cells of replications that others have, in words, a line each; empty if means
+    /// over all cells are of the same cells in every row.
     std::string unbalanced() const;
 
   private:
@@ -70,8 +71,8 @@ class Cells {
     const Inventory& inventory_;
     ValuesOfPoints values_;
     std::size_t replications_ = 0;
-    std::vector<std::vector<bool>> in_every_row_;  // by combination and replication
-    std::vector<bool> in_any_row_;                 // by replication, in any combination
+    std::vector<std::vector<bool>> in_every_row_;  // flags by combination and replication
+    std::vector<bool> in_any_row_;                 // flags by replication, in any combination
 };
 
 }  // namespace rovernet

@@ -14,12 +14,12 @@
 
 namespace rovernet {
 
-/// One propagation model among those that are compared over common random numbers.
+/// Propagation model among those that are compared over common random numbers.
 struct ComparedModel {
     std::string model;
     Answer answer;                      ///< the metric of all its replications, as results have it
     double cpu_s = 0;                   ///< [s] mean per run
-    std::optional<MediumCost> cost;     ///< of the medium; see add_costs()
+    std::optional<MediumCost> cost;     ///< cost of the medium; see add_costs()
     std::optional<double> radio_share;  ///< [-] of the runs' CPU time, about: that cost
     /// Mean distance to the dearest model's value over the replications in which both have one, in
     /// the metric's unit, its interval (none for the dearest model, whose error is 0 by
@@ -27,8 +27,8 @@ struct ComparedModel {
     std::optional<double> error;
     std::optional<MeanInterval> error_interval;
     std::size_t error_n = 0;
-    /// This one less the baseline, over the replications in which both have a value; nothing for
-    /// the baseline itself or fewer than 2 of them.
+    /// Difference of this model to the baseline, over the replications in which both have a value;
+    /// nothing for the baseline itself or fewer than 2 of them.
     std::optional<PairedComparison> difference;
     Gaps unpaired;  ///< replications that are not in the difference, as one of both lacks them
     std::string sentence;  ///< the difference in words; empty without one
@@ -37,7 +37,7 @@ struct ComparedModel {
     std::string equivalence_sentence;
 };
 
-/// By how much common random numbers pay between two models.
+/// Gain by common random numbers between two models.
 struct PairedVariance {
     std::string a, b;
     std::optional<double> ratio;  ///< see paired_variance_ratio()
@@ -46,12 +46,12 @@ struct PairedVariance {
 struct Comparison {
     std::string metric, baseline, dearest;
     double confidence = 0.95;
-    std::optional<double> margin;       ///< in the metric's unit
-    std::vector<ComparedModel> models;  ///< as in the study
-    RunCounts runs;                     ///< of all models
+    std::optional<double> margin;       ///< margin, in the metric's unit
+    std::vector<ComparedModel> models;  ///< models, as in the study
+    RunCounts runs;                     ///< runs of all models
     std::string held = {};  ///< other keys that the study varies, at the values that were run
     std::vector<PairedVariance> pairs;
-    std::string cost_text = {};  ///< how costs were measured, and whether they matter
+    std::string cost_text = {};  ///< words on how costs were measured, and whether they matter
 };
 
 /// The place of a baseline among the models that are compared.

@@ -17,11 +17,11 @@ namespace rovernet {
 /// replication i gives the pair (ai, bi), and only the differences ai - bi count, in the
 /// metric's unit.
 struct PairedComparison {
-    Summary difference;        ///< of ai - bi; n >= 2
+    Summary difference;        ///< summary of ai - bi; n >= 2
     double confidence = 0;     ///< [-], that every interval of the family holds
     std::size_t family = 1;    ///< comparisons that are made together, this one among them
     double low = 0, high = 0;  ///< interval for the true mean difference
-    IntervalMethod method{};   ///< how interval and p were made
+    IntervalMethod method{};   ///< method by which interval and p were made
     double p = 1;              ///< [-], that the true mean difference is 0, adjusted for the family
     std::optional<double> detectable;  ///< see compare_pairs()
     friend bool operator==(const PairedComparison&, const PairedComparison&) = default;

@@ -11,18 +11,18 @@
 
 namespace rovernet {
 
-/// What replications say about a mean difference: it lies within the margin on both sides of 0, it
-/// lies outside, or they do not decide it (yet).
+/// Verdict of replications about a mean difference: it lies within the margin on both sides of 0,
+/// it lies outside, or they do not decide it (yet).
 enum class Equivalence { undecided, within, outside };
 
 /// A verdict, and what it rests on.
 struct EquivalenceVerdict {
     Equivalence verdict = Equivalence::undecided;
-    IntervalMethod method{};  ///< by betting, or by t where the metric has no bounds
+    IntervalMethod method{};  ///< betting, or t where the metric has no bounds
     /// The replications after which it was decided, the first verdict counts; by t all of them.
     std::optional<std::size_t> decided_at;
-    /// Without a verdict: how many in all would decide, if those to come are as these are. Nothing
-    /// if they tell nothing, or 100,000 would not do.
+    /// Number of replications in all that would decide, if there is no verdict and those to come
+    /// are as these are. Nothing if they tell nothing, or 100,000 would not do.
     std::optional<std::size_t> needed;
     friend bool operator==(const EquivalenceVerdict&, const EquivalenceVerdict&) = default;
 };

@@ -12,7 +12,7 @@ std::string run_command(const Store& store, const StoredPoint& point, std::uint3
 
 /// A run of a store with its point.
 struct FoundRun {
-    StoredRun run;  ///< with its metrics
+    StoredRun run;  ///< run with its metrics
     StoredPoint point;
 };
 

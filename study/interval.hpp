@@ -16,7 +16,7 @@ namespace rovernet {
 struct MeanInterval {
     double low = 0;
     double high = 0;
-    IntervalMethod method{};  ///< how it was made
+    IntervalMethod method{};  ///< method by which it was made
     bool skewed = false;      ///< made by t of values too skewed for it: see too_skewed_for_t()
     friend bool operator==(const MeanInterval&, const MeanInterval&) = default;
 
@@ -43,8 +43,9 @@ std::optional<MeanInterval> interval_of(std::span<const double> values, const Bo
                                         double confidence = 0.95,
                                         std::optional<IntervalMethod> wish = {});
 
-/// How many replications in all, as far as these tell, give half the width `wanted`; nothing if
-/// they tell nothing (see interval_of()) or 10^9 would not do. An estimate: run more and ask again.
+/// Number of replications in all that, as far as these tell, give half the width `wanted`; nothing
+/// if they tell nothing (see interval_of()) or 10^9 would not do. An estimate: run more and ask
+/// again.
 /// @param  wanted  > 0, in the metric's unit; others as for interval_of()
 std::optional<std::size_t> replications_for_width(std::span<const double> values,
                                                   const Bounds& bounds, double wanted,

@@ -12,14 +12,14 @@
 
 namespace rovernet {
 
-/// What a store has of one run.
+/// State of one run in a store.
 enum class RunState { missing, failed, finished };
 
 /// The state of each point's replications, by the point's number: of those that the study asks for,
 /// and of those that are there beyond.
 using Inventory = std::map<std::uint32_t, std::vector<RunState>>;
 
-/// How many runs there are of each kind.
+/// Number of runs of each kind.
 struct RunCounts {
     std::uint64_t finished = 0;
     std::uint64_t failed = 0;
@@ -32,7 +32,8 @@ struct RunCounts {
 /// @throws InputError if the store is damaged
 StudyTable study_of(const Store& store);
 
-/// What the store has of every point. A study with `precision` asks for what the values so far do.
+/// Inventory of a store: what it has of every point. A study with `precision` asks for what the
+/// values so far do.
 Inventory inventory_of(const Store& store);
 
 RunCounts counts_of(const Inventory& inventory);

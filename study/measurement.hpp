@@ -19,9 +19,9 @@ struct MetricValue {
     friend bool operator==(const MetricValue&, const MetricValue&) = default;
 };
 
-/// What a study keeps of one run.
+/// Measurement of one run: what a study keeps of it.
 struct Measurement {
-    std::vector<MetricValue> metrics;  ///< in the order of metric_names()
+    std::vector<MetricValue> metrics;  ///< values in the order of metric_names()
     std::string fingerprint;
     double cpu_s = 0, wall_s = 0;  ///< [s] of this machine
     std::string started;           ///< UTC, ISO 8601

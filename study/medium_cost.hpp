@@ -13,11 +13,12 @@
 
 namespace rovernet {
 
-/// What the medium was asked in one run of a scenario, and what it had to know for that.
+/// Record of what the medium was asked in one run of a scenario, and of what it had to know for
+/// that.
 struct MediumRecord {
     /// A node puts a frame on air.
     struct OnAir {};
-    /// What a node does: it begins a leg, is switched on or off, or sends.
+    /// Step of a node: it begins a leg, is switched on or off, or sends.
     struct Event {
         Time time;
         NodeId node;
@@ -26,7 +27,7 @@ struct MediumRecord {
     std::vector<Event> events;
     std::uint64_t frames = 0;         ///< put on air, those of access control included ...
     std::uint64_t transmissions = 0;  ///< ... and those of messages
-    std::uint64_t receivers = 0;      ///< of all frames, lost or not
+    std::uint64_t receivers = 0;      ///< receivers of all frames, lost or not
 };
 
 /// Records one run of a scenario, the first 200,000 frames of it at most.
@@ -38,7 +39,7 @@ class MediumReplay {
   public:
     explicit MediumReplay(const Scenario& scenario);
 
-    /// What answering took.
+    /// Cost of answering.
     struct Answers {
         std::uint64_t frames = 0, receivers = 0;
         double cpu_s = 0;  ///< [s] of this thread, the making of the medium left out
@@ -54,7 +55,7 @@ class MediumReplay {
     std::unique_ptr<Network> network_;  // before the run
 };
 
-/// What a propagation model costs: CPU time of the medium per frame, which looks for the frame's
+/// Cost of propagation models: CPU time of the medium per frame, which looks for the frame's
 /// receivers.
 struct MediumCost {
     double median_s = 0, low_s = 0, high_s = 0;  ///< [s] per frame, of the turns
@@ -62,14 +63,14 @@ struct MediumCost {
 
 /// Costs of several models, measured on one record in turns.
 struct MediumCosts {
-    std::vector<MediumCost> models;  ///< as the scenarios; none if nobody sends
-    std::uint64_t frames = 0;        ///< of the record, that each pass answers
+    std::vector<MediumCost> models;  ///< costs, one for each scenario; none if nobody sends
+    std::uint64_t frames = 0;        ///< frames of the record, which each pass answers
     double frames_per_transmission = 1;
     double turn_s = 0;  ///< [s] of CPU time that a turn measures at least
     int turns = 0;
 };
 
-/// How long is measured.
+/// Duration of the measurement.
 struct CostTurns {
     int turns = 5;
     double total_s = 3;  ///< [s] CPU time of all turns together, in turns of 0.05 s to 0.2 s

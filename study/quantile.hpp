@@ -16,7 +16,7 @@ struct QuantileInterval {
 
 /// A quantile of one metric over the replications.
 struct Quantile {
-    double value = 0;                          ///< of the sample, in the metric's unit
+    double value = 0;                          ///< quantile of the sample, in the metric's unit
     std::optional<QuantileInterval> interval;  ///< nothing if there are too few values for one
     friend bool operator==(const Quantile&, const Quantile&) = default;
 };

@@ -20,40 +20,42 @@ struct Condition {
     std::string path, value;
 };
 
-/// What a study is asked for.
+/// Question to a study.
 struct Question {
-    std::vector<std::string> metrics = {};  ///< those of [study] metrics if empty, or the usual
+    std::vector<std::string> metrics =
+        {};  ///< metrics; those of [study] metrics if empty, or the usual
     /// Paths that vary; all of them if not given, none: everything in one row.
     std::optional<std::vector<std::string>> group_by = {};
-    std::vector<Condition> where = {};      ///< of the points that meet all of these
-    std::optional<double> confidence = {};  ///< as in [study] if not given
+    std::vector<Condition> where = {};      ///< conditions that all points meet
+    std::optional<double> confidence = {};  ///< confidence; as in [study] if not given
     std::optional<double> quantile = {};    ///< this one, in place of the mean
-    /// How intervals of means are made: as in [study] if not given, else see method_for().
+    /// Method of intervals of means; as in [study] if not given, else see method_for().
     std::optional<IntervalMethod> interval = {};
     bool common = false;  ///< only of the cells that every row has
 };
 
-/// One metric of the points that agree in what a question groups by.
+/// Answer: one metric of the points that agree in what a question groups by.
 struct Answer {
-    Table settings;                          ///< path -> value, of the keys that it groups by
-    std::string metric;                      ///< its name
-    std::map<std::uint32_t, double> values;  ///< by replication: the mean over the row's points
-    Gaps gaps;                               ///< the row's runs that are not in the values
-    std::uint64_t cells = 0;                 ///< of each row of this metric: see Cells
-    std::uint64_t left_out = 0;              ///< of them, by Question::common
-    std::optional<Summary> summary;          ///< of the values; nothing without any
-    std::optional<double> value;             ///< the mean or the quantile
-    std::optional<double> low, high;         ///< its interval, if there are enough values for one
-    std::optional<IntervalMethod> method;    ///< of the interval of a mean
-    bool skewed = false;                     ///< see MeanInterval
+    Table settings;      ///< path -> value, of the keys that it groups by
+    std::string metric;  ///< name of the metric
+    std::map<std::uint32_t, double>
+        values;                       ///< values by replication: the mean over the row's points
+    Gaps gaps;                        ///< the row's runs that are not in the values
+    std::uint64_t cells = 0;          ///< cells of each row of this metric: see Cells
+    std::uint64_t left_out = 0;       ///< cells left out by Question::common
+    std::optional<Summary> summary;   ///< summary of the values; nothing without any
+    std::optional<double> value;      ///< the mean or the quantile
+    std::optional<double> low, high;  ///< interval, if there are enough values for one
+    std::optional<IntervalMethod> method;  ///< method of the interval of a mean
+    bool skewed = false;                   ///< see MeanInterval
 };
 
-/// What a study answers.
+/// Answers of a study.
 struct Answers {
     std::vector<Answer> list;           ///< row by row, and in each metric by metric
     std::vector<std::string> averaged;  ///< keys that a row has several values of
     std::vector<std::string> along;     ///< keys that go with a row, such as those of a zip
-    RunCounts runs;                     ///< of the whole study, whatever the question
+    RunCounts runs;                     ///< runs of the whole study, whatever the question
 };
 
 /// Answers a question about a study.
@@ -67,8 +69,8 @@ struct Answers {
 ///         question does not say `common`
 Answers answers(const Store& store, const Question& question);
 
-/// What was averaged over and what is not in the numbers, in words: "averaged over routing.ttl".
-/// Empty if each row is one point and nothing failed, is undefined or missing.
+/// Coverage of the numbers in words, what was averaged over and what is not in them: "averaged over
+/// routing.ttl". Empty if each row is one point and nothing failed, is undefined or missing.
 std::string coverage_text(const Answers& answers);
 
 /// The paths that vary in the store's study.

@@ -32,12 +32,12 @@ std::string array_ranges(std::span<const std::uint64_t> numbers);
 /// All that belongs to it but the store is in the folder STORE.slurm: job.sh, merge.sh, shards/
 /// and logs/. Its texts are right for any file name without a line break.
 struct SlurmSweep {
-    std::string command;                ///< absolute path of rovernet
-    std::string directory;              ///< where relative paths among the options begin: absolute
-    std::string file, store;            ///< of the study: absolute
+    std::string command;      ///< absolute path of rovernet
+    std::string directory;    ///< folder where relative paths among the options begin: absolute
+    std::string file, store;  ///< files of the study: absolute
     std::vector<std::string> options;   ///< words of the command behind FILE
     std::uint64_t chunk;                ///< runs of a task, > 0
-    std::vector<std::uint64_t> chunks;  ///< those with runs to make; a task has its chunk's number
+    std::vector<std::uint64_t> chunks;  ///< chunks with runs to make; a task has its chunk's number
     std::size_t workers = 0;            ///< tasks at once; 0: as many as Slurm gives
     std::vector<std::string> sbatch = {};  ///< more words for sbatch, for both jobs
 
@@ -45,9 +45,9 @@ struct SlurmSweep {
     std::string job_file() const { return folder() + "/job.sh"; }
     std::string merge_file() const { return folder() + "/merge.sh"; }
 
-    /// What a task does: a script for bash, with SLURM_ARRAY_TASK_ID set.
+    /// Script of a task, for bash, with SLURM_ARRAY_TASK_ID set.
     std::string job_script() const;
-    /// What the job behind the tasks does; a person may call it as well.
+    /// Script of the job behind the tasks; a person may call it as well.
     std::string merge_script() const;
 
     /// The command that submits the tasks and prints the job's number.

@@ -15,7 +15,7 @@ namespace rovernet {
 
 /// A point as a store keeps it.
 struct StoredPoint {
-    std::uint32_t number;  ///< its place in the study, from 0
+    std::uint32_t number;  ///< place in the study, from 0
     std::string id;        ///< see Study
     Table settings;        ///< path -> value
 };
@@ -23,13 +23,13 @@ struct StoredPoint {
 /// A run as a store keeps it, finished or failed.
 struct StoredRun {
     std::string id;       ///< see run_id()
-    std::uint32_t point;  ///< its number
+    std::uint32_t point;  ///< number of the point
     std::uint32_t replication;
     std::string error;        ///< empty: finished
-    Measurement measurement;  ///< of a failed run no metrics
+    Measurement measurement;  ///< measurement; without metrics for a failed run
 };
 
-/// One value of a run.
+/// Value of a metric in a run.
 struct StoredValue {
     std::uint32_t point, replication;
     std::optional<double> value;
@@ -55,19 +55,19 @@ class Store {
     Store(Store&&) noexcept;
     Store& operator=(Store&&) noexcept;
 
-    /// What the study says of itself: "version", "scenario", "created"; empty if it says nothing.
+    /// Property of the study: "version", "scenario", "created"; empty if there is none.
     std::string property(const std::string& key) const;
-    /// One of them that is written in JSON; an empty Value if the study does not say it.
+    /// Property that is written in JSON; an empty Value if there is none.
     Value document(const std::string& key) const;
     void set_property(const std::string& key, const std::string& value);
 
-    /// In the order of their numbers.
+    /// Points in the order of their numbers.
     std::vector<StoredPoint> points() const;
     /// The study's points: new ones are added, known ones get their number. All that the store has
     /// must be among them.
     void set_points(const std::vector<StoredPoint>& points);
 
-    /// In order of point and replication, without their metrics.
+    /// Runs in order of point and replication, without their metrics.
     std::vector<StoredRun> runs() const;
     /// Keeps a run, in place of one of the same id that failed.
     void record(const StoredRun& run);
@@ -78,7 +78,7 @@ class Store {
     /// replication.
     std::vector<StoredValue> values(const std::string& metric,
                                     std::optional<std::uint32_t> point = {}) const;
-    /// Every metric of every finished run, in order of point, replication and metric's name.
+    /// Metrics of all finished runs, in order of point, replication and metric's name.
     void for_each_value(
         const std::function<void(const StoredValue&, const std::string& metric)>& visit) const;
 

@@ -30,8 +30,8 @@ class StoredRow {
     std::string text(int column) const;
     std::uint32_t number(int column) const;                 ///< whole, below a million
     double real(int column) const;                          ///< finite
-    std::optional<double> optional_real(int column) const;  ///< none: NULL
-    Value document(int column) const;                       ///< of a text in JSON
+    std::optional<double> optional_real(int column) const;  ///< number; none: NULL
+    Value document(int column) const;                       ///< value of a text in JSON
 
     /// Says that the store is damaged: table, row, column, what was found and what was expected.
     /// @throws InputError

@@ -12,10 +12,10 @@
 
 namespace rovernet {
 
-/// One combination of the values that a study varies.
+/// Point of a study: one combination of the values that it varies.
 struct StudyPoint {
     Table settings;  ///< path -> value, in the order of [study] vary
-    std::string id;  ///< of the scenario that it stands for: 16 hexadecimal digits
+    std::string id;  ///< id of the scenario that it stands for: 16 hexadecimal digits
 };
 
 /// The settings of every point: all combinations of the values that vary, those of the last key
@@ -45,7 +45,7 @@ class Study {
     const StudyTable& table() const { return base_.study; }
     const std::vector<StudyPoint>& points() const { return points_; }
 
-    /// One run's scenario.
+    /// Scenario of one run.
     Scenario scenario(std::size_t point, std::uint32_t replication);
     /// The resolved scenario that an id stands for.
     Table identity(const Scenario& scenario);
@@ -64,10 +64,10 @@ class Study {
     ScenarioFile file_;
     Scenario base_;
     std::vector<StudyPoint> points_;
-    std::map<std::string, Walls> walls_;  // by the text of [scene]: a map is read once
+    std::map<std::string, Walls> walls_;  // walls by the text of [scene]: a map is read once
 };
 
-/// Of one run: XXH64 over the point's id, the replication and the version.
+/// Id of one run: XXH64 over the point's id, the replication and the version.
 std::string run_id(const std::string& point_id, std::uint32_t replication,
                    const std::string& version);
 

@@ -10,16 +10,16 @@
 
 namespace rovernet {
 
-/// What of a study a chart shows.
+/// Question of a chart: what of a study it shows.
 struct ChartQuestion {
-    std::optional<ChartKind> kind = {};  ///< by the values of x if not given: lines or bars
+    std::optional<ChartKind> kind = {};  ///< kind; by the values of x if not given: lines or bars
     std::string x = {};                  ///< key that varies, see varied_path(); of a cdf none
     std::string y = {};                  ///< metric
     std::string by = {};                 ///< key of the series, or of the rows of a heat map
-    std::vector<Condition> where = {};   ///< of the points that meet all of these
+    std::vector<Condition> where = {};   ///< conditions that all points meet
     std::optional<double> confidence = {};
     std::optional<double> quantile = {};
-    std::optional<IntervalMethod> interval = {};  ///< as in Question
+    std::optional<IntervalMethod> interval = {};  ///< method, as in Question
     bool log_x = false, log_y = false;
     bool common = false;  ///< only of the cells that every place of the chart has
 };
@@ -33,9 +33,9 @@ std::string varied_path(const std::vector<std::string>& paths, const std::string
 std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
                                      const std::vector<std::string>& texts);
 
-/// What a study came to, as a chart: a value with its interval per x and series, or, as cdf, the
-/// distribution over the replications. Keys that are neither x nor by are averaged over, as
-/// answers() does; its note names them, n, and the runs that are not in it.
+/// Chart of a study: a value with its interval per x and series, or, as cdf, the distribution over
+/// the replications. Keys that are neither x nor by are averaged over, as answers() does; its note
+/// names them, n, and the runs that are not in it.
 /// @throws std::invalid_argument as answers()
 Chart study_chart(const Store& store, const ChartQuestion& question);
 

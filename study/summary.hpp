@@ -7,12 +7,12 @@
 
 namespace rovernet {
 
-/// What n replications say about one metric, in the metric's unit. The replication is the unit of
+/// Summary of n replications of one metric, in the metric's unit. The replication is the unit of
 /// analysis: one value from each, and the values are independent.
 struct Summary {
     std::size_t n = 0;                         ///< values, > 0
     double mean = 0;                           ///< (x1 + ... + xn) / n
-    std::optional<double> standard_deviation;  ///< with n - 1; nothing for n = 1
+    std::optional<double> standard_deviation;  ///< standard deviation with n - 1; nothing for n = 1
     double min = 0;
     double max = 0;
     friend bool operator==(const Summary&, const Summary&) = default;
@@ -34,7 +34,7 @@ std::optional<Summary> summary_of(std::span<const double> values);
 /// @throws std::invalid_argument unless 0 < confidence < 1
 std::optional<double> half_width(const Summary& summary, double confidence = 0.95);
 
-/// How many replications in all, as far as these tell, give the wanted half-width: the least
+/// Number of replications in all that, as far as these tell, give the wanted half-width: the least
 /// N >= n with t(N - 1) s / sqrt(N) <= wanted. Only an estimate, as s is: run more, summarize all,
 /// ask again. Nothing for n = 1, or if 10^9 would not do.
 ///

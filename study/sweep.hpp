@@ -21,12 +21,12 @@ struct Shard {
     std::uint64_t number, size;
 };
 
-/// How far a sweep is.
+/// Progress of a sweep.
 struct SweepProgress {
     std::uint64_t before = 0;    ///< finished by an earlier sweep
     std::uint64_t finished = 0;  ///< now
     std::uint64_t failed = 0;    ///< now
-    std::uint64_t left = 0;      ///< as known now: precision may ask for more
+    std::uint64_t left = 0;      ///< runs left as known now: precision may ask for more
 };
 
 /// Whether a sweep goes on.
@@ -53,9 +53,10 @@ struct ImprecisePoint {
 
 struct SweepResult {
     SweepProgress progress;
-    bool stopped = false;                   ///< before everything was done
-    std::optional<StoredRun> failure;       ///< the first
-    std::vector<ImprecisePoint> imprecise;  ///< of a sweep that was not stopped
+    bool stopped = false;              ///< before everything was done
+    std::optional<StoredRun> failure;  ///< the first
+    std::vector<ImprecisePoint>
+        imprecise;  ///< points without the precision, of a sweep that was not stopped
 };
 
 /// Opens the store of a study, or makes it. @throws InputError if it has runs of another version or
@@ -65,7 +66,7 @@ Store open_store(const std::string& path, Study& study);
 /// The ids of a store's finished runs.
 std::set<std::string> finished_runs(const Store& store);
 
-/// What a store has of every run of a study, in the order that shards divide. Of a study with a
+/// Runs of a study and what a store has of each, in the order that shards divide. Of a study with a
 /// precision, only of the runs that every point is asked for.
 std::vector<RunState> run_states(const Study& study, const Store& store);
 

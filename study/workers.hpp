@@ -12,18 +12,18 @@
 
 namespace rovernet {
 
-/// What a worker may use.
+/// Limits of a worker.
 struct WorkerLimits {
-    std::optional<double> timeout_s;      ///< of real time, for one task
+    std::optional<double> timeout_s;      ///< real time for one task [s]
     std::optional<std::uint64_t> memory;  ///< [bytes] of address space
 };
 
-/// How a task ended.
+/// End of a task.
 struct TaskEnd {
     enum Kind {
         done,    ///< `text` is the answer
-        failed,  ///< it threw; `text` is what
-        died     ///< its process died or was ended; `text` says how, with its last words
+        failed,  ///< the task threw; `text` is what
+        died     ///< the process died or was ended; `text` says how, with its last words
     };
     std::uint64_t task;
     Kind kind;
@@ -61,7 +61,7 @@ class Workers {
         pid_t pid = 0;    // 0: not running
         int socket = -1;  // tasks go out, answers come in
         int words = -1;   // file with what it says on standard error
-        std::string got;  // of its answer
+        std::string got;  // part of its answer
         std::optional<std::uint64_t> task;
         double deadline = 0;  // [s] of the steady clock
     };

@@ -22,11 +22,12 @@
 #include <string>
 #include <unistd.h>
 
-/// What the programs of ns-3.37 in bench/peers share: options, radios, and how they run and end.
+/// Parts that the programs of ns-3.37 in bench/peers share: options, radios, and how they run and
+/// end.
 
 constexpr std::uint16_t protocol = 0x88b5;  // IEEE 802: for local experiments
 
-/// What the command line of every program has: --payload and --seed.
+/// Options of every program: --payload and --seed.
 struct PeerOptions {
     std::uint32_t payload;  // [B]
     std::uint32_t seed = 1;

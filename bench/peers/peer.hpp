@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-/// What the programs of rovernet in bench/peers share: options, and the radio of ns-2.
+/// Parts that the programs of rovernet in bench/peers share: options, and the radio of ns-2.
 
 /// Options --name=value of a command line.
 class Options {

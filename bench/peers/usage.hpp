@@ -2,7 +2,7 @@
 #pragma once
 #include <sys/resource.h>
 
-/// What this process has used so far.
+/// Usage of this process so far.
 struct Usage {
     double cpu_s;   ///< user and system time [s]
     double rss_mb;  ///< largest resident set [MiB]

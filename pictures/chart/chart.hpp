@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// What a chart draws its points as.
+/// Kind of a chart: what its points are drawn as.
 enum class ChartKind {
     /// A line per series through its points in the order of x, broken where a y is missing.
     lines,
@@ -29,10 +29,10 @@ enum class ChartKind {
 /// A point of a chart. What is not finite, beyond 1e100, or not above 0 on a logarithmic axis is
 /// left out, and the chart says how many values that are.
 struct ChartPoint {
-    double x = 0;               ///< where x is a number
-    std::string category = {};  ///< where x is a word; then the number is not looked at
+    double x = 0;               ///< place if x is a number
+    std::string category = {};  ///< place if x is a word; then the number is not looked at
     double y = 0;
-    std::optional<double> low = {}, high = {};  ///< where the interval around y ends
+    std::optional<double> low = {}, high = {};  ///< ends of the interval around y
     std::string label = {};                     ///< written beside it, in a scatter
     std::uint64_t n = 0;                        ///< observations behind it; 0 if that is not known
 };
@@ -54,16 +54,16 @@ struct ChartLimits {
 struct Chart {
     ChartKind kind = ChartKind::lines;
     std::string title = {}, x_label = {}, y_label = {};
-    std::string value_label = {};   ///< of the colours of a heat map
+    std::string value_label = {};   ///< label of the colours of a heat map
     std::string legend_title = {};  ///< what tells the series apart, such as "ttl"
     std::string note = {};  ///< below it: what the intervals are, where the numbers are from
-    bool log_x = false, log_y = false;     ///< of axes with numbers
-    ChartLimits x_limits = {};             ///< of x, where it is a number
-    ChartLimits y_limits = {};             ///< of y; of the colours of a heat map
-    std::vector<ChartSeries> series = {};  ///< their names differ
+    bool log_x = false, log_y = false;     ///< logarithmic axes, of numbers only
+    ChartLimits x_limits = {};             ///< limits of x, if it is a number
+    ChartLimits y_limits = {};             ///< limits of y, or of the colours of a heat map
+    std::vector<ChartSeries> series = {};  ///< series, whose names differ
 };
 
-/// How the charts of a picture stand.
+/// Arrangement of the charts of a picture.
 struct ChartLayout {
     std::string title = {};
     double width = 640;   ///< [px] of a chart with all its texts, 200 at least

@@ -15,7 +15,7 @@ class ChartRange {
     bool empty() const { return empty_; }
     double low() const { return low_; }    ///< 0 if empty
     double high() const { return high_; }  ///< 0 if empty
-    bool whole() const { return whole_; }  ///< none of them has a fraction
+    bool whole() const { return whole_; }  ///< whether none of them has a fraction
 
   private:
     bool empty_ = true, whole_ = true;
@@ -33,7 +33,7 @@ struct ChartAxis {
     bool log = false;
     std::vector<ChartTick> ticks = {};
 
-    /// Where a value stands, from 0 (low) to 1 (high); held beyond the ends.
+    /// Place of a value, from 0 (low) to 1 (high); held beyond the ends.
     double share(double v) const;
     /// A value of an axis that is not logarithmic, to about a hundredth of it.
     std::string text(double v) const;

@@ -21,7 +21,7 @@ struct ChartFrame {
     PicturePoint at(double x_value, double y_value) const;
 };
 
-// Each draws the points of a chart into its frame.
+// Functions that draw the points of a chart into its frame, one for each kind.
 
 /// Lines with marks, and the intervals as a band, or as whiskers where there are few points or x is
 /// a word. Series whose whiskers hide one another stand a few pixels apart.

@@ -15,7 +15,7 @@
 
 namespace rovernet {
 
-/// One chart of a picture: its texts, axes, marks and legend in a column of a given width. All its
+/// Chart of a picture: its texts, axes, marks and legend in a column of a given width. All its
 /// places are from the upper left corner of that column's part between the axes and their texts.
 class ChartPanel {
   public:

@@ -15,13 +15,13 @@ namespace rovernet {
 struct ChartMarker {
     const char* vega = "";
     int gnuplot = 0;
-    std::span<const PicturePoint> corners = {};  // of a mark of radius 1
+    std::span<const PicturePoint> corners = {};  // corners of a mark of radius 1
 
     /// Appends the mark to a path. @param radius  [px]
     void append_to(SvgPath& path, PicturePoint centre, double radius) const;
 };
 
-/// How a series looks: told apart by colour, by dashes and by its mark, each of which does for the
+/// Style of a series: told apart by colour, by dashes and by its mark, each of which does for the
 /// first few series alone, so that neither colour-blind eyes nor grey paper lose one.
 struct ChartStyle {
     Color color;

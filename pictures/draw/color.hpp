@@ -16,10 +16,10 @@ struct Color {
     friend constexpr bool operator==(Color, Color) = default;
 };
 
-/// As in "#1e90ff".
+/// Text of a colour, as in "#1e90ff".
 std::string hex(Color c);
 
-/// How light a colour looks, 0 (black) to 1 (white): the relative luminance of WCAG 2.1.
+/// Lightness of a colour, 0 (black) to 1 (white): the relative luminance of WCAG 2.1.
 double luminance(Color c);
 
 /// Colours that tell things apart for every kind of eyes, also as lines on white; they come again
@@ -45,9 +45,9 @@ class ColorScale {
     std::span<const Color> anchors_;
 };
 
-/// For areas: indigo, blue, teal, green, yellow; the more the lighter.
+/// Scale for areas: indigo, blue, teal, green, yellow; the more the lighter.
 extern const ColorScale lagoon;
-/// For lines on white: amber, red, purple; the more the darker.
+/// Scale for lines on white: amber, red, purple; the more the darker.
 extern const ColorScale ember;
 
 }  // namespace rovernet

@@ -27,7 +27,7 @@ class LabelPlaces {
     /// @param area  labels stay inside
     explicit LabelPlaces(const Box& area);
 
-    /// Nothing is put there from now on.
+    /// Takes a place: nothing is put there from now on.
     void keep_free(const Box& box);
     /// A line that labels should rather not lie on.
     void avoid(PicturePoint from, PicturePoint to);
@@ -53,7 +53,7 @@ class LabelPlaces {
 
     Box area_;
     std::size_t columns_ = 1, rows_ = 1;
-    std::vector<Tile> tiles_;  // so that many labels stay cheap
+    std::vector<Tile> tiles_;  // places taken, by tile, so that many labels stay cheap
 };
 
 }  // namespace rovernet

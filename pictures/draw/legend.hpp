@@ -23,13 +23,13 @@ struct LegendItem {
 class Legend {
   public:
     void add(LegendItem item) { items_.push_back(std::move(item)); }
-    /// What it needs when it is `width` [px] wide [px].
+    /// Height [px] that it needs when it is `width` [px] wide.
     double height(double width) const;
     /// Draws it with its upper left corner there.
     void draw(Svg& svg, PicturePoint corner, double width) const;
 
   private:
-    /// Where the left end of each item is, from the legend's upper left corner.
+    /// Left end of each item, from the legend's upper left corner.
     std::vector<PicturePoint> places(double width) const;
 
     std::vector<LegendItem> items_;

@@ -59,10 +59,10 @@ class SvgPath {
     std::string text_;
 };
 
-/// Where a text begins, or ends, or has its middle.
+/// Anchor of a text: where it begins, or ends, or has its middle.
 enum class TextAnchor { start, middle, end };
 
-/// How a text looks.
+/// Style of a text.
 struct TextStyle {
     double size = 12;  ///< [px]
     TextAnchor anchor = TextAnchor::start;

@@ -42,7 +42,7 @@ struct CoverageMap {
     double cell_height = 1;  ///< [m]
     int columns = 0;
     int rows = 0;
-    std::vector<double> dbm = {};  ///< at the cells' centres; row 0 is the bottom row
+    std::vector<double> dbm = {};  ///< levels at the cells' centres; row 0 is the bottom row
 
     Vec3 centre(int column, int row) const;
     double at(int column, int row) const {

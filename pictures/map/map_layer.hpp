@@ -26,7 +26,7 @@ class MapLayer {
     using Corners = std::array<Vec3, 4>;
 
     const Scene& scene_;
-    std::vector<std::vector<Corners>> walls_;  // by material
+    std::vector<std::vector<Corners>> walls_;  // walls by material
     std::vector<Corners> unknown_;
 };
 

@@ -9,17 +9,17 @@
 
 namespace rovernet {
 
-/// What a picture of a scenario shows beyond map and robots.
+/// Contents of a picture of a scenario, beyond map and robots.
 struct PictureOptions {
     Time at = start_of_run;
     /// Robot whose level is drawn, as a heat map and with contours at its sensitivity and at its
     /// range_db; as a radio like its own receives it, at the same antenna height, without
     /// shadowing.
     std::optional<std::string> coverage = std::nullopt;
-    bool links = false;   ///< who hears whom, by margin
-    bool trails = false;  ///< where the robots have been
-    int cells = 200'000;  ///< of the heat map, about; from 1 to most_coverage_cells
-    bool axes = false;    ///< in metres, around the map
+    bool links = false;   ///< links, coloured by margin
+    bool trails = false;  ///< ways that the robots have gone
+    int cells = 200'000;  ///< cells of the heat map, about; from 1 to most_coverage_cells
+    bool axes = false;    ///< axes in metres, around the map
     int width = 1200;  ///< [px] of the picture at most, from 100 to 10000; a tall one is narrower
     /// [points] of its texts, from 4 to 36, where 1200 points are the width of the picture: `width`
     /// changes how many pixels it has, and nothing in it.

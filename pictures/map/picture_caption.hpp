@@ -11,8 +11,8 @@
 
 namespace rovernet {
 
-/// What the lines above a picture say of a network: the time, the robots that are not there, the
-/// models, and of whom the coverage is.
+/// Caption of a picture: the lines above it. They say of a network the time, the robots that are
+/// not there, the models, and of whom the coverage is.
 /// @param end     of the scenario's run: a time after it is said to be so
 /// @param source  whose coverage is drawn
 std::vector<std::string> picture_caption(const Network& network, Time at, Time end,

@@ -22,10 +22,10 @@ struct RobotMark {
     double heading = 0;  ///< [rad], counter-clockwise from the x axis
     Presence presence = Presence::on;
     bool stands_out = false;  ///< its coverage is drawn
-    Color rim = {};           ///< of its circle
+    Color rim = {};           ///< colour of its circle
 
     bool on() const { return presence == Presence::on; }
-    /// One that is not in the world is drawn only if its coverage is.
+    /// Whether a robot is drawn: one that is not in the world only if its coverage is.
     bool drawn() const { return on() || presence == Presence::off || stands_out; }
 };
 
@@ -42,20 +42,20 @@ class RobotMarks {
     /// Finds room for the names. @param places  knows already what else is in the way
     void place_names(LabelPlaces& places);
     void draw(Svg& svg) const;
-    /// Also says how many names found no room.
+    /// Appends the robots' signs to a legend, and how many names found no room.
     void append_to(Legend& legend) const;
 
   private:
     struct Name {
         std::string text;
-        PicturePoint at;  // of its baseline
+        PicturePoint at;  // begin of its baseline
         TextAnchor anchor;
     };
 
     double name_size() const;
     void keep_marks_free(LabelPlaces& places) const;
 
-    std::vector<RobotMark> marks_;  // by node
+    std::vector<RobotMark> marks_;  // marks by node
     std::vector<Name> names_ = {};
     std::size_t homeless_ = 0;  // names without room
 };
