@@ -46,7 +46,7 @@ class PassingStore {
 
 constexpr std::string_view model_path = "propagation.model";
 
-/// What varies: the models that were asked for, or those of the file's [study].
+/// Values that vary: the models that were asked for, or those of the file's [study].
 Vary models_to_vary(const CompareArguments& a, const StudyTable& study) {
     const Location option{"--models " + fmt::format("{}", fmt::join(a.models, ",")), 0, 0, true};
     Vary vary{std::string(model_path), option, {}};
@@ -197,7 +197,7 @@ void print_table(const Comparison& c) {
     fmt::print("{}", table.text());
 }
 
-/// What the numbers are of, and what is not in them.
+/// Notes on what the numbers are of, and what is not in them.
 void print_coverage(const Comparison& c) {
     if (!c.held.empty()) fmt::print("{}\n", c.held);
     const std::string lacking = incompleteness(c.runs);

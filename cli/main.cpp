@@ -42,7 +42,7 @@ std::vector<std::string> commands_of(const CLI::App& command) {
     return names;
 }
 
-/// What is wrong with the words of the command line, and what was probably meant.
+/// Message of what is wrong with the words of the command line, and what was probably meant.
 std::string usage_error(const CLI::App* app, const CLI::Error& error) {
     std::string what = error.what();
     const std::vector<std::string> unexpected = app->remaining(true);

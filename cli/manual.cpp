@@ -71,7 +71,7 @@ complete -o default -F _rovernet rovernet
                        commands, cases);
 }
 
-/// In single quotes, as fish reads them.
+/// Text in single quotes, as fish reads them.
 std::string fish_quoted(const std::string& text) {
     std::string quoted = "'";
     for (const char c : text) {
@@ -105,7 +105,7 @@ std::string fish_script(const CLI::App& app) {
     return script;
 }
 
-/// As troff shows it.
+/// Text as troff shows it.
 std::string roff(const std::string& text) {
     std::string page;
     bool begins = true;

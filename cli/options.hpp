@@ -64,9 +64,9 @@ CLI::Validator whole_number();
 void add_run_commands(CLI::App& app, const std::string& typed);
 /// Adds link, links, scene, where, draw, move.
 void add_scene_commands(CLI::App& app);
-/// results, plot, explain.
+/// Adds results, plot, explain.
 void add_result_commands(CLI::App& app);
-/// models, loss, trace, bench, version, completion.
+/// Adds models, loss, trace, bench, version, completion.
 void add_tool_commands(CLI::App& app);
 
 }  // namespace rovernet::cli

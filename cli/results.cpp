@@ -52,7 +52,7 @@ std::string cell(const Answer& answer) {
     return fmt::format("{:.4g} ({:.4g} to {:.4g})", *answer.value, *answer.low, *answer.high);
 }
 
-/// How many metrics the answers of one row are about.
+/// Number of metrics that the answers of one row are about.
 std::size_t metrics_in(const std::vector<Answer>& list) {
     std::size_t metrics = 1;
     while (metrics < list.size() && list[metrics].metric != list[0].metric) ++metrics;

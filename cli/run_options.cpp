@@ -23,7 +23,7 @@ void add_run(CLI::App& app) {
                  "print the scenario with every default, and do not run it");
 }
 
-/// How a study is run.
+/// Options of how a study is run.
 void add_study_run(CLI::App& command, StudyArguments& a) {
     command
         .add_option("--workers", a.workers, "processes at once (default: as many as processors)")

@@ -24,7 +24,7 @@
 namespace rovernet::cli {
 namespace {
 
-/// Who is not there, or off: ", not departed".
+/// Words for a robot that is not there, or off: ", not departed".
 std::string presence_text(std::string_view presence) {
     if (presence == name_of(Presence::on)) return "";
     std::string text = fmt::format(", {}", presence);
@@ -156,7 +156,7 @@ void links(const LinksArguments& a) {
     const Scenario scenario = scenario_of(a);
     if (a.history) {
         Playing playing(a.file, start_of_run + scenario.scenario.duration);
-        // On one terminal the lines themselves show how far it is.
+        // The lines themselves show how far it is if they go to the terminal.
         const TellTime tell = isatty(STDOUT_FILENO) != 0 ? TellTime{} : playing.tell();
         write_link_history(
             scenario, [](std::string_view line) { fmt::print("{}", line); }, tell);

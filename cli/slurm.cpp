@@ -86,7 +86,7 @@ void write_scripts(const SlurmSweep& slurm) {
     write_file(slurm.merge_file(), slurm.merge_script());
 }
 
-/// What every answer in JSON begins with.
+/// Begin of every answer in JSON.
 Table table_of(const SlurmSweep& slurm) {
     Table table;
     table.set("store", slurm.store);
@@ -143,7 +143,7 @@ void print_jobs(const SweepArguments& a, const SlurmSweep& slurm, const std::str
         job, slurm.chunks.size(), slurm.chunk, merge_job, slurm.store, slurm.folder(), a.command);
 }
 
-/// What the store has of the study after a merge. @throws CommandEnd if that is not all
+/// Tells what the store has of the study after a merge. @throws CommandEnd if that is not all
 void report_state(const SweepArguments& a, const Study& study, const Store& store) {
     const std::vector<RunState> states = run_states(study, store);
     const auto count = [&](RunState state) {

@@ -12,7 +12,7 @@ namespace {
 
 volatile std::sig_atomic_t asked = 0, held = 0;
 
-/// Only what is safe in the midst of anything.
+/// Handler of a signal: it does only what is safe in the midst of anything.
 void on_signal(int) {
     constexpr int patience = 4;  // signals
     asked = asked + 1;

@@ -23,7 +23,7 @@ constexpr bool limits_memory = false;  // the sanitizer takes more addresses tha
 constexpr bool limits_memory = true;
 #endif
 
-/// What the machine has [bytes], in equal parts; nothing if that cannot be known.
+/// Share of the machine's memory for each worker [bytes]; nothing if that cannot be known.
 std::optional<std::uint64_t> share_of_memory(std::size_t workers) {
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGE_SIZE);
     if (!limits_memory || pages <= 0 || page <= 0) return std::nullopt;

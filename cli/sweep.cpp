@@ -30,7 +30,7 @@ std::string store_path(const SweepArguments& a) {
     return std::filesystem::path(a.file).replace_extension(".db").string();
 }
 
-/// What of a store is thrown away: "its 12 runs"; empty if it has none.
+/// Words for what of a store is thrown away: "its 12 runs"; empty if it has none.
 std::string runs_in(const std::string& path) {
     if (!std::filesystem::exists(path)) return "";
     const Store store = Store::open(path);  // throws for a file that is something else

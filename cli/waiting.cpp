@@ -16,7 +16,7 @@ namespace {
 constexpr unsigned patience_s = 1;
 constexpr std::chrono::milliseconds between_looks{200};
 
-// What on_alarm() shows: it may come in the midst of anything.
+// State that on_alarm() shows: it may come in the midst of anything.
 char line[160];
 std::size_t line_length = 0;
 volatile std::sig_atomic_t shown = 0;

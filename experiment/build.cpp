@@ -45,7 +45,7 @@ class Builder {
     std::function<void(NodeId)> answer(const Built& robot, const ReactionTable& reaction,
                                        MotionBuilder::Plan plan);
 
-    /// What a robot does at a time that the scenario tells.
+    /// Action of a robot at a time that the scenario tells.
     struct Due {
         std::uint64_t key;  // the robot's
         Time time;
@@ -115,7 +115,8 @@ void Builder::add_robot(const RobotTable& table, const std::string& name,
     }
 }
 
-/// What is due at one time is done in the order of the robots' keys: that of the file says nothing.
+/// Schedules the actions. Those due at one time are done in the order of the robots' keys: the
+/// order of the file decides nothing.
 void Builder::schedule() {
     std::stable_sort(due_.begin(), due_.end(),
                      [](const Due& a, const Due& b) { return a.key < b.key; });
@@ -129,7 +130,7 @@ void Builder::add_reactions() {
     }
 }
 
-/// What the robot does when the reaction's condition holds; its argument is the sender of the
+/// Action of the robot when the reaction's condition holds; its argument is the sender of the
 /// message that came, if one did.
 std::function<void(NodeId)> Builder::answer(const Built& robot, const ReactionTable& reaction,
                                             MotionBuilder::Plan plan) {
@@ -206,7 +207,7 @@ struct Source {
     }
 };
 
-/// Every robot that may send, in an order that depends on their names only.
+/// Robots that may send, in an order that depends on their names only.
 std::vector<NodeId> any_robot(const Network& network, std::optional<NodeId> but) {
     std::vector<std::pair<std::uint64_t, NodeId>> keyed;
     for (NodeId n{0}; n.index() < network.size(); ++n.value) {

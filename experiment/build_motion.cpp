@@ -90,7 +90,7 @@ Vec3 MotionBuilder::place_of_model(const RobotTable& table, const std::string& n
                                  name, table.radius.value));
 }
 
-/// What the model does first, without consequences.
+/// First step of the model, without consequences.
 Step MotionBuilder::first_step(Movement movement, const RobotTable& robot, const std::string& name,
                                Vec3 from) {
     Mover mover{.now = start_of_run,

@@ -17,7 +17,7 @@ Value option_value(const std::string& option, const std::string& text) {
     return value;
 }
 
-/// One wall as thick as asked for, across the way of every link that is longer than it.
+/// Wall as thick as asked for, across the way of every link that is longer than it.
 Scene scene_with_wall(Meters wall) {
     if (wall.value == 0) return Scene{};
     return Scene{OccupancyGrid{.columns = 1,

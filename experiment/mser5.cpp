@@ -32,7 +32,8 @@ Truncation mser5(std::span<const double> series) {
     const std::size_t border = batches / 2;
     std::size_t best = border;
     double least = std::numeric_limits<double>::infinity();
-    // From the end on: each batch updates the mean and the sum of squares of those behind it.
+    // The batches are taken from the end on: each updates the mean and the sum of squares of those
+    // behind.
     double mean = 0, squares = 0, count = 0;
     for (std::size_t d = batches; d-- > 0;) {
         const double y = batch_mean(series, d);

@@ -28,7 +28,7 @@ void flatten(const Value& value, const std::string& path, Settings& out) {
     }
 }
 
-/// What stays of the settings where each is said once and the folder's name does not say it anyhow.
+/// Settings that the folder's name has to say: each once, and not what it says anyhow.
 Settings settings_of(const std::vector<std::string>& set) {
     Value document{Table{}};
     for (const std::string& option : set) set_option(document, option, "--set " + option);

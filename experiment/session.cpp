@@ -32,7 +32,7 @@ Session::~Session() {
 
 /// Serves events until `until`, and at most so many. @return true once that time is reached
 bool Session::advance(Time until, std::uint64_t most_events) {
-    // What a model refuses only when its turn comes is the scenario's fault, too.
+    // A fault that a model finds only when its turn comes is the scenario's, too.
     return located(Location{file_},
                    [&] { return network_->advance(std::min(until, end_), most_events); });
 }

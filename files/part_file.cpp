@@ -31,7 +31,7 @@ int create_locked(const std::string& part) {
         const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file < 0) return file;
         struct stat status {};
-        // Between open and flock somebody may have taken it for an orphan.
+        // The file may have been taken for an orphan between open and flock.
         if (flock(file, mine) != 0 || fstat(file, &status) != 0 || status.st_nlink > 0) return file;
         ::close(file);
     }
@@ -98,7 +98,7 @@ void PartFile::write(std::string_view bytes) {
 
 void PartFile::close() {
     if (file_ < 0) fail("an earlier write has failed");
-    // Some file systems tell only now that the disk is full; the copy keeps the lock.
+    // A full disk is told only now by some file systems; the copy keeps the lock.
     const int copy = fcntl(file_, F_DUPFD_CLOEXEC, 0);
     if (copy < 0 || ::close(std::exchange(file_, copy)) != 0) fail(std::strerror(errno));
 }

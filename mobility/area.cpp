@@ -122,7 +122,8 @@ Vec3 straight_stop(const Mover& mover, Vec3 to) {
         const double middle = 0.5 * (good + bad);
         (open(from + middle * way) ? good : bad) = middle;
     }
-    // Not at the very limit, where rounding would decide whether the next leg may begin.
+    // The stop keeps off the very limit, where rounding would decide whether the next leg may
+    // begin.
     good -= least_leg / distance(from, to);
     const Vec3 stop = from + good * way;
     return good > 0 && open(stop) ? stop : from;

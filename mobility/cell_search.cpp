@@ -55,7 +55,7 @@ void CellSearch::begin(std::size_t cells, const PathEnd& start, const PathEnd& g
     for (const auto& [cell, length] : start.ways) reach({length, -1, 0}, cell);
 }
 
-/// How far a cell is from the straight line between the ends, in units of that search.
+/// Distance of a cell from the straight line between the ends, in units of that search.
 float CellSearch::aside(int cell) const {
     const CellPoint p = centre(cell);
     return static_cast<float>(std::abs((p.u - start_.u) * (goal_.v - start_.v) -
@@ -78,7 +78,7 @@ void CellSearch::open(const Reached& way, int cell) {
     known = way;
     const double above = (way.so_far + least_left(cell) - least_) / bucket_width_;
     const auto bucket = std::max(static_cast<std::size_t>(std::max(above, 0.0)), bucket_);
-    // Beyond the last bucket it comes into one that is too early, which does no harm.
+    // A cell beyond the last bucket comes into one that is too early, which does no harm.
     buckets_[bucket % buckets_.size()].push_back({cell, way.so_far});
     ++open_;
 }

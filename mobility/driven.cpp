@@ -10,7 +10,7 @@
 namespace rovernet {
 namespace {
 
-/// How long a chord may take [ns] so that the arc is nowhere farther from it than `chord`: an arc
+/// Time that a chord may take [ns] so that the arc is nowhere farther from it than `chord`: an arc
 /// of radius v / w is |v w| t^2 / 8 away at most. No chord spans more than a quarter of the circle.
 Duration chord_time(double v, double w, double chord) {
     constexpr double quarter = 1.5707963267948966;  // [rad]
@@ -36,7 +36,7 @@ Step Driven::next_leg(Mover& mover) {
     leg.end = end;
     if (v == 0) return leg;
 
-    // Where the chord ends, and after how long.
+    // End of the chord, and time until then.
     const auto [sin, cos] = math::sincos(mover.heading);
     Duration time = end == never ? Duration::max() : end - mover.now;
     Vec3 way;

@@ -45,7 +45,7 @@ PathEnd joined_to_cells(const Scene& scene, Meters radius, const std::vector<std
     return {p, std::move(ways)};
 }
 
-/// Some cell of the one lies in the same part of the map as some cell of the other.
+/// Whether some cell of the one lies in the same part of the map as some cell of the other.
 bool joined(const PathEnd& from, const PathEnd& to, const std::vector<std::int32_t>& part) {
     const auto part_of = [&](const PathEnd::Access& way) {
         return part[static_cast<std::size_t>(way.cell)];
@@ -64,7 +64,7 @@ double length_of(const Path& path) {
     return sum;
 }
 
-/// The same way with points no farther apart than `spacing` [m].
+/// Way with points no farther apart than `spacing` [m].
 Path subdivided(const Path& path, double spacing) {
     Path points{path.front()};
     for (std::size_t i = 1; i < path.size(); ++i) {
@@ -76,7 +76,8 @@ Path subdivided(const Path& path, double spacing) {
     return points;
 }
 
-/// From each corner straight to a far point in sight: the farthest that doubling jumps find.
+/// Way that goes from each corner straight to a far point in sight: the farthest that doubling
+/// jumps find.
 Path straightened(const Scene& scene, Meters radius, const Path& path) {
     Path corners{path.front()};
     for (std::size_t anchor = 0; anchor + 1 < path.size();) {

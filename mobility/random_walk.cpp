@@ -6,7 +6,7 @@
 namespace rovernet {
 namespace {
 
-/// Where the direction points out of the area, turned back.
+/// Direction that is turned back where it points out of the area.
 Vec3 reflected(Vec3 direction, const Area& field, Vec3 p) {
     const bool left = p.x <= field.lower.x && direction.x < 0;
     const bool right = p.x >= field.upper.x && direction.x > 0;

@@ -23,7 +23,7 @@ QueuedFrame passed_on(const LinkLayer& link, const Frame& frame, NodeId node) {
 
 }  // namespace
 
-/// For what every node knows of a message.
+/// Makes room for what every node knows of a message.
 void FloodRouter::make_room(std::size_t message, std::size_t nodes) {
     if (known_.size() <= message) known_.resize(message + 1);
     known_[message].resize(nodes, later_copies_matter());
@@ -72,8 +72,9 @@ void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Rece
     for (auto each = news.begin(); each != end; ++each) take(link, frame, known, **each);
 }
 
-/// Of those that are not settled, under "suppress" with `upgrade`: the node forwards no copy of its
-/// own for this one, which may lift the one that it has not sent.
+/// Whether a copy at a node that is not settled is a duplicate, under "suppress" with `upgrade`:
+/// then the node forwards no copy of its own for it. It may lift the one that the node has not
+/// sent.
 bool FloodRouter::is_duplicate(LinkLayer& link, const Frame& frame, NodeId node, Known& known) {
     const Knowledge mine = known[node];
     if (mine.is(Knowledge::unheard)) return false;

@@ -4,8 +4,8 @@
 namespace rovernet {
 namespace {
 
-/// Which of four keys is the least. Arithmetic, not ?:, which gcc turns into jumps that a random
-/// heap mispredicts.
+/// Number of the least of four keys, by arithmetic, not ?:, which gcc turns into jumps that a
+/// random heap mispredicts.
 std::size_t least_of_four(const EventKey* keys) {
     const std::size_t low = keys[1] < keys[0];
     const std::size_t high = std::size_t{2} + (keys[3] < keys[2]);

@@ -229,7 +229,7 @@ TwoParts angle_of_slope(double b, double a) {
     return {angle.hi, angle.lo + (eighths[nearest].lo + s * z * polynomial(atan_tail, z))};
 }
 
-// from + sign * angle
+// Angle of from + sign * angle.
 double turned(TwoParts from, double sign, TwoParts angle) {
     const TwoParts sum = exact_sum(from.hi, sign * angle.hi);
     return sum.hi + (sum.lo + (from.lo + sign * angle.lo));

@@ -29,7 +29,8 @@ constexpr std::array<double, 21> scaled_erfc{
     0x1.d241a69905cc2p-20, -0x1.878b03fe80b73p-25, -0x1.01555243a1cd3p-22, 0x1.d4dc080c48f0bp-27,
     0x1.a26b4c13b555ap-26};
 
-// For x >= 1/2: e^(-x^2) by the square of the upper half of x, which is exact, and what is left.
+// Function for x >= 1/2: e^(-x^2) by the square of the upper half of x, which is exact, and what is
+// left.
 double erfc_tail(double x) {
     constexpr double underflow = 27.3;
     if (x > underflow) return 0;

@@ -33,7 +33,7 @@ Gamblers chebyshev_shares() {
     return shares;
 }
 
-/// What each gambler stakes in every round, of his money [-].
+/// Share of his money that each gambler stakes in every round [-].
 const Gamblers& shares() {
     static const Gamblers values = chebyshev_shares();
     return values;
@@ -106,7 +106,7 @@ void check(std::span<const double> values, const Bounds& bounds, double confiden
         fmt::format("bounded_mean: a value is not from {} to {}", *bounds.low, *bounds.high));
 }
 
-/// How fast each gambler's wealth grows by value, its logarithm, when he bets on "above m".
+/// Growth of each gambler's wealth by value, its logarithm, when he bets on "above m".
 Gamblers growth(std::span<const double> values, double m) {
     Gamblers result{};
     for (std::size_t k = 0; k < gamblers; ++k) {
@@ -122,7 +122,8 @@ Gamblers growth(std::span<const double> values, double m) {
     return result;
 }
 
-/// After how many values like these m is refuted; infinitely many if their mean is not above it.
+/// Number of values like these after which m is refuted; infinitely many if their mean is not above
+/// it.
 double values_to_refute(std::span<const double> values, double m, double enough) {
     if (m <= 0) return 0;
     const Gamblers rate = growth(values, m);

@@ -57,8 +57,8 @@ std::vector<double> mean_cpu(const Store& store, std::size_t points) {
     return sum;
 }
 
-/// Why replications are in no pair of two models: a run of one of them failed or is missing, or
-/// has no value.
+/// Reason for which replications are in no pair of two models: a run of one of them failed or is
+/// missing, or has no value.
 Gaps unpaired(const Inventory& inventory, const Answer& a, const Answer& b, std::uint32_t point_a,
               std::uint32_t point_b) {
     Gaps gaps;

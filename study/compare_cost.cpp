@@ -31,7 +31,7 @@ double cpu_s(const Store& store) {
     return sum;
 }
 
-/// How the costs were measured, and whether they decide what a run costs.
+/// Words on how the costs were measured, and whether they decide what a run costs.
 std::string text_of(const MediumCosts& costs, double least_share, double most_share) {
     constexpr double little = 0.1;
     std::string text = fmt::format(

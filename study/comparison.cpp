@@ -33,12 +33,12 @@ std::vector<double> differences_of(std::span<const double> a, std::span<const do
     return differences;
 }
 
-/// Of n >= 2 values.
+/// Variance of n >= 2 values.
 double variance(const Summary& summary) {
     return *summary.standard_deviation * *summary.standard_deviation;
 }
 
-/// Of the mean of n >= 2 differences.
+/// Standard error of the mean of n >= 2 differences.
 double standard_error(const Summary& difference) {
     return *difference.standard_deviation / std::sqrt(static_cast<double>(difference.n));
 }
@@ -57,7 +57,7 @@ std::optional<double> detectable(const Summary& difference, double level) {
     return *shift * standard_error(difference);
 }
 
-/// By betting: the least level at which the interval leaves 0 out, between 1e-6 and 1.
+/// Level by betting: the least at which the interval leaves 0 out, between 1e-6 and 1.
 double betting_p(std::span<const double> differences, const Bounds& bounds) {
     const auto leaves_out = [&](double level) {
         const auto interval = interval_of(differences, bounds, 1 - level);
@@ -73,7 +73,8 @@ double betting_p(std::span<const double> differences, const Bounds& bounds) {
     return yes;
 }
 
-/// With as many decimals as show two digits of a half-width; without a half-width, six digits.
+/// Number with as many decimals as show two digits of a half-width; without a half-width, six
+/// digits.
 class Decimals {
   public:
     explicit Decimals(double half_width) {
@@ -107,7 +108,7 @@ std::string evidence_text(const PairedComparison& c, bool turned) {
 
 std::string_view side(double difference) { return difference > 0 ? "above" : "below"; }
 
-/// When every pair differs by the same.
+/// Comparison in which every pair differs by the same.
 std::string constant_text(std::string_view a, std::string_view b, const Summary& difference) {
     const std::string where = fmt::format("in each of {} replications", difference.n);
     if (difference.mean == 0) return fmt::format("{} and {} are equal {}", a, b, where);

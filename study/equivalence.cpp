@@ -41,7 +41,7 @@ EquivalenceVerdict by_betting(std::span<const double> differences, double margin
     }
     EquivalenceTest test(margin / range, alpha, family);
     const std::size_t n = differences.size();
-    // After the last replication the first one comes again: the forecast.
+    // The forecast: after the last replication the first one comes again.
     for (std::size_t i = 0; n > 0 && i < std::max(n, most_replications); ++i) {
         test.add(std::clamp(differences[i % n] / range, -1.0, 1.0));
         if (test.verdict() == Equivalence::undecided) continue;

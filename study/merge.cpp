@@ -41,10 +41,10 @@ void merge(Store& store, const std::string& path) {
 }
 
 void merge_and_remove(Store& store, const std::string& path) {
-    // What a killed process left in the journal comes into the file; who writes keeps us out.
+    // The journal of a killed process comes into the file; a process that writes keeps us out.
     if (!std::filesystem::exists(path)) throw InputError({path}, "there is no such shard");
     Store::open_to_write(path);
-    // Without runs it may not say whose it is: its process ended too early for that.
+    // A shard without runs may not say whose it is: its process ended too early for that.
     if (!Store::open(path).runs().empty()) merge(store, path);
     for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path + ending);
 }

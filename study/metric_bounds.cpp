@@ -12,7 +12,7 @@ struct BoundedMetric {
     Bounds bounds;
 };
 
-/// Every metric that is not simply >= 0.
+/// Metrics that are not simply >= 0.
 constexpr std::array<BoundedMetric, 3> bounded_metrics = {{
     {"delivery_ratio", {0.0, 1.0}},
     {"reach", {0.0, 1.0}},

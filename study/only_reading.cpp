@@ -7,7 +7,7 @@
 namespace rovernet {
 namespace {
 
-/// What a question may do. @param denied  a bool, set where it may not
+/// Rule of what a question may do. @param denied  a bool, set where it may not
 int allow(void* denied, int action, const char* first, const char* second, const char*,
           const char*) {
     const auto is = [](const char* name, std::string_view word) { return name && name == word; };

@@ -19,7 +19,7 @@ std::size_t nearest_rank(double p, std::size_t n) {
     return std::clamp(static_cast<std::size_t>(rank), std::size_t{1}, n);
 }
 
-/// How many of 0, 1 ... n - 1 it holds for, if from some number on it does not.
+/// Number of 0, 1 ... n - 1 that it holds for, if from some number on it does not.
 template <class Holds>
 std::size_t leading(std::size_t n, Holds holds) {
     std::size_t low = 0, high = n;

@@ -18,7 +18,7 @@ std::string log_pattern(const std::string& path) {
     return text;
 }
 
-/// Where a script begins, and the sweep that it ends in, but for its last words.
+/// Begin of a script, and the sweep that it ends in, but for its last words.
 std::string head(const SlurmSweep& s) {
     return fmt::format("#!/bin/bash\ncd {} || exit\n", shell_word(s.directory));
 }

@@ -166,7 +166,8 @@ Store Store::open_to_write(const std::string& path) {
         auto database =
             std::make_unique<Database>(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
         database->lock = std::move(lock);
-        // Not the file's size: a process killed while it made the tables leaves some of them.
+        // The tables tell, not the file's size: a process killed while it made them leaves some of
+        // them.
         const int tables =
             database->sqlite.execAndGet("SELECT count(*) FROM sqlite_master").getInt();
         if (tables == 0) database->make_schema();
@@ -185,7 +186,7 @@ Store::~Store() {
     try {  // one plain file, that can be read where nothing can be written
         database_->sqlite.exec("PRAGMA journal_mode = DELETE");
     } catch (const SQLite::Exception&) {
-        // Somebody reads: it stays as it is, and can be read as well.
+        // A reader is there: the file stays as it is, and can be read as well.
     }
 }
 Store::Store(Store&&) noexcept = default;

@@ -13,7 +13,7 @@
 namespace rovernet {
 namespace {
 
-/// What stands in a column, for errors.
+/// Content of a column, for errors.
 std::string description(const SQLite::Column& column) {
     if (column.isNull()) return "nothing (NULL)";
     if (column.isBlob()) return fmt::format("{} bytes that are no text", column.getBytes());

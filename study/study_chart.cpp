@@ -75,7 +75,7 @@ ChartLimits limits_of(const std::string& metric) {
 
 std::string percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
 
-/// From how many replications the values are: "30", or "5 to 30".
+/// Number of replications that the values are from: "30", or "5 to 30".
 std::string replications_text(const std::vector<Answer>& list) {
     std::size_t least = SIZE_MAX, most = 0;
     for (const Answer& answer : list) {

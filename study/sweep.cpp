@@ -56,7 +56,7 @@ void flatten(const Value& value, const std::string& path, std::map<std::string, 
     }
 }
 
-/// What differs between the scenario that a store was made for and that of now, in words; empty if
+/// Differences between the scenario that a store was made for and that of now, in words; empty if
 /// nothing does.
 std::string difference(const Value& then, const Table& now) {
     std::map<std::string, std::string> old_keys, new_keys;
@@ -73,7 +73,7 @@ std::string difference(const Value& then, const Table& now) {
     return "";
 }
 
-/// Why a study no longer has a point that a store has runs of.
+/// Reason for which a study no longer has a point that a store has runs of.
 std::string why_gone(const StoredPoint& gone, const Study& study, const Value& then,
                      const Table& now) {
     std::vector<std::string> reasons;
@@ -96,7 +96,7 @@ std::vector<StoredPoint> stored_points(const Study& study) {
     return points;
 }
 
-/// One sweep: what is to run, what has run, and the workers.
+/// Sweep at work: what is to run, what has run, and the workers.
 class Sweep {
   public:
     Sweep(Study& study, Store& store, const SweepOptions& options);
@@ -171,7 +171,7 @@ void Sweep::plan() {
     }
 }
 
-/// More replications of a point all of whose runs are over, if its precision wants them.
+/// Plans more replications of a point all of whose runs are over, if its precision wants them.
 void Sweep::extend(std::uint32_t point) {
     if (!study_.table().precision) return;
     while (open_[point] == 0 && hopeless_[point] == 0) {

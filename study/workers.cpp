@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t longest_words = 2000;  // bytes of last words that are kept
 
-/// What stands before an answer on the pipe.
+/// Head of an answer on the pipe.
 struct AnswerHead {
     std::uint64_t size;
     std::uint64_t failed;  // 0 or 1

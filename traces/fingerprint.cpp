@@ -78,7 +78,7 @@ struct Fingerprint::State {
     static std::uint8_t number(KindMask kind) {
         return static_cast<std::uint8_t>(std::countr_zero(kind));
     }
-    /// No room behind `bytes` for one more record.
+    /// Whether there is no room behind `bytes` for one more record.
     bool is_full(const Packed& bytes) const {
         return bytes.end() > waiting.data() + waiting.size() - longest;
     }

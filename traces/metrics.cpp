@@ -69,7 +69,7 @@ void Metrics::on(const Record& record, const RecordContext& context) {
     }
 }
 
-/// One message more for whom it is for, or one that was cut off less.
+/// Counts one message more for the robots that it is for, or one less that was cut off.
 void Metrics::count_parts(const Message& message, std::uint64_t others, bool is_cut_off) {
     const std::uint64_t one = is_cut_off ? ~std::uint64_t{0} : 1;  // modulo 2^64
     if (parts_.flows && message.flow > 0) {
@@ -176,7 +176,7 @@ MetricValues Metrics::values() const {
     if (parts_.robots) v.robots = robots();
     v.delivery_ratio = ratio(v.deliveries, others_);
     if (v.reach_known) v.reach = ratio(reached_, reachable_);
-    // As t may exceed r (a robot that relays from outside the count), not on unsigned numbers.
+    // Signed numbers, as t may exceed r: a robot relays from outside the count.
     const auto saved = static_cast<double>(v.deliveries) - static_cast<double>(forwarders_);
     if (v.deliveries > 0) v.saved_rebroadcasts = saved / static_cast<double>(v.deliveries);
     v.latency = latency_of(delays_);

@@ -38,7 +38,7 @@ void Topology::on(const Record& record, const RecordContext&) {
         advance(down->time);
         const auto found = up_.find({down->from, down->to});
         if (found == up_.end()) return;
-        // One that was there from the beginning began nobody knows when.
+        // A link that was there from the beginning began nobody knows when.
         if (found->second > begin_) {
             lifetime_ += seconds(down->time - found->second);
             ++ended_;

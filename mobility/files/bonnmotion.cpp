@@ -13,7 +13,7 @@
 namespace rovernet {
 namespace {
 
-/// What NAME.params says of the places; in doubt the waypoints decide.
+/// Columns of places that NAME.params tells; in doubt the waypoints decide.
 std::vector<PlaceColumns> layouts_of(const std::string& movements) {
     std::string name = movements;
     if (name.ends_with(".gz")) name.resize(name.size() - 3);

@@ -137,7 +137,7 @@ class Readings {
         InputError error;
     };
 
-    /// With the last reading that failed, or with the one that fits the length of the line.
+    /// Fails with the last reading that failed, or with the one that fits the length of the line.
     [[noreturn]] void fail(int line, bool at_end_of_line) const {
         const InputError& last = failed_.back().error;
         if (!at_end_of_line || failed_.size() == 1) throw last;
@@ -165,7 +165,7 @@ void BonnMotionNumbers::check_length() const {
     throw InputError(where_, fmt::format("a line is longer than {} bytes", longest_line));
 }
 
-/// To the next byte that is no blank. False at the end of the file.
+/// Goes to the next byte that is no blank. False at the end of the file.
 bool BonnMotionNumbers::skip_blanks() {
     while (true) {
         const std::string_view text = source_.window();
@@ -177,7 +177,7 @@ bool BonnMotionNumbers::skip_blanks() {
     }
 }
 
-/// To the end of the line.
+/// Goes to the end of the line.
 void BonnMotionNumbers::skip_comment() {
     while (true) {
         const std::string_view text = source_.window();

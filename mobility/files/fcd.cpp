@@ -235,7 +235,7 @@ void FcdReader::skip_unknown() {
     tags_.skip_element();
 }
 
-/// What a robot does from the timestep before to this one.
+/// Command of a robot from the timestep before to this one.
 std::optional<MovementCommand> FcdReader::goes_on(const Sighting& before) const {
     const State& state = states_[before.robot];
     MovementCommand command{

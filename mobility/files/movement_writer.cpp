@@ -92,7 +92,7 @@ void append(std::string& text, fmt::format_string<Values...> format, Values&&...
     fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
 }
 
-/// What somebody has to know who gives the file to ns-2.
+/// Comment for somebody who gives the file to ns-2.
 void append_field(std::string& text, const Box& box) {
     append(text,
            "# ns-2 stops at a target outside of its field: load_flatgrid {:.0f} {:.0f} or more\n",

@@ -13,7 +13,7 @@
 namespace rovernet {
 namespace {
 
-/// What a node does until its next command.
+/// Course of a node until its next command.
 struct Course {
     Time start;
     Vec3 from;  ///< [m] at `start`

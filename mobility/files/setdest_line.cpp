@@ -33,7 +33,7 @@ class Words {
         at_ += word.text.size();
         return word;
     }
-    /// What stands between the quotes becomes the rest of the line.
+    /// Takes what stands between the quotes as the rest of the line.
     void unquote() {
         const Word first = peek();
         if (!first.text.starts_with('"')) fail_at(where_, first, "a command in quotes (\")");

@@ -133,7 +133,7 @@ void XmlTags::skip_past(std::string_view end, std::size_t from) {
     }
 }
 
-/// To the next tag of an element. False at the end of the file.
+/// Goes to the next tag of an element. False at the end of the file.
 bool XmlTags::find_tag() {
     while (true) {
         const std::size_t n = source_.window().find_first_not_of(blanks);

@@ -18,7 +18,7 @@ constexpr double least_scientific = 1e6, most_scientific = 1e-4;
 
 int decade(double v) { return static_cast<int>(std::floor(math::log10(v) + slack)); }
 
-/// As in "1.5e6", without needless zeros.
+/// Text of a number as in "1.5e6", without needless zeros.
 std::string scientific(double v, int digits) {
     const std::string text = fmt::format("{:.{}e}", v, digits);
     const auto e = text.find('e');
@@ -66,8 +66,8 @@ ChartRange widened(const ChartRange& range) {
     return out;
 }
 
-/// Where an axis with ticks at the multiples of a step ends: at a tick, or little beyond one, where
-/// the next would leave much empty room.
+/// End of an axis with ticks at the multiples of a step: at a tick, or little beyond one, where the
+/// next would leave much empty room.
 struct TickEnds {
     TickEnds(double range_low, double range_high, double of_step) : step(of_step) {
         constexpr double little = 0.25, room = 0.05;  // of a step

@@ -157,7 +157,7 @@ class Script {
             line("{} {} NaN NaN {}", p.x + offset, p.y, p.source->n);
             return;
         }
-        // Below a logarithmic axis there is nothing to draw to.
+        // Intervals end at a logarithmic axis: there is nothing below it to draw to.
         const double low = std::max(p.low.value_or(p.y), y_.log ? y_.low : p.low.value_or(p.y));
         line("{} {} {} {} {}", p.x + offset, p.y, low, p.high.value_or(p.y), p.source->n);
     }
@@ -198,7 +198,7 @@ class Script {
                             "transparent solid 0.16 noborder {} notitle",
                             series, color));
         } else {
-            // Their own style, yerrorbars, leaves gaps around the points.
+            // The style of error bars, yerrorbars, leaves gaps around the points.
             clauses.push_back(
                 fmt::format("$series{} using 1:3:(0):($4-$3) with vectors heads size graph "
                             "0.006,90 {} notitle",

@@ -22,7 +22,7 @@ constexpr double beside = 9;               // [px] between points that would hid
 constexpr std::size_t most_tips = 1000;    // of a chart, so that large ones stay small files
 constexpr Color dark{0x22, 0x22, 0x22};
 
-/// What a viewer shows for a point: its series, place, interval and count.
+/// Text that a viewer shows for a point: its series, place, interval and count.
 std::string tip_of(const Chart& chart, const ChartView& view, std::size_t series,
                    const DrawnPoint& p) {
     if (view.points > most_tips) return "";
@@ -61,17 +61,17 @@ void append_whisker(SvgPath& path, const ChartFrame& frame, const DrawnPoint& p,
     if (p.high && shown(*p.high)) path.move(px - cap, high).horizontal(px + cap);
 }
 
-/// Where the points of a series stand from left to right [px].
+/// Places of the points of a series from left to right [px].
 using Places = std::vector<double>;
 
-/// At their x, and so far beside it [px].
+/// Places at their x, and so far beside it [px].
 Places places_of(const std::vector<DrawnPoint>& points, const ChartFrame& frame, double shift) {
     Places out;
     for (const auto& p : points) out.push_back(frame.at(p.x, p.y).x + shift);
     return out;
 }
 
-/// What a point and its whisker cover [px], with the room that they need.
+/// Box that a point and its whisker cover [px], with the room that they need.
 Box cover(const DrawnPoint& p, const ChartFrame& frame, double px) {
     const double reach = mark_radius + 0.5;
     const double y = frame.at(p.x, p.y).y;
@@ -99,8 +99,8 @@ void draw_marks(Svg& svg, const Chart& chart, const ChartView& view, const Chart
     }
 }
 
-/// Where a run of points ends that are joined and have both ends of an interval; `begin` if there
-/// is none.
+/// End of a run of points that are joined and have both ends of an interval; `begin` if there is
+/// none.
 std::size_t end_of_run(const std::vector<DrawnPoint>& points, std::size_t begin) {
     std::size_t end = begin;
     while (end < points.size() && points[end].low && points[end].high &&
@@ -165,8 +165,8 @@ void draw_bar(Svg& svg, double left, double right, double from, double to, std::
     svg.close();
 }
 
-/// How far the series of a line chart stand beside their x [px]: nothing where no whisker or mark
-/// hides another, or where bands show the intervals.
+/// Distance by which the series of a line chart stand beside their x [px]: nothing where no whisker
+/// or mark hides another, or where bands show the intervals.
 std::vector<double> shifts(const ChartView& view, const ChartFrame& frame) {
     std::vector<double> out(view.series.size(), 0);
     std::vector<std::pair<double, Box>> covers;  // of all points, and their x
@@ -198,7 +198,7 @@ std::vector<double> shifts(const ChartView& view, const ChartFrame& frame) {
     return out;
 }
 
-/// Where the points of a scatter stand: at their x, or as near as none hides one before it.
+/// Places of the points of a scatter: at their x, or as near as none hides one before it.
 std::vector<Places> apart(const ChartView& view, const ChartFrame& frame) {
     constexpr int most_steps = 2;  // a measured x is not moved farther than 18 px
     std::vector<Places> out;

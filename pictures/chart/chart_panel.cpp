@@ -53,7 +53,8 @@ ChartAxis widest_axis(const ChartRange& range, bool log, double length, const Ch
     return number_axis(range, log, fewest, limits);
 }
 
-/// Every so many words of an axis have room for their texts. @param least  [px] from text to text
+/// Stride of the words of an axis that have room for their texts. @param least  [px] from text to
+/// text
 std::size_t stride(const ChartAxis& axis, double length, double least) {
     if (axis.ticks.empty()) return 1;
     const double room = length / static_cast<double>(axis.ticks.size());

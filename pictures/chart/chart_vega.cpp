@@ -47,7 +47,7 @@ class Specification {
         std::vector<std::string> notes;
         if (!view_.notes.empty()) notes = wrapped(view_.notes, width, 12);
         out.set("title", object({{"text", chart_.title}, {"subtitle", list(notes)}}));
-        // Otherwise Vega-Lite writes the titles of axes into expressions, with quotes and all.
+        // Titles of axes are given, or Vega-Lite writes them into expressions, with quotes and all.
         out.set("config", object({{"aria", false},
                                   {"title", object({{"limit", 700}})},
                                   {"axis", object({{"titleLimit", 500}})}}));
@@ -67,7 +67,7 @@ class Specification {
     }
 
   private:
-    /// One row per point; `part` counts the pieces of a broken line.
+    /// Rows of the data, one for each point; `part` counts the pieces of a broken line.
     Value rows() const {
         Array out;
         for (std::size_t i = 0; i < view_.series.size(); ++i) {
@@ -98,7 +98,7 @@ class Specification {
         if (chart_.kind == ChartKind::lines) out.set("part", part);
         return out;
     }
-    /// Where the steps of a series begin and end.
+    /// Points where the steps of a series begin and end.
     void add_end(Array& rows, std::size_t series, double x, double share) const {
         if (view_.series[series].empty()) return;
         rows.push_back(object({{"series", names_[series]}, {"x", x}, {"y", share}}));

@@ -77,8 +77,8 @@ class SeriesView {
     bool log_x() const { return chart_.log_x && !words_; }
     bool log_y() const { return chart_.log_y && chart_.kind != ChartKind::heat_map; }
 
-    /// Both ends of the interval, the lower one even where a logarithmic axis does not reach it;
-    /// never beyond what y can be.
+    /// Ends of the interval, the lower one even where a logarithmic axis does not reach it; never
+    /// beyond what y can be.
     void set_interval(DrawnPoint& p) {
         const ChartLimits& limits = view_.y_limits;
         p.low = p.source->low;

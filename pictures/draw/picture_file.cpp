@@ -35,7 +35,7 @@ File unnamed_file() {
     return file;
 }
 
-/// What the program wrote.
+/// Output of the program.
 std::string content(std::FILE* file) {
     std::string all;
     char portion[65536];
@@ -46,7 +46,7 @@ std::string content(std::FILE* file) {
     return all;
 }
 
-/// What the program said, on one line.
+/// Message of the program, on one line.
 std::string complaint(std::FILE* file) {
     constexpr std::size_t longest = 400;  // bytes
     std::string text = content(file).substr(0, longest);

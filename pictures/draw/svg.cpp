@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view replacement = "\xef\xbf\xbd";  // U+FFFD
 
-/// One character of a text: its code point, or none for bytes that are no UTF-8, and its length.
+/// Character of a text: its code point, or none for bytes that are no UTF-8, and its length.
 struct Character {
     std::uint32_t code = 0;
     std::size_t bytes = 1;

@@ -27,7 +27,7 @@ struct Grid {
     double at(int column, int row) const { return const_cast<Grid&>(*this).at(column, row); }
 };
 
-/// How far each cell is above the level [dB], within narrow bounds.
+/// Height of each cell above the level [dB], within narrow bounds.
 Grid excess(const CoverageMap& map, Dbm level) {
     constexpr double most = 0.5;  // [dB]
     Grid out{map.columns + 2, map.rows + 2, {}};

@@ -18,8 +18,8 @@ constexpr const char* contour_color = "#00501e";
 constexpr double contour_width = 1.8;  // [px]
 constexpr double contour_seam = 3.2;   // [px] of the white below it
 
-/// Where colours end [dBm]: well below the weakest contour, and where next to nothing of the
-/// picture is still above.
+/// Level at which colours end [dBm]: well below the weakest contour, and where next to nothing of
+/// the picture is still above.
 std::pair<double, double> color_range(std::vector<double> dbm, double weakest) {
     constexpr double below = 20, least = 20, step = 5;  // [dB]
     constexpr double rest = 0.0005;

@@ -36,7 +36,7 @@ std::size_t grade_of(double margin) {
     return i;
 }
 
-/// What `to` has left of its budget when it hears `from` [dB]; none if it cannot hear.
+/// Margin of the link from `from` to `to` [dB]; none if `to` cannot hear.
 std::optional<double> margin(const Network& network, NodeId from, NodeId to, Time at) {
     const Medium& medium = network.medium();
     const Radio& sender = medium.radio(from);

@@ -15,7 +15,7 @@ constexpr Color unknown_color{0xe2, 0xe2, 0xe2};
 constexpr double thin_line = 0.4;  // [px] around walls, so that the thinnest are seen
 constexpr double seam = 1.6;       // [px] the same, of the white below them
 
-/// How the walls of a material are filled; more materials than styles begin anew.
+/// Fill of the walls of a material; more materials than styles begin anew.
 struct WallStyle {
     Color color;
     const char* hatch = nullptr;  ///< path of a tile of hatch_size; none: filled evenly

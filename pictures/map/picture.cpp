@@ -79,7 +79,7 @@ class Painter {
     void run();
     Extent extent() const;
     Plot plot() const;
-    /// How far from the robot whose coverage is drawn an open field is shown [m].
+    /// Distance from the robot whose coverage is drawn up to which an open field is shown [m].
     double shown_reach(const Extent& robots) const;
     /// Room for the colour bar beside the plot [px]; 0 if there is none.
     double bar_room() const { return source_ ? gap + HeatLayer::bar_width : 0; }

@@ -19,7 +19,7 @@ std::string time_text(Time at, Time end) {
     return text;
 }
 
-/// How many robots are not there: "3 robots not departed, 1 left".
+/// Number of robots that are not there: "3 robots not departed, 1 left".
 std::string absent_text(const Network& network) {
     std::size_t to_come = 0, left = 0;
     for (std::uint32_t i = 0; i < network.size(); ++i) {

@@ -126,7 +126,7 @@ bool is_reason(std::string_view text) {
     return std::find(std::begin(reasons), std::end(reasons), text) != std::end(reasons);
 }
 
-/// What became of a frame that a MAC received in vain; a repeated unicast is dropped there, too.
+/// Fate of a frame that a MAC received in vain; a repeated unicast is dropped there, too.
 std::optional<Fate> loss_of(std::string_view reason) {
     if (reason == "DUP") return Fate::duplicate;
     std::optional<Fate> found;
@@ -138,7 +138,7 @@ std::optional<Fate> loss_of(std::string_view reason) {
     return found;
 }
 
-/// Why a copy was dropped other than by the fate of its reception.
+/// Reason for which a copy was dropped other than by the fate of its reception.
 std::optional<DropReason> drop_of(std::string_view reason, std::string_view layer) {
     std::optional<DropReason> found;
     for_each_reason([&](auto each) {
@@ -149,7 +149,7 @@ std::optional<DropReason> drop_of(std::string_view reason, std::string_view laye
     return found;
 }
 
-/// What the event is, before it is known who the packet came from; nothing if it is not ours.
+/// Kind of the event, before it is known who the packet came from; nothing if it is not ours.
 std::optional<Event> event_of(char op, std::string_view layer, std::string_view reason) {
     if (layer == "AGT") {
         if (op == 's') return Event::sent;

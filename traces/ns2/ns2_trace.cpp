@@ -21,7 +21,7 @@ constexpr std::uint32_t plcp_bytes = 24;
 /// [bytes] that a frame with this header of the access model has on air beside its message.
 constexpr std::uint32_t on_air(std::uint32_t header) { return header ? header + plcp_bytes : 0; }
 
-/// What a MAC wrote into a packet; nothing: it has not seen it.
+/// Fields that a MAC wrote into a packet; nothing: it has not seen it.
 struct MacHeader {
     std::uint32_t reserved_us = 0;
     NodeId to{0}, from{0};
@@ -56,7 +56,7 @@ std::string_view type_of(AirFrame::Kind kind) {
     return {};
 }
 
-/// What all lines of packets have in common.
+/// Fields that all lines of packets have in common.
 struct Line {
     char op;
     Time time;
@@ -66,7 +66,7 @@ struct Line {
     MacHeader mac = {};
 };
 
-/// Those of a message's packets.
+/// Fields of a message's packets.
 struct PacketLine : Line {
     MessageId message;
     unsigned ttl;
