@@ -147,7 +147,7 @@ void print_json(const Comparison& c) {
     Table table;
     table.set("metric", c.metric);
     table.set("baseline", c.baseline);
-    table.set("dearest", c.dearest);
+    table.set("dearest", c.most_detailed);
     table.set("confidence", c.confidence);
     if (c.margin) table.set("margin", *c.margin);
     table.set("held", c.held);
@@ -181,8 +181,8 @@ std::string cost_text(const std::optional<MediumCost>& cost) {
 }
 
 void print_table(const Comparison& c) {
-    TextTable table({"model", c.metric, "n", "minus " + c.baseline, "n", "error to " + c.dearest,
-                     "n", "CPU/frame", "of run"});
+    TextTable table({"model", c.metric, "n", "minus " + c.baseline, "n",
+                     "error to " + c.most_detailed, "n", "CPU/frame", "of run"});
     const auto count = [](std::size_t n) { return fmt::format("{}", n); };
     for (const ComparedModel& m : c.models) {
         const Answer& a = m.answer;

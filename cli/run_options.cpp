@@ -84,7 +84,8 @@ void add_compare(CLI::App& app, const std::string& typed) {
     compare.add_option("--models", a.models, "which (default: those of [study] vary)")
         ->delimiter(',');
     compare.add_option("--metric", a.metric, "compared (default: the study's first)");
-    compare.add_option("--baseline", a.baseline, "to differ from (default: the dearest)");
+    compare.add_option("--baseline", a.baseline,
+                       "to differ from (default: the most detailed model)");
     compare
         .add_option("--margin", a.margin,
                     "say of each model whether its mean is this near to the baseline's")

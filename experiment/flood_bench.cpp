@@ -68,12 +68,12 @@ Tally tally(const MetricValues& metrics) {
     return tally;
 }
 
-/// Frames disturb each other, or their senders listen: more than the decode range matters.
-bool disturbs(const FloodBench& bench) {
+/// Whether frames interfere, or their senders listen: more than the decode range matters.
+bool interferes(const FloodBench& bench) {
     return bench.reception != ReceptionChoice::threshold || bench.access == AccessChoice::csma;
 }
 
-bool has_levels(const FloodBench& bench) { return bench.shadowing.value > 0 || disturbs(bench); }
+bool has_levels(const FloodBench& bench) { return bench.shadowing.value > 0 || interferes(bench); }
 
 /// Levels fall with the fourth power of the distance, as over flat ground far off.
 Propagation model(const FloodBench& bench) {
@@ -94,7 +94,7 @@ Radio radio(const FloodBench& bench) {
         return radio.power - Db{free_space_db(1, radio.frequency) + 40 * math::log10(d)};
     };
     if (has_levels(bench)) radio.sensitivity = level_at(decode_range);
-    if (disturbs(bench)) {
+    if (interferes(bench)) {
         radio.carrier_sense_threshold = level_at(sensing_range);
     }
     return radio;

@@ -37,13 +37,14 @@ Pairs pairs_of(const Answer& a, const Answer& b) {
     return pairs;
 }
 
-/// The last on the ladder.
-std::string dearest_of(const std::vector<std::string>& models) {
-    std::string dearest = models.front();
+/// Last of these models in the list of all: the most detailed one.
+std::string most_detailed_of(const std::vector<std::string>& models) {
+    std::string most_detailed = models.front();
     for_each_model([&]<class M>() {
-        if (std::find(models.begin(), models.end(), M::name) != models.end()) dearest = M::name;
+        if (std::find(models.begin(), models.end(), M::name) != models.end())
+            most_detailed = M::name;
     });
-    return dearest;
+    return most_detailed;
 }
 
 std::vector<double> mean_cpu(const Store& store, std::size_t points) {
@@ -79,9 +80,9 @@ Gaps unpaired(const Inventory& inventory, const Answer& a, const Answer& b, std:
     return gaps;
 }
 
-void add_error(ComparedModel& model, const Answer& dearest, const std::string& metric,
+void add_error(ComparedModel& model, const Answer& most_detailed, const std::string& metric,
                double confidence, std::optional<IntervalMethod> wish) {
-    const Pairs pairs = pairs_of(model.answer, dearest);
+    const Pairs pairs = pairs_of(model.answer, most_detailed);
     std::vector<double> distances;
     for (std::size_t i = 0; i < pairs.a.size(); ++i) {
         distances.push_back(std::abs(pairs.a[i] - pairs.b[i]));
@@ -138,15 +139,15 @@ Comparison compare_models(const Store& store, const std::string& metric,
     std::vector<std::string> names;
     for (const Answer& answer : all.list) names.push_back(model_of(answer));
     Comparison comparison{.metric = metric,
-                          .baseline = baseline.empty() ? dearest_of(names) : baseline,
-                          .dearest = dearest_of(names),
+                          .baseline = baseline.empty() ? most_detailed_of(names) : baseline,
+                          .most_detailed = most_detailed_of(names),
                           .confidence = confidence_of(store),
                           .margin = margin,
                           .models = {},
                           .runs = all.runs,
                           .pairs = {}};
     const std::size_t base = place_of(comparison.baseline, names);
-    const Answer& dearest = all.list[place_of(comparison.dearest, names)];
+    const Answer& most_detailed = all.list[place_of(comparison.most_detailed, names)];
     for (std::size_t i = 0; i < names.size(); ++i) {
         ComparedModel model;
         model.model = names[i];
@@ -154,8 +155,9 @@ Comparison compare_models(const Store& store, const std::string& metric,
         model.cpu_s = cpu[i];
         model.unpaired = unpaired(inventory, all.list[i], all.list[base],
                                   static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(base));
-        add_error(model, dearest, metric, comparison.confidence, interval_method_of(store));
-        if (model.model == comparison.dearest) model.error_interval.reset();  // 0 by definition
+        add_error(model, most_detailed, metric, comparison.confidence, interval_method_of(store));
+        if (model.model == comparison.most_detailed)
+            model.error_interval.reset();  // 0 by definition
         comparison.models.push_back(std::move(model));
     }
     compare_with_baseline(comparison, comparison.models[base], interval_method_of(store));

@@ -21,9 +21,9 @@ struct ComparedModel {
     double cpu_s = 0;                   ///< [s] mean per run
     std::optional<MediumCost> cost;     ///< cost of the medium; see add_costs()
     std::optional<double> radio_share;  ///< [-] of the runs' CPU time, about: that cost
-    /// Mean distance to the dearest model's value over the replications in which both have one, in
-    /// the metric's unit, its interval (none for the dearest model, whose error is 0 by
-    /// definition), and how many replications these are.
+    /// Mean distance to the most detailed model's value over the replications in which both have
+    /// one, in the metric's unit, its interval (none for the most detailed model, whose error is 0
+    /// by definition), and how many replications these are.
     std::optional<double> error;
     std::optional<MeanInterval> error_interval;
     std::size_t error_n = 0;
@@ -44,7 +44,7 @@ struct PairedVariance {
 };
 
 struct Comparison {
-    std::string metric, baseline, dearest;
+    std::string metric, baseline, most_detailed;
     double confidence = 0.95;
     std::optional<double> margin;       ///< margin, in the metric's unit
     std::vector<ComparedModel> models;  ///< models, as in the study
@@ -59,9 +59,9 @@ struct Comparison {
 std::size_t place_of(const std::string& baseline, const std::vector<std::string>& models);
 
 /// Compares the models of a store whose study varies propagation.model alone, each pair over the
-/// replications in which both have a value. The dearest model is the last of them on the ladder of
-/// `rovernet models`: what is said of errors does not depend on how fast a machine is.
-/// @param  baseline  one of the models; the dearest if empty
+/// replications in which both have a value. The most detailed model is the last of them in the list
+/// of `rovernet models`: what is said of errors does not depend on how fast a machine is.
+/// @param  baseline  one of the models; the most detailed one if empty
 /// @param  margin    > 0, in the metric's unit: whether models are as good as the baseline
 /// @throws std::invalid_argument if the metric or the baseline is unknown
 Comparison compare_models(const Store& store, const std::string& metric,

@@ -50,14 +50,14 @@ std::string text_of(const MediumCosts& costs, double least_share, double most_sh
 void add_costs(Comparison& comparison, Study& study, const Store& store,
                const std::function<bool()>& stopped) {
     std::vector<Scenario> scenarios;
-    std::size_t dearest = 0;
+    std::size_t most_detailed = 0;
     for (std::size_t i = 0; i < comparison.models.size(); ++i) {
         scenarios.push_back(study.scenario(i, 0));
-        if (comparison.models[i].model == comparison.dearest) dearest = i;
+        if (comparison.models[i].model == comparison.most_detailed) most_detailed = i;
     }
     MediumRecord record;
     try {
-        record = record_medium(scenarios[dearest], stopped);
+        record = record_medium(scenarios[most_detailed], stopped);
     } catch (const RunError&) {  // that run failed in the study, too, and is told of there
         return;
     }

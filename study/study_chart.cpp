@@ -244,7 +244,7 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
     Chart errors{
         .kind = ChartKind::scatter,
         .x_label = costs ? "CPU time of the medium per frame [us]" : "CPU time per run [ms]",
-        .y_label = "mean distance to " + comparison.dearest,
+        .y_label = "mean distance to " + comparison.most_detailed,
         .log_x = true,
         .y_limits = {.low = 0}};
     ChartSeries& bars = values.series.emplace_back(ChartSeries{});

@@ -40,7 +40,7 @@ std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
 Chart study_chart(const Store& store, const ChartQuestion& question);
 
 /// A comparison as two charts: the metric of each model with its interval, and its error to the
-/// dearest model against its cost.
+/// most detailed model against its cost.
 std::vector<Chart> comparison_charts(const Comparison& comparison);
 
 }  // namespace rovernet

@@ -5,7 +5,7 @@
 /// U(0, jitter) while its TTL is above 1; copies of a known message are counted and go no further.
 ///   --channel=lean  SimpleNetDevice; a frame reaches every node within 250 m, nothing collides
 ///   --channel=wifi  802.11b ad hoc at 1 Mb/s, long preamble, no IP. --loss=range: 250 m and no
-///                   more; --loss=two_ray: decoded to 250 m, sensed and disturbing to 550 m
+///                   more; --loss=two_ray: decoded to 250 m, sensed and interfering to 550 m
 #include "ns3.hpp"
 
 #include <cstdint>

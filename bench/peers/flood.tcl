@@ -5,7 +5,7 @@
 # Message k leaves node 37 k mod N at 1 s + k * interval. Who first hears it re-sends it after
 # U(0, jitter) while its TTL is above 1; copies of a known message are counted and go no further.
 # 802.11 at 1 Mb/s with ns-2's own defaults: two-ray ground at 914 MHz, decoded to 250 m, sensed and
-# disturbing to 550 m. -trace writes the lines of agents and MAC; without it nothing is written.
+# interfering to 550 m. -trace writes the lines of agents and MAC; without it nothing is written.
 
 source [file join [file dirname [info script]] ns2.tcl]
 

@@ -157,7 +157,7 @@ struct Playground {
         net.run_for(100ms);
     }
 
-    /// A sending as it arrives at `node`, if it is strong enough to disturb there.
+    /// A sending as it arrives at `node`, if it is strong enough to interfere there.
     std::optional<Heard> heard(const Sending& sending, NodeId node) const {
         if (node.index() >= sending.robots.size() || !sending.robots[node.index()].on) return {};
         const Vec3 from = sending.robots[sending.from.index()].antenna;
@@ -360,7 +360,7 @@ TEST_CASE("air: at collision a frame that was let pass harms none that comes lat
     }
 }
 
-TEST_CASE("air: frames of another network do not disturb, unless it is an open one") {
+TEST_CASE("air: frames of another network do not interfere, unless it is an open one") {
     for (const Gate gate : {Gate::network, Gate::none}) {
         OpenField space;
         const Radio ours{.power = {0}, .essid = "ours"};

@@ -43,12 +43,12 @@ constexpr double rounding = 1e-12;  // of means of a few numbers below 10
 
 }  // namespace
 
-TEST_CASE("compare: differences are paired, errors are distances to the dearest model") {
+TEST_CASE("compare: differences are paired, errors are distances to the most detailed model") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"raytrace_2007", "disc", "friis"},
                              {{0.2, 0.4, 0.6}, {0.3, 0.3, 0.9}, {1.0, 1.0, 1.0}});
     const Comparison c = compare_models(store, "reach", "disc");
-    CHECK(c.dearest == "raytrace_2007");  // last on the ladder, first in the study
+    CHECK(c.most_detailed == "raytrace_2007");  // last in the list, first in the study
     CHECK(c.baseline == "disc");
     REQUIRE(c.models.size() == 3);
     const ComparedModel& ray = c.models[0];

@@ -408,7 +408,8 @@ TEST_CASE("medium: what is left out adds to the noise what the weakest that is t
     CHECK(wide.left_out(10).value == doctest::Approx(10 * std::log10(2.0)).epsilon(1e-9));
 }
 
-TEST_CASE("medium: a frame disturbs down to the cut below the sensitivity, or where it is sensed") {
+TEST_CASE(
+    "medium: a frame interferes down to the cut below the sensitivity, or where it is sensed") {
     const Scene field;
     const Radio radio{.sensitivity = {-85}};  // nothing weaker is sensed; noise of -93.6 dBm
     for (const std::optional<Db> cut : {std::optional<Db>{}, std::optional{Db{6}}}) {
