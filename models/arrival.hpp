@@ -8,46 +8,67 @@
 #include <cstdint>
 #include <limits>
 
+// Frames between sender and receiver, for reception models: an Emission is what was sent, an
+// Arrival what comes of it at one node.
+
 namespace rovernet {
 
-/// A frame as it was sent.
+/// Frame as it was sent. Interference keeps it for as long as it may overlap with others.
 struct Emission {
-    Time begin, end;           ///< at the sender
-    Vec3 origin = {};          ///< [m] the sender's antenna at `begin`
-    NodeId from;               ///< its sender
-    double heard_within = 0;   ///< [m] from the origin: nobody farther is a receiver
-    double squared_reach = 0;  ///< [m^2] nobody farther is disturbed; may be infinite
-    std::uint32_t flight = 0;  ///< known to the caller
-    std::uint64_t serial = 0;  ///< its number, in the order of sending
+    /// Begin and end at the sender.
+    Time begin, end;
+    /// Position of the sender's antenna at `begin` [m].
+    Vec3 origin = {};
+    /// Sender.
+    NodeId from;
+    /// Distance from the origin [m] within which all its receivers are.
+    double heard_within = 0;
+    /// Squared distance [m^2] beyond which it interferes with nobody; may be infinite.
+    double squared_reach = 0;
+    /// Number that the channel knows the frame by.
+    std::uint32_t flight = 0;
+    /// Number in the order of sending.
+    std::uint64_t serial = 0;
 };
 
-/// What a receiver of the model "sinr" made of a frame that it could decode.
+/// State of a receiver of the model "sinr" towards a frame that it could decode.
 enum class Lock : std::uint8_t {
-    open,    ///< not decided yet
-    held,    ///< it locked on to it
-    missed,  ///< it did not
+    /// It is not decided yet.
+    open,
+    /// The receiver locked on to it: it found the preamble, and was free.
+    held,
+    /// The receiver did not.
+    missed,
 };
 
-/// A frame as a node will sense it.
+/// Frame as a node will sense it, for access models.
 struct Sensing {
     NodeId node;
+    /// Begin and end at the node.
     Time begin, end;
 };
 
-/// A frame as it arrives at one node.
+/// Frame as it arrives at one node.
 struct Arrival {
+    /// Begin and end at the node.
     Time begin;
     Time end;
-    double level_dbm;         ///< [dBm] received power; NaN until somebody asked for it
-    double squared_distance;  ///< [m^2] from where it was sent
-    NodeId from;              ///< its sender
-    bool own = false;         ///< the node sends it itself, and hears nothing else
-    Lock* lock = nullptr;     ///< reception model "sinr": if the node can decode it
+    /// Received power [dBm]; NaN until somebody asked for it.
+    double level_dbm;
+    /// Squared distance [m^2] from where it was sent; NaN if nobody asked for it.
+    double squared_distance;
+    /// Sender.
+    NodeId from;
+    /// The node sends it itself, and hears nothing else meanwhile.
+    bool own = false;
+    /// Lock of the model "sinr"; null if the node cannot decode the frame.
+    Lock* lock = nullptr;
 
+    /// Whether both are on air at a time; frames that only touch do not.
     bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
 };
 
-/// What a node sends, as it drowns everything there.
+/// Frame of a node's own, as it arrives there: stronger than all others.
 constexpr Arrival own_frame(NodeId node, Time begin, Time end) {
     return {.begin = begin,
             .end = end,

@@ -10,23 +10,29 @@
 
 namespace rovernet {
 
-/// How stations of ALOHA behave.
+/// Settings of ALOHA.
 struct Aloha {
     static constexpr std::string_view name = "aloha";
 
-    Duration slot{0};          ///< [ns] slotted: frames begin at its multiples; 0: pure
-    std::uint32_t queue = 50;  ///< frames that wait at most; more are dropped
+    /// Slot [ns]: frames begin at its multiples (slotted ALOHA); 0: at once (pure ALOHA).
+    Duration slot{0};
+    /// Frames that wait at a node at most, the one that is next included; one more is dropped.
+    std::uint32_t queue = 50;
 
+    /// Model at work, for one Network.
     std::unique_ptr<Access> make_access() const;
 };
 
-/// Access model "aloha": a frame goes out at once, or with the next slot, whatever others do;
-/// only the own frames wait for one another.
+/// Access model "aloha": a frame goes on air at once, or with the next slot, whatever others do;
+/// only a node's own frames wait for one another.
 ///
-/// Source: N. Abramson, The ALOHA system, AFIPS 1970; L. Roberts, ALOHA packet system with and
-/// without slots and capture, 1975.
+/// A unicast is sent once: nobody acknowledges it. With many senders of total load G, in frames per
+/// frame time, a share of e^-2G gets through, slotted e^-G; bench/aloha.hpp measures that. Source:
+/// N. Abramson, The ALOHA system, AFIPS 1970; L. Roberts, ALOHA packet system with and without
+/// slots and capture, 1975.
 class AlohaAccess final : public Access {
   public:
+    /// @param settings  as they were given
     explicit AlohaAccess(const Aloha& settings) : settings_(settings) {}
 
     void add() override { stations_.emplace_back(); }
@@ -36,13 +42,18 @@ class AlohaAccess final : public Access {
     void switch_off(Air& air, NodeId node) override;
 
   private:
+    /// State of one node.
     struct Station {
-        Time free_from = start_of_run;  // its own frame is over
+        /// End of its own last frame.
+        Time free_from = start_of_run;
+        /// Frames that wait; the first has a timer.
         std::vector<QueuedFrame> queue = {};
     };
+    // Sets the timer for the first frame of the queue.
     void expect(Air& air, NodeId node);
 
     Aloha settings_;
+    // Stations by node.
     std::vector<Station> stations_;
 };
 

@@ -9,20 +9,25 @@
 
 namespace rovernet {
 
-/// When a station of the 802.11 DCF may send: the slots that its backoff has left, and since when
-/// they count. Evaluated lazily: no event per slot, none while the medium is busy.
+/// Backoff of one station of the 802.11 DCF: the slots that it has left, and since when they count.
+/// From that follows when the station may send. It is evaluated lazily: there is no event for a
+/// slot, and none while the medium is busy.
 ///
 /// Slots count once the medium has been idle for an interframe space; one in which it is busy does
 /// not count. A station decides at the end of its last slot minus the turnaround, by what arrived
 /// more than the CCA time before that: so two stations whose slots run out together both send,
 /// whatever the delay between them and the order of events.
+///
+/// Dcf has one for each station. It writes what the station senses as a frame goes on air, and asks
+/// grant() when its timer is due.
 /// Source: IEEE 802.11-2020, 10.3.4.
 class Backoff {
   public:
+    /// @param timing  slots and interframe spaces; outlives this
     explicit Backoff(const WifiTiming& timing) : timing_(&timing) {}
 
-    /// The station senses energy from `begin` to `end`. Begins may come out of order by less than
-    /// an interframe space.
+    /// Takes note that the station senses energy from `begin` to `end`. Begins may come out of
+    /// order by less than an interframe space.
     void energy(Time begin, Time end) {
         if (busy_since_ == never || begin >= anchor()) {
             slots_ = left();
@@ -32,37 +37,42 @@ class Backoff {
         busy_since_ = std::min(busy_since_, begin);
         busy_until_ = std::max(busy_until_, end);
     }
-    /// A frame ended with errors at `t`: no slot counts for `eifs` [ns], unless a good one ends.
+    /// Takes note that a frame ended with errors at `t`: no slot counts for `eifs` [ns], unless a
+    /// good frame ends.
     void frame_lost(Time t, Duration eifs) { eifs_until_ = t + eifs; }
+    /// Takes note that a frame ended without errors.
     void frame_decoded() { eifs_until_ = long_ago; }
 
-    /// A backoff of `slots` begins, which do not count before `from`.
+    /// Begins a backoff of so many slots, which do not count before `from`.
     void begin(int slots, Time from) {
         slots_ = slots;
         not_before_ = from;
         busy_since_ = never;
     }
-    /// When the slots have run out if the medium stays idle: the station may send then.
+    /// Time at which the slots have run out if the medium stays idle: the station may send then.
     Time grant() const {
         if (busy_since_ == never) return anchor() + slots_ * timing_->slot;
         if (!was_disturbed()) return counted_from_ + slots_ * timing_->slot;
         return anchor() + left() * timing_->slot;
     }
-    /// The station sensed energy since the backoff began or last stood still.
+    /// Whether the station sensed energy since the backoff began or last stood still, early enough
+    /// to count for its decision.
     bool was_disturbed() const {
         return busy_since_ <
                counted_from_ + slots_ * timing_->slot - timing_->turnaround - timing_->cca_time;
     }
+    /// Whether the station senses energy at `t`, as far as is known.
     bool is_busy(Time t) const { return busy_until_ > t; }
 
   private:
+    // Time before all others that matter.
     static constexpr Time long_ago{Duration{-1'000'000'000'000}};
 
-    /// When slots count again, as far as is known.
+    // Time from which slots count again, as far as is known.
     Time anchor() const {
         return std::max({not_before_, busy_until_ + timing_->difs, eifs_until_});
     }
-    /// Slots left when the medium became busy.
+    // Slots left when the medium became busy.
     int left() const {
         if (busy_since_ == never) return slots_;
         const Duration idle = busy_since_ + timing_->turnaround + timing_->cca_time - counted_from_;
@@ -71,10 +81,14 @@ class Backoff {
     }
 
     const WifiTiming* timing_;
+    // Slots that were left at counted_from_.
     int slots_ = 0;
+    // Time before which this backoff does not count.
     Time not_before_ = start_of_run;
-    Time counted_from_ = start_of_run;  // slots_ counted from here ...
-    Time busy_since_ = never;           // ... until here
+    // Slots count from here, and until the medium became busy.
+    Time counted_from_ = start_of_run;
+    Time busy_since_ = never;
+    // End of the energy, and end of the EIFS after a frame with errors.
     Time busy_until_ = long_ago;
     Time eifs_until_ = long_ago;
 };

@@ -84,7 +84,7 @@ void Dcf::on_timer(Air& air, NodeId node, std::uint32_t tag) {
     if (s.timer != air.now() || contends != (tag == access)) return;  // another took its place
     s.timer = never;
     if (tag == answer) {
-        // What is arriving may be the answer.
+        // A frame that is arriving may be the answer.
         if (listening_[node.index()].on_air_until > air.now())
             return set_timer(air, node, listening_[node.index()].on_air_until, answer);
         return answer_missing(air, node);
@@ -161,8 +161,8 @@ void Dcf::answer_missing(Air& air, NodeId node) {
     set_timer(air, node, backoff(node).grant(), access);
 }
 
-/// The first frame of the queue is done with: sent, or lost for a reason. Behind it a backoff
-/// begins, whether or not there is another.
+/// Ends the work on the first frame of the queue: it was sent, or lost for a reason. A backoff
+/// begins behind it, whether or not there is another frame.
 void Dcf::finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason) {
     Station& s = at(node);
     const QueuedFrame done = s.queue.front();
@@ -202,7 +202,7 @@ void Dcf::received(Air& air, NodeId node, const AirFrame& frame) {
     backoff(node).energy(air.now(), air.now() + frame.reserved);
 }
 
-/// A frame for this node has ended.
+/// Answers a frame for this node that has ended.
 void Dcf::answer_to(Air& air, NodeId node, const AirFrame& frame) {
     Station& s = at(node);
     const NodeId from = frame.frame.sender;

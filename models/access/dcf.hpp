@@ -17,28 +17,42 @@
 
 namespace rovernet {
 
-/// How stations of the 802.11 DCF behave.
+/// Settings of the 802.11 DCF. Defaults are those of 802.11b.
 struct Csma {
     static constexpr std::string_view name = "csma";
 
+    /// Standard, which gives airtimes, and its timing.
     WifiStandard standard = WifiStandard::b;
     WifiTiming timing = timing_of(WifiStandard::b);
-    /// Broadcasts and RTS go at the lowest, an answer at the highest that is not above the rate of
-    /// what it answers (the lowest, if all are above). Not empty; in any order.
+    /// Basic rates [bit/s]: broadcasts and RTS go at the lowest, an answer at the highest that is
+    /// not above the rate of what it answers (the lowest, if all are above). Not empty; in any
+    /// order.
     std::vector<BitRate> basic_rates = mandatory_rates(WifiStandard::b);
-    bool eifs = true;                    ///< wait longer after a frame with errors
-    int short_retries = 7;               ///< attempts of an RTS, or of data without; 0: no end
-    int long_retries = 4;                ///< attempts of data behind an RTS; 0: no end
-    std::uint32_t rts_threshold = 2347;  ///< [bytes] unicasts of more, header included, ask first
-    std::uint32_t header = data_header_bytes;  ///< [bytes] that access adds to a message
-    std::uint32_t queue = 50;                  ///< frames that wait at most; more are dropped
+    /// Stations wait longer (EIFS) after a frame with errors.
+    bool eifs = true;
+    /// Attempts of an RTS, or of data without one; 0: no end.
+    int short_retries = 7;
+    /// Attempts of data behind an RTS; 0: no end.
+    int long_retries = 4;
+    /// Size [bytes], header included, above which a unicast asks with an RTS first.
+    std::uint32_t rts_threshold = 2347;
+    /// Size [bytes] that access adds to a message.
+    std::uint32_t header = data_header_bytes;
+    /// Frames that wait at a node at most; one more is dropped.
+    std::uint32_t queue = 50;
 
+    /// Model at work, for one Network.
     /// @throws std::invalid_argument if a slot is not > 0, or there is no basic rate
     std::unique_ptr<Access> make_access() const;
 };
 
 /// Access model "csma": the distributed coordination function of IEEE 802.11, for broadcasts and
 /// unicasts, for all stations.
+///
+/// A station that has a frame waits for a DIFS and, if the medium was busy, for a backoff of 0 to
+/// CW slots. A broadcast is not answered. A unicast is acknowledged after a SIFS; without an
+/// acknowledgement it is repeated with a doubled window, up to the limit of retries. A large one
+/// asks with an RTS, which the receiver answers by a CTS; both reserve the medium (NAV).
 ///
 /// A station has one timer at most, and only while it has a frame: for its access, or for the
 /// answer that it waits for. What it senses is written into its Backoff as it is sent; a timer that
@@ -48,7 +62,8 @@ class Dcf final : public Access {
     /// @throws std::invalid_argument if a slot is not > 0, or there is no basic rate
     explicit Dcf(const Csma& settings);
 
-    Dcf(const Dcf&) = delete;  // backoffs refer to the timing
+    /// Copies are forbidden: backoffs refer to the timing.
+    Dcf(const Dcf&) = delete;
     Dcf& operator=(const Dcf&) = delete;
 
     void add() override;
@@ -69,56 +84,86 @@ class Dcf final : public Access {
     Phy phy() const override { return Wifi{.framing = settings_.standard}; }
 
   private:
+    /// State of a station: without a frame, waiting for access, or for an answer.
     enum class State : std::uint8_t { idle, contending, awaiting_cts, awaiting_ack };
+    /// Tag of a timer: for access, for an answer that may be missing, and for an answer to send.
     enum Tag : std::uint32_t { access, answer, response };
 
+    /// Last data frame that a station has from a sender, by its number.
     struct Heard {
         NodeId from;
         std::uint32_t number;
     };
-    /// What every frame on air changes: as little as possible, for the caches' sake.
+    /// Part of a station that every frame on air changes: one cache line.
     struct alignas(64) Listening {
         Backoff backoff;
-        Time on_air_until = start_of_run;  // what it senses
+        /// End of what the station senses.
+        Time on_air_until = start_of_run;
     };
+    /// State of a station beside that.
     struct Station {
+        /// What it waits for.
         State state = State::idle;
-        bool backing_off = false;             // a backoff was drawn since its last frame
-        bool fresh = false;                   // contends without having drawn one
-        bool asked = false;                   // its RTS was answered
-        int window = 0;                       // contention window [slots]
-        int short_count = 0, long_count = 0;  // failed attempts
-        std::uint32_t number = 0;             // of its data frame
+        /// A backoff was drawn since its last frame.
+        bool backing_off = false;
+        /// It contends without having drawn a backoff: the medium was idle (immediate access).
+        bool fresh = false;
+        /// Its RTS was answered by a CTS.
+        bool asked = false;
+        /// Contention window [slots].
+        int window = 0;
+        /// Failed attempts: of an RTS or of data without one, and of data behind an RTS.
+        int short_count = 0, long_count = 0;
+        /// Number of its data frame, the same for all attempts.
+        std::uint32_t number = 0;
+        /// Draws so far.
         std::uint64_t draws = 0;
-        Time timer = never;                  // the one that counts
-        Time reserved_until = start_of_run;  // by others: its NAV
+        /// Timer that counts; others are void.
+        Time timer = never;
+        /// Time until which others have reserved the medium (NAV).
+        Time reserved_until = start_of_run;
+        /// Frames that wait; the first is being sent.
         std::vector<QueuedFrame> queue = {};
-        std::vector<Heard> heard = {};          // the last number of each sender of unicasts
-        std::optional<AirFrame> response = {};  // due after a SIFS
+        /// Last number of each sender of unicasts.
+        std::vector<Heard> heard = {};
+        /// Answer that is due after a SIFS.
+        std::optional<AirFrame> response = {};
     };
 
-    /// The bit rate of a CTS or an ACK. @param rate  of the frame that it answers
+    // Bit rate of a CTS or an ACK that answers a frame of this rate.
     BitRate answer_rate(BitRate rate) const;
     Station& at(NodeId node) { return stations_[node.index()]; }
     Backoff& backoff(NodeId node) { return listening_[node.index()].backoff; }
+    // First frame of the queue, as it goes on air.
     AirFrame data_frame(NodeId node) const;
     static AirFrame control_frame(NodeId from, NodeId to, AirFrame::Kind kind);
+    // Asks for the medium for the first frame of the queue.
     void contend(Air& air, NodeId node);
     void set_timer(Air& air, NodeId node, Time t, Tag tag);
+    // Draws a backoff, which counts from `from` on.
     void draw_backoff(Air& air, NodeId node, Time from);
+    // Sends the first frame of the queue, or an RTS for it.
     void transmit_head(Air& air, NodeId node);
     void transmit_data(Air& air, NodeId node);
+    // Puts a frame on air. @return when it ends
     Time transmit(Air& air, const AirFrame& frame);
+    // Waits for the answer to a frame that ends at `end`.
     void await(Air& air, NodeId node, Time end, State state);
+    // Repeats a frame that was not answered, or gives it up.
     void answer_missing(Air& air, NodeId node);
+    // Answers a frame for this node that has ended.
     void answer_to(Air& air, NodeId node, const AirFrame& frame);
+    // Ends the work on the first frame: sent, or lost for a reason. A backoff begins behind it.
     void finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason);
+    // Sends a frame after a SIFS, whatever the medium is like.
     void respond(Air& air, NodeId node, const AirFrame& frame);
     void send_response(Air& air, NodeId node);
 
     Csma settings_;
+    // Stations by node; a deque does not move them as it grows.
     std::deque<Station> stations_;
-    std::vector<Listening> listening_;  // by node, as stations_
+    // Backoffs by node.
+    std::vector<Listening> listening_;
 };
 
 }  // namespace rovernet

@@ -5,13 +5,16 @@
 
 namespace rovernet {
 
-/// Access model "none": frames go out at once, even over one another.
+/// Access model "none": a frame goes on air at once, even over one of the same node. Nothing waits,
+/// nobody listens, and a unicast is sent once. The default; the lightest load on the computer.
 struct NoAccess {
     static constexpr std::string_view name = "none";
 
+    /// Model at work, for one Network.
     std::unique_ptr<Access> make_access() const { return std::make_unique<AtOnce>(); }
 
   private:
+    // It needs no state.
     class AtOnce final : public Access {
       public:
         void send(Air& air, const QueuedFrame& frame) override {

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/propagation/propagation.hpp"
+#include "models/propagation/propagation_model.hpp"
 
 namespace rovernet {
 
 /// Unit disc: 0 dB up to the range, the range itself included; 1000 dB beyond it.
 ///
-/// Decided on distance, never on decibels. No levels: use it for geometry, not for margins.
-/// Source: the 2007 thesis's "simple" model; link iff d <= range.
+/// It is decided on distance, never on decibels. There are no levels: use it for geometry, not for
+/// margins, and not with reception model "sinr". Source: the 2007 thesis's "simple" model; link iff
+/// d <= range.
 struct Disc {
     static constexpr std::string_view name = "disc";
+    /// Loss beyond the range [dB]: more than any radio overcomes.
     static constexpr double outside_db = 1000;
 
-    Meters range{unset};  ///< [m], >= 0; there is no default
+    /// Radius of the disc [m], >= 0; there is no default.
+    Meters range{unset};
 
     static constexpr auto fields() {
         return describe(field("range", &Disc::range, non_negative, "radius of the disc"));
@@ -21,10 +24,12 @@ struct Disc {
 
     LossShape shape() const { return LossShape::by_distance; }
 
+    /// Distance [m] beyond which the loss is more than `loss`.
     Meters reach(Db loss, Hertz /*frequency*/) const {
         return loss.value < outside_db ? range : Meters{std::numeric_limits<double>::infinity()};
     }
 
+    /// Fills out_db[i] [dB], 0 or outside_db, for the i-th receiver.
     void loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
         const double R2 = range.value * range.value;
         for (std::size_t i = 0; i < out_db.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/propagation/propagation.hpp"
+#include "models/propagation/propagation_model.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>
@@ -9,8 +9,10 @@
 
 namespace rovernet {
 
-/// Free-space loss [dB] between isotropic antennas at distance d [m] > 0 and frequency f [Hz]:
-/// 20 log10(4 pi d f / c). Negative below d = c / (4 pi f), where it means nothing.
+/// Free-space loss [dB] between isotropic antennas at distance d [m] > 0 and frequency f [Hz]: 20
+/// log10(4 pi d f / c). It is negative below d = c / (4 pi f), where it means nothing. Other models
+/// take it as their loss at a reference distance.
+///
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 inline double free_space_db(double d, Hertz f) {
     return 20 * math::log10(4 * std::numbers::pi / speed_of_light * d * f.value);
@@ -19,7 +21,8 @@ inline double free_space_db(double d, Hertz f) {
 /// Free space (Friis):  L(d) = max(0, 20 log10(4 pi d f / c)), and 0 dB at d = 0.
 ///
 /// Valid in the far field, d > max(lambda, 2 D^2 / lambda), with nothing between or near the
-/// antennas. Leaves out ground, walls and every obstacle.
+/// antennas. It leaves out ground, walls and every obstacle. The default model.
+///
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 struct Friis {
     static constexpr std::string_view name = "friis";
@@ -28,10 +31,12 @@ struct Friis {
 
     LossShape shape() const { return LossShape::by_distance; }
 
+    /// Distance [m] at which the loss is `loss`: c / (4 pi f) 10^(loss / 20).
     Meters reach(Db loss, Hertz f) const {
         return {speed_of_light / (4 * std::numbers::pi * f.value) * math::exp10(loss.value / 20)};
     }
 
+    /// Fills out_db[i] [dB] for the i-th receiver.
     void loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
         for (std::size_t i = 0; i < out_db.size(); ++i) {
             out_db[i] = std::max(0.0, free_space_db(links.distance(i), links.frequency));

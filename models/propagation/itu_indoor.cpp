@@ -14,7 +14,7 @@ namespace rovernet {
 namespace {
 
 constexpr double default_coefficient = 30;
-constexpr double widest_ratio = 1.5;  // of the frequency to a table row's
+constexpr double widest_ratio = 1.5;  // of a frequency to that of a row of the tables
 
 struct CoefficientRow {
     Environment environment;
@@ -63,7 +63,7 @@ constexpr std::array floor_losses{
     FloorRow{Environment::commercial, 1900, by_formula, 6, 0, 0, 3},
 };
 
-/// The environment's row nearest in log frequency, or null if none is within widest_ratio.
+/// Row of the environment that is nearest in log frequency; null if none is within widest_ratio.
 template <class Row, std::size_t n>
 const Row* nearest_row(const std::array<Row, n>& rows, Environment environment, double mhz) {
     const Row* best = nullptr;

@@ -10,7 +10,7 @@
 namespace rovernet {
 namespace {
 
-/// The loss without walls [dB], to the last bit itu_indoor_db, whose part of the frequency is
+/// Loss without walls [dB], to the last bit that of itu_indoor_db; the part of the frequency is
 /// computed once.
 class FreeLoss {
   public:
@@ -33,7 +33,8 @@ Meters Raytrace2007::reach(Db loss, Hertz f) const {
 void Raytrace2007::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
     if (!links.scene->plain_walls()) return loss_by_materials(links, give_up, out_db);
     const double db_per_metre = 100 * wall_factor;
-    // A hair more than the budget buys, so that rounding never cuts a link that is just up.
+    // The ray goes a hair farther than the budget buys, so that rounding never cuts a link that is
+    // just up.
     constexpr double slack = 1 + 1e-12;
     const FreeLoss free_loss(links.frequency, coefficient);
     for (std::size_t i = 0; i < out_db.size(); ++i) {

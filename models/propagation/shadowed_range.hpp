@@ -16,46 +16,57 @@
 namespace rovernet {
 
 /// Loss [dB] with log-normal shadowing, of distance d [m] >= 0 and a standard normal draw x:
+///
 ///   L(d, x) = max(0, median(d) + sigma clamp(x, -5, 5)),
 ///   median(d) = L0 + S log10(max(d / d0, 1)).
 struct ShadowedLoss {
+    /// Standard deviations at which draws are cut [-].
     static constexpr double cut_sigmas = 5;
 
-    double at_reference;        ///< L0 [dB]
-    double per_decade;          ///< S [dB], > 0
-    double reference_distance;  ///< d0 [m], > 0
-    double sigma;               ///< [dB], >= 0
+    /// Loss at the reference distance, L0 [dB].
+    double at_reference;
+    /// Slope S [dB per decade of distance], > 0.
+    double per_decade;
+    /// Reference distance d0 [m], > 0.
+    double reference_distance;
+    /// Standard deviation of shadowing [dB], >= 0.
+    double sigma;
 
+    /// Median loss at d above that at the reference distance [dB].
     double rise(double d) const {
         return per_decade * math::log10(std::max(d / reference_distance, 1.0));
     }
+    /// Median loss [dB].
     double median(double d) const { return at_reference + rise(d); }
+    /// Loss with the draw x [dB].
     double operator()(double d, double x) const {
         return std::max(0.0, median(d) + sigma * std::clamp(x, -cut_sigmas, cut_sigmas));
     }
-    /// The distance [m] whose median loss is `loss` [dB], but for rounding; at least d0.
+    /// Distance [m] whose median loss is `loss` [dB], but for rounding; at least d0.
     double distance(double loss) const {
         return reference_distance * math::exp10(std::max(0.0, (loss - at_reference) / per_decade));
     }
 };
 
-/// The draws x of links, one for each unordered pair of robots' keys.
+/// Draws x of links, one for each unordered pair of robots' keys.
 inline PairDraws shadowing_draws(std::uint64_t seed, std::uint32_t replication) {
     return {seed, replication, Purpose::link_shadowing};
 }
 
-/// Which links of one link budget are up, when the loss is a ShadowedLoss of the pair's own draw:
-/// the loss's own decision to the last bit, without a logarithm, a square root or a normal draw.
+/// Table that decides which links of one link budget are up, when the loss is a ShadowedLoss of the
+/// pair's own draw: the loss's own decision to the last bit, without a logarithm, a square root or
+/// a normal draw.
 ///
-/// A table over the squared distance, in cells of equal width between powers of two, tells how many
-/// of the 2^31 draws are in range throughout the cell, and how many somewhere. A draw in between is
-/// rare (computed_share()) and has its loss computed. At most 16 KiB.
+/// The table is over the squared distance, in cells of equal width between powers of two. A cell
+/// tells how many of the 2^31 draws are in range throughout it, and how many somewhere. A draw in
+/// between is rare (computed_share()) and has its loss computed. A table takes 16 KiB at most; the
+/// medium keeps one for each pair of kinds of radios.
 class ShadowedRange {
   public:
     /// @param budget  greatest loss with which a link is up
     ShadowedRange(const ShadowedLoss& loss, Db budget);
 
-    /// The loss is within the budget.
+    /// Whether the loss is within the budget.
     /// @param squared_distance  of the antennas [m^2], >= 0
     /// @param bits              of the pair's draw, by shadowing_draws() of the run
     bool in_range(double squared_distance, std::uint64_t bits) const {
@@ -66,8 +77,8 @@ class ShadowedRange {
         return draw < here.sure;
     }
 
-    /// Of the draws 0, 1 ... 2^31 - 1, only so many first ones may be in range at squared distances
-    /// [m^2] from `at_least` on.
+    /// Number of draws that may be in range at squared distances [m^2] from `at_least` on: of the
+    /// draws 0, 1 ... 2^31 - 1 only so many first ones.
     std::uint32_t most_draws(double at_least) const {
         const Cell& nearest = cell(at_least);
         return nearest.sure + nearest.open;
@@ -81,16 +92,20 @@ class ShadowedRange {
   private:
     static constexpr std::uint64_t most_cells = 2048;
 
-    /// Of the draws 0, 1 ... 2^31 - 1, low ones for low losses, the first `sure` are in range and
-    /// the next `open` not everywhere in the cell.
+    /// Cell of the table. Of the draws 0, 1 ... 2^31 - 1, low ones for low losses, the first `sure`
+    /// are in range and the next `open` not everywhere in the cell.
     struct Cell {
         std::uint32_t sure;
         std::uint32_t open;
     };
 
+    // Chooses the width of cells: as narrow as their number allows.
     void choose_cells();
+    // Cell of the squared distances [m^2] from `nearest` to `farthest`.
     Cell fill(double nearest, double farthest) const;
+    // Decision by the loss itself, for draws that the table leaves open.
     bool computed(double squared_distance, std::uint64_t bits) const;
+    // Cell of a squared distance [m^2].
     const Cell& cell(double squared_distance) const {
         // Non-negative numbers are in the order of their bits.
         const std::uint64_t number = std::bit_cast<std::uint64_t>(squared_distance) >> shift_;
@@ -98,18 +113,21 @@ class ShadowedRange {
     }
 
     ShadowedLoss loss_;
+    // Greatest loss with which a link is up [dB].
     double budget_;
-    int shift_ = 0;            // bits of a squared distance that its cell's number leaves out
-    std::uint64_t first_ = 0;  // number of the first cell, which begins at 0
-    std::uint64_t last_ = 0;   // number of the last cell, which has no end
+    // Bits of a squared distance that the number of its cell leaves out.
+    int shift_ = 0;
+    // Number of the first cell, which begins at 0, and of the last, which has no end.
+    std::uint64_t first_ = 0;
+    std::uint64_t last_ = 0;
     std::vector<Cell> cells_;
 };
 
-/// A first look at pairs that rules out most of those that are out of range: coarser than
-/// ShadowedRange and cheaper.
+/// First look at pairs that rules out most of those that are out of range: coarser than
+/// ShadowedRange and cheaper, with one table for all kinds of receivers of a sender.
 class FirstLook {
   public:
-    /// @param squared_reach  [m^2] nobody farther is in range
+    /// @param squared_reach  squared distance [m^2] beyond which nobody is in range
     explicit FirstLook(double squared_reach) : scale_(static_cast<float>(cells / squared_reach)) {}
 
     /// Lets those pass, too, that are in `range`.
@@ -120,8 +138,8 @@ class FirstLook {
             most_draws_[i] = std::max(most_draws_[i], range.most_draws(nearest));
         }
     }
-    /// False only if pairs of these bits of the draws are out of range at all squared distances
-    /// [m^2] from `at_least` on, >= 0.
+    /// Whether a pair with these bits of its draw may be in range at squared distances [m^2] from
+    /// `at_least` >= 0 on; if not, it is out of range at all of them.
     bool passes(float at_least, std::uint64_t bits) const {
         const float scaled = at_least * scale_;
         const auto cell = static_cast<std::int32_t>(scaled < cells ? scaled : cells);
@@ -129,9 +147,12 @@ class FirstLook {
     }
 
   private:
-    static constexpr std::uint16_t cells = 255;  // the last one has no end
+    // Cells of equal width; one more has no end.
+    static constexpr std::uint16_t cells = 255;
 
-    float scale_;  // [1/m^2]
+    // Cells in a square metre [1/m^2].
+    float scale_;
+    // Number of draws that may be in range, by cell.
     std::array<std::uint32_t, cells + 1> most_draws_{};
 };
 

@@ -29,7 +29,7 @@ void CollisionJudge::judge(Interference& air, const Emission& judged, Frames oth
                            Reception& reception) {
     if (others.empty()) return;
     const NodeId node = reception.node;
-    const Time since = judged.begin - air.longest_delay();  // who was over by then met it nowhere
+    const Time since = judged.begin - air.longest_delay();  // frames over by then met it nowhere
     constexpr double open = std::numeric_limits<double>::quiet_NaN();
     Arrival signal{.begin = reception.time - (judged.end - judged.begin),
                    .end = reception.time,
@@ -53,10 +53,11 @@ void CollisionJudge::judge(Interference& air, const Emission& judged, Frames oth
     }
 }
 
-/// `node`, where `frame` arrives, was at one of the `others` when it began, and let it pass.
+/// Whether `node`, where `frame` arrives, was at one of the `others` when it began, and let it
+/// pass.
 bool CollisionJudge::was_let_pass(Interference& air, const Emission& frame, Arrival& arrives,
                                   Frames others, NodeId node) const {
-    const Time over = arrives.begin - air.longest_delay();  // who was so by then was so here
+    const Time over = arrives.begin - air.longest_delay();  // frames over by then were so here
     const auto is_stronger = [&](Arrival& a, Arrival& b, Db by) {
         return air.is_stronger(a, b, by, node);
     };

@@ -21,14 +21,14 @@ std::uint64_t Interference::add(Emission frame, BitRate rate,
 
 void Interference::judge(std::uint64_t serial, std::span<Reception> receptions, Time now) {
     const Emission& judged = on_air_[serial];
-    // What was over by `since` or begins at `until` arrives nowhere together with it; nor, where
-    // that matters, with what its receivers may have been at before.
+    // Frames that were over by `since` or begin at `until` arrive nowhere together with it; nor, if
+    // that matters, with frames that its receivers may have been at before.
     const Duration past = judge_->looks_back() ? on_air_.longest() : Duration{0};
     const Time since = judged.begin - longest_delay() - past;
     const Time until = judged.end + longest_delay();
     const bool all_frames = settings_.all_frames;
     const Frames nearby = all_frames ? Frames{} : on_air_.near(judged, since, until, now);
-    if (!nearby.empty()) {  // together, so that none waits for the one before
+    if (!nearby.empty()) {  // all at once, so that no load waits for the one before
         for (const Reception& r : receptions) settings_.medium->prefetch_position(r.node);
     }
     all_.clear();

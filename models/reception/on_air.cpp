@@ -56,7 +56,7 @@ std::span<const Emission* const> OnAir::near(const Emission& frame, Time since, 
                 for (; serial != none; serial = next_[serial - first_]) {
                     const Emission& other = (*this)[serial];
                     const double d2 = squared_distance(frame.origin, other.origin);
-                    // Without a branch: it would be mispredicted for many.
+                    // The conditions take no branch, which would be mispredicted for many.
                     const std::size_t lasts = other.end > since, begun = other.begin < until;
                     const std::size_t reaches = d2 <= reach * reach,
                                       another = serial != frame.serial;
@@ -83,7 +83,7 @@ std::uint64_t OnAir::add(Emission frame) {
     return frame.serial;
 }
 
-/// Cells as wide as frames disturb: a query looks at a few of them.
+/// Lays the grid with cells as wide as frames interfere: a query looks at a few of them.
 void OnAir::lay_grid() {
     constexpr double narrowest = 1, widest = 1e9;  // [m]
     columns_ = rows_ = WrappedAxis(std::clamp(reach_, narrowest, widest), side);

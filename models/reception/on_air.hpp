@@ -20,19 +20,25 @@
 
 namespace rovernet {
 
-/// The frames that are on air, and those that were so lately that they may still matter.
+/// Frames that are on air, and those that were so lately that they may still matter.
 ///
-/// Kept once each, where they were sent: who receives a frame asks what else was on air around it,
-/// so that a frame that meets no other costs hardly anything. Since a frame's levels are fixed when
-/// it begins, what nodes were before their legs or radios changed is kept as long as the frames.
+/// Each is kept once, where it was sent: who receives a frame asks what else was on air around it,
+/// so that a frame that meets no other costs hardly anything. As a frame's levels are fixed when it
+/// begins, what nodes were before their legs or radios changed is kept as long as the frames.
+///
+/// The frames lie in a grid of 64 x 64 cells that wraps around, each as wide as frames interfere.
+/// Interference owns one.
 class OnAir {
   public:
-    /// A node goes along `leg` from now on.
+    /// Takes note of a leg that some node goes along: it bounds speeds, and where antennas are.
+    /// @param antenna_height  height above the robot's z [m]
     void goes(const Leg& leg, Meters antenna_height);
-    /// What `node` has been until now, and since its last change; kept if there are frames.
+    /// Keeps what `node` has been until now, and since its last change, if there are frames.
+    /// @param leg  leg until now
+    /// @param on   whether its radio was on until now
     void changes(NodeId node, const Leg& leg, bool on);
 
-    /// Adds a frame; `begin` must not decrease. @return its serial
+    /// Adds a frame; its `begin` must not be before that of the frame before. @return its serial
     std::uint64_t add(Emission frame);
     /// Forgets the first frames, as long as they ended by `t`, and calls use(frame) for each.
     template <class Use>
@@ -46,54 +52,63 @@ class OnAir {
             ++first_change_;
         }
     }
+    /// Frame of that serial, which must be kept.
     const Emission& operator[](std::uint64_t serial) const { return frames_[serial - first_]; }
 
-    /// All, in the order of their serials.
+    /// Frames that are kept, in the order of their serials.
     const std::deque<Emission>& frames() const { return frames_; }
-    /// Of the others that end after `since` and begin before `until`, those that may disturb a
-    /// receiver of `frame` by `now`, and some more; good until the next call. Receivers that
-    /// changed lately may meet further ones.
+    /// Frames that end after `since` and begin before `until`, and may interfere with a receiver of
+    /// `frame` by `now`; some more may be among them, `frame` itself is not. Receivers that changed
+    /// lately may meet further ones, see has_changed().
+    /// @return in no order to rely on; good until the next call
     std::span<const Emission* const> near(const Emission& frame, Time since, Time until, Time now);
 
-    /// A node before it changed.
+    /// State of a node before it changed.
     struct Before {
         Leg leg;
         bool on;
-        std::uint64_t serial;    // of the next frame
-        std::uint64_t previous;  // change of the same node
+        /// Serial of the first frame after the change.
+        std::uint64_t serial;
+        /// Number of the change of the same node before this one.
+        std::uint64_t previous;
     };
-    /// The node's leg or radio has changed since a frame began that is kept.
+    /// Whether the node's leg or radio has changed since a frame began that is kept.
     bool has_changed(NodeId node) const {
         return !changes_.empty() && last_change(node) >= first_change_;
     }
-    /// What the node was when the frame began; null if it has not changed since.
+    /// State of the node when the frame began; null if it has not changed since.
     const Before* before(NodeId node, const Emission& frame) const;
 
-    /// [ns] of the longest frame
+    /// Time on air of the longest frame so far [ns].
     Duration longest() const { return longest_; }
-    /// [m] no frame disturbs anybody farther away, nor is anybody farther away
+    /// Distance [m] beyond which no frame interferes with anybody, or beyond which nobody is.
     double reach() const {
         constexpr double anywhere = 4e15;
         return std::min({reach_, distance(low_, high_), anywhere});
     }
 
   private:
-    static constexpr std::size_t side = 64;  // [cells] of the grid
+    // Cells of the grid along each axis.
+    static constexpr std::size_t side = 64;
     static constexpr std::uint64_t none = ~std::uint64_t{0};
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    /// The frames that were sent there, as a chain of serials.
+    /// Frames that were sent in a cell, as a chain of serials.
     struct Cell {
         std::uint64_t oldest = none, newest = none;
     };
 
+    // Number of the node's last change; 0 if there is none.
     std::uint64_t last_change(NodeId node) const {
         return node.index() < last_change_.size() ? last_change_[node.index()] : 0;
     }
+    // Lays the grid anew, as wide as frames interfere now.
     void lay_grid();
+    // Puts a frame at the end of its cell's chain.
     void file(std::uint64_t serial);
+    // Removes the first frame.
     void take_off();
-    /// Cells of one row as bits.
+    // Cells of one row as bits.
     static std::uint64_t bits(WrappedAxis::Cells cells) {
         const auto first = [](std::size_t n) {
             return n < side ? (std::uint64_t{1} << n) - 1 : none;
@@ -101,22 +116,29 @@ class OnAir {
         return (first(cells.end) & ~first(cells.begin)) | first(cells.wrapped_end);
     }
 
-    std::deque<Emission> frames_;     // in the order of their serials
-    std::deque<std::uint64_t> next_;  // of each, the serial of the next in its cell
-    std::uint64_t first_ = 0;         // serial of the first
+    // Frames in the order of their serials; for each the serial of the next in its cell; serial of
+    // the first.
+    std::deque<Emission> frames_;
+    std::deque<std::uint64_t> next_;
+    std::uint64_t first_ = 0;
     WrappedAxis columns_, rows_;
-    std::vector<Cell> cells_;                 // row by row
-    std::array<std::uint64_t, side> used_{};  // by row, a bit for each cell that is not empty
-    std::vector<const Emission*> near_;       // begins with the result of near()
+    // Cells, row by row; for each row a bit for each cell that is not empty.
+    std::vector<Cell> cells_;
+    std::array<std::uint64_t, side> used_{};
+    // Memory whose begin is the result of near().
+    std::vector<const Emission*> near_;
 
-    std::deque<Before> changes_;              // numbered in their order, from 1 on
-    std::uint64_t first_change_ = 1;          // number of the first that is kept
-    std::vector<std::uint64_t> last_change_;  // number, by node
+    // Changes, numbered in their order from 1 on; number of the first that is kept, and of each
+    // node's last.
+    std::deque<Before> changes_;
+    std::uint64_t first_change_ = 1;
+    std::vector<std::uint64_t> last_change_;
 
     Duration longest_{0};
-    double reach_ = 0;    // [m] of the frames so far
-    double fastest_ = 0;  // [m/s]
-    // All antennas are between them [m].
+    // Bounds over all frames and nodes so far: distance of interference [m], speed [m/s], box
+    // around antennas [m].
+    double reach_ = 0;
+    double fastest_ = 0;
     Vec3 low_ = {infinity, infinity, infinity}, high_ = {-infinity, -infinity, -infinity};
 };
 

@@ -28,11 +28,11 @@ class SinrJudge final : public Judge {
                Reception& reception) override;
 
   private:
-    /// A frame on air, beside its Emission.
+    /// Frame on air: what the judge keeps of it beside its Emission.
     struct Sent {
-        SinrFrame frame;                ///< but for the noise
-        std::uint32_t number;           ///< among those of its sender
-        std::vector<NodeId> receivers;  ///< those that can decode it ...
+        SinrFrame frame;                ///< without the noise, which is the receiver's
+        std::uint32_t number;           ///< number among the frames of its sender
+        std::vector<NodeId> receivers;  ///< nodes that can decode it ...
         std::vector<Lock> locks;        ///< ... and what they made of it
     };
     static Lock* lock_of(Sent& sent, NodeId node);
@@ -65,7 +65,7 @@ void SinrJudge::begins(const SentFrame& frame) {
     sent.locks.assign(sent.receivers.size(), Lock::open);
 }
 
-/// What `node` made of a frame; null if it could not decode it.
+/// Lock of `node` on a frame; null if it could not decode it.
 Lock* SinrJudge::lock_of(Sent& sent, NodeId node) {
     const auto found = std::find(sent.receivers.begin(), sent.receivers.end(), node);
     if (found == sent.receivers.end()) return nullptr;
