@@ -8,6 +8,10 @@
 #include <string_view>
 #include <vector>
 
+// Pure and slotted ALOHA: the simplest access that has a queue. In code:
+//
+//     Network network({.access = Aloha{.slot = 1ms}});
+
 namespace rovernet {
 
 /// Settings of ALOHA.

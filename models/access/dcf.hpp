@@ -15,6 +15,10 @@
 #include <utility>
 #include <vector>
 
+// Carrier sense multiple access as in Wi-Fi. In code:
+//
+//     Network network({.reception = Sinr{}, .access = Csma{.rts_threshold = 500}});
+
 namespace rovernet {
 
 /// Settings of the 802.11 DCF. Defaults are those of 802.11b.

@@ -3,6 +3,8 @@
 
 #include "models/access/access.hpp"
 
+// No access control: what a network does unless settings say otherwise.
+
 namespace rovernet {
 
 /// Access model "none": a frame goes on air at once, even over one of the same node. Nothing waits,
@@ -14,7 +16,7 @@ struct NoAccess {
     std::unique_ptr<Access> make_access() const { return std::make_unique<AtOnce>(); }
 
   private:
-    // It needs no state.
+    // Model at work: it needs no state.
     class AtOnce final : public Access {
       public:
         void send(Air& air, const QueuedFrame& frame) override {

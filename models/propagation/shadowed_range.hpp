@@ -13,6 +13,10 @@
 #include <cstdint>
 #include <vector>
 
+// Links under shadowing, decided without computing their loss. A draw belongs to each pair of
+// robots; most draws decide a link by the distance alone, and a table tells which. A model takes
+// part by its shadowed_loss().
+
 namespace rovernet {
 
 /// Loss [dB] with log-normal shadowing, of distance d [m] >= 0 and a standard normal draw x:

@@ -10,6 +10,10 @@
 #include <memory>
 #include <string_view>
 
+// Reception with overlap, capture and half-duplex, but without powers added up. In code:
+//
+//     Network network({.reception = Collision{.capture_ratio = Db{6}}});
+
 namespace rovernet {
 
 /// Order in which two frames that overlap may begin for one to survive (capture).

@@ -65,6 +65,7 @@ class OnAir {
 
     /// State of a node before it changed.
     struct Before {
+        /// Leg and state of the radio until then.
         Leg leg;
         bool on;
         /// Serial of the first frame after the change.
@@ -93,7 +94,7 @@ class OnAir {
     static constexpr std::uint64_t none = ~std::uint64_t{0};
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    /// Frames that were sent in a cell, as a chain of serials.
+    // Frames that were sent in a cell, as a chain of serials.
     struct Cell {
         std::uint64_t oldest = none, newest = none;
     };
@@ -121,6 +122,7 @@ class OnAir {
     std::deque<Emission> frames_;
     std::deque<std::uint64_t> next_;
     std::uint64_t first_ = 0;
+    // Axes of the grid.
     WrappedAxis columns_, rows_;
     // Cells, row by row; for each row a bit for each cell that is not empty.
     std::vector<Cell> cells_;
@@ -134,6 +136,7 @@ class OnAir {
     std::uint64_t first_change_ = 1;
     std::vector<std::uint64_t> last_change_;
 
+    // Longest time on air so far [ns].
     Duration longest_{0};
     // Bounds over all frames and nodes so far: distance of interference [m], speed [m/s], box
     // around antennas [m].
