@@ -8,25 +8,30 @@
 #include <algorithm>
 #include <utility>
 
+// Link budgets: levels from powers, gains and losses. Medium asks them; whoever adds a gain to a
+// link adds it in LinkGain.
+
 namespace rovernet {
 
-/// An antenna as a link sees it: where it is, and where its robot heads.
+/// Pose of an antenna, as a link sees it: where it is, and where its robot heads.
 struct Pose {
-    Vec3 antenna;        ///< [m]
-    Radians heading{0};  ///< counter-clockwise from the x axis
+    /// Position of the antenna [m].
+    Vec3 antenna;
+    /// Heading of the robot [rad], counter-clockwise from the x axis.
+    Radians heading{0};
 };
 
-/// What antennas and cables add to the level of a frame [dB], by end of the link. Gains are added
-/// here and nowhere else.
+/// Gain of antennas and cables on a link [dB], by its ends. Gains are added here and nowhere else.
 struct LinkGain {
+    /// Gain less cable loss at each end.
     Db sender, receiver;
 
-    /// The largest gains, whatever the poses of the antennas: they bound the search for receivers.
+    /// Largest gains, whatever the poses of the antennas: they bound the search for receivers.
     static constexpr LinkGain most(const Radio& from, const Radio& to) {
         return {from.antenna_gain - from.cable_loss, to.antenna_gain - to.cable_loss};
     }
-    /// The gains of antennas in their poses. All antennas are isotropic, so that poses are not
-    /// asked for, and cost nothing.
+    /// Gains of antennas in their poses. All antennas are isotropic, so that poses are not asked
+    /// for, and cost nothing.
     /// @param poses  returns the Pose of the sender's antenna and that of the receiver's, as a pair
     template <class Poses>
     static constexpr LinkGain of(const Radio& from, const Radio& to, const Poses& /*poses*/) {
@@ -34,21 +39,25 @@ struct LinkGain {
     }
 };
 
-/// The largest path loss [dB] at which `to` still receives `from`:
-/// power + gain - cable loss of the transmitter, + gain - cable loss - sensitivity of the receiver.
+/// Largest path loss [dB] at which `to` still receives `from`: power + gain - cable loss of the
+/// transmitter, + gain - cable loss - sensitivity of the receiver. The link is up if its loss is no
+/// larger.
+///
 /// Source: the 2007 thesis, table 3.1, with the sensitivity subtracted as it must be.
 constexpr Db link_budget(const Radio& from, const Radio& to, LinkGain gain) {
     return (from.power - to.sensitivity) + gain.sender + gain.receiver;
 }
+/// Link budget with the largest gains [dB].
 constexpr Db link_budget(const Radio& from, const Radio& to) {
     return link_budget(from, to, LinkGain::most(from, to));
 }
 
-/// The largest path loss [dB] at which `to` senses that `from` sends; no less than link_budget.
+/// Largest path loss [dB] at which `to` senses that `from` sends; no less than link_budget.
 constexpr Db sensing_budget(const Radio& from, const Radio& to, LinkGain gain) {
     const Dbm threshold = to.carrier_sense_threshold.value_or(to.sensitivity);
     return link_budget(from, to, gain) + std::max(Db{0}, to.sensitivity - threshold);
 }
+/// Sensing budget with the largest gains [dB].
 constexpr Db sensing_budget(const Radio& from, const Radio& to) {
     return sensing_budget(from, to, LinkGain::most(from, to));
 }
@@ -57,6 +66,7 @@ constexpr Db sensing_budget(const Radio& from, const Radio& to) {
 constexpr Dbm received_power(const Radio& from, Db path_loss, LinkGain gain) {
     return from.power + gain.sender - path_loss + gain.receiver;
 }
+/// Received power with the largest gains [dBm].
 constexpr Dbm received_power(const Radio& from, const Radio& to, Db path_loss) {
     return received_power(from, path_loss, LinkGain::most(from, to));
 }

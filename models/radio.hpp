@@ -10,19 +10,27 @@
 #include <string>
 #include <string_view>
 
+// Radios of robots. A scenario file has their parameters in [radio] and in a robot's own `radio`;
+// in code they are designated:
+//
+//     network.add({.name = "A", .radio = {.power = 20_dBm, .rate = 11_Mbps}});
+
 namespace rovernet {
 
-/// Who a radio can have links with.
+/// Gate of a radio: whom it can have links with.
 enum class Gate {
-    network,  ///< radios of its network only: same essid ("any" joins all), channel and frequency
-    none,     ///< every radio that is near enough
+    /// Radios of its network only: same essid ("any" joins all), channel and frequency.
+    network,
+    /// Every radio that is near enough.
+    none,
 };
 template <>
 struct EnumNames<Gate> {
     static constexpr std::array<std::string_view, 2> values = {"network", "none"};
 };
 
-/// How a wireless device takes part in its network (IEEE 802.11), for the robot's own tables.
+/// Mode in which a wireless device takes part in its network (IEEE 802.11), for the robot's own
+/// tables; it changes no link.
 enum class WifiMode { automatic, adhoc, infrastructure, master, repeater, secondary };
 template <>
 struct EnumNames<WifiMode> {
@@ -30,35 +38,53 @@ struct EnumNames<WifiMode> {
         "auto", "adhoc", "infrastructure", "master", "repeater", "secondary"};
 };
 
-/// A robot's radio. The defaults are the 2007 device's where it had one (45 mW, 2450 MHz, -75 dBm)
+/// Radio of a robot. The defaults are the 2007 device's where it had one (45 mW, 2450 MHz, -75 dBm)
 /// and IEEE 802.11b's otherwise (11 Mb/s, long preamble).
 struct Radio {
-    Dbm power{16.532125137753436};  ///< [dBm] transmitter output; the default is 45 mW
-    Dbm sensitivity{-75};           ///< [dBm] the weakest signal that is received
-    /// [dBm] the weakest signal that is sensed; the sensitivity if not given. Weaker ones are as if
+    /// Output of the transmitter [dBm]; the default is 45 mW.
+    Dbm power{16.532125137753436};
+    /// Weakest signal that is received [dBm].
+    Dbm sensitivity{-75};
+    /// Weakest signal that is sensed [dBm]; the sensitivity if not given. Weaker ones are as if
     /// they were not there.
     std::optional<Dbm> carrier_sense_threshold = std::nullopt;
-    Hertz frequency{2450e6};     ///< [Hz]
-    BitRate rate{11e6};          ///< [bit/s]
-    Duration preamble{192'000};  ///< [ns] sent before the first bit
-    Db antenna_gain{0};          ///< [dBi]
-    Db cable_loss{0};            ///< [dB]
-    Meters antenna_height{1};    ///< [m] above the robot's own z
-    Hertz bandwidth{22e6};       ///< [Hz] of the receiver's filter, for its noise
-    Db noise_figure{7};          ///< [dB] of the receiver
-    double success_rate = 1;     ///< [-] share of its frames that get through where they reach
+    /// Carrier frequency [Hz], of path losses, and for the gate.
+    Hertz frequency{2450e6};
+    /// Bit rate of what it sends [bit/s].
+    BitRate rate{11e6};
+    /// Time [ns] sent before the first bit.
+    Duration preamble{192'000};
+    /// Gain of the antenna [dBi], both ways.
+    Db antenna_gain{0};
+    /// Loss between radio and antenna [dB].
+    Db cable_loss{0};
+    /// Height of the antenna above the robot's own z [m].
+    Meters antenna_height{1};
+    /// Bandwidth of the receiver's filter [Hz], for its noise.
+    Hertz bandwidth{22e6};
+    /// Noise figure of the receiver [dB].
+    Db noise_figure{7};
+    /// Share of its frames that get through where they reach [-], drawn for each receiver.
+    double success_rate = 1;
 
-    std::string essid = "any";  ///< name of its network; "any" joins all
-    int channel = 0;            ///< number that both ends must share; 0 if not used
-    Gate gate = Gate::network;  ///< with whom it may have links
-    std::optional<std::string> ip =
-        std::nullopt;                       ///< unique; the Network gives one if there is none
-    std::string netmask = "255.255.255.0";  ///< a label
-    std::optional<std::string> mac =
-        std::nullopt;                            ///< unique; the Network gives one if there is none
-    WifiMode mode = WifiMode::adhoc;             ///< a label
-    bool encryption = false;                     ///< a label
-    std::optional<Dbm> range_db = std::nullopt;  ///< [dBm] level that pictures draw as a contour
+    /// Name of its network; "any" joins all.
+    std::string essid = "any";
+    /// Number that both ends must share; 0 if not used.
+    int channel = 0;
+    /// Gate: whom it may have links with.
+    Gate gate = Gate::network;
+    /// Address, unique; tables make one if there is none.
+    std::optional<std::string> ip = std::nullopt;
+    /// Netmask of its address; a label.
+    std::string netmask = "255.255.255.0";
+    /// Hardware address, unique; tables make one if there is none.
+    std::optional<std::string> mac = std::nullopt;
+    /// Mode in its network; a label.
+    WifiMode mode = WifiMode::adhoc;
+    /// Encryption; a label.
+    bool encryption = false;
+    /// Level [dBm] that pictures draw as a contour.
+    std::optional<Dbm> range_db = std::nullopt;
 
     friend bool operator==(const Radio&, const Radio&) = default;
 
@@ -93,10 +119,12 @@ struct Radio {
     }
 };
 
-/// Thermal noise at 290 K in a bandwidth, plus the receiver's noise figure:
-/// -173.975 dBm + 10 log10(B / 1 Hz) + NF. Source: k T_0 with the CODATA 2018 value of k.
+/// Thermal noise at 290 K in a bandwidth, plus the receiver's noise figure: -173.975 dBm + 10
+/// log10(B / 1 Hz) + NF.
+///
+/// Source: k T_0 with the CODATA 2018 value of k.
 Dbm noise_floor(Hertz bandwidth, Db noise_figure);
-/// That of a radio's receiver.
+/// Noise of a radio's receiver [dBm].
 Dbm noise_floor(const Radio& radio);
 
 }  // namespace rovernet

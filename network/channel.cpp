@@ -85,7 +85,7 @@ std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending&
     if (interference_) put_on_air(slot, how);
     const bool errors = world_.medium.radio(frame.sender).success_rate < 1;
     if (errors) garble(flight);
-    flight.undisturbed = !errors && !interference_;
+    flight.error_free = !errors && !interference_;
     const std::span<const Reception> all = flight.receivers.all();
     if (all.empty()) {
         if (!interference_) flights_.release(slot);
@@ -229,7 +229,7 @@ void Channel::arrive(const Event& event) {
         const std::span<const Dbm> levels =
             flight.levels.empty() ? std::span<const Dbm>{}
                                   : std::span(flight.levels).subspan(begin, ended.size());
-        user_.arrived(flight.air, {ended, levels, flight.undisturbed});
+        user_.arrived(flight.air, {ended, levels, flight.error_free});
         if (flight.arrived == flight.receivers.all().size()) break;
         key = event.key.at(flight.receivers.all()[flight.arrived].time);
         const bool is_next = key.time() <= world_.end_of_run && world_.events.runs_before_next(key);

@@ -29,7 +29,7 @@ struct Arriving {
     /// Received power of each [dBm]; empty unless somebody wants it.
     std::span<const Dbm> levels;
     /// No reception has errors: neither interference nor the sender's success rate takes any.
-    bool undisturbed;
+    bool error_free;
 };
 
 /// Layer above the channel, as the channel knows it. Mac is one.
@@ -100,7 +100,7 @@ class Channel {
         /// Received power of each reception [dBm], if somebody wants it.
         std::vector<Dbm> levels;
         std::size_t arrived = 0;
-        bool undisturbed = false;
+        bool error_free = false;
     };
 
     // Finds receivers, and tells all that sense the frame.

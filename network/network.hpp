@@ -25,17 +25,26 @@
 
 namespace rovernet {
 
-/// How a message came.
+/// Way of a message to the node that is handed it.
 struct Heard {
-    int hops;  ///< that it crossed
+    /// Hops that it crossed.
+    int hops;
 };
 
-/// A sink of a Network.
+/// Number of a sink of a Network, to remove it by.
 using SinkId = std::uint32_t;
 
 class Engine;
 
-/// Robots, their radios and what they say to each other, in one simulated world.
+/// Robots, their radios and what they say to each other, in one simulated world. It is the face of
+/// the library:
+///
+///   Network network({.seed = 1});
+///   const NodeId a = network.add({.name = "A", .at = {0, 0}});
+///   network.add({.name = "B", .at = {80, 0}});
+///   network.route(Flood{.ttl = 3});
+///   network.at(start_of_run + 1s, [&] { network.broadcast(a, "hello"); });
+///   network.run_for(10s);
 ///
 /// Two Networks in one process never interact. Not thread-safe; each thread runs its own.
 class Network {
@@ -46,37 +55,39 @@ class Network {
     Network(const Network&) = delete;  // actions and reactions refer to it
     Network& operator=(const Network&) = delete;
 
-    /// Room for `robots` robots in all: spares the memory that growing step by step would leave.
+    /// Makes room for `robots` robots in all: spares the memory that growing step by step would
+    /// leave.
     void reserve(std::size_t robots);
     /// Adds a robot, switched on. Its movement begins now.
     /// @throws std::invalid_argument for a name that is taken or a parameter out of its range
     NodeId add(Robot robot);
-    /// All robots run this protocol from now on. @throws std::invalid_argument if there is one
+    /// Gives all robots their routing protocol. @throws std::invalid_argument if there is one
     void route(Router router);
-    /// Every record of the kinds that it asks for reaches `sink`, from now on. It begins with the
-    /// run, or now if that has begun.
+    /// Adds a sink: every record of the kinds that it asks for reaches it from now on. It begins
+    /// with the run, or now if that has begun.
     SinkId add_sink(Sink sink);
-    /// The same, under the name that says what it is for: net.trace_to(Ns2Trace{"run.tr"}).
+    /// Adds a sink, under the name that says what it is for: net.trace_to(Ns2Trace{"run.tr"}).
     SinkId trace_to(Sink sink) { return add_sink(std::move(sink)); }
-    /// The sink gets no more records; it is not finished. Not from within a sink.
+    /// Removes a sink: it gets no more records, and is not finished. Not from within a sink.
     void remove_sink(SinkId sink);
 
-    /// `node` sends a message to everyone. One that is off says nothing.
-    /// @param size  [bytes] on air; the payload's length if not given
+    /// Sends a message from `node` to everyone. A node that is off says nothing.
+    /// @param size  on air [bytes]; the payload's length if not given
+    /// @param flow  flow that the message belongs to, from 1; 0: none
     /// @throws std::invalid_argument if no protocol is set
-    /// @param flow  the flow that the message belongs to, from 1; 0: none
     void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {},
                    std::uint32_t flow = 0);
-    /// `node` sends a message to `to` by the routing protocol. @param size  as for broadcast()
+    /// Sends a message from `node` to `to` by the routing protocol. Parameters as for broadcast().
     /// @throws std::invalid_argument if no protocol is set, or it brings messages to everyone only
     void send(NodeId node, NodeId to, std::string payload, std::optional<std::uint32_t> size = {},
               std::uint32_t flow = 0);
-    /// `node` sends a message to `to`, one hop, without routing: the access model "csma" repeats it
-    /// until it is acknowledged or given up. @param size  as for broadcast()
+    /// Sends a message from `node` to `to` over one hop, without routing: the access model "csma"
+    /// repeats it until it is acknowledged or given up. Parameters as for broadcast().
     void unicast(NodeId node, NodeId to, std::string payload,
                  std::optional<std::uint32_t> size = {}, std::uint32_t flow = 0);
-    /// From now on `node` always has a message of `size` [bytes] to send to `to`, or to everyone in
-    /// one hop. @throws std::invalid_argument without an access model: nothing would hold it back
+    /// Keeps `node` sending messages of `size` [bytes] to `to`, or to everyone, over one hop: from
+    /// now on there is always one more.
+    /// @throws std::invalid_argument without an access model: nothing would hold it back
     void saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow = 0);
     // Callbacks: each is called until its Subscription is ended.
 
@@ -92,55 +103,67 @@ class Network {
     void move(NodeId node, Movement movement);
     /// Puts a robot somewhere else at once, at rest; its movement is over.
     void place(NodeId node, Vec3 at);
-    /// The robot rests where it is; its movement is over.
+    /// Stops a robot where it is; its movement is over.
     void stop(NodeId node);
-    /// Switches a robot off (it stops, its radio is silent and deaf) or on again (it goes on).
+    /// Switches a robot off: it stops, its radio is silent and deaf.
     void switch_off(NodeId node);
-    /// Switches a robot off that is not there: `why` is not_departed or left. switch_on() brings
-    /// it.
+    /// Switches a robot off that is not there.
+    /// @param why  not_departed or left; switch_on() brings it
     void take_away(NodeId node, Presence why);
+    /// Switches a robot on again: it goes on. Nothing happens if it is on.
     void switch_on(NodeId node);
 
-    /// Calls `action` at `time`, not before now().
+    /// Calls `action` at `time`.
+    /// @throws std::invalid_argument if that is before now()
     Subscription at(Time time, std::function<void()> action);
     /// Calls `action` every `period` > 0 from now() + period on.
+    /// @throws std::invalid_argument for a period that is not > 0 s, or above 1e9 s
     Subscription every(Duration period, std::function<void()> action);
 
     /// Runs until `end`, events at `end` included.
     /// @throws RunError at the event limit
     void run_until(Time end);
     void run_for(Duration d) { run_until(now() + d); }
-    /// Runs like run_until, but serves at most `most_events`. True once `end` is reached.
+    /// Runs like run_until, but serves at most `most_events`: for callers that have to look up in
+    /// between.
+    /// @return whether `end` is reached
     bool advance(Time end, std::uint64_t most_events);
 
-    /// Says that the run ends now: messages that are still at their senders are told of as dropped
-    /// ("END"), so that metrics() can leave them out; then the sinks finish. Once, after the last
-    /// run_until().
+    /// Ends the run: messages that are still at their senders are told of as dropped ("END"), so
+    /// that metrics() can leave them out; then the sinks finish. Once, after the last run_until().
     void finish();
 
     Time now() const;
-    std::size_t size() const;             ///< robots
-    std::uint64_t events() const;         ///< served so far
-    std::uint64_t transmissions() const;  ///< frames put on air so far
+    /// Number of robots.
+    std::size_t size() const;
+    /// Events served so far.
+    std::uint64_t events() const;
+    /// Frames put on air so far.
+    std::uint64_t transmissions() const;
     /// Bound on what the frames that `sinr` left out (Sinr::interference_cut) would have taken off
     /// a signal to interference ratio so far, if all on air anywhere came from just beyond the cut.
     std::optional<Db> interference_left_out() const;
     std::string name(NodeId node) const;
     std::optional<NodeId> find(std::string_view name) const;
-    Vec3 position(NodeId node) const;    ///< [m] now
-    Radians heading(NodeId node) const;  ///< now, -pi ... pi
-    /// Whom `node` hears at `t` >= now(), everybody on the leg that they are on now; in order of
-    /// id.
+    /// Position now [m].
+    Vec3 position(NodeId node) const;
+    /// Heading now [rad], -pi ... pi.
+    Radians heading(NodeId node) const;
+    /// Neighbours that `node` hears at `t` >= now(), everybody on the leg that they are on now; in
+    /// order of id.
     std::vector<Neighbour> links(NodeId node, Time t) const;
-    /// Appends to `out` who would hear `node` if it sent now, in no order to rely on.
+    /// Appends to `out` the nodes that would hear `node` if it sent now, in no order to rely on.
     void find_hearers(NodeId node, std::vector<NodeId>& out);
-    RobotState robot(NodeId node) const;  ///< now
+    /// State of a robot now.
+    RobotState robot(NodeId node) const;
     const NetworkSettings& settings() const;
     const Legs& legs() const;
-    const Medium& medium() const;  ///< its radio and model among all else
+    /// Medium, which knows radios and models.
+    const Medium& medium() const;
     const Scene& scene() const;
-    Planners& planners();  ///< ways around the scene's walls
-    /// What happened so far. @throws std::invalid_argument if settings.metrics is off
+    /// Planners of ways around the scene's walls.
+    Planners& planners();
+    /// Metrics so far. @throws std::invalid_argument if settings.metrics is off
     MetricValues metrics() const;
 
   private:

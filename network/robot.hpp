@@ -16,26 +16,39 @@
 
 namespace rovernet {
 
-/// A robot as it joins a Network.
+/// Robot as it joins a Network. All members have defaults but the place.
 struct Robot {
-    std::string name;    ///< unique; its random draws depend on it. Empty: "r" and its number
-    Vec3 at;             ///< [m] where it starts
-    Meters radius{0.2};  ///< of its body, for ways around walls
+    /// Name, unique; its random draws depend on it. Empty: "r" and its number.
+    std::string name;
+    /// Place where it starts [m].
+    Vec3 at;
+    /// Radius of its body [m], for ways around walls.
+    Meters radius{0.2};
+    /// Radio, whose antenna is at its height above `at`.
     Radio radio = {};
-    std::optional<Propagation> propagation = std::nullopt;  ///< the Network's default if not given
+    /// Model of what it transmits; none: the Network's.
+    std::optional<Propagation> propagation = std::nullopt;
+    /// Movement, which begins with the run, or now if that has begun.
     Movement move = Fixed{};
-    Radians heading{0};                                                  ///< at the start
-    MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};  ///< > 0
-    /// Within turn_rates: it turns in place before it moves off; none: it turns at once.
+    /// Heading at the start [rad].
+    Radians heading{0};
+    /// Speed that no movement exceeds [m/s], > 0.
+    MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};
+    /// Turn rate [rad/s], within turn_rates: it turns in place before it moves off; none: it turns
+    /// at once.
     std::optional<RadiansPerSecond> turn_rate = std::nullopt;
 };
 
-/// Whether a robot takes part in what happens.
+/// Presence of a robot: whether it takes part in what happens.
 enum class Presence {
-    on,            ///< it is there, its radio is on
-    off,           ///< it is there, switched off
-    not_departed,  ///< it is not there yet, and off: where it is means where it will appear
-    left,          ///< it is not there any more, and off: where it is means where it was last
+    /// It is there, its radio is on.
+    on,
+    /// It is there, switched off.
+    off,
+    /// It is not there yet, and off: where it is means where it will appear.
+    not_departed,
+    /// It is not there any more, and off: where it is means where it was last.
+    left,
 };
 
 template <>
@@ -43,15 +56,19 @@ struct EnumNames<Presence> {
     static constexpr std::array<std::string_view, 4> values = {"on", "off", "not_departed", "left"};
 };
 
-/// A robot as it is now. The references hold until the next robot is added.
+/// State of a robot now. The references hold until the next robot is added.
 struct RobotState {
     std::string name;
-    Vec3 at;          ///< [m]
-    Radians heading;  ///< -pi ... pi, counter-clockwise from the x axis
-    Meters radius;    ///< of its body
+    /// Position [m].
+    Vec3 at;
+    /// Heading [rad], -pi ... pi, counter-clockwise from the x axis.
+    Radians heading;
+    /// Radius of its body [m].
+    Meters radius;
     Presence presence;
     const Radio& radio;
-    const Propagation& propagation;  ///< the model that rules what it transmits
+    /// Model that rules what it transmits.
+    const Propagation& propagation;
 };
 
 }  // namespace rovernet

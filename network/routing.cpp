@@ -187,7 +187,7 @@ void Routing::arrived(const AirFrame& frame, const Arriving& part) {
 }
 
 void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
-    if (part.undisturbed && world_.medium.all_are_on()) {
+    if (part.error_free && world_.medium.all_are_on()) {
         hand_up(air.frame, part.receptions, part.levels);
     } else {
         hand_up_heard(air.frame, part);

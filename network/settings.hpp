@@ -20,28 +20,44 @@ namespace rovernet {
 class Planners;
 class Scene;
 
-/// What a Network is made with.
+/// Settings of a Network, all with defaults: an open field, free space, frames that do not
+/// interfere and go on air at once.
+///
+///   Network network({.seed = 7, .propagation = LogDistance{}, .reception = Sinr{}, .access =
+///   Csma{}});
 struct NetworkSettings {
+    /// Seed of all random draws, and number of the independent repetition.
     std::uint64_t seed = 1;
     std::uint32_t replication = 0;
-    Propagation propagation = Friis{};             ///< of robots that do not have their own
-    std::shared_ptr<const Scene> scene = nullptr;  ///< null: an open field
+    /// Propagation model of robots that do not have their own.
+    Propagation propagation = Friis{};
+    /// Scene with walls; null: an open field.
+    std::shared_ptr<const Scene> scene = nullptr;
     /// Planners of the scene, if some are kept from an earlier run in it; see KeptPlanners.
     std::shared_ptr<Planners> planners = nullptr;
-    Meters floor_height{3};                   ///< [m] of one storey
-    LinkSearch links = {};                    ///< how link changes are looked for
-    ReceptionModel reception = Threshold{};   ///< what becomes of frames at a receiver
-    AccessModel access = NoAccess{};          ///< how robots get access to the medium
-    bool propagation_delay = true;            ///< frames travel at the speed of light
-    std::uint64_t event_limit = 100'000'000;  ///< a run that needs more events fails
-    /// For tests: looks at every pair of robots; receptions at different times are separate events.
-    /// Slow, and the same to the last record.
+    /// Height of one storey [m], for losses by floor.
+    Meters floor_height{3};
+    /// Precision with which link changes are looked for.
+    LinkSearch links = {};
+    /// Reception model: what becomes of frames at a receiver.
+    ReceptionModel reception = Threshold{};
+    /// Access model: how robots get access to the medium.
+    AccessModel access = NoAccess{};
+    /// Frames travel at the speed of light; otherwise they arrive at once.
+    bool propagation_delay = true;
+    /// Events that a run may need; one that needs more fails by a RunError.
+    std::uint64_t event_limit = 100'000'000;
+    /// Reference for tests: looks at every pair of robots, and serves receptions at different times
+    /// by separate events. Slow, and the same to the last record.
     bool reference = false;
-    bool metrics = true;            ///< keep Metrics
-    MetricParts metric_parts = {};  ///< which parts of the traffic they count one by one
-    /// The scenario as TOML for sinks that ask for it, see RunInfo; empty: a network made in code.
+    /// The network keeps Metrics, for Network::metrics().
+    bool metrics = true;
+    /// Parts of the traffic that they count one by one.
+    MetricParts metric_parts = {};
+    /// Scenario as TOML for sinks that ask for it, see RunInfo; empty: a network made in code.
     std::function<std::string()> scenario = {};
-    Duration warmup{0};  ///< Metrics leave out the messages that are sent before it is over
+    /// Time [ns] whose messages Metrics leave out.
+    Duration warmup{0};
 };
 
 }  // namespace rovernet

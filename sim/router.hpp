@@ -13,67 +13,83 @@
 #include <utility>
 
 // The port of routing protocols. A protocol is a plain struct that satisfies RouterProtocol; the
-// handle Router holds it by value.
+// handle Router holds it by value. examples/router.cpp has a whole one:
+//
+//     struct Once {
+//         Hops initial_ttl() const { return 1; }
+//         void send(LinkLayer& link, NodeId node, MessageId message) {
+//             link.send({.message = message, .sender = node, .ttl = 1, .hops = 1}, {}, link.now());
+//         }
+//         void on_receive(LinkLayer&, const Frame&, std::span<Reception> receptions) {
+//             for (Reception& r : receptions) { r.fate = Fate::ttl; r.delivered = true; }
+//         }
+//     };
+//     network.route(Once{});
 
 namespace rovernet {
 
-/// A routing protocol: one object for all its nodes.
+/// Routing protocol: one object for all its nodes, which calls the LinkLayer and is called by it.
+///
+/// It is told of nothing in the midst of its own functions: what it sends leaves once the function
+/// has returned.
 template <class T>
 concept RouterProtocol = requires(T router, LinkLayer& link, NodeId node, MessageId message,
                                   const Frame& frame, std::span<Reception> receptions) {
-    /// The node's application sends a message, for message.to or for everyone.
+    /// Takes a message that the node's application sends, for message.to or for everyone.
     {router.send(link, node, message)};
-    /// The frame arrives at some of those that it is for, in order of time and then of node; fills
-    /// each reception's fate and delivery.
+    /// Takes a frame that arrives at some of the nodes that it is for, in order of time and then of
+    /// node; fills in each reception's fate, and whether the message is delivered there.
     {router.on_receive(link, frame, receptions)};
-    /// TTL that a message of this router starts with [hops].
+    /// TTL [hops] that a message of this router starts with, for records.
     { std::as_const(router).initial_ttl() } -> std::convertible_to<Hops>;
 };
 
-// What a protocol may have beside that.
+// Functions that a protocol may have beside these.
 
-/// A protocol that sets timers.
+/// Protocol that sets timers by LinkLayer::timer; `tag` is what it gave there.
 template <class T>
 concept HasTimers = requires(T router, LinkLayer& link, NodeId node, std::uint64_t tag) {
     {router.on_timer(link, node, tag)};
 };
-/// A protocol that keeps something of messages: of this one nothing is left, its slot of the table
-/// is free for another.
+/// Protocol that keeps something of messages: of this one nothing is left, its slot of the table is
+/// free for another.
 template <class T>
 concept ForgetsMessages = requires(T router, MessageId message) {
     {router.forget(message)};
 };
-/// A protocol that wants to know what became of its frames. It is never told inside a call of its
-/// own to the link layer.
+/// Protocol that wants to know what became of its frames. It is never told inside a call of its own
+/// to the link layer.
 template <class T>
 concept HearsOfResults = requires(T router, LinkLayer& link, const Frame& frame,
                                   SendResult result) {
     {router.on_sent(link, frame, result)};
 };
-/// A protocol whose nodes begin to work: each when the run begins, or when it is added later.
+/// Protocol whose nodes begin to work: each when the run begins, or when it is added later.
 template <class T>
 concept HearsOfStarts = requires(T router, LinkLayer& link, NodeId node) {
     {router.on_start(link, node)};
 };
-/// A protocol that wants to know when a node is switched off or on.
+/// Protocol that wants to know when a node is switched off or on.
 template <class T>
 concept HearsOfSwitches = requires(T router, LinkLayer& link, NodeId node, bool on) {
     {router.on_switched(link, node, on)};
 };
-/// Static members that a protocol may have beside RouterProtocol, all false if it has none.
+/// Traits of a protocol: static members that it may have, all false if it has none.
 struct RouterTraits {
-    /// It brings messages to one node, and not only to everyone.
+    /// The protocol brings messages to one node, and not only to everyone.
     bool routes_unicasts = false;
     /// Unicasts for others are in the span of on_receive, too; what it says of them is not
     /// recorded.
     bool overhears = false;
-    /// It asks LinkLayer::level.
+    /// The protocol asks LinkLayer::level.
     bool wants_levels = false;
 };
 
-/// Any routing protocol, held by value.
+/// Any routing protocol, held by value. Network::route takes one; a function that the protocol does
+/// not have does nothing.
 class Router {
   public:
+    /// Moves the protocol in.
     template <class T>
     requires(!std::same_as<T, Router> && RouterProtocol<T>) Router(T protocol)
         : traits_(traits_of<T>()),
@@ -81,9 +97,11 @@ class Router {
           hears_of_starts_(HearsOfStarts<T>),
           self_(std::make_unique<Holder<T>>(std::move(protocol))) {}
 
+    /// Facts about the protocol, asked before it is told of things that it may not want.
     const RouterTraits& traits() const { return traits_; }
     bool hears_of_results() const { return hears_of_results_; }
     bool hears_of_starts() const { return hears_of_starts_; }
+    /// Calls of the protocol.
     void send(LinkLayer& link, NodeId node, MessageId m) { self_->send(link, node, m); }
     void on_receive(LinkLayer& link, const Frame& f, std::span<Reception> r) {
         self_->on_receive(link, f, r);
@@ -100,6 +118,7 @@ class Router {
     Hops initial_ttl() const { return self_->initial_ttl(); }
 
   private:
+    // Traits by the members that the protocol has.
     template <class T>
     static constexpr RouterTraits traits_of() {
         RouterTraits traits;
@@ -109,6 +128,7 @@ class Router {
         return traits;
     }
 
+    // Functions of a protocol, whatever its type.
     struct Concept {
         virtual ~Concept() = default;
         virtual void send(LinkLayer&, NodeId, MessageId) = 0;
@@ -120,6 +140,7 @@ class Router {
         virtual void forget(MessageId) = 0;
         virtual Hops initial_ttl() const = 0;
     };
+    // Protocol of a type, with the functions that it lacks.
     template <class T>
     struct Holder final : Concept {
         explicit Holder(T p) : protocol(std::move(p)) {}

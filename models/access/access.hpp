@@ -19,9 +19,14 @@
 #include <utility>
 #include <vector>
 
+// The port of access models: how nodes get access to the medium. A model is settings with a name
+// and make_access(), and an Access that runs it for all nodes; the Mac of the network implements
+// Air for it. test/extend/added/models/access/one_slot.hpp is a small one.
+
 namespace rovernet {
 
-/// Takes the frames for `next_hop` out of a queue but for the first, which is being sent.
+/// Takes the frames for `next_hop` out of a queue but for the first, which is being sent: what
+/// Access::take does in a model with a queue. The order of both parts stays.
 inline std::vector<QueuedFrame> take_waiting(std::vector<QueuedFrame>& queue, NodeId next_hop) {
     if (queue.empty()) return {};
     const auto taken = std::stable_partition(
@@ -32,77 +37,93 @@ inline std::vector<QueuedFrame> take_waiting(std::vector<QueuedFrame>& queue, No
     return frames;
 }
 
-/// What an access protocol may do. Implemented by the Network.
+/// Functions that an access model may call. The MAC layer implements them.
 class Air {
   public:
+    /// Time of the event that is served.
     virtual Time now() const = 0;
-    /// Puts a frame on air now; returns when it ends at its sender.
+    /// Puts a frame on air now. Stations sense it from within the call, see Access::sensed.
+    /// @return when it ends at its sender
     virtual Time transmit(const AirFrame& frame) = 0;
-    /// How long a frame is on air [ns], and how large it is then [bytes]. An ACK for everyone is
-    /// the longest that anybody sends.
+    /// Time that a frame is on air [ns]. That of an ACK for everyone is the longest of any ACK.
     virtual Duration airtime(const AirFrame& frame) const = 0;
+    /// Size of a frame on air [bytes], what access adds included.
     virtual std::uint32_t bytes(const AirFrame& frame) const = 0;
-    /// Calls the protocol's on_timer(node, tag) at `at`.
+    /// Calls the model's on_timer(node, tag) at `at`. There is no way back: keep the time that
+    /// counts, and compare.
     virtual void access_timer(NodeId node, Time at, std::uint32_t tag) = 0;
-    /// A uniform draw in (0, 1) of the node's own access, its `index`-th.
+    /// Uniform draw in (0, 1) of the node's own access, its `index`-th.
     virtual double access_draw(NodeId node, std::uint64_t index) const = 0;
-    /// The frame left the queue: it was sent (and answered, if it had to be), or it was given up.
+    /// Tells of the end of a frame that send() was given: it was sent, and answered if it had to
+    /// be. Exactly one of sent() and lost() is called for each.
     virtual void sent(const QueuedFrame& frame) = 0;
+    /// Tells of the end of a frame: it was given up. The MAC makes a record of it.
     virtual void lost(const QueuedFrame& frame, DropReason reason) = 0;
 
   protected:
     ~Air() = default;
 };
 
-/// How nodes get access to the medium: one protocol for all nodes of a Network.
+/// Access model at work: one object for all nodes of a Network, which has their queues and states.
+/// The functions that are not pure have a default for models that need no more.
 class Access {
   public:
+    /// Models are owned by their Mac.
     virtual ~Access() = default;
 
     /// Adds the next node.
     virtual void add() {}
-    /// The router hands over a frame; Air::sent or Air::lost tells of its end.
+    /// Takes a frame to send from its sender; Air::sent or Air::lost tells of its end.
     virtual void send(Air& air, const QueuedFrame& frame) = 0;
+    /// Serves a timer that was set by Air::access_timer.
     virtual void on_timer(Air& /*air*/, NodeId /*node*/, std::uint32_t /*tag*/) {}
     /// Takes the frames for `next_hop` out of the node's queue, but for one that is being sent.
+    /// They count as neither sent nor lost.
     virtual std::vector<QueuedFrame> take(NodeId /*node*/, NodeId /*next_hop*/) { return {}; }
-    /// The node was switched off: what it had to send is lost.
+    /// Takes note that the node was switched off: all in its queue is lost.
     virtual void switch_off(Air& /*air*/, NodeId /*node*/) {}
 
-    /// Frames wait for their turn.
+    /// Whether frames wait for their turn.
     virtual bool queues() const { return true; }
-    /// Stations listen: they are told what they sense and what they receive, and a unicast that
-    /// nobody answers is repeated.
+    /// Whether stations listen: they are told what they sense and what they receive, and a unicast
+    /// that nobody answers is repeated.
     virtual bool listens() const { return false; }
-    /// Nodes that will sense a frame that is on air now.
+    /// Takes note of nodes that will sense a frame that goes on air now, and from when until when.
+    /// For models that listen, as are the next three.
     virtual void sensed(std::span<const Sensing> /*nodes*/) {}
-    /// A frame ended at `node` and was received, or had errors.
+    /// Takes note that a frame ended at `node` and was received.
     virtual void received(Air& /*air*/, NodeId /*node*/, const AirFrame& /*frame*/) {}
+    /// Takes note that a frame ended at `node` and had errors.
     virtual void missed(Air& /*air*/, NodeId /*node*/) {}
-    /// True if `frame` is a repetition of one that `node` has already.
+    /// Whether `frame` repeats one that `node` has already. It is asked once for each unicast
+    /// received, and may remember that.
     virtual bool is_repeated(NodeId /*node*/, const AirFrame& /*frame*/) { return false; }
 
-    /// [bytes] that access adds to a message
+    /// Bytes that access adds to a message.
     virtual std::uint32_t header() const { return 0; }
-    /// The bit rate at which a frame goes. @param sender, receiver  rates of their radios; that of
-    ///         the receiver counts if the frame is for one node
+    /// Bit rate at which a frame goes.
+    /// @param sender    rate of its radio
+    /// @param receiver  rate of the receiver's radio if the frame is for one node, else that of the
+    /// sender
     virtual BitRate rate(const AirFrame& /*frame*/, BitRate sender, BitRate /*receiver*/) const {
         return sender;
     }
-    /// Rates, beside those of the radios, at which frames may go.
+    /// Bit rates, beside those of the radios, at which frames may go; the reception model checks
+    /// them.
     virtual std::span<const BitRate> own_rates() const { return {}; }
-    /// The physical layer that its frames go by.
+    /// Physical layer that its frames go by: how long they are on air, and how likely their bits
+    /// are right.
     virtual Phy phy() const { return Wifi{}; }
 };
 
-/// The settings of an access protocol.
+/// Settings of an access model: they name it and make it.
 template <class T>
 concept MakesAccess = std::copyable<T> && requires(const T& settings) {
     { T::name } -> std::convertible_to<std::string_view>;
     { settings.make_access() } -> std::same_as<std::unique_ptr<Access>>;
 };
 
-/// Any access protocol's settings, held by value: how nodes get access to the medium.
+/// Settings of any access model, held by value. NetworkSettings::access is one.
 class AccessModel {
   public:
     template <class T>
@@ -110,12 +131,14 @@ class AccessModel {
         : name_(T::name),
           make_([settings = std::move(settings)] { return settings.make_access(); }) {}
 
+    /// Name of the model, as in files.
     std::string_view name() const { return name_; }
 
-    /// A protocol for one Network.
+    /// Model for one Network. @throws std::invalid_argument if a setting is out of its range
     std::unique_ptr<Access> make_access() const { return make_(); }
-    /// As its protocols do.
+    /// Whether stations listen, see Access::listens.
     bool listens() const { return make_access()->listens(); }
+    /// Physical layer of its frames, see Access::phy.
     Phy phy() const { return make_access()->phy(); }
 
   private:

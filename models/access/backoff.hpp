@@ -52,12 +52,12 @@ class Backoff {
     /// Time at which the slots have run out if the medium stays idle: the station may send then.
     Time grant() const {
         if (busy_since_ == never) return anchor() + slots_ * timing_->slot;
-        if (!was_disturbed()) return counted_from_ + slots_ * timing_->slot;
+        if (!was_busy()) return counted_from_ + slots_ * timing_->slot;
         return anchor() + left() * timing_->slot;
     }
     /// Whether the station sensed energy since the backoff began or last stood still, early enough
     /// to count for its decision.
-    bool was_disturbed() const {
+    bool was_busy() const {
         return busy_since_ <
                counted_from_ + slots_ * timing_->slot - timing_->turnaround - timing_->cca_time;
     }

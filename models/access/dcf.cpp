@@ -89,7 +89,7 @@ void Dcf::on_timer(Air& air, NodeId node, std::uint32_t tag) {
             return set_timer(air, node, listening_[node.index()].on_air_until, answer);
         return answer_missing(air, node);
     }
-    if (s.fresh && backoff(node).was_disturbed()) {
+    if (s.fresh && backoff(node).was_busy()) {
         s.fresh = false;
         draw_backoff(air, node, air.now());
     }

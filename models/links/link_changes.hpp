@@ -11,6 +11,9 @@
 
 #include <optional>
 
+// Changes of links, found ahead of time: roots of equations where the loss goes by distance, a
+// guided search where it does not. LinkWatch of the network asks for each pair after each new leg.
+
 namespace rovernet {
 
 /// The first time in (after, until] at which the link from `from` to `to` is not what it is at

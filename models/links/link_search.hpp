@@ -5,10 +5,12 @@
 
 namespace rovernet {
 
-/// [links] of a scenario.
+/// Precision with which link changes are looked for: [links] of a scenario.
 struct LinkSearch {
-    Duration tolerance{1'000'000};  ///< [ns] a change behind walls is known to this, >= 1 ns
-    /// [ns] of models of unknown shape: shorter states are missed; >= 1 ns
+    /// Error [ns] of the time of a change behind walls, >= 1 ns.
+    Duration tolerance{1'000'000};
+    /// Duration [ns] below which states of a link may be missed, for models of unknown shape; >= 1
+    /// ns. Halving it doubles the looks.
     Duration min_dwell{100'000'000};
 };
 

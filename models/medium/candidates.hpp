@@ -16,45 +16,58 @@
 
 namespace rovernet {
 
-/// One within reach of a transmitter.
+/// Candidate for a receiver: a node within reach of a transmitter.
 struct Candidate {
     NodeId node;
-    bool rests;               ///< stays where it is until PairCache::moved
-    std::uint64_t key;        ///< the robot's, for random draws
-    Vec3 antenna;             ///< [m]
-    double squared_distance;  ///< [m^2] between the antennas
-    double budget_db;         ///< [dB] who loses more is of no interest
-    double loss_db = 0;       ///< [dB]; above the largest budget of all it says no more than that
+    /// The node stays where it is until PairCache::moved.
+    bool rests;
+    /// Key of the robot, for random draws.
+    std::uint64_t key;
+    /// Position of its antenna [m].
+    Vec3 antenna;
+    /// Squared distance between the antennas [m^2].
+    double squared_distance;
+    /// Loss [dB] beyond which it is of no interest.
+    double budget_db;
+    /// Path loss [dB], once it is computed; one above the largest budget of all candidates says no
+    /// more than that.
+    double loss_db = 0;
 };
 
-/// Those within reach of one transmitter, and their path losses: the model is asked once for all of
-/// them, but for pairs at rest whose loss is kept.
+/// Candidates within reach of one transmitter, and their path losses: the model is asked once for
+/// all of them, but for pairs at rest whose loss is kept. Medium fills it in a search by losses
+/// (Decision::by_loss).
 class Candidates {
   public:
+    /// Forgets all candidates; their memory stays.
     void clear() {
         all_.clear();
         at_rest_ = 0;
         give_up_ = Db{-std::numeric_limits<double>::infinity()};
     }
+    /// Adds a candidate, without its loss.
     void add(const Candidate& candidate) {
         all_.push_back(candidate);
         at_rest_ += candidate.rests;
         give_up_ = std::max(give_up_, Db{candidate.budget_db});
     }
-    /// Those added since clear(), in order; with losses once compute_losses() is through.
+    /// Candidates since clear(), in order; with losses once compute_losses() is through.
     std::span<const Candidate> all() const { return all_; }
 
-    /// @param link   the transmitter; its receivers are not looked at
+    /// Computes the losses of all candidates.
+    /// @param link   links of the transmitter; its receivers are not looked at
     /// @param cache  opened for the transmitter once one of the candidates rests
     void compute_losses(const Propagation& model, LinkBatch link, NodeId from, PairCache& cache);
 
   private:
+    // Asks the model for the losses of the candidates in asked_.
     void ask(const Propagation& model, LinkBatch link, Db give_up);
 
     std::vector<Candidate> all_;
+    // Candidates that rest, and the largest budget.
     std::size_t at_rest_ = 0;
     Db give_up_{};
-    // What is under work, kept for its memory: candidates whose loss the model is asked for.
+    // Candidates whose loss the model is asked for, as it wants them; kept for their memory.
     std::vector<std::uint32_t> asked_;
     std::vector<Vec3> positions_;
     std::vector<std::uint64_t> keys_;

@@ -5,15 +5,17 @@
 
 namespace rovernet {
 
-/// Path loss [dB] over a distance [m]. @param model  of shape by_distance
+/// Path loss [dB] over a distance [m].
+/// @param model  of shape by_distance
 double loss_at(const Propagation& model, Hertz frequency, double distance);
 
-/// The largest squared distance [m^2] between antennas at which the loss is within `budget`: it is
-/// if and only if squared_distance(a, b) is no larger. Negative if the loss exceeds the budget even
-/// at 0 m; infinite if it never does.
+/// Squared range of a link [m^2]: the loss is within `budget` if and only if squared_distance(a, b)
+/// of the antennas is no larger. Negative if the loss exceeds the budget even at 0 m; infinite if
+/// it never does.
 ///
-/// Found by bisection over the numbers that a distance can have, so that no rounding separates it
-/// from the model. @param model  of shape by_distance
+/// It is found by bisection over the numbers that a distance can have, so that no rounding
+/// separates it from the model.
+/// @param model  of shape by_distance
 double largest_squared_distance(const Propagation& model, Hertz frequency, Db budget);
 
 }  // namespace rovernet

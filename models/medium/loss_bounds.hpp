@@ -10,14 +10,20 @@
 
 namespace rovernet {
 
-/// Between which two values a loss lies that never falls with the distance: what it is at a few
-/// distances, each computed when it is first needed. For when a loss need not be known exactly.
+/// Bounds of a loss that never falls with the distance, for when it need not be known exactly: the
+/// loss at a few distances, each computed when it is first needed.
+///
+/// A comparison of two levels that differ by more than the bounds needs no logarithm. RadioKinds
+/// has one for each kind of station.
 class LossBounds {
   public:
+    /// Values between which a loss lies.
     struct Bounds {
-        double low, high;  ///< [dB]
+        /// Bounds [dB].
+        double low, high;
     };
 
+    /// Bounds of the loss at a distance; infinite below 1 m and beyond 131 km.
     /// @param squared_distance  [m^2] >= 0
     /// @param loss_at           loss [dB] at a distance [m]
     template <class LossAt>
@@ -32,12 +38,15 @@ class LossBounds {
   private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    static constexpr double rounding = 1e-9;  // [dB] more than that of any loss
-    // 64 cells of equal width between 1 m^2 and 2 m^2, and between any power of two and the next.
+    // Margin [dB], more than the rounding of any loss.
+    static constexpr double rounding = 1e-9;
+    // Bits that the number of a cell leaves out: there are 64 cells of equal width between 1 m^2
+    // and 2 m^2, and between any power of two and the next, up to 131 km.
     static constexpr int shift = 46;
     static constexpr std::uint64_t first = std::bit_cast<std::uint64_t>(1.0) >> shift;
-    static constexpr std::uint64_t cells = 34 * 64;  // up to 131 km
+    static constexpr std::uint64_t cells = 34 * 64;
 
+    // Loss where a cell begins [dB].
     template <class LossAt>
     double edge(std::uint64_t number, LossAt loss_at) {
         double& edge = edges_[number - first];
@@ -46,7 +55,8 @@ class LossBounds {
         return edge;
     }
 
-    std::vector<double> edges_;  // [dB] where cells begin
+    // Losses where cells begin [dB]; not a number: not computed yet.
+    std::vector<double> edges_;
 };
 
 }  // namespace rovernet

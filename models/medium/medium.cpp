@@ -72,7 +72,7 @@ Db Medium::left_out(std::size_t frames) const {
     assert(settings_.interference_cut);
     Db most{0};
     for (Kind each = 0; each < kinds_.size(); ++each) {
-        const Db above_noise = kinds_.weakest_disturbing(kinds_.radio(each)) - kinds_.noise(each);
+        const Db above_noise = kinds_.weakest_interfering(kinds_.radio(each)) - kinds_.noise(each);
         const double sum = 1 + static_cast<double>(frames) * math::exp10(above_noise.value / 10);
         most = std::max(most, Db{10 * math::log10(sum)});
     }

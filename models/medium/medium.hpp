@@ -25,93 +25,113 @@
 
 namespace rovernet {
 
-/// The air: who hears a transmission. The transmitter's propagation model rules. Everything about a
-/// frame is fixed at its start: who is on, where everybody is, at what level. A link is up iff its
-/// path loss is within link_budget.
+/// Medium between radios: who hears a transmission, when and at what level. The transmitter's
+/// propagation model rules. Everything about a frame is fixed at its start: who is on, where
+/// everybody is, at what level. A link is up if and only if its path loss is within link_budget.
+///
+/// Times must not decrease from one search to the next. The channel of a network searches; links,
+/// pictures and the judges of receptions ask for levels.
 class Medium {
   public:
     using Settings = MediumSettings;
 
+    /// Makes an empty medium; stations are added to it.
     explicit Medium(const Settings& settings)
         : settings_(settings),
           draws_(shadowing_draws(settings.seed, settings.replication)),
           kinds_(settings.interference_cut) {}
     const Settings& settings() const { return settings_; }
 
-    /// Adds the next node. `key`: the robot's, for random draws.
+    /// Adds the next node.
+    /// @param key          of the robot, for random draws
+    /// @param propagation  model of what it transmits
     /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot
-    ///         work at the radio's frequency
+    /// work at the radio's frequency
     void add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
-    /// Room for `nodes` nodes.
+    /// Makes room for `nodes` nodes.
     void reserve(std::size_t nodes) {
         keys_.reserve(nodes);
         index_.reserve(nodes);
     }
-    /// Fetches what sending takes into the caches; `node` is about to. It may be 0 where nobody is.
+    /// Prefetches the state of `node`, the sender of the next event; node 0 if that event has none.
     void prefetch(NodeId node) const {
         __builtin_prefetch(keys_.data() + node.index());
         index_.prefetch(node);
     }
-    void prefetch_position(NodeId node) const { index_.prefetch(node); }  ///< what position() takes
-    /// The node's leg has been replaced.
+    /// Prefetches what position() takes.
+    void prefetch_position(NodeId node) const { index_.prefetch(node); }
+    /// Takes note that the node's leg has been replaced.
     void moved(NodeId node, const Legs& legs) {
         ++changes_;
         index_.moved(node, legs);
         pairs_.moved(node);
         if (node.index() < measured_) measure(node.index(), node.index() + 1, legs);
     }
+    /// Switches a node's radio; a node that is off neither sends nor receives.
     void switch_radio(NodeId node, bool on);
+    /// Whether no node is off.
     bool all_are_on() const { return off_ == 0; }
-    std::size_t on() const { return keys_.size() - off_; }     ///< stations that are switched on
-    bool all_are_alike() const { return kinds_.size() == 1; }  ///< links go both ways then
-    std::uint64_t changes() const { return changes_; }  ///< of legs, and stations added or switched
+    /// Number of nodes that are on.
+    std::size_t on() const { return keys_.size() - off_; }
+    /// Whether all are of one kind: links go both ways then.
+    bool all_are_alike() const { return kinds_.size() == 1; }
+    /// Number of changes so far: of legs, and of nodes added or switched.
+    std::uint64_t changes() const { return changes_; }
     bool is_on(NodeId node) const { return all_are_on() || stations_[node.index()].on; }
-    /// What add() was given.
+    /// Key of the robot, as add() was given it.
     std::uint64_t key(NodeId node) const { return keys_[node.index()]; }
+    /// Radio of a node, with its labels and addresses.
     const Radio& radio(NodeId node) const {
         return radios_.size() == 1 ? radios_.front() : radios_[stations_[node.index()].radio];
     }
-    /// The gates of both let them have a link: one of them is open, or they share a network.
+    /// Whether the gates of both let them have a link: one of them is open, or they share a
+    /// network.
     bool may_link(NodeId a, NodeId b) const { return kinds_.may_link(kind(a), kind(b)); }
+    /// Noise floor of a node's receiver [dBm].
     Dbm noise(NodeId node) const { return kinds_.noise(kind(node)); }
-    /// What `frames` that the cut left out may add to a receiver's noise; there is a cut.
+    /// Ratio by which `frames` that the cut left out may raise a receiver's noise; there is a cut.
     Db left_out(std::size_t frames) const;
 
+    /// Node that was found by a search.
     struct Found {
         NodeId node;
-        double squared_distance;  ///< [m^2] between the antennas
+        /// Squared distance between the antennas [m^2].
+        double squared_distance;
     };
 
-    /// Those whom a frame reaches.
+    /// Receivers of a frame.
     struct Receivers {
-        Time first, last;         ///< ends of the frame at them, if there are any
-        Sieve<Reception> sieved;  ///< in no order
+        /// Ends of the frame at the first and the last of them, if there are any.
+        Time first, last;
+        /// Receptions in no order.
+        Sieve<Reception> sieved;
         std::span<Reception> all() const { return sieved.kept(); }
     };
-    /// Finds the nodes that hear `from` when it sends at `start`, which must not decrease from call
-    /// to call.
+    /// Finds the nodes that hear `from` when it sends at `start`.
     /// @param end  of the frame at the transmitter
     void find_receivers(NodeId from, Time start, Time end, const Legs& legs, Receivers& out);
-    /// The same, and those that only sense it: returned in no order, good until the next call.
+    /// Finds the same, and the nodes that only sense the frame: these are returned in no order,
+    /// good until the next call.
     std::span<const Found> find_sensors(NodeId from, Time start, Time end, const Legs& legs,
                                         Receivers& out);
-    /// Of that search: the sender's antenna [m], and how far the farthest receiver is [m].
+    /// Position of the sender's antenna in the last find_receivers() [m].
     Vec3 origin() const { return origin_; }
+    /// Distance of its farthest receiver [m].
     double heard_within();
-    /// [ns] that a frame is under way.
+    /// Delay [ns] of a frame over a distance [m].
     Duration delay(double distance) const;
 
-    /// [m^2] Nobody farther is disturbed by what `node` sends; may be infinite.
+    /// Squared distance [m^2] beyond which `node` interferes with nobody; may be infinite.
     double squared_reach(NodeId node) {
-        return kinds_.squared_reach(kind(node), Strength::disturbing);
+        return kinds_.squared_reach(kind(node), Strength::interfering);
     }
-    /// Where a node is [m]: as `legs` have it, and near in memory if its neighbours sent lately.
+    /// Position of a node [m]: as `legs` have it, and near in memory if its neighbours sent lately.
     Vec3 position(NodeId node, Time t, const Legs& legs) const {
         return index_.position_of(node, t, legs);
     }
-    /// A frame as it arrives at `to`, which is `at` [m] when it begins; nothing if it is too weak
-    /// to disturb, or if the two may have no link. The level is left open where the distance and
-    /// the pair decide it.
+    /// Frame as it arrives at `to`, which is `at` [m] when it begins; nothing if it is too weak to
+    /// interfere, or if the two may have no link. The level is left open where the distance and the
+    /// pair decide it.
     std::optional<Arrival> arrival(const Emission& frame, NodeId to, Vec3 at) {
         at.z += kinds_.height(kind(to));
         const double d2 = squared_distance(frame.origin, at);
@@ -119,19 +139,20 @@ class Medium {
     }
     /// Received power [dBm] at `to` of a frame whose level was left open.
     Dbm level(const Arrival& arrival, NodeId to) const;
-    /// The level of `frame` at `to` is that of `other` and `by` more, or higher. Levels that are
-    /// open remain so if that is plain without them.
+    /// Whether the level of `frame` at `to` exceeds that of `other` by `by` or more. Levels that
+    /// are open remain so if that is plain without them.
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId to);
 
-    /// Those that hear `from` at `t`, which must not decrease; good until the next call.
+    /// Nodes that hear `from` at `t`; good until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
         find(from, Strength::decodable, t, legs, 0);
         return found_.kept();
     }
 
-    bool hears(NodeId from, NodeId to, Time t, const Legs& legs);  ///< it is one of those
-    /// Nodes other than `from` that a chain of links joins to it at `t`, which must not decrease:
-    /// searched anew, see Reachability.
+    /// Whether `to` is one of those that hear `from` at `t`.
+    bool hears(NodeId from, NodeId to, Time t, const Legs& legs);
+    /// Number of nodes other than `from` that a chain of links joins to it at `t`: searched anew,
+    /// see Reachability.
     std::uint32_t reachable(NodeId from, Time t, const Legs& legs);
 
     /// Path loss [dB] from `from` to `to` at `t`, with nothing given up.
@@ -147,31 +168,37 @@ class Medium {
     /// Path loss [dB] that the link could still bear at `t`; negative: it is too weak.
     Db margin(NodeId from, NodeId to, Time t, const Legs& legs) const;
 
-    /// `to` can hear `from` at `t`: both are on, may link, and the budget allows it. A switched-off
-    /// or gated link is down whatever its level.
+    /// Whether `to` can hear `from` at `t`: both are on, may link, and the budget allows it. A
+    /// switched-off or gated link is down whatever its level.
     bool link_up(NodeId from, NodeId to, Time t, const Legs& legs) const;
-    /// The model that rules what `node` transmits.
+    /// Model that rules what `node` transmits.
     const Propagation& model(NodeId node) const { return kinds_.model(kind(node)); }
 
-    /// A node's antenna at `t` [m].
+    /// Position of a node's antenna at `t` [m].
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
+    /// Pose of a node's antenna at `t`.
     Pose pose(NodeId node, Time t, const Legs& legs) const;
 
   private:
     using Entry = NeighbourIndex::Entry;
+    /// Node: its radio, its kind, and whether it is on.
     struct Station {
-        std::uint32_t radio;  // index into radios_
+        /// Index into radios_.
+        std::uint32_t radio;
         std::uint32_t kind : 31;
         std::uint32_t on : 1;
     };
     using Kind = RadioKinds::Kind;
 
-    Kind kind(NodeId node) const {  // where all are alike, without a look at the station
+    // Kind of a node; where all are alike, without a look at the station.
+    Kind kind(NodeId node) const {
         return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
     }
     void list_stations();
     void choose_cells();
     void measure(std::size_t begin, std::size_t end, const Legs& legs);
+    // Searches for the nodes that a signal is strong enough for, in the way that the kind's
+    // Decision says.
     void find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame);
     void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
     void find_alike(NodeId from, Time t, const Legs& legs);
@@ -189,27 +216,33 @@ class Medium {
     LinkBatch batch(NodeId from, Vec3 origin, Time t, std::uint64_t frame) const;
     double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
                 Db give_up) const;
-    /// The key of the frame that a node sends at `t`, see LinkBatch: there is but one.
+    // Key of the frame that a node sends at `t`, see LinkBatch: there is but one.
     std::uint64_t frame_key(NodeId from, Time t) const {
         return combine(key(from), static_cast<std::uint64_t>((t - start_of_run).count()));
     }
 
     Settings settings_;
-    std::vector<std::uint64_t> keys_;  // by node
-    std::vector<Station> stations_;    // by node; none as long as all are alike and on
-    std::vector<Radio> radios_;        // those that differ
-    std::size_t off_ = 0;              // stations that are switched off
+    // Keys by node; stations by node, none as long as all are alike and on; radios that differ.
+    std::vector<std::uint64_t> keys_;
+    std::vector<Station> stations_;
+    std::vector<Radio> radios_;
+    // Nodes that are off.
+    std::size_t off_ = 0;
     std::uint64_t changes_ = 0;
-    PairDraws draws_;  // of links, where tables decide
+    // Draws of links, where tables decide.
+    PairDraws draws_;
     RadioKinds kinds_;
     NeighbourIndex index_;
-    std::vector<std::uint64_t> shares_;  // of draws_, by place in the index, if tables decide
-    std::uint64_t shares_of_bin_ = 0;    // those of the index's so many-th bin
+    // Shares of draws_, by place in the index, if tables decide; number of the index's bin that
+    // they belong to.
+    std::vector<std::uint64_t> shares_;
+    std::uint64_t shares_of_bin_ = 0;
     PairCache pairs_;
     bool cells_chosen_ = false;
-    std::size_t measured_ = 0;  // nodes whose heights the kinds know, if heights matter
+    // Nodes whose heights the kinds know, if heights matter.
+    std::size_t measured_ = 0;
 
-    // What is under work; found_ is of last_: from, strength, time and changes_.
+    // Search that found_ is of: from, strength, time and changes_; then what is under work.
     std::optional<std::tuple<NodeId, Strength, Time, std::uint64_t>> last_;
     Vec3 origin_;
     Sieve<Found> found_, sensors_;

@@ -204,16 +204,16 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
     kinds_.prepare(mine);
     switch (kinds_.decision(mine)) {
         case Decision::by_range:
-            if (d2 > kinds_.squared_range(mine, theirs, Strength::disturbing)) return std::nullopt;
+            if (d2 > kinds_.squared_range(mine, theirs, Strength::interfering)) return std::nullopt;
             break;
         case Decision::by_table: {
-            const auto& table = kinds_.table(mine, theirs, Strength::disturbing);
+            const auto& table = kinds_.table(mine, theirs, Strength::interfering);
             if (!table.in_range(d2, draws_.bits(key(frame.from), key(to)))) return std::nullopt;
             break;
         }
         case Decision::by_loss: {
             const Radio &sender = kinds_.radio(mine), &receiver = kinds_.radio(theirs);
-            const Db most = kinds_.budget(Strength::disturbing, sender, receiver);
+            const Db most = kinds_.budget(Strength::interfering, sender, receiver);
             const std::uint64_t key = frame_key(frame.from, frame.begin);
             const Db lost{loss(frame.from, to, frame.origin, there, frame.begin, key, most)};
             if (lost > most) return std::nullopt;

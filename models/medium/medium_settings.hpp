@@ -10,16 +10,22 @@ namespace rovernet {
 
 class Scene;
 
-/// What a Medium is made with.
+/// Settings of a Medium.
 struct MediumSettings {
-    const Scene* scene = nullptr;   ///< not null; outlives the medium
-    Meters floor_height{3};         ///< [m] of one storey
-    bool propagation_delay = true;  ///< a frame arrives distance / c after it is sent
-    bool keep_losses = true;        ///< of pairs at rest, instead of computing them again
-    bool all_pairs = false;         ///< for tests: without the grid, nor losses kept
-    /// [dB] frames disturb others down to so much below the sensitivity (but not to more than
-    /// 10 dB below the noise floor); none: only those that are sensed do.
+    /// Scene with its walls; not null; outlives the medium.
+    const Scene* scene = nullptr;
+    /// Height of one storey [m].
+    Meters floor_height{3};
+    /// A frame arrives distance / c after it is sent; otherwise at once.
+    bool propagation_delay = true;
+    /// Losses of pairs at rest are kept, instead of computing them again.
+    bool keep_losses = true;
+    /// Every pair is looked at, without the grid, and no losses are kept: for tests.
+    bool all_pairs = false;
+    /// Cut of interference [dB]: frames interfere down to so much below the sensitivity (but not to
+    /// more than 10 dB below the noise floor); none: only those that are sensed do.
     std::optional<Db> interference_cut = std::nullopt;
+    /// Seed and replication of random draws.
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
 };

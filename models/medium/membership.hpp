@@ -5,12 +5,17 @@
 
 namespace rovernet {
 
-/// A radio's network, as numbers that are equal where the settings are.
+/// Network of a radio, as numbers that are equal where the settings are. Comparing them costs less
+/// than comparing names.
 struct Membership {
-    std::uint32_t essid;    ///< 0: any
-    std::uint32_t channel;  ///< its number and its frequency
-    bool gated;             ///< has links within its network only
+    /// Number of its essid; 0: any.
+    std::uint32_t essid;
+    /// Number of its channel and its frequency, together.
+    std::uint32_t channel;
+    /// It has links within its network only.
+    bool gated;
 
+    /// Whether two radios may have a link: the gate of one is open, or they share a network.
     static bool match(const Membership& a, const Membership& b) {
         return !a.gated || !b.gated ||
                (a.channel == b.channel && (a.essid == b.essid || !a.essid || !b.essid));

@@ -12,18 +12,22 @@
 
 namespace rovernet {
 
-/// A robot that another one hears, as its radio sees it.
+/// Neighbour of a robot: one that it hears, as its radio sees it.
 struct Neighbour {
     NodeId node;
-    Dbm level;    ///< of the neighbour's signal here
-    Dbm noise;    ///< here: thermal noise in the receiver's bandwidth, and its noise figure
-    int quality;  ///< 0 ... 100, see link_quality
+    /// Level [dBm] of the neighbour's signal here.
+    Dbm level;
+    /// Noise here [dBm]: thermal noise in the receiver's bandwidth, and its noise figure.
+    Dbm noise;
+    /// Quality of the link, 0 ... 100, see link_quality().
+    int quality;
 };
 
-/// 2 per decibel above the receiver's sensitivity: 0 at a margin of 0 dB, 100 from 50 dB on.
+/// Quality of a link: 2 per decibel above the receiver's sensitivity, 0 at a margin of 0 dB, 100
+/// from 50 dB on.
 int link_quality(Db margin);
 
-/// Whom `node` hears at `t`, in order of id.
+/// Neighbours that `node` hears at `t`, in order of id.
 std::vector<Neighbour> neighbours(const Medium& medium, const Legs& legs, NodeId node, Time t);
 
 }  // namespace rovernet

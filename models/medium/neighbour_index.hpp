@@ -16,44 +16,48 @@
 
 namespace rovernet {
 
-/// Who is near a place: nodes in a grid of cells, found by their legs.
+/// Index of nodes by their places: who is near a place, found in a grid of cells by their legs.
 ///
 /// Entries lie in the order of their cells, row by row, each with a copy of its node's leg. A query
-/// looks at one range of entries in each row, so that cells are narrow. Entries stay in the
-/// cells where they were binned while queries look as much wider as the fastest of them can have
-/// moved since. A query bins anew once that is a tenth of a cell and as many entries have been
-/// looked at as there are. Nodes much faster than the others and those that jump are kept apart and
-/// looked at by every query. The grid wraps around: its memory is bounded wherever the nodes are.
+/// looks at one range of entries in each row, so that cells are narrow. Entries stay in the cells
+/// where they were binned while queries look as much wider as the fastest of them can have moved
+/// since. A query bins anew once that is a tenth of a cell and as many entries have been looked at
+/// as there are. Nodes much faster than the others and those that jump are kept apart and looked at
+/// by every query. The grid wraps around: its memory is bounded wherever the nodes are.
 class NeighbourIndex {
   public:
-    /// A node and where it is: what a query looks at.
+    /// Node and where it is: what a query looks at.
     struct Entry {
-        Vec3 from;  ///< [m] where its leg begins; where it is if it does not move
+        /// Position [m] where its leg begins; where it is if it does not move.
+        Vec3 from;
         NodeId node;
-        std::uint32_t label : 31;  ///< what add() was given
-        std::uint32_t moves : 1;   ///< ever, on its leg
+        /// Label that add() was given.
+        std::uint32_t label : 31;
+        /// It moves at some time of its leg.
+        std::uint32_t moves : 1;
     };
 
-    static constexpr std::uint32_t nowhere = 0xffffffff;  ///< no place of the entries()
+    /// Place of no entry.
+    static constexpr std::uint32_t nowhere = 0xffffffff;
 
     /// Adds the next node.
     void add(std::uint32_t label);
-    /// Room for `nodes` nodes.
+    /// Makes room for `nodes` nodes.
     void reserve(std::size_t nodes) { place_.reserve(nodes); }
-    /// The node's leg has been replaced.
+    /// Takes note that the node's leg has been replaced.
     void moved(NodeId node, const Legs& legs);
-    /// Height of the cells [m] from now on; best about the radius of most queries.
+    /// Sets the height of the cells [m]; best about the radius of most queries.
     void set_cell_size(double size) {
         stale_ = stale_ || size != wanted_cell_;
         wanted_cell_ = size;
     }
 
-    /// To be called before visit() and visit_if(): bins the nodes anew if it is time to.
+    /// Bins the nodes anew if it is time to; to be called before visit() and visit_if().
     void refresh(Time t, const Legs& legs) {
         if (is_stale(t)) bin(t, legs);
     }
-    /// Where the node is [m]: as `legs` have it, and near in memory if its neighbours were looked
-    /// at.
+    /// Position of the node [m]: as `legs` have it, and near in memory if its neighbours were
+    /// looked at.
     Vec3 position_of(NodeId node, Time t, const Legs& legs) const {
         if (stale_) [[unlikely]]
             return legs.position(node, t);
@@ -62,14 +66,14 @@ class NeighbourIndex {
                                 : binned_.position(place, t, legs);
     }
     void prefetch(NodeId node) const { __builtin_prefetch(place_.data() + node.index()); }
-    /// The places of the entries() that are within `radius` [m] of `centre` at `t`, and some
-    /// others; good until the next such call. `t` must not decrease from call to call.
+    /// Places of the entries() that are within `radius` [m] of `centre` at `t`, and some others;
+    /// good until the next such call. `t` must not decrease from call to call.
     std::span<const std::uint32_t> near(Vec3 centre, double radius, Time t) {
         return look_around<false>(centre, radius + slack(t));
     }
-    /// Those kept apart, which are near for all anyone knows.
+    /// Number of nodes that are kept apart (too fast, or just jumped): every query looks at them.
     std::size_t apart() const { return apart_.entries.size(); }
-    /// Calls visit(entry, position) for those kept apart and the entries at `places`.
+    /// Calls visit(entry, position) for the nodes kept apart and the entries at `places`.
     template <class Visit>
     void visit(std::span<const std::uint32_t> places, Time t, const Legs& legs, Visit visit) const {
         visit_apart(t, legs, visit);
@@ -89,7 +93,7 @@ class NeighbourIndex {
 
     /// Calls visit(entry, position, place) as above, but of the entries() only for those for which
     /// passes(place, at_least) holds; the squared distance [m^2] between entry and centre, heights
-    /// aside, is no less than that. The place of those kept apart is `nowhere`.
+    /// aside, is no less than that. The place of nodes kept apart is `nowhere`.
     template <class Passes, class Visit>
     void visit_if(Vec3 centre, double radius, Time t, const Legs& legs, Passes passes,
                   Visit visit) {
@@ -106,15 +110,15 @@ class NeighbourIndex {
             visit(binned_.entries[i], binned_.position(i, t, legs), i);
         }
     }
-    /// The nodes in the order of their cells, but for those kept apart; good until the next bin.
+    /// Nodes in the order of their cells, but for those kept apart; good until the next bin.
     std::span<const Entry> entries() const { return binned_.entries; }
-    /// Counts how often the nodes were binned.
+    /// Number of times that the nodes were binned.
     std::uint64_t bins() const { return bins_; }
 
   private:
     static constexpr std::uint32_t is_apart = 0x80000000;  // bit of a place in apart_
 
-    /// Entries, and apart from them what only those that move take.
+    /// Entries, and apart from them what only those that move need.
     struct Table {
         struct Motion {
             Vec3 velocity;
@@ -142,7 +146,7 @@ class NeighbourIndex {
             visit(apart_.entries[i], apart_.position(i, t, legs));
         }
     }
-    /// How far a node may be from where it was binned [m].
+    /// Distance that a node may be from where it was binned [m].
     double slack(Time t) const {
         return top_speed_per_ns_ * static_cast<double>((t - binned_at_).count()) + jumped_;
     }
@@ -150,12 +154,12 @@ class NeighbourIndex {
         return stale_ || apart_.entries.size() > allowed_apart_ ||
                (looked_at_ > place_.size() && slack(t) > 0.1 * rows_.width());
     }
-    /// [m] No more is lost of a coordinate around `centre` in single precision.
+    /// Bound [m] on what is lost of a coordinate around `centre` in single precision.
     static double rounding(Vec3 centre, double reach) {
         return 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
     }
-    /// The entries that were binned within `reach` [m] of `centre`, and some others; how far off
-    /// into distance2_, if that is wanted.
+    /// Entries that were binned within `reach` [m] of `centre`, and some others; how far off into
+    /// distance2_, if that is wanted.
     template <bool distances_too>
     std::span<std::uint32_t> look_around(Vec3 centre, double reach);
     float* distances_at_least(std::size_t count, Vec3 centre, double radius, Time t);

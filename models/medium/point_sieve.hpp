@@ -12,23 +12,26 @@
 
 namespace rovernet {
 
-/// Picks, of points in a plane, those within reach of one: four at a time where the processor can,
-/// and without a branch, which would be mispredicted for many.
+/// Sieve of points in a plane: picks those within reach of one, four at a time where the processor
+/// can, and without a branch, which would be mispredicted for many. NeighbourIndex looks at its
+/// cells with it.
 ///
-/// @tparam squares_too  their squared distances are wanted
+/// @tparam squares_too  whether squared distances are wanted
 template <bool squares_too>
 class PointSieve {
   public:
-    /// So many points are read at once: behind the last one there must be as many to read, and
-    /// behind the last one kept as many places to write.
+    /// Points that are read at once: behind the last one there must be as many to read, and behind
+    /// the last one kept as many places to write.
     static constexpr std::uint32_t at_once = 4;
 
-    /// Of the points at `xs` and `ys` [m] those within the root of `squared_reach` [m^2] of (x, y).
+    /// Makes a sieve of the points at `xs` and `ys` [m] for those within the root of
+    /// `squared_reach` [m^2] of (x, y).
     PointSieve(const float* xs, const float* ys, float x, float y, float squared_reach)
         : xs_(xs), ys_(ys), x_(all(x)), y_(all(y)), squared_reach_(all(squared_reach)) {}
 
-    /// Writes the numbers of those from `begin` to `end` that are kept to `kept`, in order, and
-    /// their squared distances [m^2], if they are wanted, to `squares`. @return how many
+    /// Writes the numbers of the points from `begin` to `end` that are kept to `kept`, in order,
+    /// and their squared distances [m^2], if they are wanted, to `squares`.
+    /// @return how many are kept
     std::size_t sift(std::uint32_t begin, std::uint32_t end, std::uint32_t* kept,
                      float* squares) const {
         std::size_t count = 0;
@@ -54,7 +57,7 @@ class PointSieve {
     using Floats = __m128;
     static Floats all(float x) { return _mm_set1_ps(x); }
 
-    /// Where the bytes of four values go of which those that bits tell are packed to the front.
+    // Shuffles of the bytes of four values that pack those that bits tell to the front.
     using Packing = std::array<std::array<std::uint8_t, 16>, 16>;
     alignas(16) static constexpr Packing packing = [] {
         Packing each{};
@@ -67,7 +70,7 @@ class PointSieve {
         return each;
     }();
 
-    /// Of points `i` to `i` + 3 those among `wanted`, a bit for each.
+    // Sifts points `i` to `i` + 3 among `wanted`, a bit for each.
     std::size_t sift_four(std::uint32_t i, std::uint32_t wanted, std::uint32_t* kept,
                           float* squares) const {
         const __m128 dx = _mm_sub_ps(_mm_loadu_ps(xs_ + i), x_);

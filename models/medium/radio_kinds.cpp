@@ -76,10 +76,10 @@ Db RadioKinds::budget(Strength strength, const Radio& from, const Radio& to, Lin
     if (strength == Strength::decodable) return decodable;
     const Db detectable = sensing_budget(from, to, gain);
     if (strength == Strength::detectable || !interference_cut_) return detectable;
-    return std::max(detectable, decodable + (to.sensitivity - weakest_disturbing(to)));
+    return std::max(detectable, decodable + (to.sensitivity - weakest_interfering(to)));
 }
 
-Dbm RadioKinds::weakest_disturbing(const Radio& to) const {
+Dbm RadioKinds::weakest_interfering(const Radio& to) const {
     assert(interference_cut_);
     constexpr Db below_noise{10};
     return std::max(to.sensitivity - *interference_cut_, noise_floor(to) - below_noise);

@@ -7,10 +7,12 @@
 #include <optional>
 #include <span>
 
+// Error rates of IEEE 802.11b, a and g. The physical layer Wifi is made of them.
+
 namespace rovernet {
 
-/// A modulation and coding of IEEE 802.11, named after its bit rate [Mb/s]: of 802.11b, 22 MHz
-/// wide, and of 802.11a and g, 20 MHz wide.
+/// Modulation and coding of IEEE 802.11, named after its bit rate [Mb/s]: of 802.11b, 22 MHz wide,
+/// and of 802.11a and g, 20 MHz wide.
 enum class Modulation : std::uint8_t {
     dsss_1,   ///< DBPSK, Barker sequence
     dsss_2,   ///< DQPSK, Barker sequence
@@ -26,10 +28,10 @@ enum class Modulation : std::uint8_t {
     ofdm_54,  ///< 64-QAM, rate 3/4
 };
 
-/// The bit rates [bit/s] of the modulations, in their order.
+/// Bit rates [bit/s] of the modulations, in their order.
 std::span<const BitRate> modulated_rates();
-/// The modulation of a bit rate: 1, 2, 5.5, 11 Mb/s are DSSS and CCK; 6, 9, 12, 18, 24, 36, 48,
-/// 54 Mb/s are OFDM; nothing for other rates.
+/// Modulation of a bit rate: 1, 2, 5.5, 11 Mb/s are DSSS and CCK; 6, 9, 12, 18, 24, 36, 48, 54 Mb/s
+/// are OFDM; nothing for other rates.
 std::optional<Modulation> modulation_of(BitRate rate);
 
 /// Bandwidth [Hz] of its receiver, in which noise and interference count: 22 or 20 MHz.
@@ -64,7 +66,7 @@ double bit_error_rate(Modulation modulation, double sinr);
 /// and over chunks of different sinr, and keeps its digits where the bit error rate is below 1e-16.
 double log_success(Modulation modulation, double sinr);
 
-/// From this signal to noise ratio on the success() of any number of bits up to 2^35 is 1.
+/// Signal to noise ratio [dB] from which on the success() of any number of bits up to 2^35 is 1.
 Db certain_sinr(Modulation modulation);
 
 /// Probability that all bits are right, from the sum of their log_success.

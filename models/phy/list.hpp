@@ -7,7 +7,7 @@
 
 namespace rovernet {
 
-/// The physical layers that there are.
+/// Physical layers that there are, for tests that every one has to pass.
 using PhysicalLayers = std::tuple<Wifi>;
 
 }  // namespace rovernet

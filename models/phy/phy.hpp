@@ -13,13 +13,16 @@
 #include <string_view>
 #include <utility>
 
+// The port of physical layers: what bits cost on air. The access model chooses one for its frames;
+// the MAC asks it for airtimes, reception model "sinr" for error rates.
+
 namespace rovernet {
 
-/// A modulation and coding: its number among those of a physical layer.
+/// Modulation and coding: its number among those of a physical layer.
 enum class Coding : std::uint8_t {};
 
-/// A physical layer: how long frames are on air, and how likely their bits are right. A plain
-/// struct whose functions are pure.
+/// Physical layer: how long frames are on air, and how likely their bits are right. A plain struct
+/// whose functions are pure.
 ///
 /// - `airtime(preamble, rate, bytes)`: time [ns] that `bytes` are on air behind a preamble [ns]
 /// - `rates()`: bit rates [bit/s] whose error rates are known
@@ -47,18 +50,26 @@ class Phy {
     requires(!std::same_as<T, Phy> && PhysicalLayer<T>) Phy(T phy)
         : self_(std::make_shared<Holder<T>>(std::move(phy))) {}
 
+    /// Name of the layer.
     std::string_view name() const { return self_->name(); }
+    /// Time [ns] that `bytes` are on air, the preamble included.
     Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const {
         return self_->airtime(preamble, rate, bytes);
     }
+    /// Bit rates [bit/s] whose error rates are known.
     std::span<const BitRate> rates() const { return self_->rates(); }
+    /// Coding of a rate; nothing if its error rates are not known.
     std::optional<Coding> coding(BitRate rate) const { return self_->coding(rate); }
+    /// Natural logarithm of the probability that a bit is right. Sums over bits, and over chunks of
+    /// different sinr [-], tell of frames.
     double log_success(Coding coding, double sinr) const {
         return self_->log_success(coding, sinr);
     }
+    /// Ratio [dB] from which on a frame of any length is right.
     Db certain_sinr(Coding coding) const { return self_->certain_sinr(coding); }
 
   private:
+    // Functions of a layer, whatever its type.
     struct Concept {
         virtual ~Concept() = default;
         virtual std::string_view name() const = 0;
@@ -68,6 +79,7 @@ class Phy {
         virtual double log_success(Coding, double) const = 0;
         virtual Db certain_sinr(Coding) const = 0;
     };
+    // Layer of a type, its parameters checked.
     template <class T>
     struct Holder final : Concept {
         explicit Holder(T p) : phy(std::move(p)) {
@@ -85,6 +97,7 @@ class Phy {
         Db certain_sinr(Coding coding) const override { return phy.certain_sinr(coding); }
         T phy;
     };
+    // Never null.
     std::shared_ptr<const Concept> self_;
 };
 

@@ -14,33 +14,48 @@
 #include <string_view>
 #include <vector>
 
+// Timing and airtimes of IEEE 802.11: constants that access model "csma" and the physical layer
+// Wifi take from the standard.
+
 namespace rovernet {
 
-/// A physical layer of IEEE 802.11 whose timing the channel access follows.
+/// Physical layer of IEEE 802.11 whose timing the channel access follows.
 enum class WifiStandard {
-    b,  ///< 802.11b: DSSS and HR/DSSS, 1-11 Mb/s
-    a,  ///< 802.11a: OFDM, 6-54 Mb/s
-    g,  ///< 802.11g among its own: ERP-OFDM with the short slot
+    /// 802.11b: DSSS and HR/DSSS, 1-11 Mb/s.
+    b,
+    /// 802.11a: OFDM, 6-54 Mb/s.
+    a,
+    /// 802.11g among its own: ERP-OFDM with the short slot.
+    g,
 };
 template <>
 struct EnumNames<WifiStandard> {
     static constexpr std::array<std::string_view, 3> values = {"802.11b", "802.11a", "802.11g"};
 };
 
-/// The times of an 802.11 channel access; all of them [ns].
+/// Times of an 802.11 channel access, all of them [ns], and what goes with them.
 struct WifiTiming {
-    Duration slot;            ///< aSlotTime
-    Duration sifs;            ///< aSIFSTime
-    Duration difs;            ///< aSIFSTime + 2 aSlotTime; 802.11-2020, 10.3.7
-    Duration cca_time;        ///< energy is sensed this long after it arrived
-    Duration turnaround;      ///< aRxTxTurnaroundTime: from deciding to send to sending
-    Duration rx_start_delay;  ///< aRxPHYStartDelay: how long it takes to notice that a frame begins
-    int cw_min;               ///< aCWmin [slots]
-    int cw_max;               ///< aCWmax [slots]
-    BitRate lowest_rate;      ///< that every station has; of the ACK that an EIFS has room for
+    /// Slot of a backoff: aSlotTime.
+    Duration slot;
+    /// Space before an answer: aSIFSTime.
+    Duration sifs;
+    /// Space before access: aSIFSTime + 2 aSlotTime; 802.11-2020, 10.3.7.
+    Duration difs;
+    /// Time until energy that has arrived is sensed.
+    Duration cca_time;
+    /// Time from deciding to send to sending: aRxTxTurnaroundTime.
+    Duration turnaround;
+    /// Time until it is noticed that a frame begins: aRxPHYStartDelay.
+    Duration rx_start_delay;
+    /// Least contention window [slots]: aCWmin.
+    int cw_min;
+    /// Largest contention window [slots]: aCWmax.
+    int cw_max;
+    /// Rate [bit/s] that every station has: that of the ACK that an EIFS has room for.
+    BitRate lowest_rate;
 };
 
-/// The constants of a standard. Clauses of IEEE 802.11-2020; the CCA times are what a slot leaves
+/// Constants of a standard, by clauses of IEEE 802.11-2020. The CCA times are what a slot leaves
 /// beside the turnaround and 2 us for the air (the standard gives an upper bound only).
 constexpr WifiTiming timing_of(WifiStandard standard) {
     using namespace std::chrono_literals;
@@ -55,8 +70,9 @@ constexpr WifiTiming timing_of(WifiStandard standard) {
     return {};
 }
 
-/// The rates that every station of a standard has, lowest first. Sources: 802.11-2020, 16.1.1,
-/// 17.1.1 and, for 802.11g among its own, 18.1.2.
+/// Bit rates that every station of a standard has, lowest first.
+///
+/// Sources: 802.11-2020, 16.1.1, 17.1.1 and, for 802.11g among its own, 18.1.2.
 inline std::vector<BitRate> mandatory_rates(WifiStandard standard) {
     if (standard == WifiStandard::b) return {{1e6}, {2e6}, {5.5e6}, {11e6}};
     return {{6e6}, {12e6}, {24e6}};
@@ -73,8 +89,8 @@ Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, st
 struct Wifi {
     static constexpr std::string_view name = "wifi";
 
-    /// How long frames last: as wifi_airtime() of this standard says; without one, the preamble and
-    /// bits / rate, rounded to the nearest nanosecond.
+    /// Standard by which frames last as wifi_airtime() says; none: the preamble and bits / rate,
+    /// rounded to the nearest nanosecond.
     std::optional<WifiStandard> framing = std::nullopt;
 
     static constexpr auto fields() {
@@ -83,6 +99,7 @@ struct Wifi {
                               "they last as long as their bits"));
     }
 
+    /// Functions of a physical layer, see PhysicalLayer.
     Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const;
     std::span<const BitRate> rates() const;
     std::optional<Coding> coding(BitRate rate) const;
@@ -90,7 +107,8 @@ struct Wifi {
     Db certain_sinr(Coding coding) const;
 };
 
-/// Sizes of frames [bytes]; 802.11-2020, 9.3.1 and 9.3.2, check sequence included.
+/// Sizes of frames [bytes], check sequence included; 802.11-2020, 9.3.1 and 9.3.2. That of data is
+/// its header's.
 inline constexpr std::uint32_t rts_bytes = 20;
 inline constexpr std::uint32_t cts_bytes = 14;
 inline constexpr std::uint32_t ack_bytes = 14;

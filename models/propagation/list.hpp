@@ -14,11 +14,16 @@
 
 namespace rovernet {
 
-/// The propagation models that scenario files know by name, cheapest first.
+/// Propagation models that scenario files know by name, in the order of their detail. A model that
+/// is added here is read, checked, printed, documented, tested for conformance and swept: all of
+/// that follows from its fields(). `rovernet compare` takes the last of those that it compares as
+/// the most detailed one.
 using PropagationModels = std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, ItuSiteGeneral,
                                      MultiWall, Raytrace2007>;
 
-/// Calls `visit.template operator()<Model>()` for each listed model.
+/// Calls `visit.template operator()<Model>()` for each listed model, in that order:
+///
+///   for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
 template <class Visitor>
 constexpr void for_each_model(Visitor&& visit) {
     [&]<class... Models>(std::tuple<Models...>*) {

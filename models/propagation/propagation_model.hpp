@@ -4,6 +4,7 @@
 #include "models/propagation/shadowed_range.hpp"
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"
+#include "sim/time.hpp"
 #include "sim/units.hpp"
 
 #include <concepts>
@@ -27,6 +28,9 @@
 namespace rovernet {
 
 /// Links from one transmitter to its receivers: all that a propagation model may know.
+///
+/// A propagation model is a pure function of places and keys: its losses are kept for robots at
+/// rest. Time and frame are for what varies behind it.
 struct LinkBatch {
     /// Frequency of the transmitter [Hz].
     Hertz frequency;
@@ -45,6 +49,10 @@ struct LinkBatch {
     /// Seed and replication of random draws.
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
+    /// Time at which the frame begins, or the link is looked at.
+    Time at = start_of_run;
+    /// Key of the frame, for random draws; 0: the local mean of the link.
+    std::uint64_t frame = 0;
 
     /// Number of links.
     std::size_t size() const { return to.size(); }

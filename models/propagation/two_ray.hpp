@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/propagation/propagation.hpp"
+#include "models/propagation/propagation_model.hpp"
 
 #include <array>
 #include <string_view>

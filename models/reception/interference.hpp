@@ -15,32 +15,48 @@
 #include <span>
 #include <vector>
 
+// Frames that overlap, as a Judge sees them. The channel tells what goes on air, what moves and
+// what is switched; before a reception is handed up, it asks judge().
+
 namespace rovernet {
 
-/// What a receiver may get beside the frame that it decodes: the frames on air, their levels there,
-/// and what nodes were when those frames began.
+/// Interference at receivers: the frames on air, their levels there, and what nodes were when those
+/// frames began. The channel of a network has one if its reception model has a Judge.
+///
+/// Levels are fixed when a frame begins, and computed only when a judge asks for them. A receiver
+/// that has moved or was switched since is looked at as it was then.
 class Interference {
   public:
+    /// What it looks at, and the run's random draws.
     struct Settings {
-        Medium* medium = nullptr;       ///< not null; outlives this
-        const Legs* legs = nullptr;     ///< not null; outlives this; the same nodes as the medium
-        const Phy* phy = nullptr;       ///< not null; outlives this
-        bool all_frames = false;        ///< looks at every frame on air, for tests
-        std::uint64_t seed = 1;         ///< of random draws
-        std::uint32_t replication = 0;  ///< of random draws
+        /// Medium that computes levels; not null; outlives this.
+        Medium* medium = nullptr;
+        /// Legs of the same nodes; not null; outlives this.
+        const Legs* legs = nullptr;
+        /// Physical layer of the frames; not null; outlives this.
+        const Phy* phy = nullptr;
+        /// It looks at every frame on air, instead of those nearby: slow, for tests.
+        bool all_frames = false;
+        /// Seed and replication of random draws.
+        std::uint64_t seed = 1;
+        std::uint32_t replication = 0;
     };
 
+    /// @param judge  rule of the reception model; not null
     Interference(const Settings& settings, std::unique_ptr<Judge> judge)
         : settings_(settings), judge_(std::move(judge)) {}
 
-    /// The node moves along `leg` from now on.
+    /// Takes note that the node moves along `leg` from now on.
     void goes(NodeId node, const Leg& leg);
-    /// The node's leg or radio is about to change; it is `on` until now.
+    /// Takes note that the node's leg or radio is about to change; it is `on` until now.
     void before_change(NodeId node, bool on) {
         on_air_.changes(node, settings_.legs->leg(node), on);
     }
 
-    /// The frame that Medium found the receivers of last goes on air. @return its serial
+    /// Adds the frame that goes on air, whose receivers Medium found last.
+    /// @param rate        of its payload [bit/s]
+    /// @param receptions  of those who can decode it, in order
+    /// @return its serial
     std::uint64_t add(Emission frame, BitRate rate, std::span<const Reception> receptions);
     /// Forgets the frames on which no judgement depends from `now` on; calls use(frame) for each.
     template <class Use>
@@ -53,34 +69,40 @@ class Interference {
             use(frame);
         });
     }
-    /// Decides what becomes of receptions of the frame with that serial, which end by `now`.
+    /// Decides the fate of receptions of the frame with that serial, which end by `now`; nodes that
+    /// are off are left alone.
     void judge(std::uint64_t serial, std::span<Reception> receptions, Time now);
 
+    /// Judge of the reception model.
     const Judge& rule() const { return *judge_; }
 
-    // For the judge.
+    // Functions for the judge.
     const Medium& medium() const { return *settings_.medium; }
-    /// A frame as it arrives at a node; nothing if the node does not notice it.
+    /// Frame as it arrives at a node, its level left open; nothing if the node does not notice it.
     std::optional<Arrival> arrival(const Emission& frame, NodeId node);
     /// Received power [dBm] at `node` of a frame whose level was left open.
     Dbm level(const Arrival& arrival, NodeId node) const {
         return settings_.medium->level(arrival, node);
     }
-    /// The level of `frame` at `node` is that of `other` and `by` more, or higher.
+    /// Whether the level of `frame` at `node` exceeds that of `other` by `by` or more. It may find
+    /// out by bounds, without the levels.
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId node) {
         return settings_.medium->is_stronger(frame, other, by, node);
     }
-    /// [ns] No frame takes longer to anybody.
+    /// Longest delay [ns] of any frame to anybody.
     Duration longest_delay() const { return settings_.medium->delay(on_air_.reach()); }
-    /// A uniform draw in (0, 1), of the pair and of the sender's `number`-th frame.
+    /// Uniform draw in (0, 1) of a pair and of the sender's `number`-th frame.
     double draw(Purpose purpose, NodeId from, NodeId to, std::uint64_t number) const;
+    /// Key of a node, for orders that do not depend on its number.
     std::uint64_t key(NodeId node) const { return settings_.medium->key(node); }
 
   private:
     Settings settings_;
     std::unique_ptr<Judge> judge_;
+    // Frames on air, and what nodes were before they changed.
     OnAir on_air_;
-    std::vector<const Emission*> all_;  // that the frame which is judged may meet
+    // Frames that the one which is judged may meet; kept for its memory.
+    std::vector<const Emission*> all_;
 };
 
 }  // namespace rovernet

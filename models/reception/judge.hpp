@@ -15,54 +15,70 @@
 #include <string_view>
 #include <utility>
 
+// The port of reception models: what becomes of a frame at a receiver that it reaches. A model is
+// settings with a name and make_judge(), and a Judge that applies it for all nodes.
+// test/extend/added/models/reception/preamble.hpp is a small one.
+
 namespace rovernet {
 
 class Interference;
 
-/// A frame that goes on air, as judging it may take.
+/// Frame that goes on air, with all that judging it may take. What it points to is good during the
+/// call; a judge keeps what it needs, by Emission::flight.
 struct SentFrame {
     const Emission& emission;
-    const Phy& phy;                         ///< of the network; outlives the judge
-    BitRate rate;                           ///< of its payload
-    Duration preamble;                      ///< [ns] before its payload
-    std::span<const Reception> receptions;  ///< of those that can decode it, in order
+    /// Physical layer of the network; outlives the judge.
+    const Phy& phy;
+    /// Rate of its payload [bit/s].
+    BitRate rate;
+    /// Time before its payload [ns].
+    Duration preamble;
+    /// Receptions of those who can decode it, in order.
+    std::span<const Reception> receptions;
 };
 
-/// Other frames that may be on air at a receiver.
+/// Other frames that may be on air at a receiver; a judge asks Interference::arrival whether they
+/// are.
 using Frames = std::span<const Emission* const>;
 
-/// Decides what becomes of frames at their receivers; one for all nodes of a Network.
+/// Rule of a reception model at work: decides the fate of frames at their receivers. One object for
+/// all nodes of a Network.
 class Judge {
   public:
+    /// Judges are owned by Interference.
     virtual ~Judge() = default;
 
-    /// A receiver may have been at frames that were over before the one that is judged began.
+    /// Whether a receiver may have been at frames that were over before the one that is judged
+    /// began; these are then among the others, too.
     virtual bool looks_back() const = 0;
-    /// Decides what becomes of a reception that ends now, at a node that is on, among `others` that
-    /// may have been on air there.
+    /// Decides the fate of a reception that ends now, at a node that is on; it sets reception.fate,
+    /// and leaves it as it is for a frame that is received.
+    /// @param frame   frame that is received
+    /// @param others  frames that may have been on air there, in no order to rely on
     virtual void judge(Interference& air, const Emission& frame, Frames others,
                        Reception& reception) = 0;
 
-    /// A frame goes on air, or no judgement depends on it any more.
+    /// Takes note that a frame goes on air. Frames come in the order of their begin.
     virtual void begins(const SentFrame& /*frame*/) {}
+    /// Takes note that no judgement depends on a frame any more.
     virtual void is_forgotten(const Emission& /*frame*/) {}
-    /// Frames weaker than the sensitivity by this are left out; nothing: only who can decode or
-    /// sense a frame matters.
+    /// Cut of interference: frames weaker than the sensitivity by this [dB] are left out; nothing:
+    /// only who can decode or sense a frame matters.
     virtual std::optional<Db> interference_cut() const { return std::nullopt; }
-    /// Frames on air at a time, at most, so far; counted where there is a cut.
+    /// Number of frames on air at a time, at most, so far; counted where there is a cut.
     virtual std::size_t most_on_air() const { return 0; }
-    /// @throws std::invalid_argument for a bit rate that frames cannot be judged at
+    /// Checks a bit rate. @throws std::invalid_argument if frames of it cannot be judged
     virtual void check(const Phy& /*phy*/, BitRate /*rate*/) const {}
 };
 
-/// The settings of a reception model.
+/// Settings of a reception model: they name it and make its judge.
 template <class T>
 concept MakesJudge = std::copyable<T> && requires(const T& settings) {
     { T::name } -> std::convertible_to<std::string_view>;
     { settings.make_judge() } -> std::same_as<std::unique_ptr<Judge>>;
 };
 
-/// Any reception model's settings, held by value: what becomes of frames at a receiver.
+/// Settings of any reception model, held by value. NetworkSettings::reception is one.
 class ReceptionModel {
   public:
     template <class T>
@@ -70,11 +86,12 @@ class ReceptionModel {
         : name_(T::name),
           make_([settings = std::move(settings)] { return settings.make_judge(); }) {}
 
+    /// Name of the model, as in files.
     std::string_view name() const { return name_; }
 
-    /// A judge for one Network; null: a frame is received wherever the link budget allows it.
+    /// Judge for one Network; null: a frame is received wherever the link budget allows it.
     std::unique_ptr<Judge> make_judge() const { return make_(); }
-    /// Judge::interference_cut of its judges.
+    /// Cut of interference of its judges [dB], see Judge::interference_cut.
     std::optional<Db> interference_cut() const {
         const auto judge = make_judge();
         return judge ? judge->interference_cut() : std::nullopt;
@@ -85,10 +102,12 @@ class ReceptionModel {
     std::function<std::unique_ptr<Judge>()> make_;
 };
 
-/// Reception model "threshold": a frame is received wherever the link budget allows it.
+/// Reception model "threshold": a frame is received wherever the link budget allows it. Frames do
+/// not interfere, and a node that sends receives as well. The default.
 struct Threshold {
     static constexpr std::string_view name = "threshold";
 
+    /// No judge is needed.
     std::unique_ptr<Judge> make_judge() const { return nullptr; }
 };
 

@@ -3,14 +3,14 @@
 
 namespace rovernet {
 
-/// The node begins to send after `after`, not later than `until`.
+/// Whether the node begins to send after `after`, not later than `until`.
 bool SinrReceiver::sends_within(Time after, Time until) const {
     return std::any_of(here_.begin(), here_.end(), [&](const Arrival* a) {
         return a->own && a->begin > after && a->begin <= until;
     });
 }
 
-/// The receiver was on no other frame when it began.
+/// Whether the receiver was on no other frame when this one began.
 bool SinrReceiver::is_free_for(const Arrival& arrival) const {
     return std::none_of(here_.begin(), here_.end(), [&](const Arrival* a) {
         if (a == &arrival || a->begin > arrival.begin || a->end <= arrival.begin) return false;
@@ -19,13 +19,13 @@ bool SinrReceiver::is_free_for(const Arrival& arrival) const {
     });
 }
 
-/// The node sends while the frame arrives.
+/// Whether the node sends while the frame arrives.
 bool SinrReceiver::sends_during(const Arrival& judged) const {
     return std::any_of(here_.begin(), here_.end(),
                        [&](const Arrival* a) { return a->own && a->overlaps(judged); });
 }
 
-/// The sum of log_success over the bits of the payload, with the others that are here.
+/// Sum of log_success over the bits of the payload, behind the other frames that are here.
 double SinrReceiver::log_success_of(const Arrival& judged, const SinrFrame& frame) {
     const double signal = math::exp10(judged.level_dbm / 10);
     const double noise_mw = math::exp10(frame.noise.value / 10);
@@ -47,12 +47,12 @@ double SinrReceiver::log_success_of(const Arrival& judged, const SinrFrame& fram
     for (std::size_t i = 0; i + 1 < changes_.size(); ++i) {
         const Time from = changes_[i], to = changes_[i + 1];
         if (from == to) continue;
-        double disturbing = noise_mw;
+        double interference_mw = noise_mw;  // and noise
         for (std::size_t k = 0; k < here_.size(); ++k) {
-            if (here_[k]->begin <= from && here_[k]->end >= to) disturbing += power_mw_[k];
+            if (here_[k]->begin <= from && here_[k]->end >= to) interference_mw += power_mw_[k];
         }
         sum += seconds(to - from) * frame.rate *
-               frame.phy->log_success(frame.coding, signal / disturbing);
+               frame.phy->log_success(frame.coding, signal / interference_mw);
     }
     return sum;
 }

@@ -15,6 +15,13 @@
 #include <string_view>
 #include <vector>
 
+// Reception by signal to interference and noise. In code:
+//
+//     Network network({.propagation = LogDistance{}, .reception = Sinr{.interference_cut =
+//     Db{30}}});
+//
+// Settings, and the rule for one receiver; sinr_judge.cpp applies it to the frames of a network.
+
 namespace rovernet {
 
 /// Reception model "sinr": a receiver that is free locks on to a frame whose preamble it finds, and
@@ -24,43 +31,53 @@ namespace rovernet {
 /// A preamble is found if it is stronger than noise and interference by `preamble_threshold` when
 /// it has been on air for 4 us; of several at once the strongest is looked at first. A frame that
 /// begins while the receiver is locked on another, or sends, is lost; so is the one that it is
-/// locked on when it begins to send. Errors are those of the payload. Frames weaker than the
-/// sensitivity by `interference_cut`, or than the noise floor by 10 dB, are left out: each of them
-/// would change the interference by less than that (see Network::interference_left_out).
-/// Sources: models/phy/error_rate.hpp; IEEE 802.11-2020, clauses 15-18, for what a receiver does;
-/// the threshold and the time of ns-3.37's ThresholdPreambleDetectionModel.
+/// locked on when it begins to send. Errors are those of the payload.
+///
+/// Frames weaker than the sensitivity by `interference_cut`, or than the noise floor by 10 dB, are
+/// left out: each of them would change the interference by less than that (see
+/// Network::interference_left_out).
+///
+/// Sources: the physical layer's error rates; IEEE 802.11-2020, clauses 15-18, for what a receiver
+/// does; the threshold and the time of ns-3.37's ThresholdPreambleDetectionModel.
 struct Sinr {
     static constexpr std::string_view name = "sinr";
 
-    Db interference_cut{20};   ///< [dB] >= 0
-    Db preamble_threshold{4};  ///< [dB] the least SINR at which a preamble is found
+    /// Cut of interference [dB], >= 0.
+    Db interference_cut{20};
+    /// Least ratio of signal to interference and noise [dB] at which a preamble is found.
+    Db preamble_threshold{4};
 
+    /// Judge for one Network.
     std::unique_ptr<Judge> make_judge() const;
 };
 
-/// What judging a frame takes beside what is on air.
+/// Facts of a frame that judging it takes, beside what is on air.
 struct SinrFrame {
+    /// Physical layer, and coding and rate [bit/s] of the payload in it.
     const Phy* phy;
     Coding coding;
-    double rate;       ///< [bit/s]
-    Duration payload;  ///< [ns] how much of its end is payload
-    Dbm noise = {};    ///< [dBm] of the receiver
+    double rate;
+    /// Time on air of its payload [ns], which is its end.
+    Duration payload;
+    /// Noise floor of the receiver [dBm].
+    Dbm noise = {};
 };
 
-/// Receivers of this model: judges frames, one at a time.
+/// Receivers of the model "sinr": judges frames, one at a time. It keeps no state of nodes, only
+/// memory; SinrJudge tells it what is on air.
 class SinrReceiver {
   public:
     explicit SinrReceiver(const Sinr& settings = {}) : settings_(settings) {}
 
-    /// What becomes of `signal`, whose receiver can decode it, when it has ended: waiting if the
-    /// frame is decoded. Locks of frames that began by then are decided, and kept with them.
-    /// @param arrivals  those on air at the receiver, `signal` itself among them, that ended after
-    ///        one that `signal` overlaps can have begun
+    /// Decides the fate of `signal`, whose receiver can decode it, when it has ended: waiting if
+    /// the frame is decoded. Locks of frames that began by then are decided, and kept with them.
+    ///
+    /// @param arrivals  frames on air at the receiver, `signal` itself among them, that ended after
+    /// one that `signal` overlaps can have begun
     /// @param level_of  level_of(arrival) [dBm], asked once for each where it matters
     /// @param draw      uniform in (0, 1); asked if the outcome is not certain
     /// @param before    before(a, b) of two senders: whose frame is looked at first, if nothing
-    /// else
-    ///        tells the two apart
+    /// else tells the two apart
     template <class LevelOf, class Draw, class Before = std::less<NodeId>>
     Fate judge(Arrival& signal, std::span<Arrival> arrivals, const SinrFrame& frame,
                LevelOf level_of, Draw draw, Before before = {}) {
@@ -88,8 +105,8 @@ class SinrReceiver {
     }
 
   private:
-    /// Canonical: what is decided and summed does not depend on the order of becoming known. Of
-    /// frames that begin together the strongest is first.
+    // Sorts here_ by begin, and of frames that begin together the strongest first: what is decided
+    // and summed does not depend on the order of becoming known.
     template <class Level, class Before>
     void sort_here(Level level, Before before) {
         std::sort(here_.begin(), here_.end(), [&](Arrival* a, Arrival* b) {
@@ -97,9 +114,10 @@ class SinrReceiver {
             return level(*a) != level(*b) ? level(*a) > level(*b) : before(a->from, b->from);
         });
     }
+    // Whether the node sends while the frame arrives.
     bool sends_during(const Arrival& judged) const;
-    /// Decides for all frames that began by `until`, in their order, whether the receiver locked on
-    /// to them.
+    // Decides for all frames that began by `until`, in their order, whether the receiver locked on
+    // to them.
     template <class Level>
     void settle_locks(Time until, Dbm noise, Level level) {
         for (Arrival* a : here_) {
@@ -109,7 +127,8 @@ class SinrReceiver {
             *a->lock = locks ? Lock::held : Lock::missed;
         }
     }
-    /// The preamble is strong enough among what is on air when it has been looked at for so long.
+    // Whether the preamble is strong enough among what is on air when it has been looked at for 4
+    // us.
     template <class Level>
     bool finds_preamble(Arrival& preamble, Dbm noise, Level level) {
         constexpr Duration detection{4'000};
@@ -120,19 +139,27 @@ class SinrReceiver {
             if (on_air) others_mw += math::exp10(level(*a) / 10);
         }
         if (others_mw == 0) return Dbm{level(preamble)} - noise >= settings_.preamble_threshold;
-        const double disturbing_db = 10 * math::log10(others_mw + math::exp10(noise.value / 10));
-        return Dbm{level(preamble)} - Dbm{disturbing_db} >= settings_.preamble_threshold;
+        const double interference_db = 10 * math::log10(others_mw + math::exp10(noise.value / 10));
+        return Dbm{level(preamble)} - Dbm{interference_db} >= settings_.preamble_threshold;
     }
+    // Whether the receiver was on no other frame when this one began.
     bool is_free_for(const Arrival& arrival) const;
+    // Whether the node begins to send after `after`, not later than `until`.
     bool sends_within(Time after, Time until) const;
+    // Whether the frame is decoded whatever is drawn: alone, and far above the noise.
     bool is_certain(const Arrival& judged, const SinrFrame& frame) const {
         return here_.empty() &&
                Dbm{judged.level_dbm} - frame.noise >= frame.phy->certain_sinr(frame.coding);
     }
+    // Logarithm of the probability that all bits of the payload are right.
     double log_success_of(const Arrival& judged, const SinrFrame& frame);
 
     Sinr settings_;
-    std::vector<Arrival*> here_;  // what is or was on air at the node, in order of its beginning
+    // Frames that are or were on air at the node, in the order of their begin; and memory for the
+    // sums.
+    std::vector<Arrival*> here_;
+    // Times at which the interference changes within a payload, and power of each frame of here_
+    // [mW].
     std::vector<Time> changes_;
     std::vector<double> power_mw_;
 };

@@ -202,14 +202,14 @@ TEST_CASE("backoff: two stations whose slots run out together both send, whateve
         }
         const Time sends = first.grant();
         second.energy(sends + delay, sends + 300us);
-        CHECK(!second.was_disturbed());
+        CHECK(!second.was_busy());
         CHECK(second.grant() == sends);
 
         Backoff third(timing);
         third.energy(at(0), at(100));
         third.begin(4, at(50));
         third.energy(sends + delay, sends + 300us);
-        CHECK(third.was_disturbed());
+        CHECK(third.was_busy());
         CHECK(third.grant() == sends + 300us + timing.difs + timing.slot);
     }
 }
