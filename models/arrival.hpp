@@ -48,7 +48,8 @@ struct Sensing {
     Time begin, end;
 };
 
-/// Frame as it arrives at one node.
+/// Frame as it arrives at one node: the view of a judge. Times are those at the node, propagation
+/// delay included.
 struct Arrival {
     /// Begin and end at the node.
     Time begin;
@@ -68,7 +69,8 @@ struct Arrival {
     bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
 };
 
-/// Frame of a node's own, as it arrives there: stronger than all others.
+/// Frame of a node's own, as it arrives there: stronger than all others. Nothing is received
+/// meanwhile.
 constexpr Arrival own_frame(NodeId node, Time begin, Time end) {
     return {.begin = begin,
             .end = end,

@@ -41,7 +41,7 @@ struct LinkGain {
 
 /// Largest path loss [dB] at which `to` still receives `from`: power + gain - cable loss of the
 /// transmitter, + gain - cable loss - sensitivity of the receiver. The link is up if its loss is no
-/// larger.
+/// larger. Two radios with all defaults have 16.53 dBm - (-75 dBm) = 91.53 dB.
 ///
 /// Source: the 2007 thesis, table 3.1, with the sensitivity subtracted as it must be.
 constexpr Db link_budget(const Radio& from, const Radio& to, LinkGain gain) {
@@ -62,7 +62,7 @@ constexpr Db sensing_budget(const Radio& from, const Radio& to) {
     return sensing_budget(from, to, LinkGain::most(from, to));
 }
 
-/// Received power [dBm] after `path_loss` between the antennas.
+/// Received power [dBm] after `path_loss` between the antennas: power + gains - losses.
 constexpr Dbm received_power(const Radio& from, Db path_loss, LinkGain gain) {
     return from.power + gain.sender - path_loss + gain.receiver;
 }

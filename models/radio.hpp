@@ -88,6 +88,8 @@ struct Radio {
 
     friend bool operator==(const Radio&, const Radio&) = default;
 
+    /// Parameters of scenario files. Labels and addresses are among them: tables and pictures show
+    /// them, links do not depend on them.
     static constexpr auto fields() {
         return describe(
             field("power", &Radio::power, "transmitter output power"),

@@ -11,7 +11,8 @@
 
 namespace rovernet {
 
-/// Payload of an event: 16 bytes. `data` means what `kind` says.
+/// Payload of an event: 16 bytes. `data` means what `kind` says. A part that is added to the
+/// network needs a kind here and a case in Engine::serve.
 struct Occurrence {
     enum class Kind : std::uint32_t {
         /// A frame of `node` ends at some of its receivers; data: its slot in Channel.

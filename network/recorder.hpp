@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+// Delivery of records. Sinks see them in the order in which they were added; a record is made once,
+// whoever wants it.
+
 namespace rovernet {
 
 /// Sinks of a network: each gets the kinds of records that it asks for, in the order of the run.
@@ -39,7 +42,8 @@ class Recorder {
     bool wants() const {
         return wants(kind_of<R>());
     }
-    /// Gives up these kinds: from now on nobody gets them, later sinks neither.
+    /// Gives up these kinds: from now on nobody gets them, later sinks neither. Applications give
+    /// up kind_cheap_reachable once it is no longer cheap.
     void give_up(KindMask kinds) {
         given_up_ |= kinds;
         wanted_ &= ~kinds;
@@ -50,6 +54,7 @@ class Recorder {
         for (const Numbered& each : sinks_) each.sink.begin(run);
     }
     /// Gives a record to all sinks that want its kind, in the order in which they were added.
+    /// @param context  what they may look up
     template <class R>
     void emit(const R& record, const RecordContext& context) {
         if (!wants<R>()) return;
@@ -69,6 +74,7 @@ class Recorder {
         Sink sink;
         std::uint32_t number;
     };
+    // Sinks in the order in which they were added.
     std::vector<Numbered> sinks_;
     // Kinds that some sink wants, and kinds that were given up.
     KindMask wanted_ = 0, given_up_ = 0;

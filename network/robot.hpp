@@ -14,6 +14,11 @@
 #include <string>
 #include <string_view>
 
+// Robots, as they are given to a Network and as they are asked for:
+//
+//     const NodeId a = network.add({.name = "A", .at = {2, 3}, .move = RandomWaypoint{...}});
+//     network.robot(a).at;
+
 namespace rovernet {
 
 /// Robot as it joins a Network. All members have defaults but the place.

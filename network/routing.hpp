@@ -34,7 +34,9 @@ class RoutingUser {
 /// layer that the protocol works on.
 ///
 /// What the protocol sends now leaves once the protocol's function has returned, so that it is told
-/// of nothing in the midst of its work. Frames that are sent later wait here, with an event each.
+/// of nothing in the midst of its work. Frames that are sent later wait here, with an event each. A
+/// message goes the protocol's way if it was sent by Network::broadcast or Network::send, and over
+/// one hop past it by Network::unicast.
 class Routing final : public LinkLayer, public MacUser {
   public:
     /// @param user  layer above, which may still be under construction
@@ -104,10 +106,12 @@ class Routing final : public LinkLayer, public MacUser {
     void receive_unicast(const AirFrame& air, const Arriving& part);
     void receive_unicast(const AirFrame& air, Reception& reception, std::span<const Dbm> level);
 
+    // World, and the layers below and above.
     World& world_;
     // Layers below and above.
     Mac& mac_;
     RoutingUser& user_;
+    // Protocol of all nodes; none: messages go over one hop only.
     std::optional<Router> router_;
     // The protocol is in its on_receive: it may not send at once.
     bool receiving_ = false;

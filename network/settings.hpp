@@ -45,7 +45,8 @@ struct NetworkSettings {
     AccessModel access = NoAccess{};
     /// Frames travel at the speed of light; otherwise they arrive at once.
     bool propagation_delay = true;
-    /// Events that a run may need; one that needs more fails by a RunError.
+    /// Events that a run may need; one that needs more fails by a RunError. It catches what
+    /// schedules without end.
     std::uint64_t event_limit = 100'000'000;
     /// Reference for tests: looks at every pair of robots, and serves receptions at different times
     /// by separate events. Slow, and the same to the last record.

@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+// Ends of callbacks. Network::on_receive and its kind return one each.
+
 namespace rovernet {
 
 /// Right to end a callback of a Network. It may outlive the network, and letting it go ends

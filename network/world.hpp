@@ -23,6 +23,9 @@ namespace rovernet {
 
 /// World of a running network: what all its parts share. Time, events, robots' legs and radios,
 /// messages and records are here; what only one part writes is in that part.
+///
+/// Parts keep a reference to it and to those that they call, and nothing else: two networks in one
+/// process share nothing.
 struct World {
     /// Makes an empty world.
     /// @throws std::invalid_argument if a setting is out of its range
@@ -78,11 +81,14 @@ struct World {
     bool running = false;
     /// Events to come.
     Scheduler<Occurrence> events;
-    /// Where robots are, what their radios reach, what is said, and who observes.
+    /// Motion of all robots.
     Legs legs;
+    /// Radios, and who hears whom.
     Medium medium;
     const Phy phy;  // that the access protocol's frames go by
+    /// Messages that somebody still refers to.
     MessageTable messages;
+    /// Sinks, which get what emit() is given.
     Recorder records;
     /// Called when nothing refers to a message any more; Routing sets it.
     std::function<void(MessageId)> on_forgotten = {};

@@ -8,7 +8,8 @@
 
 namespace rovernet {
 
-/// Method by which the interval of a mean is made.
+/// Method by which the interval of a mean is made. A study may name it; otherwise the metric
+/// decides.
 ///
 /// - `t`: Student's t, which supposes that means are normal.
 /// - `betting`: supposes only that the values have bounds; wider, but right for ratios near 0 or 1.

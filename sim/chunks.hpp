@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+// Long lists that grow while references to their values are kept.
+
 namespace rovernet {
 
 /// A list that only grows, whose values never move: references stay valid while others are added.

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+// Half of the event queue: keys that come nearly in order need no heap.
+
 namespace rovernet {
 
 /// Sorted run of event keys, for keys that come nearly in order. A key is inserted at most 8 places

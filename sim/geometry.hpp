@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+// Geometry of places. A link has the same length in both directions to the last bit, so that both
+// directions are up or down together where radios are alike.
+
 namespace rovernet {
 
 /// Point or vector in metres [m], or a velocity [m/s]. The scene's axes: x to the right and y up on

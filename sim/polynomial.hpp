@@ -13,7 +13,9 @@ namespace rovernet::math {
 ///
 /// Even and odd terms are summed apart, in x^2, and joined at the end: two short chains of
 /// multiplications instead of the long one of Horner's rule, so that it takes half the time until
-/// the result is there. math.cpp and the error rates of models/phy use it.
+/// the result is there. math.cpp and the error rates of models/phy use it:
+///
+///   polynomial(std::array{1.0, 2.0, 3.0}, x) == 1 + 2 x + 3 x^2
 ///
 /// @param c  coefficients, of the lowest power first
 template <std::size_t N>

@@ -18,6 +18,13 @@
 // Records: everything that can be observed of a run. The parts of a network give them to
 // World::emit; traces, metrics, the fingerprint and the user's own sinks see records and nothing
 // else. They come in order of time. A record and what it points to is good while a sink handles it.
+//
+//     void on(const Record& record, const RecordContext& context) {
+//         const auto* got = std::get_if<Received>(&record);
+//         if (!got) return;
+//         const Message& message = context.messages[got->frame.message];
+//         for (const Reception& at : got->receptions) count(message.flow, at.fate);
+//     }
 
 namespace rovernet {
 

@@ -7,9 +7,18 @@
 // never made: it costs the test of a bit.
 //
 //     KindMask kinds() const { return kind_of<Received>() | kind_levels; }
+//
+// Bits are fixed for ever, as fingerprints contain them: append, never renumber. A new kind needs
+//   - a struct in sim/record.hpp, at the end of the variant Record,
+//   - its name and the next bit here, below bit 29,
+//   - the bytes that it adds to a fingerprint, in traces/fingerprint.cpp,
+//   - somebody who emits it: World::emit.
+// Requests are bits from 29 on. They are no records: a sink that has one gets more in a record of
+// another kind, which costs every sink's run the work once.
 
 namespace rovernet {
 
+// Records, which sim/record.hpp defines; a mask needs their names only.
 struct Sent;
 struct Transmitted;
 struct Received;
@@ -28,6 +37,8 @@ using KindMask = std::uint32_t;
 
 /// Kind of the records of type `T`: a mask of one bit, its place in the variant Record. A type that
 /// is no record does not link.
+///
+///   if (sink.kinds() & kind_of<Moved>()) ...
 template <class T>
 constexpr KindMask kind_of();
 template <>

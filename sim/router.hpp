@@ -46,7 +46,8 @@ concept RouterProtocol = requires(T router, LinkLayer& link, NodeId node, Messag
 
 // Functions that a protocol may have beside these.
 
-/// Protocol that sets timers by LinkLayer::timer; `tag` is what it gave there.
+/// Protocol that sets timers by LinkLayer::timer. There is no way to take one back: on_timer looks
+/// whether it is still wanted. `tag` is what it gave there.
 template <class T>
 concept HasTimers = requires(T router, LinkLayer& link, NodeId node, std::uint64_t tag) {
     {router.on_timer(link, node, tag)};
@@ -57,19 +58,21 @@ template <class T>
 concept ForgetsMessages = requires(T router, MessageId message) {
     {router.forget(message)};
 };
-/// Protocol that wants to know what became of its frames. It is never told inside a call of its own
-/// to the link layer.
+/// Protocol that wants to know what became of its frames: each that was sent, and not taken back,
+/// ends by one call. It is never told inside a call of its own to the link layer.
 template <class T>
 concept HearsOfResults = requires(T router, LinkLayer& link, const Frame& frame,
                                   SendResult result) {
     {router.on_sent(link, frame, result)};
 };
-/// Protocol whose nodes begin to work: each when the run begins, or when it is added later.
+/// Protocol whose nodes begin to work: each when the run begins, in the order of their keys, or
+/// when it is added later. HELLO messages begin here.
 template <class T>
 concept HearsOfStarts = requires(T router, LinkLayer& link, NodeId node) {
     {router.on_start(link, node)};
 };
-/// Protocol that wants to know when a node is switched off or on.
+/// Protocol that wants to know when a node is switched off or on. Frames that wait for their time,
+/// and timers, stay: what a node that is off sends is dropped.
 template <class T>
 concept HearsOfSwitches = requires(T router, LinkLayer& link, NodeId node, bool on) {
     {router.on_switched(link, node, on)};
@@ -90,6 +93,7 @@ struct RouterTraits {
 class Router {
   public:
     /// Moves the protocol in.
+    /// Settings convert to their protocol: Router{Flood{.ttl = 3}}.
     template <class T>
     requires(!std::same_as<T, Router> && RouterProtocol<T>) Router(T protocol)
         : traits_(traits_of<T>()),
@@ -99,6 +103,7 @@ class Router {
 
     /// Facts about the protocol, asked before it is told of things that it may not want.
     const RouterTraits& traits() const { return traits_; }
+    /// Whether on_sent and on_start do anything: the network need not look for what to tell.
     bool hears_of_results() const { return hears_of_results_; }
     bool hears_of_starts() const { return hears_of_starts_; }
     /// Calls of the protocol.
@@ -115,6 +120,7 @@ class Router {
     void on_start(LinkLayer& link, NodeId node) { self_->on_start(link, node); }
     void on_switched(LinkLayer& link, NodeId node, bool on) { self_->on_switched(link, node, on); }
     void forget(MessageId m) { self_->forget(m); }
+    /// TTL that a message starts with [hops].
     Hops initial_ttl() const { return self_->initial_ttl(); }
 
   private:
@@ -169,6 +175,7 @@ class Router {
         Hops initial_ttl() const override { return protocol.initial_ttl(); }
         T protocol;
     };
+    // Facts about the protocol, and the protocol itself, on the heap: a Router moves without it.
     RouterTraits traits_;
     bool hears_of_results_, hears_of_starts_;
     std::unique_ptr<Concept> self_;

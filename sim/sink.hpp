@@ -41,7 +41,8 @@ struct RunInfo {
 /// Observer of records. kinds() says once, when it is added, which kinds it wants; on() then gets
 /// each of them, in the order of the run. What it may look up meanwhile is in the context.
 ///
-/// A sink only watches: it must not change the network.
+/// A sink only watches: it must not change the network, nor add or remove sinks. Metrics,
+/// Fingerprint, Ns2Trace, Timeline and Trails are sinks.
 template <class T>
 concept RecordSink = requires(T sink, const Record& record, const RecordContext& context) {
     { std::as_const(sink).kinds() } -> std::convertible_to<KindMask>;
@@ -87,6 +88,7 @@ class Sink {
     void on(const Record& record, const RecordContext& context) const {
         on_(self_.get(), record, context);
     }
+    /// Tells the sink that the run is over.
     void finish() const { finish_(self_.get()); }
 
   private:

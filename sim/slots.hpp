@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <vector>
 
+// Places that are given by number to what is on its way: frames in flight, actions, legs. An event
+// carries the number, where a pointer would not fit.
+
 namespace rovernet {
 
 /// Numbered places for values that come and go, such as frames in flight. A place that was released

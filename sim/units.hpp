@@ -5,6 +5,10 @@
 
 // Quantities that the compiler tells apart: a gain is no level, a distance no frequency. Each holds
 // one double, `value`, in the unit that its name says, and costs nothing beside it.
+//
+//     const Dbm received = 16_dBm + 3_dB - 92_dB;   // a level and ratios: -73 dBm
+//     const Db margin = received - Dbm{-75};        // two levels: 2 dB
+//     const double share = Meters{30} / Meters{60};  // two lengths: 0.5
 
 namespace rovernet {
 

@@ -6,6 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 
+// Grids of bounded memory over an unbounded plane:
+//
+//     const WrappedAxis axis(100, 64);          // 64 cells of 100 m
+//     axis.cell_at(50) == axis.cell_at(6450);   // one round further
+//     axis.near(10, 150).count() == 4;          // cells from -140 m to 160 m
+
 namespace rovernet {
 
 /// Axis of a grid whose cells wrap around: a fixed number of cells of equal width serves the whole

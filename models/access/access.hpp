@@ -123,7 +123,9 @@ concept MakesAccess = std::copyable<T> && requires(const T& settings) {
     { settings.make_access() } -> std::same_as<std::unique_ptr<Access>>;
 };
 
-/// Settings of any access model, held by value. NetworkSettings::access is one.
+/// Settings of any access model, held by value. NetworkSettings::access is one:
+///
+///   Network network({.access = Aloha{}});
 class AccessModel {
   public:
     template <class T>
@@ -142,6 +144,7 @@ class AccessModel {
     Phy phy() const { return make_access()->phy(); }
 
   private:
+    // Name of the settings, and a function that makes their model.
     std::string_view name_;
     std::function<std::unique_ptr<Access>()> make_;
 };

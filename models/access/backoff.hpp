@@ -49,7 +49,8 @@ class Backoff {
         not_before_ = from;
         busy_since_ = never;
     }
-    /// Time at which the slots have run out if the medium stays idle: the station may send then.
+    /// Time at which the slots have run out if the medium stays idle: the station may send then. A
+    /// timer that is due then asks again, as the medium may have been busy meanwhile.
     Time grant() const {
         if (busy_since_ == never) return anchor() + slots_ * timing_->slot;
         if (!was_busy()) return counted_from_ + slots_ * timing_->slot;
@@ -65,14 +66,15 @@ class Backoff {
     bool is_busy(Time t) const { return busy_until_ > t; }
 
   private:
-    // Time before all others that matter.
+    // Time before all others that matter: a station starts with an idle medium.
     static constexpr Time long_ago{Duration{-1'000'000'000'000}};
 
     // Time from which slots count again, as far as is known.
     Time anchor() const {
         return std::max({not_before_, busy_until_ + timing_->difs, eifs_until_});
     }
-    // Slots left when the medium became busy.
+    // Slots left when the medium became busy: those that were over by then count, the one under way
+    // does not.
     int left() const {
         if (busy_since_ == never) return slots_;
         const Duration idle = busy_since_ + timing_->turnaround + timing_->cca_time - counted_from_;

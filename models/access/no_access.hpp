@@ -8,7 +8,8 @@
 namespace rovernet {
 
 /// Access model "none": a frame goes on air at once, even over one of the same node. Nothing waits,
-/// nobody listens, and a unicast is sent once. The default; the lightest load on the computer.
+/// nobody listens, and a unicast is sent once. The default, and the lightest load on the computer:
+/// what interferes is left to the reception model.
 struct NoAccess {
     static constexpr std::string_view name = "none";
 

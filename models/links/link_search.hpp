@@ -5,7 +5,8 @@
 
 namespace rovernet {
 
-/// Precision with which link changes are looked for: [links] of a scenario.
+/// Precision with which link changes are looked for: [links] of a scenario. Both bounds are for
+/// models whose changes cannot be computed; the others are exact to the nanosecond.
 struct LinkSearch {
     /// Error [ns] of the time of a change behind walls, >= 1 ns.
     Duration tolerance{1'000'000};

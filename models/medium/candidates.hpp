@@ -14,6 +14,8 @@
 #include <span>
 #include <vector>
 
+// Search for receivers by asking the model: the slowest way, for models of any shape.
+
 namespace rovernet {
 
 /// Candidate for a receiver: a node within reach of a transmitter.
@@ -71,6 +73,7 @@ class Candidates {
     std::vector<std::uint32_t> asked_;
     std::vector<Vec3> positions_;
     std::vector<std::uint64_t> keys_;
+    // Losses that the model answered [dB].
     std::vector<double> loss_db_;
 };
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+// Levels that need not be computed: where two frames overlap, mostly one is much stronger.
+
 namespace rovernet {
 
 /// Bounds of a loss that never falls with the distance, for when it need not be known exactly: the

@@ -18,7 +18,8 @@ struct MediumSettings {
     Meters floor_height{3};
     /// A frame arrives distance / c after it is sent; otherwise at once.
     bool propagation_delay = true;
-    /// Losses of pairs at rest are kept, instead of computing them again.
+    /// Losses of pairs at rest are kept (PairCache), instead of computing them again with every
+    /// frame.
     bool keep_losses = true;
     /// Every pair is looked at, without the grid, and no losses are kept: for tests.
     bool all_pairs = false;

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+// Networks of radios (essid, channel and frequency), of which a gate lets in its own only.
+
 namespace rovernet {
 
 /// Network of a radio, as numbers that are equal where the settings are. Comparing them costs less

@@ -10,6 +10,8 @@
 
 #include <vector>
 
+// Neighbours as a radio sees them: for tables of links, pictures and applications.
+
 namespace rovernet {
 
 /// Neighbour of a robot: one that it hears, as its radio sees it.
@@ -27,7 +29,9 @@ struct Neighbour {
 /// from 50 dB on.
 int link_quality(Db margin);
 
-/// Neighbours that `node` hears at `t`, in order of id.
+/// Neighbours that `node` hears at `t`, in order of id: those that are on, in its network, and
+/// within the link budget. It takes a look at every node.
+/// @param legs  of the medium's nodes; `t` must not lie before them
 std::vector<Neighbour> neighbours(const Medium& medium, const Legs& legs, NodeId node, Time t);
 
 }  // namespace rovernet

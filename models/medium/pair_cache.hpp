@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+// Losses of robots at rest, for models that are costly to ask: a ray through a map.
+
 namespace rovernet {
 
 /// Path losses of pairs of nodes, kept while neither of them moves.

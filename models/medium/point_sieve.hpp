@@ -10,6 +10,9 @@
 #include <tmmintrin.h>
 #endif
 
+// The innermost loop of the search for receivers, in single precision: it keeps a few points too
+// many rather than one too few, as its caller adds what rounding may take.
+
 namespace rovernet {
 
 /// Sieve of points in a plane: picks those within reach of one, four at a time where the processor
@@ -30,7 +33,8 @@ class PointSieve {
         : xs_(xs), ys_(ys), x_(all(x)), y_(all(y)), squared_reach_(all(squared_reach)) {}
 
     /// Writes the numbers of the points from `begin` to `end` that are kept to `kept`, in order,
-    /// and their squared distances [m^2], if they are wanted, to `squares`.
+    /// and their squared distances [m^2], if they are wanted, to `squares`. Both compilations, with
+    /// SSSE3 and without, keep the same points.
     /// @return how many are kept
     std::size_t sift(std::uint32_t begin, std::uint32_t end, std::uint32_t* kept,
                      float* squares) const {
@@ -55,6 +59,7 @@ class PointSieve {
   private:
 #ifdef __SSSE3__
     using Floats = __m128;
+    // Four times the same number.
     static Floats all(float x) { return _mm_set1_ps(x); }
 
     // Shuffles of the bytes of four values that pack those that bits tell to the front.

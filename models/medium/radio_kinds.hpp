@@ -146,6 +146,7 @@ class RadioKinds {
         std::array<double, strengths.size()> of = {unknown, unknown, unknown};
         double& operator[](Strength s) { return of[static_cast<std::size_t>(s)]; }
     };
+    // Tables of draws in range, by Strength; none: not made yet.
     using Tables = std::array<std::optional<ShadowedRange>, strengths.size()>;
     // Kind of stations, and what was computed for it.
     struct Alike {
@@ -167,17 +168,22 @@ class RadioKinds {
         std::vector<std::optional<FirstLook>> looks = {};
     };
 
+    // Numbers of a radio's network, new ones if it is new.
     Membership membership(const Radio& radio);
+    // Makes room in the lists of a kind for all kinds.
     void make_room(Kind from);
+    // Computes what squared_range(), table() and first_look() are asked for the first time.
     double compute_range(Kind from, Kind to, Strength strength);
     ShadowedRange make_table(Kind from, Kind to, Strength strength) const;
     FirstLook make_look(Kind from, Strength strength);
 
+    // Cut of interference [dB], if the reception model has one.
     std::optional<Db> interference_cut_;
     std::vector<Alike> kinds_;
     // Heights of the kinds' antennas [m].
     std::vector<double> heights_;
     std::vector<Propagation> models_;
+    // Networks so far, by the numbers that Membership has.
     std::vector<std::string> essids_ = {"any"};
     std::vector<std::pair<int, Hertz>> channels_;
     // Some two kinds may have no link.

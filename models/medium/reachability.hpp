@@ -12,6 +12,9 @@
 #include <span>
 #include <vector>
 
+// The metric `reach` needs to know, with every message, how many robots any protocol could bring it
+// to. A search of the whole network for each message would cost more than the messages.
+
 namespace rovernet {
 
 /// Number of robots that a chain of links joins to a sender: that of Medium::reachable(), found

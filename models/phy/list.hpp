@@ -5,6 +5,8 @@
 
 #include <tuple>
 
+// The list of physical layers.
+
 namespace rovernet {
 
 /// Physical layers that there are, for tests that every one has to pass.

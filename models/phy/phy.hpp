@@ -42,9 +42,11 @@ concept PhysicalLayer = std::copyable<T> &&
     { phy.certain_sinr(coding) } -> std::same_as<Db>;
 };
 
-/// Any physical layer, held by value and shared between its copies.
+/// Any physical layer, held by value and shared between its copies. Access::phy answers one; the
+/// channel and the judges of receptions get it from there.
 class Phy {
   public:
+    /// Takes a layer of any type.
     /// @throws std::invalid_argument if a parameter is out of its range
     template <class T>
     requires(!std::same_as<T, Phy> && PhysicalLayer<T>) Phy(T phy)

@@ -21,7 +21,11 @@ inline double free_space_db(double d, Hertz f) {
 /// Free space (Friis):  L(d) = max(0, 20 log10(4 pi d f / c)), and 0 dB at d = 0.
 ///
 /// Valid in the far field, d > max(lambda, 2 D^2 / lambda), with nothing between or near the
-/// antennas. It leaves out ground, walls and every obstacle. The default model.
+/// antennas. It leaves out ground, walls and every obstacle. The default model. At 2450 MHz
+/// `rovernet loss friis` prints
+///
+///   1 m   40.23 dB
+///   10 m  60.23 dB
 ///
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 struct Friis {

@@ -58,7 +58,8 @@ struct ItuIndoor {
     /// @throws std::invalid_argument if no row of the table is near enough, or has so many floors
     void check_frequency(Hertz f) const;
 
-    /// Distance [m] beyond which the loss is more than `loss`, floors left out.
+    /// Distance [m] beyond which the loss is more than `loss`, floors left out: with them it is
+    /// nearer.
     Meters reach(Db loss, Hertz f) const;
     /// Fills out_db[i] [dB] for the i-th receiver; never negative.
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;

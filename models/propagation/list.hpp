@@ -12,6 +12,8 @@
 
 #include <tuple>
 
+// The list of propagation models: a new one is a header and a line here.
+
 namespace rovernet {
 
 /// Propagation models that scenario files know by name, in the order of their detail. A model that

@@ -40,7 +40,7 @@ struct LogDistance {
                               "loss at d0 beyond that of free space; what a fit finds"));
     }
 
-    /// By pair with shadowing, else by distance.
+    /// By pair with shadowing, else by distance: no wall is looked at.
     LossShape shape() const {
         return sigma.value == 0 ? LossShape::by_distance : LossShape::by_pair;
     }

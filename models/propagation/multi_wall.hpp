@@ -8,8 +8,9 @@
 namespace rovernet {
 
 /// Multi-wall path loss [dB], for d >= 1 m, held at its value at 1 m below, never negative:
+///
 ///   L = L0 + 10 n log10 d + sum over the walls crossed + Lf k^((k + 2) / (k + 1) - b),
-/// with L0 = free space at 1 m + excess, and k floors between the antennas.
+///   with L0 = free space at 1 m + excess, and k floors between the antennas.
 ///
 /// A wall takes what its material says. A wall whose material follows the model takes `light_wall`
 /// or `heavy_wall`, by its drawn thickness where the ray's middle in it lies: below 10 cm it is
@@ -17,18 +18,25 @@ namespace rovernet {
 /// a rate per metre. The loss jumps where a wall comes between, and where the thickness under the
 /// ray's middle passes 10 cm. Reflection and diffraction are left out: behind many walls the loss
 /// is an upper estimate.
+///
 /// Source: COST Action 231, Digital mobile radio towards future generation systems, EUR 18957
 /// (1999), section 4.7.2, with its values at 1.8 GHz: light walls 3.4 dB, heavy walls 6.9 dB,
 /// floors 18.3 dB with b = 0.46.
 struct MultiWall {
     static constexpr std::string_view name = "multi_wall";
 
-    double exponent = 2;         ///< n [-], > 0
-    Db excess{0};                ///< loss at 1 m beyond that of free space [dB]; may be negative
-    Db light_wall{3.4};          ///< loss of a wall thinner than 10 cm [dB], >= 0
-    Db heavy_wall{6.9};          ///< loss of a thicker one [dB], >= 0
-    Db floor_loss{18.3};         ///< Lf [dB], >= 0
-    double floor_saving = 0.46;  ///< b [-], from 0 to 1
+    /// Path loss exponent n [-], > 0; 2 free space.
+    double exponent = 2;
+    /// Loss at 1 m beyond that of free space [dB]; may be negative.
+    Db excess{0};
+    /// Loss of a wall thinner than 10 cm [dB], >= 0.
+    Db light_wall{3.4};
+    /// Loss of a thicker wall [dB], >= 0.
+    Db heavy_wall{6.9};
+    /// Loss of one floor, Lf [dB], >= 0.
+    Db floor_loss{18.3};
+    /// Saving b [-], from 0 to 1, by which further floors take less than the first.
+    double floor_saving = 0.46;
 
     static constexpr auto fields() {
         return describe(
@@ -48,7 +56,9 @@ struct MultiWall {
 
     LossShape shape() const { return LossShape::by_walls; }
 
+    /// Distance [m] beyond which the loss is more than `loss`: without walls and floors.
     Meters reach(Db loss, Hertz f) const;
+    /// Fills out_db[i] [dB] for the i-th receiver; walls and floors come from the batch.
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
 };
 

@@ -71,7 +71,7 @@ class Propagation {
     friend bool operator==(const Propagation&, const Propagation&) = default;
 
   private:
-    // Functions of the model inside, whatever its type.
+    // Functions of the model inside, whatever its type; what it lacks is answered safely by Holder.
     struct Concept {
         virtual ~Concept() = default;
         virtual std::string_view name() const = 0;
@@ -85,6 +85,8 @@ class Propagation {
         /// Asked only of a model that is random.
         virtual Propagation median() const = 0;
     };
+    // Model of a type. A function that the model does not have gets the answer that is right for
+    // any: an infinite reach, an unknown shape, no shadowing.
     template <class T>
     struct Holder final : Concept {
         /// Parameters are checked once, here.
@@ -101,6 +103,7 @@ class Propagation {
             if constexpr (BoundedModel<T>) return model.reach(loss, frequency);
             return anything;
         }
+        /// Known at compile time.
         bool is_bounded_by_height() const override { return BoundedByHeight<T>; }
         void check_frequency(Hertz frequency) const override {
             if constexpr (FrequencyCheckedModel<T>) model.check_frequency(frequency);

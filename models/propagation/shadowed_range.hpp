@@ -82,13 +82,14 @@ class ShadowedRange {
     }
 
     /// Number of draws that may be in range at squared distances [m^2] from `at_least` on: of the
-    /// draws 0, 1 ... 2^31 - 1 only so many first ones.
+    /// draws 0, 1 ... 2^31 - 1 only so many first ones. FirstLook is made of it.
     std::uint32_t most_draws(double at_least) const {
         const Cell& nearest = cell(at_least);
         return nearest.sure + nearest.open;
     }
 
-    /// Probability [-] that a link of this squared distance [m^2] has to be computed.
+    /// Probability [-] that a link of this squared distance [m^2] has to be computed: what the
+    /// table leaves open there.
     double computed_share(double squared_distance) const {
         return cell(squared_distance).open * 0x1p-31;
     }

@@ -8,10 +8,12 @@
 
 namespace rovernet {
 
-/// Equation of a TwoRay model.
+/// Form of a TwoRay model: which equation it is.
 enum class TwoRayForm {
-    ns2,    ///< simplified, as in ns-2: free space, then d^4
-    exact,  ///< the sum of the two rays, with their peaks and nulls
+    /// Simplified, as in ns-2: free space, then d^4.
+    ns2,
+    /// Sum of the two rays, with their peaks and nulls.
+    exact,
 };
 template <>
 struct EnumNames<TwoRayForm> {
@@ -51,10 +53,14 @@ struct EnumNames<Polarization> {
 struct TwoRay {
     static constexpr std::string_view name = "two_ray";
 
-    Meters lowest_antenna{0.1};  ///< [m] above the ground, > 0
+    /// Height above the ground that a lower antenna counts as having [m], > 0.
+    Meters lowest_antenna{0.1};
+    /// Equation of the loss.
     TwoRayForm form = TwoRayForm::ns2;
-    Polarization polarization = Polarization::vertical;  ///< of form "exact"
-    double ground_permittivity = 15;                     ///< e [-], >= 1; of form "exact"
+    /// Polarization, of form "exact".
+    Polarization polarization = Polarization::vertical;
+    /// Relative permittivity e of the ground [-], >= 1; of form "exact".
+    double ground_permittivity = 15;
 
     static constexpr auto fields() {
         return describe(
@@ -81,9 +87,11 @@ struct TwoRay {
     /// the sum of the bounds of 1 - d1 / d2, of the phase and of 1 + G, so that L grows with
     /// 40 log10 d1.
     Meters reach(Db loss, Hertz f, Meters highest) const;
+    /// Fills out_db[i] [dB] for the i-th receiver.
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
 
   private:
+    // Losses of form "exact", and the height that an antenna counts as having [m].
     void exact_loss(const LinkBatch& links, std::span<double> out_db) const;
     double height(double z) const { return z > lowest_antenna.value ? z : lowest_antenna.value; }
 };

@@ -78,7 +78,8 @@ class Interference {
 
     // Functions for the judge.
     const Medium& medium() const { return *settings_.medium; }
-    /// Frame as it arrives at a node, its level left open; nothing if the node does not notice it.
+    /// Frame as it arrives at a node, its level left open; nothing if the node does not notice it:
+    /// it is too far away, off, or in another network. A node's own frame arrives without a delay.
     std::optional<Arrival> arrival(const Emission& frame, NodeId node);
     /// Received power [dBm] at `node` of a frame whose level was left open.
     Dbm level(const Arrival& arrival, NodeId node) const {

@@ -78,7 +78,9 @@ concept MakesJudge = std::copyable<T> && requires(const T& settings) {
     { settings.make_judge() } -> std::same_as<std::unique_ptr<Judge>>;
 };
 
-/// Settings of any reception model, held by value. NetworkSettings::reception is one.
+/// Settings of any reception model, held by value. NetworkSettings::reception is one:
+///
+///   Network network({.reception = Collision{.capture_ratio = 6_dB}});
 class ReceptionModel {
   public:
     template <class T>
@@ -99,6 +101,7 @@ class ReceptionModel {
 
   private:
     std::string_view name_;
+    // Makes the judge of the settings inside.
     std::function<std::unique_ptr<Judge>()> make_;
 };
 

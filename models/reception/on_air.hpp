@@ -38,7 +38,8 @@ class OnAir {
     /// @param on   whether its radio was on until now
     void changes(NodeId node, const Leg& leg, bool on);
 
-    /// Adds a frame; its `begin` must not be before that of the frame before. @return its serial
+    /// Adds a frame; its `begin` must not be before that of the frame before.
+    /// @return its serial: one more than that of the frame before
     std::uint64_t add(Emission frame);
     /// Forgets the first frames, as long as they ended by `t`, and calls use(frame) for each.
     template <class Use>
@@ -73,7 +74,8 @@ class OnAir {
         /// Number of the change of the same node before this one.
         std::uint64_t previous;
     };
-    /// Whether the node's leg or radio has changed since a frame began that is kept.
+    /// Whether the node's leg or radio has changed since a frame began that is kept: near() does
+    /// not hold for it then.
     bool has_changed(NodeId node) const {
         return !changes_.empty() && last_change(node) >= first_change_;
     }

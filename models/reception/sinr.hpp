@@ -65,6 +65,9 @@ struct SinrFrame {
 
 /// Receivers of the model "sinr": judges frames, one at a time. It keeps no state of nodes, only
 /// memory; SinrJudge tells it what is on air.
+///
+/// A judgement has three steps: which frames did the receiver lock on to up to this one; does the
+/// node send meanwhile; and are all bits right, with the interference as it changes.
 class SinrReceiver {
   public:
     explicit SinrReceiver(const Sinr& settings = {}) : settings_(settings) {}
@@ -146,7 +149,7 @@ class SinrReceiver {
     bool is_free_for(const Arrival& arrival) const;
     // Whether the node begins to send after `after`, not later than `until`.
     bool sends_within(Time after, Time until) const;
-    // Whether the frame is decoded whatever is drawn: alone, and far above the noise.
+    // Whether the frame is decoded whatever is drawn: it is alone, and far above the noise.
     bool is_certain(const Arrival& judged, const SinrFrame& frame) const {
         return here_.empty() &&
                Dbm{judged.level_dbm} - frame.noise >= frame.phy->certain_sinr(frame.coding);
