@@ -41,7 +41,8 @@ enum class Lock : std::uint8_t {
     missed,
 };
 
-/// Frame as a node will sense it, for access models.
+/// Frame as a node will sense it, for access models: Channel makes one for each node that senses a
+/// frame as it goes on air.
 struct Sensing {
     NodeId node;
     /// Begin and end at the node.

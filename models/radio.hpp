@@ -64,7 +64,8 @@ struct Radio {
     Hertz bandwidth{22e6};
     /// Noise figure of the receiver [dB].
     Db noise_figure{7};
-    /// Share of its frames that get through where they reach [-], drawn for each receiver.
+    /// Share of its frames that get through where they reach [-], drawn for each receiver and
+    /// frame.
     double success_rate = 1;
 
     /// Name of its network; "any" joins all.
@@ -122,7 +123,7 @@ struct Radio {
 };
 
 /// Thermal noise at 290 K in a bandwidth, plus the receiver's noise figure: -173.975 dBm + 10
-/// log10(B / 1 Hz) + NF.
+/// log10(B / 1 Hz) + NF. With the defaults of a radio it is -93.55 dBm.
 ///
 /// Source: k T_0 with the CODATA 2018 value of k.
 Dbm noise_floor(Hertz bandwidth, Db noise_figure);

@@ -54,7 +54,7 @@ class Applications final : public RoutingUser {
     /// Calls react(message, how) whenever `node` is handed a message.
     void on_receive(NodeId node, Callback<const Message&, const Heard&> react);
     /// Serves the event of a message that a node was handed: its callbacks are called now, if it is
-    /// still on.
+    /// still on. Nodes that are handed a message at one time react in the order of their keys.
     /// @param handed_over  the message's id, and above its 32 bits the hops
     void react(NodeId node, std::uint64_t handed_over);
     /// Drops the messages that have arrived nowhere and are still under way, as Network::finish.
@@ -85,8 +85,8 @@ class Applications final : public RoutingUser {
     World& world_;
     Routing& routing_;
     const Mac& mac_;
-    // By node, up to the last that there is something of: mostly nothing.
-    // Messages of each node so far, and its callbacks; up to the last node that has any.
+    // By node, up to the last that there is something of: mostly nothing. Messages of each node so
+    // far, and its callbacks; up to the last node that has any.
     std::vector<std::uint32_t> messages_sent_;
     std::vector<Few<Callback<const Message&, const Heard&>>> on_receive_;
     // Nodes that always have something to send, by id.

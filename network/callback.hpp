@@ -40,7 +40,7 @@ class Callback {
     }
 
   private:
-    /// Function, and whether it was ended; the Subscription points to the flag.
+    // Function, and whether it was ended. The Subscription points to the flag and keeps both alive.
     struct State {
         std::function<void(Arguments...)> call;
         bool ended = false;

@@ -48,6 +48,11 @@ class ChannelUser {
 /// Channel: carries frames from those who send to those who can decode them, and decides what
 /// becomes of them there.
 ///
+///   sender       |==== frame ====|
+///   receiver 1     |==== frame ====|            delay by distance
+///   receiver 2        |==== frame ====|
+///                                  ^  ^         ends: one event, if nothing is due between
+///
 /// Who can decode a frame, and when it ends there, is fixed as it goes on air, whatever moves
 /// later. The frame is then a Flight with one event, which is due when it ends at its first
 /// receiver; the event serves as many receptions as nothing else comes between. Interference looks

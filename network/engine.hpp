@@ -39,7 +39,7 @@ class Engine {
     /// MAC, record, links, motion, routing. Nothing happens if it is as wanted.
     void switch_robot(NodeId node, bool on);
     /// Serves events up to `end`, in order, at most so many. It begins what has not begun: the run
-    /// itself, movements, the watch of links.
+    /// itself, movements, the watch of links. The clock stands at `end` when all are served.
     /// @return whether `end` is reached; otherwise there are events left
     /// @throws RunError at the limits of events
     bool advance(Time end, std::uint64_t most_events);

@@ -28,7 +28,8 @@ class Few {
         values_->push_back(std::move(value));
     }
 
-    /// Removes the values for which gone(value) is true; the last one takes the memory with it.
+    /// Removes the values for which gone(value) is true; the last one takes the memory with it. The
+    /// order of the others stays.
     template <class Gone>
     void erase_if(Gone gone) {
         if (!values_) return;

@@ -76,7 +76,8 @@ class LinkWatch {
     bool is_up(NodeId from, NodeId to) const { return (state_[pair(from, to)] & up) != 0; }
 
   private:
-    /// Time at which something is pending for a pair.
+    /// Time at which something is pending for a pair. An entry whose time is no longer that of the
+    /// pair is stale, and passed over.
     struct Entry {
         Time time;
         NodeId from;

@@ -31,8 +31,9 @@ class MacUser {
 /// MAC layer: gets frames to the channel when the access model lets them go, and tells that model
 /// what its stations hear.
 ///
-/// It knows no access model by name: one Access, made by the settings, decides for all nodes. That
-/// calls back through Air.
+/// It knows no access model by name: one Access, made by the settings, decides for all nodes, and
+/// calls back through Air. The MAC adds what all models share: records of what is on air, bit
+/// rates, airtimes, timers and draws.
 class Mac final : public Air, public ChannelUser {
   public:
     /// Makes the access model of the settings.
@@ -101,6 +102,7 @@ class Mac final : public Air, public ChannelUser {
     std::unique_ptr<Access> access_;
     // Facts that the access model says of itself, and that never change.
     bool listens_, has_own_rates_;
+    // Bytes that access adds to a message.
     std::uint32_t header_;
 };
 

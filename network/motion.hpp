@@ -33,9 +33,12 @@ struct Body {
 
 /// Motion of all robots: one leg after the other, as their movement models say.
 ///
+///   begin_all --> next_leg --> movement answers --> take: Legs, Channel, Medium, links; Moved
+///                    ^          a leg                        |
+///                    +------------- on_leg_end <-------------+   an event at the leg's end
+///
 /// A movement is asked for a leg when it begins, when a leg ends, and when the robot is switched on
-/// for the first time. The leg is written into Legs, Channel, Medium and LinkMonitor are told,
-/// Moved is emitted, and an event is queued for its end. Nothing happens in between.
+/// for the first time. Nothing happens in between.
 class Motion {
   public:
     /// @param channel  told before a leg changes, and what the new one is

@@ -34,6 +34,7 @@ struct Occurrence {
         access_timer
     };
     Kind kind;
+    /// Node that it concerns, if it concerns one.
     NodeId node;
     std::uint64_t data;
 };

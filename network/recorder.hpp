@@ -28,14 +28,16 @@ class Recorder {
         sinks_.push_back({std::move(sink), next_});
         return next_++;
     }
-    /// Removes a sink: it gets no more records, and is not finished. Not from within a sink.
+    /// Removes a sink: it gets no more records, and is not finished. Not from within a sink, whose
+    /// list is being gone through. Kinds that only it wanted are no longer made.
     void remove(std::uint32_t number) {
         std::erase_if(sinks_, [&](const Numbered& each) { return each.number == number; });
         wanted_ = 0;
         for (const Numbered& each : sinks_) wanted_ |= each.sink.kinds() & ~given_up_;
     }
 
-    /// Whether some sink wants one of these kinds.
+    /// Whether some sink wants one of these kinds. Requests count as kinds here: kind_reachable,
+    /// say.
     bool wants(KindMask kinds) const { return (wanted_ & kinds) != 0; }
     /// Whether some sink wants this record.
     template <class R>
@@ -43,7 +45,8 @@ class Recorder {
         return wants(kind_of<R>());
     }
     /// Gives up these kinds: from now on nobody gets them, later sinks neither. Applications give
-    /// up kind_cheap_reachable once it is no longer cheap.
+    /// up kind_cheap_reachable once it is no longer cheap, so that the metric `reach` is undefined
+    /// for the run.
     void give_up(KindMask kinds) {
         given_up_ |= kinds;
         wanted_ &= ~kinds;

@@ -44,7 +44,8 @@ struct Robot {
     std::optional<RadiansPerSecond> turn_rate = std::nullopt;
 };
 
-/// Presence of a robot: whether it takes part in what happens.
+/// Presence of a robot: whether it takes part in what happens. Robots of movement files come and
+/// go; others are on or off.
 enum class Presence {
     /// It is there, its radio is on.
     on,
@@ -61,7 +62,8 @@ struct EnumNames<Presence> {
     static constexpr std::array<std::string_view, 4> values = {"on", "off", "not_departed", "left"};
 };
 
-/// State of a robot now. The references hold until the next robot is added.
+/// State of a robot now, for tables and pictures. The references hold until the next robot is
+/// added; the rest is a copy.
 struct RobotState {
     std::string name;
     /// Position [m].

@@ -17,7 +17,8 @@ namespace rovernet {
 
 struct World;
 
-/// Layer above the routing layer, as that knows it. Applications is one.
+/// Layer above the routing layer, as that knows it. Applications is one; the layers know each other
+/// by such small interfaces only, so that each can be tested alone.
 class RoutingUser {
   public:
     /// Tells of receptions of which some are delivered: their nodes have the message now.
@@ -42,7 +43,8 @@ class Routing final : public LinkLayer, public MacUser {
     /// @param user  layer above, which may still be under construction
     Routing(World& world, Mac& mac, RoutingUser& user) : world_(world), mac_(mac), user_(user) {}
 
-    /// Gives all nodes their protocol. @throws std::invalid_argument if there is one
+    /// Gives all nodes their protocol, and asks it for its traits.
+    /// @throws std::invalid_argument if there is one
     void set(Router router);
     /// Protocol, if there is one.
     const std::optional<Router>& router() const { return router_; }
@@ -104,6 +106,7 @@ class Routing final : public LinkLayer, public MacUser {
     void receive_broadcast(const AirFrame& air, const Arriving& part);
     // Receptions of a unicast: by the node that it is for, and by those that overhear it.
     void receive_unicast(const AirFrame& air, const Arriving& part);
+    // Reception of a unicast by the node that it is for.
     void receive_unicast(const AirFrame& air, Reception& reception, std::span<const Dbm> level);
 
     // World, and the layers below and above.

@@ -50,7 +50,8 @@ struct World {
     }
     /// Key of a robot, XXH64 of its name: draws and orders depend on it, not on the robot's number.
     std::uint64_t key(NodeId node) const { return medium.key(node); }
-    /// Uniform draw in (0, 1) of this run.
+    /// Uniform draw in (0, 1) of this run. The order of draws decides nothing: each is a function
+    /// of its key.
     /// @param a, b   what it is about, see Purpose
     /// @param index  number among several such draws
     double draw(Purpose purpose, std::uint64_t a, std::uint64_t b, std::uint64_t index) const {
@@ -62,7 +63,9 @@ struct World {
         if (messages.release(id) && on_forgotten) on_forgotten(id);
     }
 
-    /// Calls `call` at `time`, and every `period` [ns] from then on unless that is 0.
+    /// Calls `call` at `time`, and every `period` [ns] from then on unless that is 0. Actions of
+    /// one time are called in the order in which they were scheduled, after all else that is due
+    /// then.
     /// @throws std::invalid_argument if that is before now
     void schedule(Time time, Callback<> call, Duration period = {});
     /// Serves the event of an action: calls what waits in that slot, and queues it again if it has

@@ -120,8 +120,7 @@ Value to_value(Duration v);
 Value to_value(Bytes v);
 /// Position as a list of lengths, z left out if it is 0.
 Value to_value(Vec3 v);
-/// Word of an enumeration.
-/// List, item by item.
+/// Word of an enumeration. List, item by item.
 template <class E>
 requires std::is_enum_v<E> Value to_value(E v) { return name_of(v); }
 template <class T>

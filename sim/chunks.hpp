@@ -60,6 +60,7 @@ class Chunks {
   private:
     // A power of two, so that [] divides by shifting.
     static constexpr std::size_t chunk_size = 64;
+    // Chunk of values, all default-constructed at first.
     using Chunk = std::array<T, chunk_size>;
 
     // Every chunk but the last is full.

@@ -34,9 +34,12 @@ namespace rovernet {
 /// Range of a number, and the words for it in an error ("must be > 0"). The limits are in the unit
 /// in which number_in() gives the parameter.
 struct Range {
+    /// Limits; the upper one is included.
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
+    /// Whether the lower limit is included.
     bool low_included = true;
+    /// Words that follow "must be" in an error.
     std::string_view text = "finite";
 
     /// Whether `v` is finite and lies in the range. NaN does not.
@@ -97,6 +100,8 @@ concept Described = requires {
 
 /// Calls visit(field) for each parameter of `T`, in the order of its list. The fields have
 /// different types: `visit` is generic.
+///
+///   for_each_field<Friis>([&](const auto& f) { print(f.name, f.meaning); });
 template <Described T, class Visitor>
 constexpr void for_each_field(Visitor&& visit) {
     std::apply([&](const auto&... each) { (visit(each), ...); }, T::fields());
@@ -129,7 +134,7 @@ constexpr std::optional<double> number_in(const T& v) {
 template <class E>
 struct EnumNames;
 
-/// Word for a value of an enumeration.
+/// Word for a value of an enumeration, which must be one of those listed.
 template <class E>
 constexpr std::string_view name_of(E e) {
     return EnumNames<E>::values[static_cast<std::size_t>(e)];
@@ -146,6 +151,7 @@ constexpr std::string_view name_of(E e) {
 
 /// Checks every numeric parameter of a struct against its range. Models do it when they are made or
 /// used first; scenario files have the same ranges checked earlier, with the place in the file.
+/// @param value  struct whose fields() are looked at
 /// @param owner  name for the error
 /// @throws std::invalid_argument naming the first parameter that is outside, its range and the
 /// value

@@ -47,7 +47,7 @@ struct Leg {
         return from + seconds(t - start) * velocity;
     }
     /// Heading at `t` >= start [rad]; it stays as it is from `end` on. It is not wrapped: turning
-    /// on adds up.
+    /// on adds up, and pictures of a turn go the right way round.
     double heading_at(Time t) const {
         return turning == 0 ? heading : heading + seconds(std::min(t, end) - start) * turning;
     }
@@ -63,7 +63,9 @@ inline double wrapped(double heading) {
 /// any time follows from its leg. Motion writes the legs that movement models answer; the medium,
 /// links and pictures only read them.
 ///
-/// A leg at rest takes 48 bytes, one at a constant height 40 more, any other 64 more.
+/// A leg at rest takes 48 bytes, one at a constant height 40 more, any other 64 more. The three
+/// kinds give the same positions to the last bit as Leg::position(): how a leg is stored changes no
+/// result.
 class Legs {
   public:
     /// Makes room for `nodes` nodes in all.
@@ -71,7 +73,7 @@ class Legs {
     /// Adds the next node, standing or moving on `leg`. @return its id: the number of nodes before
     NodeId add(const Leg& leg);
     /// Replaces a node's leg; its version counts up. What was planned for the old leg is stale
-    /// then.
+    /// then: an event at its end, a link change.
     void replace(NodeId node, const Leg& leg);
 
     /// Number of nodes.
@@ -124,16 +126,19 @@ class Legs {
     /// Part that every leg has.
     struct Place {
         Time start;
+        /// Position at the start [m], heading there [rad].
         Vec3 from;
         double heading;
+        /// Number of times that the leg was replaced.
         std::uint32_t version = 0;
         /// Place in level_motions_, or in motions_ with the bit not_level.
         std::uint32_t motion = at_rest;
     };
     /// Part of a leg that moves at a constant height and does not turn.
     struct LevelMotion {
+        /// End of the leg.
         Time end;
-        /// Velocity [m/s].
+        /// Velocity [m/s]; that of z is 0.
         double vx, vy;
         /// Position at the end [m].
         double to_x, to_y;

@@ -27,7 +27,8 @@ inline constexpr Duration least_reaction{1000};
 /// Handle of a frame that waits for its time, see LinkLayer::waiting.
 using SendHandle = std::uint32_t;
 
-/// Result of sending a frame, for protocols that HearsOfResults.
+/// Result of sending a frame, for protocols that HearsOfResults. Broadcasts end as `sent` at best;
+/// unicasts as `acked` where the access model acknowledges.
 enum class SendResult : std::uint8_t {
     /// Its next hop acknowledged it.
     acked,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Functions for results. The C library's log, exp, sin and their kind differ in the last bit
+// between versions and machines, and a last bit may decide whether a frame is received.
+
 /// Elementary functions with the same bits from every compiler and C library, for whatever decides
 /// or prints. They are built from + - * / and bit operations, which IEEE 754 rounds in one way
 /// only; compile with -ffp-contract=off and in the default rounding mode. The square root needs no

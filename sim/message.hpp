@@ -52,6 +52,8 @@ using Hops = std::uint16_t;
 
 /// Copy of a message on its way: what one transmission carries. It is a value: a router passes on a
 /// changed copy.
+///
+///   sender A --ttl 3, hops 1--> B --ttl 2, hops 2--> C --ttl 1, hops 3--> D
 struct Frame {
     MessageId message;
     /// Node that puts this frame on air.

@@ -39,6 +39,8 @@ enum class Purpose : std::uint16_t {
 
 /// Key of one draw, which alone decides it: equal keys give equal numbers, in any order and from
 /// any thread; keys that differ in any field give independent numbers.
+///
+///   uniform({.seed = 1, .purpose = Purpose::placement, .a = name_key("A"), .index = 0})
 struct Key {
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;

@@ -64,7 +64,7 @@ struct Sent {
 };
 
 /// A node puts a frame of a message on air. A frame that csma repeats has one for each attempt. The
-/// MAC emits it as the frame begins.
+/// MAC emits it as the frame begins; how long it lasts shows at its receivers.
 struct Transmitted {
     Time time;
     Frame frame;
@@ -88,6 +88,7 @@ struct Received {
 };
 
 /// A node loses a copy other than in a reception: while it waits there, or before it is on its way.
+/// With the fates of Received it accounts for every copy that goes no further.
 struct Dropped {
     Time time;
     NodeId node;
@@ -106,13 +107,15 @@ struct Moved {
     Leg leg;
 };
 
-/// A node has reached the end of its movement and rests until it is given another.
+/// A node has reached the end of its movement and rests until it is given another. Motion emits it
+/// when the movement model answers AtRest.
 struct Arrived {
     Time time;
     NodeId node;
 };
 
-/// A node found no way around the walls to its goal, and stays where it is.
+/// A node found no way around the walls to its goal, and stays where it is. Motion emits it when
+/// the movement model answers Blocked.
 struct NoWay {
     Time time;
     NodeId node;
@@ -136,6 +139,7 @@ struct LinkDown {
 };
 
 /// A node's radio is switched on or off. Robots are on when they are added, without a record.
+/// Engine::switch_robot emits it, before anything that follows from it.
 struct Switched {
     Time time;
     NodeId node;
@@ -143,7 +147,7 @@ struct Switched {
 };
 
 /// The MAC puts a frame on air: that of a message, for which Transmitted comes just before, or a
-/// control frame.
+/// control frame. It tells what a monitor of the channel would see.
 struct AirSent {
     Time time;
     AirFrame air;
@@ -151,7 +155,8 @@ struct AirSent {
     std::uint32_t bytes;
 };
 
-/// A control frame ends at the station that it is for, if that is on.
+/// A control frame ends at the station that it is for, if that is on. Others that overhear it have
+/// no record.
 struct ControlReceived {
     AirFrame air;
     /// Its end; its fate is `waiting` if the station has it, else why it was lost.

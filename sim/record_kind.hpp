@@ -102,7 +102,7 @@ inline constexpr KindMask kind_reachable = 1U << 31;
 /// (Reachability::cheap_searches); then it is given up for the rest of the run.
 inline constexpr KindMask kind_cheap_reachable = 1U << 30;
 /// Request, not a record: Received carries `levels`, which costs a look at each receiver of each
-/// frame.
+/// frame. A routing protocol asks for the same by its trait wants_levels.
 inline constexpr KindMask kind_levels = 1U << 29;
 /// All records, without the requests above.
 inline constexpr KindMask kind_all = 0x1fffffff;

@@ -77,23 +77,27 @@ template <class T>
 concept HearsOfSwitches = requires(T router, LinkLayer& link, NodeId node, bool on) {
     {router.on_switched(link, node, on)};
 };
-/// Traits of a protocol: static members that it may have, all false if it has none.
+/// Traits of a protocol: static members that it may have, all false if it has none. The network
+/// asks for them once, when the protocol is set.
 struct RouterTraits {
-    /// The protocol brings messages to one node, and not only to everyone.
+    /// The protocol brings messages to one node, and not only to everyone: without it
+    /// Network::send() refuses.
     bool routes_unicasts = false;
     /// Unicasts for others are in the span of on_receive, too; what it says of them is not
     /// recorded.
     bool overhears = false;
-    /// The protocol asks LinkLayer::level.
+    /// The protocol asks LinkLayer::level, which costs a path loss for each reception.
     bool wants_levels = false;
 };
 
 /// Any routing protocol, held by value. Network::route takes one; a function that the protocol does
 /// not have does nothing.
+///
+/// A Router is a handle with a table of functions, so that protocols need no base class; a call
+/// costs one jump for all receptions of a frame together.
 class Router {
   public:
-    /// Moves the protocol in.
-    /// Settings convert to their protocol: Router{Flood{.ttl = 3}}.
+    /// Moves the protocol in. Settings convert to their protocol: Router{Flood{.ttl = 3}}.
     template <class T>
     requires(!std::same_as<T, Router> && RouterProtocol<T>) Router(T protocol)
         : traits_(traits_of<T>()),

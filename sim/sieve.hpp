@@ -41,7 +41,8 @@ class Sieve {
         if (end_ - next_ < static_cast<std::ptrdiff_t>(count)) grow(count);
         return next_;
     }
-    /// Keeps all values before `end`, which lies in what room() gave.
+    /// Keeps all values before `end`, which lies in what room() gave. Keeps all values before
+    /// `end`, which lies in what room() gave: the second half of such a loop.
     void keep_to(T* end) { next_ = end; }
     /// Kept values, in the order in which they came. Good until the next put(), room() or clear().
     std::span<T> kept() const { return {values_.get(), next_}; }

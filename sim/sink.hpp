@@ -54,13 +54,15 @@ template <class T>
 concept BeginsWithRun = requires(T sink, const RunInfo& run) {
     {sink.begin(run)};
 };
-/// Sink that is told when the run is over, after the last record: Network::finish() says so.
+/// Sink that is told when the run is over, after the last record: Network::finish() says so. Files
+/// get their names then, sums are closed.
 template <class T>
 concept FinishesWithRun = requires(T sink) {
     {sink.finish()};
 };
 
-/// Handle of any sink, shared: the caller may keep a pointer to the sink and ask it for its result.
+/// Handle of any sink, shared: the caller may keep a pointer to the sink and ask it for its result
+/// after the run. Copies of a handle are one sink.
 class Sink {
   public:
     /// @param sink  not null; it is asked for its kinds now
@@ -77,7 +79,11 @@ class Sink {
               if constexpr (FinishesWithRun<T>) static_cast<T*>(p)->finish();
           }),
           self_(std::move(sink)) {}
-    /// Moves the sink into the handle, for sinks that nobody asks for a result.
+    /// Moves the sink into the handle, for sinks that nobody asks for a result. Moves the sink into
+    /// the handle, for sinks that nobody asks for a result. Its type needs no base class and no
+    /// registration:
+    ///
+    ///   network.add_sink(Sink{Losses{}});
     template <RecordSink T>
     Sink(T sink) : Sink(std::make_shared<T>(std::move(sink))) {}
 

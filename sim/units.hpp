@@ -58,7 +58,8 @@ struct Dbm {
     friend constexpr Dbm operator-(Dbm level) { return {-level.value}; }
 };
 
-/// Level of a power: 10 log10(p / 1 mW). @throws std::invalid_argument unless p > 0
+/// Level of a power: 10 log10(p / 1 mW); 1 mW is 0 dBm, 45 mW are 16.53 dBm.
+/// @throws std::invalid_argument unless p > 0
 Dbm to_dbm(MilliWatts p);
 /// Power of a level: 10^(level / 10) mW.
 MilliWatts to_milliwatts(Dbm level);

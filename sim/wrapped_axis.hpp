@@ -50,7 +50,8 @@ class WrappedAxis {
         }
     };
     /// Cells that may hold coordinates from `centre` - `reach` to `centre` + `reach` [m], each
-    /// once; `reach` may be infinite. A margin for rounding is added, so that none is missed.
+    /// once; `reach` may be infinite. A margin for rounding is added, so that none is missed. A
+    /// range longer than the axis is all cells, once.
     Cells near(double centre, double reach) const {
         const double rounding = 1e-9 * (std::abs(centre) + reach);
         const std::int64_t first = unwrapped(centre - reach - rounding);

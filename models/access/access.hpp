@@ -22,6 +22,9 @@
 // The port of access models: how nodes get access to the medium. A model is settings with a name
 // and make_access(), and an Access that runs it for all nodes; the Mac of the network implements
 // Air for it. test/extend/added/models/access/one_slot.hpp is a small one.
+//
+//     send(frame)  -->  its queue  -->  access_timer  -->  on_timer  -->  Air::transmit
+//                                                                    -->  Air::sent, or Air::lost
 
 namespace rovernet {
 

@@ -30,10 +30,14 @@ struct Aloha {
 /// Access model "aloha": a frame goes on air at once, or with the next slot, whatever others do;
 /// only a node's own frames wait for one another.
 ///
+///   pure      |==1==|==2==|   |==3==|       a frame that comes in the meantime waits for the last
+///   slotted   |==1==|   |==2==|   |==3==|   frames begin at multiples of the slot
+///
 /// A unicast is sent once: nobody acknowledges it. With many senders of total load G, in frames per
-/// frame time, a share of e^-2G gets through, slotted e^-G; bench/aloha.hpp measures that. Source:
-/// N. Abramson, The ALOHA system, AFIPS 1970; L. Roberts, ALOHA packet system with and without
-/// slots and capture, 1975.
+/// frame time, a share of e^-2G gets through, slotted e^-G; bench/aloha.hpp measures that.
+///
+/// Source: N. Abramson, The ALOHA system, AFIPS 1970; L. Roberts, ALOHA packet system with and
+/// without slots and capture, 1975.
 class AlohaAccess final : public Access {
   public:
     /// @param settings  as they were given

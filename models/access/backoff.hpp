@@ -13,6 +13,9 @@ namespace rovernet {
 /// From that follows when the station may send. It is evaluated lazily: there is no event for a
 /// slot, and none while the medium is busy.
 ///
+///   medium   ====frame====|      |   |   |   |   |=====frame=====|      |   |
+///   counts                | DIFS | 7 | 6 | 5 | 4 |               | DIFS | 3 | ...
+///
 /// Slots count once the medium has been idle for an interframe space; one in which it is busy does
 /// not count. A station decides at the end of its last slot minus the turnaround, by what arrived
 /// more than the CCA time before that: so two stations whose slots run out together both send,
@@ -20,6 +23,7 @@ namespace rovernet {
 ///
 /// Dcf has one for each station. It writes what the station senses as a frame goes on air, and asks
 /// grant() when its timer is due.
+///
 /// Source: IEEE 802.11-2020, 10.3.4.
 class Backoff {
   public:

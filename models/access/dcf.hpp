@@ -53,6 +53,10 @@ struct Csma {
 /// Access model "csma": the distributed coordination function of IEEE 802.11, for broadcasts and
 /// unicasts, for all stations.
 ///
+///   sender    | DIFS | backoff |=== data ===|      |     |
+///   receiver  |                             | SIFS |=ACK=|
+///   others    |                |   energy   | reserved   | DIFS | backoff ...
+///
 /// A station that has a frame waits for a DIFS and, if the medium was busy, for a backoff of 0 to
 /// CW slots. A broadcast is not answered. A unicast is acknowledged after a SIFS; without an
 /// acknowledgement it is repeated with a doubled window, up to the limit of retries. A large one
@@ -60,7 +64,9 @@ struct Csma {
 ///
 /// A station has one timer at most, and only while it has a frame: for its access, or for the
 /// answer that it waits for. What it senses is written into its Backoff as it is sent; a timer that
-/// finds that the medium was busy in the meantime is set again. Source: IEEE 802.11-2020, 10.3.
+/// finds that the medium was busy in the meantime is set again.
+///
+/// Source: IEEE 802.11-2020, 10.3.
 class Dcf final : public Access {
   public:
     /// @throws std::invalid_argument if a slot is not > 0, or there is no basic rate
@@ -143,11 +149,13 @@ class Dcf final : public Access {
     static AirFrame control_frame(NodeId from, NodeId to, AirFrame::Kind kind);
     // Asks for the medium for the first frame of the queue.
     void contend(Air& air, NodeId node);
+    // Sets the one timer of a station; an older one is void.
     void set_timer(Air& air, NodeId node, Time t, Tag tag);
     // Draws a backoff, which counts from `from` on.
     void draw_backoff(Air& air, NodeId node, Time from);
     // Sends the first frame of the queue, or an RTS for it.
     void transmit_head(Air& air, NodeId node);
+    // Sends the first frame of the queue; a unicast then waits for its acknowledgement.
     void transmit_data(Air& air, NodeId node);
     // Puts a frame on air. @return when it ends
     Time transmit(Air& air, const AirFrame& frame);
@@ -161,6 +169,7 @@ class Dcf final : public Access {
     void finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason);
     // Sends a frame after a SIFS, whatever the medium is like.
     void respond(Air& air, NodeId node, const AirFrame& frame);
+    // Sends the answer that is due.
     void send_response(Air& air, NodeId node);
 
     Csma settings_;

@@ -13,6 +13,9 @@
 
 // Changes of links, found ahead of time: roots of equations where the loss goes by distance, a
 // guided search where it does not. LinkWatch of the network asks for each pair after each new leg.
+//
+//     const auto change = next_link_change(medium, legs, scene, a, b, now, legs.leg(a).end, {});
+//     if (change) ...  // at *change the link is up if it was down, and the reverse
 
 namespace rovernet {
 

@@ -8,6 +8,9 @@
 #include <cstddef>
 #include <vector>
 
+// Where to look for changes of links behind walls. Between two passages the loss is smooth, so that
+// a few looks decide whether the link changes in between.
+
 namespace rovernet {
 
 /// Point that moves straight: at(t) = from + t velocity.

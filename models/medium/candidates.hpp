@@ -38,7 +38,12 @@ struct Candidate {
 
 /// Candidates within reach of one transmitter, and their path losses: the model is asked once for
 /// all of them, but for pairs at rest whose loss is kept. Medium fills it in a search by losses
-/// (Decision::by_loss).
+/// (Decision::by_loss):
+///
+///   candidates.clear();
+///   for (...) candidates.add({...});
+///   candidates.compute_losses(model, links, from, cache);
+///   for (const Candidate& c : candidates.all()) if (c.loss_db <= c.budget_db) ...
 class Candidates {
   public:
     /// Forgets all candidates; their memory stays.

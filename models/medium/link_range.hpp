@@ -3,6 +3,8 @@
 
 #include "models/propagation/propagation.hpp"
 
+// Ranges of models that go by distance, exact to the last bit.
+
 namespace rovernet {
 
 /// Path loss [dB] over a distance [m].

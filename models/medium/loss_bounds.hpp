@@ -16,7 +16,9 @@ namespace rovernet {
 /// loss at a few distances, each computed when it is first needed.
 ///
 /// A comparison of two levels that differ by more than the bounds needs no logarithm. RadioKinds
-/// has one for each kind of station.
+/// has one for each kind of station; Medium::is_stronger asks it.
+///
+///   const auto [low, high] = bounds.at(d2, [&](double d) { return loss_at(model, f, d); });
 class LossBounds {
   public:
     /// Values between which a loss lies.

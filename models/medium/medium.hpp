@@ -149,7 +149,7 @@ class Medium {
         return found_.kept();
     }
 
-    /// Whether `to` is one of those that hear `from` at `t`.
+    /// Whether `to` is one of those that hear `from` at `t`: looks at that one link.
     bool hears(NodeId from, NodeId to, Time t, const Legs& legs);
     /// Number of nodes other than `from` that a chain of links joins to it at `t`: searched anew,
     /// see Reachability.
@@ -194,26 +194,44 @@ class Medium {
     Kind kind(NodeId node) const {
         return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
     }
+    // Lists the stations that are not listed yet: they are as the first one, and on.
     void list_stations();
+    // Chooses cells as wide as the reach of the median station: most queries then look at nine of
+    // them.
     void choose_cells();
+    // Takes note of how high the antennas of nodes `begin` to `end` get on their legs, if heights
+    // matter.
     void measure(std::size_t begin, std::size_t end, const Legs& legs);
-    // Searches for the nodes that a signal is strong enough for, in the way that the kind's
-    // Decision says.
+    // Searches for the nodes that a signal of `from` is strong enough for, in the way that the
+    // Decision of its kind says: in found_ those who can decode it, in sensors_ the others.
     void find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame);
+    // Searches by the distance alone.
     void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
+    // Searches as find_in_range() among stations of one kind, for those who can decode.
     void find_alike(NodeId from, Time t, const Legs& legs);
+    // Searches by the distance and the draw of each pair.
     void find_in_table(NodeId from, Strength strength, Time t, const Legs& legs);
+    // Searches by asking the model for the losses of those within reach.
     void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs,
                        std::uint64_t frame);
+    // Computes when a frame that ends at `end` ends at those who were found.
     void tell_arrivals(Time end, Receivers& out) const;
+    // Makes the index ready for queries about `from` at `t`.
     void look_from(NodeId from, Time t, const Legs& legs);
+    // Fills shares_.
     void share_draws();
+    // Visitor of the index: calls use(entry, antenna, squared distance and, if the index tells it,
+    // place) for nodes within reach that are on and may link.
     template <class Use>
     auto within(NodeId from, double reach2, Use use) const;
+    // Visits the nodes within reach.
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
+    // Frame as it arrives, as arrival(), within its reach.
     std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there);
+    // Links of a transmitter, as a model is asked for them.
     LinkBatch batch(NodeId from, Vec3 origin, Time t, std::uint64_t frame) const;
+    // Path loss [dB] from `from` here to `to` there.
     double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
                 Db give_up) const;
     // Key of the frame that a node sends at `t`, see LinkBatch: there is but one.
@@ -232,6 +250,7 @@ class Medium {
     // Draws of links, where tables decide.
     PairDraws draws_;
     RadioKinds kinds_;
+    // Nodes by their places, and losses of pairs at rest.
     NeighbourIndex index_;
     // Shares of draws_, by place in the index, if tables decide; number of the index's bin that
     // they belong to.

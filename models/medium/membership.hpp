@@ -8,7 +8,7 @@
 namespace rovernet {
 
 /// Network of a radio, as numbers that are equal where the settings are. Comparing them costs less
-/// than comparing names.
+/// than comparing names. RadioKinds gives the numbers.
 struct Membership {
     /// Number of its essid; 0: any.
     std::uint32_t essid;

@@ -14,7 +14,8 @@
 
 namespace rovernet {
 
-/// Neighbour of a robot: one that it hears, as its radio sees it.
+/// Neighbour of a robot: one that it hears, as its radio sees it. The levels are local means,
+/// without errors or interference.
 struct Neighbour {
     NodeId node;
     /// Level [dBm] of the neighbour's signal here.

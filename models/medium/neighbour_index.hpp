@@ -116,7 +116,8 @@ class NeighbourIndex {
     std::uint64_t bins() const { return bins_; }
 
   private:
-    static constexpr std::uint32_t is_apart = 0x80000000;  // bit of a place in apart_
+    // Bit of a place in apart_.
+    static constexpr std::uint32_t is_apart = 0x80000000;
 
     /// Entries, and apart from them what only those that move need.
     struct Table {
@@ -125,11 +126,15 @@ class NeighbourIndex {
             Time start, end;
         };
         std::vector<Entry> entries;
-        std::vector<Motion> motions;  // none as long as nobody moves
+        /// Motions of the entries; none as long as nobody moves.
+        std::vector<Motion> motions;
 
+        /// Writes entry `i`, from a leg or from another table.
         void put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg);
         void put(std::size_t i, const Entry& entry, const Motion& motion);
+        /// Motion of entry `i`.
         Motion motion(std::size_t i) const { return entries[i].moves ? motions[i] : Motion{}; }
+        /// Position of entry `i` [m]: as `legs` have it, without looking there while its leg lasts.
         Vec3 position(std::size_t i, Time t, const Legs& legs) const {
             const Entry& e = entries[i];
             if (!e.moves) return e.from;
@@ -150,6 +155,7 @@ class NeighbourIndex {
     double slack(Time t) const {
         return top_speed_per_ns_ * static_cast<double>((t - binned_at_).count()) + jumped_;
     }
+    // Whether it is time to bin the nodes anew.
     bool is_stale(Time t) const {
         return stale_ || apart_.entries.size() > allowed_apart_ ||
                (looked_at_ > place_.size() && slack(t) > 0.1 * rows_.width());
@@ -162,34 +168,53 @@ class NeighbourIndex {
     /// distance2_, if that is wanted.
     template <bool distances_too>
     std::span<std::uint32_t> look_around(Vec3 centre, double reach);
+    // Least squared distances [m^2] that the entries found may have now, wherever they went since
+    // they were binned.
     float* distances_at_least(std::size_t count, Vec3 centre, double radius, Time t);
+    // Makes room for what look_around() finds. @return for how much
     std::size_t make_room(std::size_t places);
 
+    // Cell of a place.
     std::size_t cell_at(Vec3 p) const {
         return rows_.cell_at(p.y) * columns_.cells() + columns_.cell_at(p.x);
     }
     std::uint32_t label(NodeId node) const { return labels_.empty() ? 0 : labels_[node.index()]; }
+    // Moves a node out of its cell, where an entry that is nowhere remains.
     void keep_apart(NodeId node, const Leg& leg);
+    // Adds an entry to apart_. @return its place
     std::size_t add_apart(NodeId node);
+    // Sorts all nodes into cells by counting.
     void bin(Time t, const Legs& legs);
+    // All nodes, in the order of the cells that they were in, so that sorting them anew moves them
+    // little.
     Table take_all(const Legs& legs);
+    // Lays a grid of at most two cells a node.
     void lay_grid(const Table& all, Time t, const Legs& legs);
 
-    std::vector<std::uint32_t> labels_;  // by node; none as long as all are 0
-    Table binned_;                       // in the order of their cells
-    std::vector<float> x_, y_;           // [m] where they were binned
-    std::vector<std::uint32_t> near_;    // begins with what look_around() found ...
-    std::vector<float> distance2_;       // [m^2] ... and this with how far each was binned from it
-    std::vector<std::uint32_t> first_;   // entry of a cell; one more than there are cells
-    std::vector<std::uint32_t> place_;   // of a node in binned_, or in apart_
+    // Labels by node; none as long as all are 0.
+    std::vector<std::uint32_t> labels_;
+    // Entries in the order of their cells, and where they were binned [m].
+    Table binned_;
+    std::vector<float> x_, y_;
+    // Memory that begins with what look_around() found, and with how far each was binned from it
+    // [m^2].
+    std::vector<std::uint32_t> near_;
+    std::vector<float> distance2_;
+    // First entry of each cell, and one more; place of each node in binned_, or in apart_.
+    std::vector<std::uint32_t> first_;
+    std::vector<std::uint32_t> place_;
     Table apart_;
     WrappedAxis columns_, rows_;
-    double wanted_cell_ = 1;       // [m]
-    double top_speed_ = 0;         // [m/s] of the entries
-    double top_speed_per_ns_ = 0;  // [m/ns] and a little more
-    double jumped_ = 0;            // [m] sum of what legs did not continue exactly
+    // Height of the cells that was asked for [m].
+    double wanted_cell_ = 1;
+    // Top speed of the entries [m/s]; in [m/ns], and a little more.
+    double top_speed_ = 0;
+    double top_speed_per_ns_ = 0;
+    // Sum of what legs did not continue exactly [m].
+    double jumped_ = 0;
     Time binned_at_ = start_of_run;
-    std::size_t looked_at_ = 0;  // entries and cells since then
+    // Entries and cells that were looked at since then.
+    std::size_t looked_at_ = 0;
     std::size_t allowed_apart_ = 0;
     std::uint64_t bins_ = 0;
     bool stale_ = true;

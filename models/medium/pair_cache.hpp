@@ -20,7 +20,10 @@ namespace rovernet {
 /// leg is. Who rests is for the caller to say: a network in motion keeps nothing and pays nothing.
 ///
 /// A row takes 16 bytes a pair. Once the cache holds as many pairs as it may, those that are kept
-/// stay and others are not kept. Candidates use it.
+/// stay and others are not kept. Candidates use it, for one transmitter at a time:
+///
+///   open(from)                 find(to) for each receiver at rest
+///   renew(n), keep(to, loss)   if one was not found
 class PairCache {
   public:
     /// Pairs that it may hold by default: 64 MiB.

@@ -35,7 +35,8 @@ class Reachability {
     /// decrease.
     /// @param medium, legs  always the same
     std::uint32_t count(Medium& medium, NodeId from, Time t, const Legs& legs);
-    /// Whether a chain of links joins `to` to `from` at `t`, which must not decrease.
+    /// Whether a chain of links joins `to` to `from` at `t`, which must not decrease. Their own
+    /// link is looked at first.
     bool reaches(Medium& medium, NodeId from, NodeId to, Time t, const Legs& legs);
     /// Searches for those who hear a robot, so far.
     std::uint64_t searches() const { return searches_; }

@@ -7,25 +7,38 @@
 #include <optional>
 #include <span>
 
-// Error rates of IEEE 802.11b, a and g. The physical layer Wifi is made of them.
+// Error rates of IEEE 802.11b, a and g. The physical layer Wifi is made of them. A frame of n bits
+// at one ratio gets through with probability success(n log_success(modulation, sinr)).
 
 namespace rovernet {
 
 /// Modulation and coding of IEEE 802.11, named after its bit rate [Mb/s]: of 802.11b, 22 MHz wide,
 /// and of 802.11a and g, 20 MHz wide.
 enum class Modulation : std::uint8_t {
-    dsss_1,   ///< DBPSK, Barker sequence
-    dsss_2,   ///< DQPSK, Barker sequence
-    cck_5_5,  ///< complementary code keying, 4 bits a symbol
-    cck_11,   ///< complementary code keying, 8 bits a symbol
-    ofdm_6,   ///< BPSK, rate 1/2
-    ofdm_9,   ///< BPSK, rate 3/4
-    ofdm_12,  ///< QPSK, rate 1/2
-    ofdm_18,  ///< QPSK, rate 3/4
-    ofdm_24,  ///< 16-QAM, rate 1/2
-    ofdm_36,  ///< 16-QAM, rate 3/4
-    ofdm_48,  ///< 64-QAM, rate 2/3
-    ofdm_54,  ///< 64-QAM, rate 3/4
+    /// DBPSK, Barker sequence.
+    dsss_1,
+    /// DQPSK, Barker sequence.
+    dsss_2,
+    /// Complementary code keying, 4 bits a symbol.
+    cck_5_5,
+    /// Complementary code keying, 8 bits a symbol.
+    cck_11,
+    /// BPSK, rate 1/2.
+    ofdm_6,
+    /// BPSK, rate 3/4.
+    ofdm_9,
+    /// QPSK, rate 1/2.
+    ofdm_12,
+    /// QPSK, rate 3/4.
+    ofdm_18,
+    /// 16-QAM, rate 1/2.
+    ofdm_24,
+    /// 16-QAM, rate 3/4.
+    ofdm_36,
+    /// 64-QAM, rate 2/3.
+    ofdm_48,
+    /// 64-QAM, rate 3/4.
+    ofdm_54,
 };
 
 /// Bit rates [bit/s] of the modulations, in their order.

@@ -14,7 +14,19 @@
 #include <utility>
 
 // The port of physical layers: what bits cost on air. The access model chooses one for its frames;
-// the MAC asks it for airtimes, reception model "sinr" for error rates.
+// the MAC asks it for airtimes, reception model "sinr" for error rates. A layer in which no bit is
+// ever wrong:
+//
+//     struct Ideal {
+//         static constexpr std::string_view name = "ideal";
+//         Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const {
+//             return preamble + from_seconds(8 * bytes / rate.value);
+//         }
+//         std::span<const BitRate> rates() const { return known; }  // an array
+//         std::optional<Coding> coding(BitRate) const { return Coding{0}; }
+//         double log_success(Coding, double) const { return 0; }
+//         Db certain_sinr(Coding) const { return Db{-300}; }
+//     };
 
 namespace rovernet {
 

@@ -70,7 +70,8 @@ constexpr WifiTiming timing_of(WifiStandard standard) {
     return {};
 }
 
-/// Bit rates that every station of a standard has, lowest first.
+/// Bit rates that every station of a standard has, lowest first. They are the basic rates of csma
+/// by default.
 ///
 /// Sources: 802.11-2020, 16.1.1, 17.1.1 and, for 802.11g among its own, 18.1.2.
 inline std::vector<BitRate> mandatory_rates(WifiStandard standard) {

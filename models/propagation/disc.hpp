@@ -3,13 +3,16 @@
 
 #include "models/propagation/propagation_model.hpp"
 
+// The simplest propagation: geometry instead of physics.
+
 namespace rovernet {
 
 /// Unit disc: 0 dB up to the range, the range itself included; 1000 dB beyond it.
 ///
 /// It is decided on distance, never on decibels. There are no levels: use it for geometry, not for
-/// margins, and not with reception model "sinr". Source: the 2007 thesis's "simple" model; link iff
-/// d <= range.
+/// margins, and not with reception model "sinr".
+///
+/// Source: the 2007 thesis's "simple" model; link iff d <= range.
 struct Disc {
     static constexpr std::string_view name = "disc";
     /// Loss beyond the range [dB]: more than any radio overcomes.

@@ -25,6 +25,10 @@ namespace rovernet {
 /// Any propagation model, held by value and shared between its copies (models do not change).
 /// Robots, tables and the medium have one; what the model does not know of itself has a safe answer
 /// here.
+///
+///   const Propagation model = LogDistance{.exponent = 3, .sigma = Db{0}};
+///   model.reach(Db{90}, 2450_MHz);  // [m] beyond which more than 90 dB are lost
+///   model.shape();                  // LossShape::by_distance
 class Propagation {
   public:
     /// Height that bounds nothing.

@@ -122,7 +122,7 @@ concept ShadowedModel = requires(const T& model, Hertz frequency) {
 };
 
 /// Model with a random part for each pair of nodes, which tells the same model without it; with
-/// nothing random, an equal model.
+/// nothing random, an equal model. Pictures of coverage show the median, as they have no pairs.
 template <class T>
 concept RandomModel = requires(const T& model) {
     { model.median() } -> std::same_as<T>;

@@ -11,10 +11,12 @@ namespace rovernet {
 ///
 /// There is one straight ray: no reflection, no diffraction. A link that is lost without its walls
 /// is given up before any wall is looked for, and a ray is given up once its walls have spent the
-/// budget. The wall factor w is in dB per centimetre; real walls have 0.15 (wood) to 0.9
-/// (chipboard), so that the values of old world files (6 to 100) suit walls drawn a few pixels thin
-/// only. N holds the walls of a usual building already: take N = 20 when the map shows them all. A
-/// wall whose material gives a loss of its own adds that instead of 100 w l.
+/// budget.
+///
+/// The wall factor w is in dB per centimetre; real walls have 0.15 (wood) to 0.9 (chipboard), so
+/// that the values of old world files (6 to 100) suit walls drawn a few pixels thin only. N holds
+/// the walls of a usual building already: take N = 20 when the map shows them all. A wall whose
+/// material gives a loss of its own adds that instead of 100 w l.
 ///
 /// Source: the 2007 thesis, algorithm 1; formula of ITU-R P.1238-2.
 struct Raytrace2007 {

@@ -129,7 +129,9 @@ class ShadowedRange {
 };
 
 /// First look at pairs that rules out most of those that are out of range: coarser than
-/// ShadowedRange and cheaper, with one table for all kinds of receivers of a sender.
+/// ShadowedRange and cheaper, with one table for all kinds of receivers of a sender. Under
+/// shadowing many more robots are near enough for the luckiest draw than hear a frame; most are
+/// ruled out here, by a comparison of two integers.
 class FirstLook {
   public:
     /// @param squared_reach  squared distance [m^2] beyond which nobody is in range

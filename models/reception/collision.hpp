@@ -31,6 +31,10 @@ struct EnumNames<CaptureOrder> {
 /// Reception model "collision": frames that overlap at a node destroy each other, unless one
 /// captures it; and a node that sends hears nothing (half-duplex).
 ///
+///   first    |========|          stronger by the ratio: first survives, second is let pass
+///   second        |========|     otherwise: both are lost with CaptureOrder::first; with `later`
+///                                second survives if it is stronger by the ratio
+///
 /// CaptureOrder::first: a receiver that is free is at the first frame that it senses, until that is
 /// over. A frame that begins in the meantime and is weaker by the capture ratio is let pass: it is
 /// lost, and harms nobody, be it on air for longer than the first. Any other destroys the one that

@@ -24,7 +24,13 @@ namespace rovernet {
 /// frames began. The channel of a network has one if its reception model has a Judge.
 ///
 /// Levels are fixed when a frame begins, and computed only when a judge asks for them. A receiver
-/// that has moved or was switched since is looked at as it was then.
+/// that has moved or was switched since is looked at as it was then. What the channel calls, in
+/// this order:
+///
+///   add(frame)                         as it goes on air
+///   before_change(node), goes(node)    whenever a leg or a radio changes
+///   judge(serial, receptions)          as it ends at some receivers
+///   forget(now)                        before the next frame is added
 class Interference {
   public:
     /// What it looks at, and the run's random draws.

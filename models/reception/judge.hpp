@@ -18,6 +18,10 @@
 // The port of reception models: what becomes of a frame at a receiver that it reaches. A model is
 // settings with a name and make_judge(), and a Judge that applies it for all nodes.
 // test/extend/added/models/reception/preamble.hpp is a small one.
+//
+//     begins(frame)              as a frame goes on air
+//     judge(frame, others, r)    as it ends at a receiver that could decode it
+//     is_forgotten(frame)        once it matters to no other
 
 namespace rovernet {
 

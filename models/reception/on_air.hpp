@@ -18,6 +18,9 @@
 #include <span>
 #include <vector>
 
+// Frames on air, found by where they were sent. Interference asks near() once for each frame whose
+// receptions are judged.
+
 namespace rovernet {
 
 /// Frames that are on air, and those that were so lately that they may still matter.
@@ -84,7 +87,8 @@ class OnAir {
 
     /// Time on air of the longest frame so far [ns].
     Duration longest() const { return longest_; }
-    /// Distance [m] beyond which no frame interferes with anybody, or beyond which nobody is.
+    /// Distance [m] beyond which no frame interferes with anybody, or beyond which nobody is. It
+    /// bounds propagation delays.
     double reach() const {
         constexpr double anywhere = 4e15;
         return std::min({reach_, distance(low_, high_), anywhere});

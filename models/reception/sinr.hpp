@@ -28,6 +28,10 @@ namespace rovernet {
 /// gets it with the probability that all bits are right, chunk by chunk between the changes of the
 /// interference, which is the sum of all other frames on air there.
 ///
+///   signal         |-- preamble --|=========== payload ===========|
+///   other frames          |----------------|    |---------|
+///   chunks                        |   1    | 2  |    3    |   4   |
+///
 /// A preamble is found if it is stronger than noise and interference by `preamble_threshold` when
 /// it has been on air for 4 us; of several at once the strongest is looked at first. A frame that
 /// begins while the receiver is locked on another, or sends, is lost; so is the one that it is
