@@ -13,7 +13,8 @@
 
 namespace rovernet {
 
-/// Frame as it was sent. Interference keeps it for as long as it may overlap with others.
+/// Frame as it was sent. Interference keeps it for as long as it may overlap with others; a judge
+/// finds what it keeps beside it by `flight`.
 struct Emission {
     /// Begin and end at the sender.
     Time begin, end;

@@ -39,7 +39,8 @@ struct EnumNames<WifiMode> {
 };
 
 /// Radio of a robot. The defaults are the 2007 device's where it had one (45 mW, 2450 MHz, -75 dBm)
-/// and IEEE 802.11b's otherwise (11 Mb/s, long preamble).
+/// and IEEE 802.11b's otherwise (11 Mb/s, long preamble). In free space two of them hear one
+/// another up to 367 m.
 struct Radio {
     /// Output of the transmitter [dBm]; the default is 45 mW.
     Dbm power{16.532125137753436};

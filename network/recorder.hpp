@@ -45,8 +45,8 @@ class Recorder {
         return wants(kind_of<R>());
     }
     /// Gives up these kinds: from now on nobody gets them, later sinks neither. Applications give
-    /// up kind_cheap_reachable once it is no longer cheap, so that the metric `reach` is undefined
-    /// for the run.
+    /// up kind_cheap_reachable once it is no longer cheap, and the metric `reach` is null for the
+    /// run then.
     void give_up(KindMask kinds) {
         given_up_ |= kinds;
         wanted_ &= ~kinds;

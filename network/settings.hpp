@@ -49,7 +49,8 @@ struct NetworkSettings {
     /// schedules without end.
     std::uint64_t event_limit = 100'000'000;
     /// Reference for tests: looks at every pair of robots, and serves receptions at different times
-    /// by separate events. Slow, and the same to the last record.
+    /// by separate events. Slow, and the same to the last record: what is fast has to agree with
+    /// it.
     bool reference = false;
     /// The network keeps Metrics, for Network::metrics().
     bool metrics = true;

@@ -103,7 +103,7 @@ struct World {
     bool levels_wanted = false;
 
   private:
-    /// Action of the user's that is due, and its period [ns]; 0: once.
+    // Action of the user's that is due, and its period [ns]; 0: once.
     struct Action {
         Callback<> call = {};
         Duration period{0};

@@ -112,7 +112,8 @@ SceneTable read_scene(const Value& value);
 /// Table that reads back as the same scene, with every default but `lenient`.
 Table scene_document(const SceneTable& scene);
 
-/// Options with which the scene's world is to be read; folders relative to the scenario `file`.
+/// Options with which the scene's world is to be read.
+/// @param file  scenario file, whose folder theirs are relative to
 WorldOptions world_options(const SceneTable& scene, const std::string& file);
 
 /// Scene of the map; null for an open field. A file NAME.materials.toml beside it has materials,

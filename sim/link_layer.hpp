@@ -44,6 +44,9 @@ enum class SendResult : std::uint8_t {
 
 /// Functions that a routing protocol may call, from within its own functions only. A protocol has
 /// all its nodes in one object, so that each call says which node acts.
+///
+/// A node knows what it heard: a protocol that asks for the position of another node, or reads
+/// another node's state, models what no radio brings.
 class LinkLayer {
   public:
     /// Time of the event that is served; in on_receive that of the last reception.

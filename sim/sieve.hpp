@@ -25,7 +25,7 @@ namespace rovernet {
 template <class T>
 class Sieve {
   public:
-    /// Forgets the values; their memory stays.
+    /// Forgets the values; their memory stays for the next use.
     void clear() { next_ = values_.get(); }
     /// Adds `value` behind the kept ones if `keep` is true.
     void put(const T& value, bool keep) {

@@ -34,7 +34,7 @@ class Slots {
         free_.pop_back();
         return slot;
     }
-    /// Gives a place back, once. Its value stays, unused.
+    /// Gives a place back, once. Its value stays, unused, until the place is taken again.
     void release(std::size_t slot) { free_.push_back(slot); }
 
     /// Value in a place that is taken; not checked.

@@ -69,6 +69,9 @@ class Air {
 
 /// Access model at work: one object for all nodes of a Network, which has their queues and states.
 /// The functions that are not pure have a default for models that need no more.
+///
+/// A model that listens is told of every frame at every station that senses it: when energy comes
+/// and goes as it is sent, and whether it was received when it ends.
 class Access {
   public:
     /// Models are owned by their Mac.
@@ -81,12 +84,13 @@ class Access {
     /// Serves a timer that was set by Air::access_timer.
     virtual void on_timer(Air& /*air*/, NodeId /*node*/, std::uint32_t /*tag*/) {}
     /// Takes the frames for `next_hop` out of the node's queue, but for one that is being sent.
-    /// They count as neither sent nor lost.
+    /// They count as neither sent nor lost: the routing protocol sends them another way.
     virtual std::vector<QueuedFrame> take(NodeId /*node*/, NodeId /*next_hop*/) { return {}; }
     /// Takes note that the node was switched off: all in its queue is lost.
     virtual void switch_off(Air& /*air*/, NodeId /*node*/) {}
 
-    /// Whether frames wait for their turn.
+    /// Whether frames wait for their turn. Saturated traffic needs that: otherwise nothing would
+    /// hold it back.
     virtual bool queues() const { return true; }
     /// Whether stations listen: they are told what they sense and what they receive, and a unicast
     /// that nobody answers is repeated.

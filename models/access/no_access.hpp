@@ -11,6 +11,7 @@ namespace rovernet {
 /// nobody listens, and a unicast is sent once. The default, and the lightest load on the computer:
 /// what interferes is left to the reception model.
 struct NoAccess {
+    /// Word in files.
     static constexpr std::string_view name = "none";
 
     /// Model at work, for one Network.

@@ -3,6 +3,8 @@
 
 #include "sim/time.hpp"
 
+// Settings of next_link_change().
+
 namespace rovernet {
 
 /// Precision with which link changes are looked for: [links] of a scenario. Both bounds are for

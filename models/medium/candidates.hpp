@@ -18,7 +18,8 @@
 
 namespace rovernet {
 
-/// Candidate for a receiver: a node within reach of a transmitter.
+/// Candidate for a receiver: a node within reach of a transmitter, whose loss decides whether it is
+/// one.
 struct Candidate {
     NodeId node;
     /// The node stays where it is until PairCache::moved.

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+// What a medium needs to know of its network. World makes it of NetworkSettings.
+
 namespace rovernet {
 
 class Scene;

@@ -27,14 +27,16 @@ class PointSieve {
     /// the last one kept as many places to write.
     static constexpr std::uint32_t at_once = 4;
 
-    /// Makes a sieve of the points at `xs` and `ys` [m] for those within the root of
-    /// `squared_reach` [m^2] of (x, y).
+    /// Makes a sieve of points for those within reach of (x, y) [m].
+    /// @param xs, ys         coordinates of all points [m]
+    /// @param squared_reach  square of the reach [m^2]
     PointSieve(const float* xs, const float* ys, float x, float y, float squared_reach)
         : xs_(xs), ys_(ys), x_(all(x)), y_(all(y)), squared_reach_(all(squared_reach)) {}
 
-    /// Writes the numbers of the points from `begin` to `end` that are kept to `kept`, in order,
-    /// and their squared distances [m^2], if they are wanted, to `squares`. Both compilations, with
-    /// SSSE3 and without, keep the same points.
+    /// Sifts the points from `begin` to `end`. Both compilations, with SSSE3 and without, keep the
+    /// same ones.
+    /// @param kept     gets the numbers of those that are kept, in order
+    /// @param squares  gets their squared distances [m^2], if they are wanted
     /// @return how many are kept
     std::size_t sift(std::uint32_t begin, std::uint32_t end, std::uint32_t* kept,
                      float* squares) const {

@@ -31,7 +31,8 @@ namespace rovernet {
 enum class Strength { decodable, detectable, interfering };
 
 /// Way in which it is decided for whom a signal is strong enough: the cheapest that its model
-/// allows.
+/// allows. All three agree with the loss to the last bit; they differ in what a look at a pair
+/// costs.
 enum class Decision {
     /// By the distance alone.
     by_range,

@@ -18,7 +18,7 @@
 namespace rovernet {
 
 /// Number of robots that a chain of links joins to a sender: that of Medium::reachable(), found
-/// with less work, for when it is asked for with every message.
+/// with less work, for when it is asked for with every message. Applications have one.
 ///
 /// While nobody moves, answers are kept until a robot moves, is switched or added. Otherwise every
 /// robot remembers from whom a chain reached it last: that link is looked at first, and only robots

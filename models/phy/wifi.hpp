@@ -83,6 +83,9 @@ inline std::vector<BitRate> mandatory_rates(WifiStandard standard) {
 /// length field counts (802.11-2020, 15.2.3.5, 16.2.3.5); for OFDM in whole symbols of 4 us behind
 /// the service and before the tail bits (17.4.3), with 6 us of signal extension for 802.11g
 /// (18.5.3).
+///
+///   1500 bytes   802.11b, 11 Mb/s, 192 us of preamble   1283 us
+///                802.11a, 54 Mb/s, 20 us of preamble     244 us
 Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, std::uint32_t bytes);
 
 /// Physical layer "wifi": IEEE 802.11b, a and g. Error rates: models/phy/error_rate.hpp; the coding

@@ -25,7 +25,11 @@ struct EnumNames<Environment> {
 /// a bare coefficient there is no floor term, as in the 2007 thesis. Beyond the last tabulated
 /// floor its value is held. Walls are inside N: add none.
 ///
-/// Site-general: a median over buildings, sigma 8-12 dB, not a prediction for one of them.
+/// Site-general, from 900 MHz to 100 GHz: a median over buildings, sigma 8-12 dB, not a prediction
+/// for one of them. With N = 30 at 2450 MHz `rovernet loss itu_indoor` prints
+///
+///   1 m   39.78 dB
+///   10 m  69.78 dB
 ///
 /// Source: Recommendation ITU-R P.1238-2 (2001), tables 2 and 3, with the 2.4 GHz rows of later
 /// editions.

@@ -14,7 +14,11 @@ namespace rovernet {
 /// X is a function of seed, replication and the unordered pair of robots: the same in both
 /// directions, at every time and for every number of looks. The cut (5.7e-7 of draws) bounds the
 /// range; ShadowedRange decides links by it fast. Valid in the far field of the transmitter; walls
-/// are in n and sigma, not seen one by one.
+/// are in n and sigma, not seen one by one. The median with the defaults at 2450 MHz, by `rovernet
+/// loss log_distance`:
+///
+///   1 m   40.23 dB
+///   10 m  65.23 dB
 ///
 /// Source: T. S. Rappaport, Wireless Communications, 2nd ed., section 4.9.
 struct LogDistance {

@@ -42,6 +42,8 @@ class Propagation {
     /// Name of the model, as in files.
     std::string_view name() const { return self_->name(); }
     /// Losses of a batch [dB], see PropagationModel.
+    /// @param give_up  loss [dB] above which a value need not be right, only above it
+    /// @param out_db   one for each receiver
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
         self_->loss(links, give_up, out_db);
     }

@@ -92,7 +92,7 @@ class Interference {
         return settings_.medium->level(arrival, node);
     }
     /// Whether the level of `frame` at `node` exceeds that of `other` by `by` or more. It may find
-    /// out by bounds, without the levels.
+    /// out by bounds, without the levels: these stay open then.
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId node) {
         return settings_.medium->is_stronger(frame, other, by, node);
     }

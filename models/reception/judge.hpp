@@ -56,7 +56,8 @@ class Judge {
     /// began; these are then among the others, too.
     virtual bool looks_back() const = 0;
     /// Decides the fate of a reception that ends now, at a node that is on; it sets reception.fate,
-    /// and leaves it as it is for a frame that is received.
+    /// and leaves it as it is for a frame that is received. Receptions of a frame are judged one
+    /// after the other, in the order in which it ends at them.
     /// @param frame   frame that is received
     /// @param others  frames that may have been on air there, in no order to rely on
     virtual void judge(Interference& air, const Emission& frame, Frames others,
@@ -71,7 +72,8 @@ class Judge {
     virtual std::optional<Db> interference_cut() const { return std::nullopt; }
     /// Number of frames on air at a time, at most, so far; counted where there is a cut.
     virtual std::size_t most_on_air() const { return 0; }
-    /// Checks a bit rate. @throws std::invalid_argument if frames of it cannot be judged
+    /// Checks a bit rate that some robot or the access model sends at, as they are set up.
+    /// @throws std::invalid_argument if frames of it cannot be judged
     virtual void check(const Phy& /*phy*/, BitRate /*rate*/) const {}
 };
 

@@ -67,7 +67,7 @@ class OnAir {
     /// @return in no order to rely on; good until the next call
     std::span<const Emission* const> near(const Emission& frame, Time since, Time until, Time now);
 
-    /// State of a node before it changed.
+    /// State of a node before it changed. Changes of a node are a chain, the last one first.
     struct Before {
         /// Leg and state of the radio until then.
         Leg leg;
