@@ -67,7 +67,7 @@ struct Arrival {
     /// Lock of the model "sinr"; null if the node cannot decode the frame.
     Lock* lock = nullptr;
 
-    /// Whether both are on air at a time; frames that only touch do not.
+    /// Whether both are on air at a time here; frames that only touch do not overlap.
     bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
 };
 

@@ -62,7 +62,8 @@ constexpr Db sensing_budget(const Radio& from, const Radio& to) {
     return sensing_budget(from, to, LinkGain::most(from, to));
 }
 
-/// Received power [dBm] after `path_loss` between the antennas: power + gains - losses.
+/// Received power [dBm] after `path_loss` between the antennas: power + gains - losses. At 10 m in
+/// free space, with the defaults of radios, it is 16.53 - 60.23 = -43.70 dBm.
 constexpr Dbm received_power(const Radio& from, Db path_loss, LinkGain gain) {
     return from.power + gain.sender - path_loss + gain.receiver;
 }

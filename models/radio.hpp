@@ -24,6 +24,7 @@ enum class Gate {
     /// Every radio that is near enough.
     none,
 };
+/// Words of `gate` in files.
 template <>
 struct EnumNames<Gate> {
     static constexpr std::array<std::string_view, 2> values = {"network", "none"};
@@ -32,6 +33,7 @@ struct EnumNames<Gate> {
 /// Mode in which a wireless device takes part in its network (IEEE 802.11), for the robot's own
 /// tables; it changes no link.
 enum class WifiMode { automatic, adhoc, infrastructure, master, repeater, secondary };
+/// Words of `mode` in files.
 template <>
 struct EnumNames<WifiMode> {
     static constexpr std::array<std::string_view, 6> values = {

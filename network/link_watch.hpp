@@ -22,6 +22,7 @@ struct LinkChange {
     Time time;
     NodeId from;
     NodeId to;
+    /// State from then on.
     bool up;
     friend bool operator==(const LinkChange&, const LinkChange&) = default;
 };
@@ -108,6 +109,7 @@ class LinkWatch {
     void expect(NodeId from, NodeId to, Time time, bool change);
     // Whether something else is pending for the pair by now.
     bool stale(const Entry& entry) const { return next_[pair(entry.from, entry.to)] != entry.time; }
+    // Removes stale entries from the top of the heap, and all if there are too many.
     void drop_stale();
     // Walls that the search for this sender's links needs.
     const WallPassages& walls_for(NodeId from);
@@ -122,6 +124,7 @@ class LinkWatch {
     std::vector<Entry> heap_;
     // Pairs with something pending.
     std::size_t pending_ = 0;
+    // Corners of walls, collected when a sender's loss goes by walls; and none, for others.
     std::optional<WallPassages> walls_;
     const WallPassages no_walls_ = {};
 };

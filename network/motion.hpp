@@ -108,7 +108,9 @@ class Motion {
     World& world_;
     Channel& channel_;
     LinkMonitor& links_;
+    // Robots by node.
     Chunks<Moving> nodes_;
+    // Bodies that differ from the one before.
     std::vector<Body> bodies_;
     // Legs that switching off interrupted.
     std::map<NodeId, Leg> interrupted_;

@@ -133,6 +133,7 @@ class Network {
     /// that metrics() can leave them out; then the sinks finish. Once, after the last run_until().
     void finish();
 
+    /// Time of the simulation: that of the event that is served, or where the last run ended.
     Time now() const;
     /// Number of robots.
     std::size_t size() const;
@@ -143,7 +144,9 @@ class Network {
     /// Bound on what the frames that `sinr` left out (Sinr::interference_cut) would have taken off
     /// a signal to interference ratio so far, if all on air anywhere came from just beyond the cut.
     std::optional<Db> interference_left_out() const;
+    /// Name of a robot. @throws std::out_of_range if there is no such robot
     std::string name(NodeId node) const;
+    /// Robot of that name, if there is one.
     std::optional<NodeId> find(std::string_view name) const;
     /// Position now [m].
     Vec3 position(NodeId node) const;
@@ -156,6 +159,7 @@ class Network {
     void find_hearers(NodeId node, std::vector<NodeId>& out);
     /// State of a robot now.
     RobotState robot(NodeId node) const;
+    /// Settings as they were given, legs of all robots, the medium and the scene.
     const NetworkSettings& settings() const;
     const Legs& legs() const;
     /// Medium, which knows radios and models.

@@ -44,6 +44,7 @@ class InputError : public std::runtime_error {
     const std::string& message() const { return message_; }
 
   private:
+    // Place, and message without it.
     Location where_;
     std::string message_;
 };

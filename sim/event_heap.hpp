@@ -70,6 +70,7 @@ class EventKey {
     constexpr Int128 rank() const { return (Int128{time_} << 64) | word_; }
 
   private:
+    // Time [ns], and priority, sequence and slot in one word.
     std::int64_t time_ = std::numeric_limits<std::int64_t>::max();
     std::uint64_t word_ = ~std::uint64_t{0};
 };
@@ -78,6 +79,7 @@ class EventKey {
 template <class T>
 struct LineAllocator {
     using value_type = T;
+    /// Alignment [bytes].
     static constexpr std::align_val_t line{64};
 
     LineAllocator() = default;
@@ -123,12 +125,14 @@ class EventHeap {
     // The root is 3, so that the children of i fill the line of four that begins at 4 (i - 2).
     // Places from end_ on hold the default key, so that a line can always be searched whole.
     static constexpr std::size_t root = 3;
+    // Keys in a cache line.
     static constexpr std::size_t line = 4;
     using Keys = std::vector<EventKey, LineAllocator<EventKey>>;
 
     // Moves the hole towards the root until `key` fits in.
     void sift_up(std::size_t hole, EventKey key);
 
+    // Keys by place; the first places are never used.
     Keys keys_ = Keys(line);
     // Place behind the last key.
     std::size_t end_ = root;

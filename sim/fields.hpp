@@ -34,8 +34,9 @@ namespace rovernet {
 /// Range of a number, and the words for it in an error ("must be > 0"). The limits are in the unit
 /// in which number_in() gives the parameter.
 struct Range {
-    /// Limits; the upper one is included.
+    /// Lower limit.
     double low = -std::numeric_limits<double>::infinity();
+    /// Upper limit, included.
     double high = std::numeric_limits<double>::infinity();
     /// Whether the lower limit is included.
     bool low_included = true;

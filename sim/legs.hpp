@@ -117,8 +117,9 @@ class Legs {
     }
 
   private:
-    // Values of Place::motion: a leg at rest; the bit of a place in motions_.
+    // Place::motion of a leg at rest.
     static constexpr std::uint32_t at_rest = 0xffffffff;
+    // Bit of Place::motion for a place in motions_.
     static constexpr std::uint32_t not_level = 0x80000000;
     // Whether a leg that does not rest has its part in level_motions_.
     static bool is_level(std::uint32_t motion) { return !(motion & not_level); }

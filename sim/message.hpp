@@ -55,6 +55,7 @@ using Hops = std::uint16_t;
 ///
 ///   sender A --ttl 3, hops 1--> B --ttl 2, hops 2--> C --ttl 1, hops 3--> D
 struct Frame {
+    /// Message that it carries.
     MessageId message;
     /// Node that puts this frame on air.
     NodeId sender;
@@ -79,6 +80,7 @@ struct QueuedFrame {
 /// Frame as it is on air: that of a message, or a control frame of the access model (IEEE 802.11:
 /// RTS, CTS, ACK).
 struct AirFrame {
+    /// Kind of a frame: of a message, or request to send, clear to send, acknowledgement.
     enum Kind : std::uint8_t { data, rts, cts, ack };
 
     /// Frame of the message. Of a control frame `sender` and `next_hop` mean something, nothing
@@ -135,12 +137,15 @@ class MessageTable {
     std::size_t capacity() const { return slots_.size(); }
 
   private:
+    // Message, how many hold it, and whether a frame of it has ended anywhere.
     struct Slot {
         Message message;
         std::uint32_t holders = 0;
         bool has_arrived = false;
     };
+    // Slots by MessageId.
     std::vector<Slot> slots_;
+    // Slots that are free, the last one first.
     std::vector<MessageId> free_;
 };
 

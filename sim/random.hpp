@@ -42,8 +42,11 @@ enum class Purpose : std::uint16_t {
 ///
 ///   uniform({.seed = 1, .purpose = Purpose::placement, .a = name_key("A"), .index = 0})
 struct Key {
+    /// Seed of the run.
     std::uint64_t seed = 0;
+    /// Number of the independent repetition.
     std::uint32_t replication = 0;
+    /// Purpose of the number.
     Purpose purpose{};
     /// Subject of the draw: a robot's name_key, say.
     std::uint64_t a = 0;
@@ -109,6 +112,7 @@ constexpr std::uint64_t combine(std::uint64_t first, std::uint64_t second) {
 /// Shadowing of links uses it: one draw for each pair of robots.
 class PairDraws {
   public:
+    /// Draws of a run for a purpose.
     PairDraws(std::uint64_t seed, std::uint32_t replication, Purpose purpose);
 
     /// Part that one key adds to each of its pairs, for a caller that keeps it.
@@ -127,6 +131,7 @@ class PairDraws {
     static double normal_of(std::uint64_t bits);
 
   private:
+    // Part of the key that all pairs share: s.
     std::uint64_t stream_;
 };
 

@@ -35,6 +35,7 @@ struct Reception {
     /// End of the frame at this receiver.
     Time time;
     NodeId node;
+    /// Fate of the copy here.
     Fate fate = Fate::waiting;
     /// The application gets the message: it is the node's first copy, and for this node.
     bool delivered = false;
@@ -95,6 +96,7 @@ struct Dropped {
     /// Frame as the node received it. A frame that the access model gives up is as it was to be
     /// sent.
     Frame frame;
+    /// Reason for which it is lost.
     DropReason reason;
 };
 
@@ -104,6 +106,7 @@ struct Dropped {
 struct Moved {
     Time time;
     NodeId node;
+    /// Leg that begins at `time`.
     Leg leg;
 };
 
@@ -127,7 +130,9 @@ struct NoWay {
 /// LinkMonitor emits both records of links, at the instant of the change, if a sink wants them.
 struct LinkUp {
     Time time;
+    /// Robot that is heard.
     NodeId from;
+    /// Robot that hears.
     NodeId to;
 };
 
@@ -143,6 +148,7 @@ struct LinkDown {
 struct Switched {
     Time time;
     NodeId node;
+    /// State from now on.
     bool on;
 };
 
@@ -150,6 +156,7 @@ struct Switched {
 /// control frame. It tells what a monitor of the channel would see.
 struct AirSent {
     Time time;
+    /// Frame as it is on air.
     AirFrame air;
     /// Size [bytes], what the access model adds included.
     std::uint32_t bytes;

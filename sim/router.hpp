@@ -182,6 +182,7 @@ class Router {
     // Facts about the protocol, and the protocol itself, on the heap: a Router moves without it.
     RouterTraits traits_;
     bool hears_of_results_, hears_of_starts_;
+    // Never null, but in a Router that was moved from.
     std::unique_ptr<Concept> self_;
 };
 

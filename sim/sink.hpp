@@ -33,8 +33,9 @@ struct RunInfo {
     std::size_t robots;
     /// Name of a robot, good until the next one is added. @throws std::out_of_range
     std::function<std::string_view(NodeId)> name;
-    /// Seed and replication of the random draws.
+    /// Seed of the random draws.
     std::uint64_t seed;
+    /// Number of the independent repetition.
     std::uint32_t replication;
 };
 

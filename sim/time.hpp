@@ -12,6 +12,7 @@ namespace rovernet {
 /// Clock of the simulation: signed 64-bit nanoseconds since the start of the run (292 years). It
 /// has no now(): World::now says what time it is.
 struct SimClock {
+    /// Types that std::chrono asks of a clock.
     using rep = std::int64_t;
     using period = std::nano;
     using duration = std::chrono::duration<rep, period>;

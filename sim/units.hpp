@@ -19,6 +19,7 @@ template <class Unit>
 struct Quantity {
     double value = 0;
 
+    /// Comparisons, sums and differences within a kind; multiples; the ratio of two.
     friend constexpr auto operator<=>(Quantity, Quantity) = default;
     friend constexpr Quantity operator+(Quantity a, Quantity b) { return {a.value + b.value}; }
     friend constexpr Quantity operator-(Quantity a, Quantity b) { return {a.value - b.value}; }
@@ -51,6 +52,7 @@ using BitRate = Quantity<struct BitsPerSecondUnit>;
 struct Dbm {
     double value = 0;
 
+    /// Comparisons of levels; a gain or a loss added to one; the ratio of two; the negative level.
     friend constexpr auto operator<=>(Dbm, Dbm) = default;
     friend constexpr Dbm operator+(Dbm level, Db gain) { return {level.value + gain.value}; }
     friend constexpr Dbm operator-(Dbm level, Db loss) { return {level.value - loss.value}; }

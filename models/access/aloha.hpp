@@ -60,6 +60,7 @@ class AlohaAccess final : public Access {
     // Sets the timer for the first frame of the queue.
     void expect(Air& air, NodeId node);
 
+    // Settings as they were given.
     Aloha settings_;
     // Stations by node.
     std::vector<Station> stations_;

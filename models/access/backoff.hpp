@@ -42,7 +42,7 @@ class Backoff {
         busy_until_ = std::max(busy_until_, end);
     }
     /// Takes note that a frame ended with errors at `t`: no slot counts for `eifs` [ns], unless a
-    /// good frame ends.
+    /// good frame ends meanwhile.
     void frame_lost(Time t, Duration eifs) { eifs_until_ = t + eifs; }
     /// Takes note that a frame ended without errors.
     void frame_decoded() { eifs_until_ = long_ago; }
@@ -86,6 +86,7 @@ class Backoff {
         return static_cast<int>(std::max<std::int64_t>(slots_ - idle / timing_->slot, 0));
     }
 
+    // Slots and spaces of the standard.
     const WifiTiming* timing_;
     // Slots that were left at counted_from_.
     int slots_ = 0;
@@ -93,9 +94,11 @@ class Backoff {
     Time not_before_ = start_of_run;
     // Slots count from here, and until the medium became busy.
     Time counted_from_ = start_of_run;
+    // Begin of the energy that has stopped the count; never: none has.
     Time busy_since_ = never;
-    // End of the energy, and end of the EIFS after a frame with errors.
+    // End of the energy, as far as is known.
     Time busy_until_ = long_ago;
+    // End of the EIFS after a frame with errors.
     Time eifs_until_ = long_ago;
 };
 

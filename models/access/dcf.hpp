@@ -27,6 +27,7 @@ struct Csma {
 
     /// Standard, which gives airtimes, and its timing.
     WifiStandard standard = WifiStandard::b;
+    /// Times of the access, by default the standard's.
     WifiTiming timing = timing_of(WifiStandard::b);
     /// Basic rates [bit/s]: broadcasts and RTS go at the lowest, an answer at the highest that is
     /// not above the rate of what it answers (the lowest, if all are above). Not empty; in any
@@ -146,6 +147,7 @@ class Dcf final : public Access {
     Backoff& backoff(NodeId node) { return listening_[node.index()].backoff; }
     // First frame of the queue, as it goes on air.
     AirFrame data_frame(NodeId node) const;
+    // Control frame of a kind, without its reservation.
     static AirFrame control_frame(NodeId from, NodeId to, AirFrame::Kind kind);
     // Asks for the medium for the first frame of the queue.
     void contend(Air& air, NodeId node);
@@ -172,6 +174,7 @@ class Dcf final : public Access {
     // Sends the answer that is due.
     void send_response(Air& air, NodeId node);
 
+    // Settings, the basic rates in order.
     Csma settings_;
     // Stations by node; a deque does not move them as it grows.
     std::deque<Station> stations_;

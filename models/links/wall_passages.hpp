@@ -55,27 +55,31 @@ class WallPassages {
         /// Corners at the height of the top [m].
         std::array<Vec3, 4> corners;
     };
+    // Line of sight as it moves, for one call of times().
     struct Sight;
 
     // Collects the corners of a layer of walls, and the points where their edges meet.
     void collect(const std::vector<WallRectangle>& rectangles);
     // Sorts the corners into tiles.
     void sort_into_tiles();
-    // Appends the times at which the line of sight passes corners, an end passes edges, or tops are
-    // passed.
+    // Appends the times at which the line of sight passes corners.
     void pass_corners(const Sight& sight, std::vector<double>& out) const;
+    // Appends the times at which an end passes an edge of a wall.
     void pass_edges(const StraightMotion& end, double duration, std::vector<double>& out) const;
+    // Appends the times at which the line of sight, or an end, passes tops.
     void pass_tops(const Sight& sight, std::vector<double>& out) const;
 
     const Scene* scene_ = nullptr;
-    // Corners, z = 0, by tile, row by row; for each tile the place of its first, and one more.
+    // Corners, z = 0, by tile, row by row.
     std::vector<Vec3> corners_;
+    // Place of the first corner of each tile; one more than tiles.
     std::vector<std::size_t> first_;
     std::vector<Top> tops_;
     // Heights of the tops [m], ascending, each once.
     std::vector<double> heights_;
-    // Lower left corner and side of the tiles [m], and their number along each axis.
+    // Lower left corner of the tiles [m].
     Vec3 low_ = {};
+    // Side of a tile [m], and number of tiles along each axis.
     double tile_ = 1;
     int columns_ = 0;
     int rows_ = 0;

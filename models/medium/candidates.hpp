@@ -71,9 +71,11 @@ class Candidates {
     // Asks the model for the losses of the candidates in asked_.
     void ask(const Propagation& model, LinkBatch link, Db give_up);
 
+    // Candidates in the order in which they were added.
     std::vector<Candidate> all_;
-    // Candidates that rest, and the largest budget.
+    // Candidates that rest.
     std::size_t at_rest_ = 0;
+    // Largest budget of all [dB].
     Db give_up_{};
     // Candidates whose loss the model is asked for, as it wants them; kept for their memory.
     std::vector<std::uint32_t> asked_;

@@ -7,7 +7,7 @@
 
 namespace rovernet {
 
-/// Path loss [dB] over a distance [m].
+/// Path loss [dB] over a distance [m], with the antennas at one height on an open field.
 /// @param model  of shape by_distance
 double loss_at(const Propagation& model, Hertz frequency, double distance);
 

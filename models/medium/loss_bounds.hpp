@@ -47,6 +47,7 @@ class LossBounds {
     // Bits that the number of a cell leaves out: there are 64 cells of equal width between 1 m^2
     // and 2 m^2, and between any power of two and the next, up to 131 km.
     static constexpr int shift = 46;
+    // Number of the first cell, which begins at 1 m^2, and of cells.
     static constexpr std::uint64_t first = std::bit_cast<std::uint64_t>(1.0) >> shift;
     static constexpr std::uint64_t cells = 34 * 64;
 

@@ -240,12 +240,15 @@ class Medium {
     }
 
     Settings settings_;
-    // Keys by node; stations by node, none as long as all are alike and on; radios that differ.
+    // Keys of robots, by node.
     std::vector<std::uint64_t> keys_;
+    // Stations by node; none as long as all are alike and on.
     std::vector<Station> stations_;
+    // Radios that differ.
     std::vector<Radio> radios_;
     // Nodes that are off.
     std::size_t off_ = 0;
+    // Changes so far.
     std::uint64_t changes_ = 0;
     // Draws of links, where tables decide.
     PairDraws draws_;
@@ -257,6 +260,7 @@ class Medium {
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
     PairCache pairs_;
+    // Whether the index knows how wide its cells are.
     bool cells_chosen_ = false;
     // Nodes whose heights the kinds know, if heights matter.
     std::size_t measured_ = 0;
@@ -264,6 +268,7 @@ class Medium {
     // Search that found_ is of: from, strength, time and changes_; then what is under work.
     std::optional<std::tuple<NodeId, Strength, Time, std::uint64_t>> last_;
     Vec3 origin_;
+    // Results of the last search.
     Sieve<Found> found_, sensors_;
     Candidates candidates_;
 };

@@ -17,7 +17,8 @@ struct Membership {
     /// It has links within its network only.
     bool gated;
 
-    /// Whether two radios may have a link: the gate of one is open, or they share a network.
+    /// Whether two radios may have a link: the gate of one is open, or they share a network. The
+    /// gate of one alone keeps nobody out.
     static bool match(const Membership& a, const Membership& b) {
         return !a.gated || !b.gated ||
                (a.channel == b.channel && (a.essid == b.essid || !a.essid || !b.essid));

@@ -27,7 +27,7 @@ struct Neighbour {
 };
 
 /// Quality of a link: 2 per decibel above the receiver's sensitivity, 0 at a margin of 0 dB, 100
-/// from 50 dB on.
+/// from 50 dB on. Tables of links show it, as wireless tools do.
 int link_quality(Db margin);
 
 /// Neighbours that `node` hears at `t`, in order of id: those that are on, in its network, and

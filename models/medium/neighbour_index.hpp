@@ -193,15 +193,17 @@ class NeighbourIndex {
 
     // Labels by node; none as long as all are 0.
     std::vector<std::uint32_t> labels_;
-    // Entries in the order of their cells, and where they were binned [m].
+    // Entries in the order of their cells.
     Table binned_;
+    // Places where they were binned [m].
     std::vector<float> x_, y_;
-    // Memory that begins with what look_around() found, and with how far each was binned from it
-    // [m^2].
+    // Memory that begins with what look_around() found.
     std::vector<std::uint32_t> near_;
+    // Memory that begins with how far each was binned from the query [m^2].
     std::vector<float> distance2_;
-    // First entry of each cell, and one more; place of each node in binned_, or in apart_.
+    // First entry of each cell; one more than there are cells.
     std::vector<std::uint32_t> first_;
+    // Place of each node in binned_, or in apart_.
     std::vector<std::uint32_t> place_;
     Table apart_;
     WrappedAxis columns_, rows_;
@@ -215,6 +217,7 @@ class NeighbourIndex {
     Time binned_at_ = start_of_run;
     // Entries and cells that were looked at since then.
     std::size_t looked_at_ = 0;
+    // Nodes that may be kept apart until all are binned anew.
     std::size_t allowed_apart_ = 0;
     std::uint64_t bins_ = 0;
     bool stale_ = true;

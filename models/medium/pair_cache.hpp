@@ -80,13 +80,17 @@ class PairCache {
 
     // Discards the row of a node, and makes its losses in other rows void.
     void forget(NodeId node);
+    // Gives back the memory of a row.
     void release(Node& node);
+    // Makes room for what is known of a node.
     void make_room(NodeId node);
 
     // Pairs that it may hold, and that it has memory for.
     std::size_t most_pairs_;
     std::size_t pairs_ = 0;
+    // Transmitter that the cache is open for.
     NodeId from_{};
+    // Rows by node, up to the last that has one or was moved.
     std::vector<Node> nodes_;
 };
 

@@ -100,6 +100,7 @@ class PointSieve {
     static Floats all(float x) { return x; }
 #endif
 
+    // Points; the place and the squared reach, as many times as points are looked at at once.
     const float *xs_, *ys_;
     Floats x_, y_, squared_reach_;
 };

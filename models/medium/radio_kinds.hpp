@@ -180,6 +180,7 @@ class RadioKinds {
 
     // Cut of interference [dB], if the reception model has one.
     std::optional<Db> interference_cut_;
+    // Kinds, and models that differ.
     std::vector<Alike> kinds_;
     // Heights of the kinds' antennas [m].
     std::vector<double> heights_;

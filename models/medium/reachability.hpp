@@ -84,11 +84,13 @@ class Reachability {
 
     static constexpr std::uint32_t unknown = 0xffffffff;
 
-    // Answers by node, while nobody moves, and Medium::changes() when they were found.
+    // Answers by node, while nobody moves.
     std::vector<std::uint32_t> answers_;
+    // Medium::changes() when they were found.
     std::uint64_t answers_of_ = ~std::uint64_t{0};
-    // Whether nobody moved then, and a robot that moved lately.
+    // Whether nobody moved then.
     bool at_rest_ = false;
+    // Robot that moved lately: looked at first, whether it still does.
     NodeId mover_{};
     // Node that reached each one last; itself: nobody yet.
     std::vector<NodeId> parents_;
@@ -96,9 +98,9 @@ class Reachability {
     std::vector<std::uint32_t> marks_;
     std::uint32_t round_ = 0;
     std::uint64_t searches_ = 0;
-    // Nodes that are joined, in the order in which they were; the first `expanded_` of them have
-    // been looked from.
+    // Nodes that are joined, in the order in which they were.
     std::vector<NodeId> reached_;
+    // Number of them that have been looked from.
     std::size_t expanded_ = 0;
     // Nodes that are not joined.
     std::vector<NodeId> open_;

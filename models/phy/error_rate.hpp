@@ -82,7 +82,7 @@ double log_success(Modulation modulation, double sinr);
 /// Signal to noise ratio [dB] from which on the success() of any number of bits up to 2^35 is 1.
 Db certain_sinr(Modulation modulation);
 
-/// Probability that all bits are right, from the sum of their log_success.
+/// Probability that all bits are right, from the sum of their log_success: e to its power.
 double success(double log_success_sum);
 /// Probability that some bit is wrong: 1 - success, with all its digits.
 double frame_error_rate(double log_success_sum);

@@ -28,6 +28,7 @@ enum class WifiStandard {
     /// 802.11g among its own: ERP-OFDM with the short slot.
     g,
 };
+/// Words of [access] standard.
 template <>
 struct EnumNames<WifiStandard> {
     static constexpr std::array<std::string_view, 3> values = {"802.11b", "802.11a", "802.11g"};
@@ -114,11 +115,11 @@ struct Wifi {
     Db certain_sinr(Coding coding) const;
 };
 
-/// Sizes of frames [bytes], check sequence included; 802.11-2020, 9.3.1 and 9.3.2. That of data is
-/// its header's.
+/// Sizes of control frames [bytes], check sequence included; 802.11-2020, 9.3.1.
 inline constexpr std::uint32_t rts_bytes = 20;
 inline constexpr std::uint32_t cts_bytes = 14;
 inline constexpr std::uint32_t ack_bytes = 14;
+/// Size that a data frame has beside its message: 24 bytes of header, 4 of check sequence.
 inline constexpr std::uint32_t data_header_bytes = 28;
 
 }  // namespace rovernet

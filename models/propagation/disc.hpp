@@ -12,6 +12,8 @@ namespace rovernet {
 /// It is decided on distance, never on decibels. There are no levels: use it for geometry, not for
 /// margins, and not with reception model "sinr".
 ///
+/// `rovernet loss disc range=50 --distance 50,51` prints 0 dB and 1000 dB.
+///
 /// Source: the 2007 thesis's "simple" model; link iff d <= range.
 struct Disc {
     static constexpr std::string_view name = "disc";

@@ -7,11 +7,16 @@
 #include <algorithm>
 #include <numbers>
 
+// Free space, the reference of all other models.
+
 namespace rovernet {
 
-/// Free-space loss [dB] between isotropic antennas at distance d [m] > 0 and frequency f [Hz]: 20
-/// log10(4 pi d f / c). It is negative below d = c / (4 pi f), where it means nothing. Other models
-/// take it as their loss at a reference distance.
+/// Free-space loss [dB] between isotropic antennas at distance d [m] > 0 and frequency f [Hz]:
+///
+///   20 log10(4 pi d f / c)
+///
+/// It is negative below d = c / (4 pi f), where it means nothing. Other models take it as their
+/// loss at a reference distance.
 ///
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 inline double free_space_db(double d, Hertz f) {

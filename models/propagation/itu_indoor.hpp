@@ -10,6 +10,7 @@ namespace rovernet {
 /// Kind of building in ITU-R P.1238's tables.
 enum class Environment { residential, office, commercial };
 
+/// Words of `environment` in files.
 template <>
 struct EnumNames<Environment> {
     static constexpr std::array<std::string_view, 3> values = {"residential", "office",

@@ -10,6 +10,7 @@ namespace rovernet {
 
 /// Kind of indoor site in ITU-R P.1238-11: it gives the coefficients of the equation.
 enum class Site { office, corridor, industrial };
+/// Words of `site` in files.
 template <>
 struct EnumNames<Site> {
     static constexpr std::array<std::string_view, 3> values = {"office", "corridor", "industrial"};
@@ -22,6 +23,7 @@ enum class LineOfSight {
     yes,
     no,
 };
+/// Words of `los` in files.
 template <>
 struct EnumNames<LineOfSight> {
     static constexpr std::array<std::string_view, 3> values = {"map", "yes", "no"};
@@ -39,6 +41,11 @@ struct EnumNames<LineOfSight> {
 /// Walls are inside the coefficients: what stands in the way only decides which row holds, so that
 /// the loss jumps where a wall comes between. The Recommendation's deviation of 3 to 9 dB is left
 /// to shadowing.
+///
+/// In an office with line of sight, at 2450 MHz, `rovernet loss itu_site_general` prints
+///
+///   1 m   42.52 dB
+///   10 m  57.12 dB
 ///
 /// Source: Recommendation ITU-R P.1238-11 (2021), equation 1 and table 2.
 struct ItuSiteGeneral {

@@ -19,6 +19,12 @@ namespace rovernet {
 /// ray's middle passes 10 cm. Reflection and diffraction are left out: behind many walls the loss
 /// is an upper estimate.
 ///
+/// With the defaults at 2450 MHz `rovernet loss multi_wall` prints
+///
+///   10 m                    60.23 dB
+///   10 m, --wall 0.05       63.63 dB   a light wall
+///   10 m, --wall 0.2        67.13 dB   a heavy wall
+///
 /// Source: COST Action 231, Digital mobile radio towards future generation systems, EUR 18957
 /// (1999), section 4.7.2, with its values at 1.8 GHz: light walls 3.4 dB, heavy walls 6.9 dB,
 /// floors 18.3 dB with b = 0.46.

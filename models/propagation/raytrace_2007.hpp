@@ -18,6 +18,9 @@ namespace rovernet {
 /// the walls of a usual building already: take N = 20 when the map shows them all. A wall whose
 /// material gives a loss of its own adds that instead of 100 w l.
 ///
+/// `rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5` prints 115.80 dB at 2450
+/// MHz: 65.80 dB, and 50 dB of wall.
+///
 /// Source: the 2007 thesis, algorithm 1; formula of ITU-R P.1238-2.
 struct Raytrace2007 {
     static constexpr std::string_view name = "raytrace_2007";

@@ -95,6 +95,7 @@ class ShadowedRange {
     }
 
   private:
+    // Cells of a table at most: 16 KiB.
     static constexpr std::uint64_t most_cells = 2048;
 
     /// Cell of the table. Of the draws 0, 1 ... 2^31 - 1, low ones for low losses, the first `sure`
@@ -117,6 +118,7 @@ class ShadowedRange {
         return cells_[std::clamp(number, first_, last_) - first_];
     }
 
+    // Loss that is decided on.
     ShadowedLoss loss_;
     // Greatest loss with which a link is up [dB].
     double budget_;
@@ -125,6 +127,7 @@ class ShadowedRange {
     // Number of the first cell, which begins at 0, and of the last, which has no end.
     std::uint64_t first_ = 0;
     std::uint64_t last_ = 0;
+    // Cells from the first number to the last.
     std::vector<Cell> cells_;
 };
 

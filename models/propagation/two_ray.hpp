@@ -15,6 +15,7 @@ enum class TwoRayForm {
     /// Sum of the two rays, with their peaks and nulls.
     exact,
 };
+/// Words of `form` in files.
 template <>
 struct EnumNames<TwoRayForm> {
     static constexpr std::array<std::string_view, 2> values = {"ns2", "exact"};
@@ -22,6 +23,7 @@ struct EnumNames<TwoRayForm> {
 
 /// Direction of the electric field over the ground.
 enum class Polarization { vertical, horizontal };
+/// Words of `polarization` in files.
 template <>
 struct EnumNames<Polarization> {
     static constexpr std::array<std::string_view, 2> values = {"vertical", "horizontal"};
@@ -47,6 +49,11 @@ struct EnumNames<Polarization> {
 /// with the relative permittivity e of a ground without loss. Source: Rappaport, section 4.6 and
 /// equations 4.24 and 4.25. The loss is not monotone: it falls by up to 6 dB below free space, and
 /// rises without bound in a null.
+///
+/// For antennas 1 m high at 2450 MHz `rovernet loss two_ray` prints, without and with form=exact:
+///
+///   10 m      60.23 dB    59.48 dB
+///   1000 m   120.00 dB   119.97 dB
 ///
 /// Valid over open, flat ground, for heights of a wavelength and more. Walls and obstacles are not
 /// seen.

@@ -23,6 +23,7 @@ enum class CaptureOrder {
     /// Either may survive.
     later,
 };
+/// Words of [reception] capture.
 template <>
 struct EnumNames<CaptureOrder> {
     static constexpr std::array<std::string_view, 2> values = {"first", "later"};

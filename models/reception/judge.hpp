@@ -30,6 +30,7 @@ class Interference;
 /// Frame that goes on air, with all that judging it may take. What it points to is good during the
 /// call; a judge keeps what it needs, by Emission::flight.
 struct SentFrame {
+    /// Frame, as it is kept while it matters.
     const Emission& emission;
     /// Physical layer of the network; outlives the judge.
     const Phy& phy;

@@ -123,31 +123,35 @@ class OnAir {
         return (first(cells.end) & ~first(cells.begin)) | first(cells.wrapped_end);
     }
 
-    // Frames in the order of their serials; for each the serial of the next in its cell; serial of
-    // the first.
+    // Frames in the order of their serials.
     std::deque<Emission> frames_;
+    // Serial of the next frame in the same cell, for each frame.
     std::deque<std::uint64_t> next_;
+    // Serial of the first frame.
     std::uint64_t first_ = 0;
     // Axes of the grid.
     WrappedAxis columns_, rows_;
-    // Cells, row by row; for each row a bit for each cell that is not empty.
+    // Cells of the grid, row by row.
     std::vector<Cell> cells_;
+    // A bit for each cell of a row that is not empty.
     std::array<std::uint64_t, side> used_{};
     // Memory whose begin is the result of near().
     std::vector<const Emission*> near_;
 
-    // Changes, numbered in their order from 1 on; number of the first that is kept, and of each
-    // node's last.
+    // Changes, numbered in their order from 1 on.
     std::deque<Before> changes_;
+    // Number of the first change that is kept.
     std::uint64_t first_change_ = 1;
+    // Number of each node's last change.
     std::vector<std::uint64_t> last_change_;
 
     // Longest time on air so far [ns].
     Duration longest_{0};
-    // Bounds over all frames and nodes so far: distance of interference [m], speed [m/s], box
-    // around antennas [m].
+    // Distance of interference of the frames so far [m].
     double reach_ = 0;
+    // Speed of the fastest node so far [m/s].
     double fastest_ = 0;
+    // Box around all antennas so far [m].
     Vec3 low_ = {infinity, infinity, infinity}, high_ = {-infinity, -infinity, -infinity};
 };
 

@@ -165,9 +165,9 @@ class SinrReceiver {
     // Frames that are or were on air at the node, in the order of their begin; and memory for the
     // sums.
     std::vector<Arrival*> here_;
-    // Times at which the interference changes within a payload, and power of each frame of here_
-    // [mW].
+    // Times at which the interference changes within a payload.
     std::vector<Time> changes_;
+    // Power of each frame of here_ [mW].
     std::vector<double> power_mw_;
 };
 
