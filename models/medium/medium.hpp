@@ -40,6 +40,7 @@ class Medium {
         : settings_(settings),
           draws_(shadowing_draws(settings.seed, settings.replication)),
           kinds_(settings.interference_cut) {}
+    /// Settings as they were given.
     const Settings& settings() const { return settings_; }
 
     /// Adds the next node.
@@ -77,6 +78,7 @@ class Medium {
     bool all_are_alike() const { return kinds_.size() == 1; }
     /// Number of changes so far: of legs, and of nodes added or switched.
     std::uint64_t changes() const { return changes_; }
+    /// Whether a node's radio is on.
     bool is_on(NodeId node) const { return all_are_on() || stations_[node.index()].on; }
     /// Key of the robot, as add() was given it.
     std::uint64_t key(NodeId node) const { return keys_[node.index()]; }

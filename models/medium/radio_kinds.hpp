@@ -43,8 +43,8 @@ enum class Decision {
 };
 
 /// Kinds of stations: those of a kind are alike in all that decides a link, their model included.
-/// What a pair of kinds needs (ranges, tables) is computed when it is first asked for, so that a
-/// million robots of one kind cost as much as one.
+/// What a pair of kinds needs (ranges, tables) is computed when it is first asked for, once for all
+/// robots of these kinds.
 class RadioKinds {
   public:
     using Kind = std::uint32_t;
@@ -80,7 +80,7 @@ class RadioKinds {
     Db budget(Strength strength, const Radio& from, const Radio& to) const {
         return budget(strength, from, to, LinkGain::most(from, to));
     }
-    /// The weakest signal [dBm] that disturbs `to`; there must be a cut.
+    /// Weakest signal [dBm] that interferes at `to`; there must be a cut.
     Dbm weakest_interfering(const Radio& to) const;
     /// Sets the height [m] that no antenna of any station exceeds or has exceeded; it must not
     /// decrease.
@@ -89,6 +89,7 @@ class RadioKinds {
         highest_ = z;
         for (Alike& each : kinds_) each.reach2 = {};
     }
+    /// Height [m] that was set last.
     Meters highest() const { return highest_; }
     /// Whether the bound of some model's range takes the heights of the antennas.
     bool heights_matter() const { return heights_matter_; }

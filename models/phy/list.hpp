@@ -9,7 +9,8 @@
 
 namespace rovernet {
 
-/// Physical layers that there are, for tests that every one has to pass.
+/// Physical layers that there are, for the tests that every one has to pass. An access model names
+/// the one that its frames go by: Access::phy.
 using PhysicalLayers = std::tuple<Wifi>;
 
 }  // namespace rovernet
