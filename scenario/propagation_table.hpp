@@ -29,6 +29,11 @@ struct PropagationTable {
     Propagation make() const;
 };
 
+/// Reads [propagation], or a robot's own table, over `out`. Keys of models that are not chosen may
+/// stand in it.
+/// @throws InputError at the first mistake, such as a parameter that the chosen model lacks
+void read_propagation(const Value& value, PropagationTable& out);
+
 /// Listed model made of a table like [propagation], shadowing off: its median loss. `rovernet loss`
 /// tabulates it.
 /// @throws InputError as read_propagation()

@@ -20,23 +20,12 @@
 namespace rovernet {
 namespace {
 
-template <class Visitor>
-void for_each_parameters(PropagationModels& parameters, Visitor&& visit) {
-    std::apply([&](auto&... each) { (visit(each), ...); }, parameters);
-}
-
 std::vector<std::string> protocol_names() {
     std::vector<std::string> names;
     const auto add = [&]<class... P>(const std::tuple<P...>&) {
         (names.emplace_back(P::name), ...);
     };
     add(RoutingProtocols{});
-    return names;
-}
-
-std::vector<std::string> model_names() {
-    std::vector<std::string> names;
-    for_each_model([&]<class M>() { names.emplace_back(M::name); });
     return names;
 }
 
@@ -51,74 +40,6 @@ void check_run_name(TableReader& document, const std::string& name) {
     throw InputError(given->where, fmt::format("name: found {}; expected a name for a folder: not "
                                                "empty, no \"/\", no \".\" in front",
                                                given->description()));
-}
-
-void read_start(const Value* start, TrafficTable& traffic, TableReader& table) {
-    traffic.start = Duration{0};
-    if (start && start->string() && *start->string() == "arrival") {
-        traffic.start.reset();
-    } else {
-        table.read("start", traffic.start, non_negative);
-    }
-}
-
-void check_receiver(const TrafficTable& traffic) {
-    if (!traffic.to || *traffic.to != traffic.from) return;
-    throw InputError(
-        traffic.to_where,
-        fmt::format("to: found \"{}\", which is the sender; expected another robot", *traffic.to));
-}
-
-/// Checks that traffic does not stop before it starts.
-void check_stop(const TrafficTable& traffic, TableReader& table) {
-    if (!traffic.stop || !traffic.start || *traffic.stop > *traffic.start) return;
-    throw InputError(table.take("stop")->where,
-                     fmt::format("stop: found {} s, and start is {} s, so that nothing would be "
-                                 "sent; expected a later time",
-                                 seconds(*traffic.stop), seconds(*traffic.start)));
-}
-
-TrafficTable read_traffic(const Value& value) {
-    TableReader table(value, "[[traffic]]");
-    TrafficTable traffic;
-    table.read("kind", traffic.kind);
-    if (table.read("name", traffic.name) && !is_flow_name(traffic.name)) {
-        throw InputError(table.take("name")->where,
-                         fmt::format("name: found \"{}\"; expected a name without blanks and "
-                                     "commas, as it ends the names of metrics",
-                                     traffic.name));
-    }
-    if (!table.read("from", traffic.from)) table.missing("from", "from = \"A\"");
-    traffic.from_where = table.take("from")->where;
-    if (table.read("to", traffic.to)) traffic.to_where = table.take("to")->where;
-    const bool to_one = traffic.kind == TrafficKind::unicast;
-    if (!to_one && traffic.to) {
-        throw InputError(traffic.to_where,
-                         "to: a broadcast is for everybody; expected kind = "
-                         "\"unicast\", or no to");
-    }
-    table.read("saturate", traffic.saturate);
-    const bool payload = table.read("payload", traffic.payload);
-    const bool size = table.read("size", traffic.size);
-    if (payload) traffic.payload_where = table.take("payload")->where;
-    if (!payload && !size) table.missing("payload", "payload = \"F\", or size = \"64 B\"");
-    read_start(table.take("start"), traffic, table);
-    table.read("every", traffic.every, positive);
-    table.read("stop", traffic.stop, non_negative);
-    table.read("count", traffic.count, Range{.low = 1, .text = ">= 1"});
-    if (to_one && !traffic.to) table.missing("to", "to = \"B\": whom a unicast is for");
-    table.reject_unknown();
-    check_receiver(traffic);
-    check_stop(traffic, table);
-    if (traffic.saturate && traffic.every) {
-        throw InputError(
-            table.take("every")->where,
-            "every: saturated traffic always has a message to send; expected no every");
-    }
-    if (!traffic.every && (traffic.stop || traffic.count)) {
-        table.missing("every", "every = \"3 s\": stop and count need it");
-    }
-    return traffic;
 }
 
 /// Checks that saturated traffic has an access model: otherwise it would send without end at once.
@@ -309,29 +230,6 @@ bool placed_by_file(const Value& robot, const std::set<std::string_view>& names)
 
 }  // namespace
 
-void read_propagation(const Value& value, PropagationTable& out) {
-    TableReader table(value, "[propagation]");
-    if (const Value* model = table.take("model")) {
-        out.model = read_choice(*model, "propagation model", model_names());
-    }
-    // Keys of any listed model may stand here, so that a sweep can swap the model.
-    for_each_parameters(out.parameters, [&](auto& model) { table.read_fields(model); });
-    table.reject_unknown();
-    std::size_t index = 0;
-    for_each_parameters(out.parameters, [&]<class M>(const M& model) {
-        const bool chosen = index++ == out.model;
-        for_each_field<M>([&](const auto& f) {
-            const auto number = number_in(model.*f.member);
-            if (chosen && number && *number != *number) {
-                throw InputError(value.where,
-                                 fmt::format("propagation model \"{}\" needs the key \"{}\", {}; "
-                                             "for example {} = \"50 m\"",
-                                             M::name, f.name, f.meaning, f.name));
-            }
-        });
-    });
-}
-
 ReceptionModel ReceptionTable::make() const {
     switch (model) {
         case ReceptionChoice::threshold: return Threshold{};
@@ -381,23 +279,6 @@ Router RoutingTable::make() const {
         },
         parameters);
     return std::move(*made);
-}
-
-Propagation PropagationTable::make() const {
-    std::optional<Propagation> made;
-    std::size_t index = 0;
-    std::apply(
-        [&](const auto&... each) {
-            ((index++ == model ? (void)(made.emplace(each)) : void()), ...);
-        },
-        parameters);
-    return std::move(*made);
-}
-
-Propagation median_propagation(const Value& value) {
-    PropagationTable table;
-    read_propagation(value, table);
-    return table.make().median();
 }
 
 Scenario read_scenario(const Value& value, const std::string& file) {

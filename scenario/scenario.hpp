@@ -134,10 +134,6 @@ struct Scenario {
 /// @throws InputError at the first mistake
 Scenario read_scenario(const Value& document, const std::string& file);
 
-/// Reads [propagation], or a robot's own table, over `out`. Keys of models that are not chosen may
-/// stand in it.
-/// @throws InputError at the first mistake, such as a parameter that the chosen model lacks
-void read_propagation(const Value& value, PropagationTable& out);
 /// Table that reads back as the same propagation: the chosen model's parameters, and those of
 /// others that differ from their defaults.
 Table propagation_document(const PropagationTable& propagation);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenario/read_value.hpp"
+#include "scenario/value.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
 #include "sim/time.hpp"
@@ -57,5 +58,9 @@ struct TrafficTable {
     /// Places of keys, for errors and notices.
     Location from_where = {}, to_where = {}, payload_where = {};
 };
+
+/// Reads one flow of [[traffic]]; not one that names a file, see read_flows().
+/// @throws InputError for a key that is unknown, missing, or contradicts another
+TrafficTable read_traffic(const Value& value);
 
 }  // namespace rovernet
