@@ -10,6 +10,7 @@
 #include "network/network.hpp"
 #include "network/routing.hpp"
 #include "network/world.hpp"
+#include "traces/metrics.hpp"
 
 #include <cstdint>
 #include <map>

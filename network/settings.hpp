@@ -8,7 +8,7 @@
 #include "models/reception/judge.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
-#include "traces/metrics.hpp"
+#include "traces/metric_values.hpp"
 
 #include <cstdint>
 #include <functional>
