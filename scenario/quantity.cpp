@@ -221,4 +221,10 @@ std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts)
     return std::nullopt;
 }
 
+std::string megabits_text(std::span<const BitRate> rates) {
+    std::vector<double> numbers;
+    for (const BitRate rate : rates) numbers.push_back(rate.value / 1e6);
+    return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
 }  // namespace rovernet

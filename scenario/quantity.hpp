@@ -5,6 +5,7 @@
 #include "sim/units.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,5 +64,7 @@ std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts)
 /// Text of a quantity that reads back as the same number, in the first unit that makes it whole.
 /// @param value  in the base unit
 std::string quantity_text(double value, Dimension dimension);
+/// Numbers of a list of bit rates in Mbit/s, without the unit: "1, 2, 5.5, 11".
+std::string megabits_text(std::span<const BitRate> rates);
 
 }  // namespace rovernet

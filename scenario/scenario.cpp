@@ -57,11 +57,9 @@ void check_traffic(const Scenario& scenario) {
 /// Checks a bit rate: reception model "sinr" can compute its errors.
 void check_coding(const Phy& phy, std::string_view key, BitRate rate, Location where) {
     if (phy.coding(rate)) return;
-    std::vector<double> known;  // [Mbit/s]
-    for (const BitRate each : phy.rates()) known.push_back(each.value / 1e6);
     throw InputError(where, fmt::format("{}: found {} Mbit/s; expected a rate whose errors "
                                         "[reception] model = \"sinr\" can compute: {} Mbit/s",
-                                        key, rate.value / 1e6, fmt::join(known, ", ")));
+                                        key, rate.value / 1e6, megabits_text(phy.rates())));
 }
 
 /// Checks what reception model "sinr" needs: levels, and rates whose errors it knows.

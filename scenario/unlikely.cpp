@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <span>
 #include <utility>
 
 namespace rovernet {
@@ -40,27 +38,13 @@ void note_frequency(Scenario& out, const Radio& radio, const RadioPlaces& places
                     slip ? fmt::format("; did you mean \"{}\"?", shown(Hertz{f * 1000})) : ""));
 }
 
-/// Bit rates [Mbit/s] of a standard of 802.11.
-std::span<const double> rates_of(WifiStandard standard) {
-    constexpr static std::array<double, 12> all{1, 2, 5.5, 11, 6, 9, 12, 18, 24, 36, 48, 54};
-    const std::span<const double> rates(all);
-    switch (standard) {
-        case WifiStandard::a: return rates.subspan(4);
-        case WifiStandard::b: return rates.first(4);
-        case WifiStandard::g: return rates;
-    }
-    return rates;
-}
-
 void note_rate(Scenario& out, std::string_view key, BitRate rate, const Location& where) {
     if (out.access.model != AccessChoice::csma) return;
     const auto rates = rates_of(out.access.standard);
-    const bool known = std::any_of(rates.begin(), rates.end(),
-                                   [&](double each) { return each * 1e6 == rate.value; });
-    if (known) return;
+    if (std::find(rates.begin(), rates.end(), rate) != rates.end()) return;
     add_notice(out.notices,
                fmt::format("{}: {}: {} has no rate of {}; it has {} Mb/s", where.text(), key,
-                           name_of(out.access.standard), shown(rate), fmt::join(rates, ", ")));
+                           name_of(out.access.standard), shown(rate), megabits_text(rates)));
 }
 
 /// Notices switching that changes nothing: a robot starts switched on.

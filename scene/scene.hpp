@@ -69,7 +69,9 @@ class Scene {
     /// @param scratch  any vector, for its memory
     double wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
                      std::vector<Crossing>& scratch) const;
-    /// The same, by the drawn thickness of each wall in the middle of the segment's way through it.
+    /// Loss through the walls [dB], by the rate of each wall's material and drawn thickness; the
+    /// thickness is that in the middle of the segment's way through the wall. `enough`, `scratch`
+    /// and both directions as above.
     double wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                      std::vector<Crossing>& scratch) const;
     /// Drawn thickness of the walls at a point, whatever their height [m]; 0 outside of walls. See

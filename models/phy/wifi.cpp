@@ -7,6 +7,17 @@
 
 namespace rovernet {
 
+std::span<const BitRate> rates_of(WifiStandard standard) {
+    const auto all = modulated_rates();
+    constexpr auto dsss = static_cast<std::size_t>(Modulation::ofdm_6);  // those before
+    switch (standard) {
+        case WifiStandard::a: return all.subspan(dsss);
+        case WifiStandard::b: return all.first(dsss);
+        case WifiStandard::g: break;
+    }
+    return all;
+}
+
 Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, std::uint32_t bytes) {
     using namespace std::chrono_literals;
     const double bits = 8.0 * bytes;

@@ -80,6 +80,10 @@ inline std::vector<BitRate> mandatory_rates(WifiStandard standard) {
     return {{6e6}, {12e6}, {24e6}};
 }
 
+/// Rates of a standard [bit/s], mandatory or not: 1 to 11 Mb/s of 802.11b, 6 to 54 Mb/s of 802.11a,
+/// all of them of 802.11g.
+std::span<const BitRate> rates_of(WifiStandard standard);
+
 /// Time on air [ns] of `bytes` [bytes] behind a preamble: for 802.11b in whole microseconds, as its
 /// length field counts (802.11-2020, 15.2.3.5, 16.2.3.5); for OFDM in whole symbols of 4 us behind
 /// the service and before the tail bits (17.4.3), with 6 us of signal extension for 802.11g
