@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 using namespace rovernet;
@@ -69,9 +70,12 @@ TEST_CASE("wifi: twelve rates, and the error rates of their modulations") {
 }
 
 TEST_CASE("wifi: with a standard's framing frames last whole microseconds or symbols") {
-    // 802.11-2020, 17.4.3: 16 + 8 * 100 + 6 bits in symbols of 216 bits, 4 us each.
-    CHECK(Wifi{WifiStandard::a}.airtime(Duration{20'000}, 54_Mbps, 100) ==
-          Duration{20'000 + 4 * 4'000});
+    // 802.11-2020, 17.4.3: 16 + 8 n + 6 bits in symbols of 216 bits, 4 us each; 106 bytes and the
+    // tail just do not fit into four.
+    for (const auto& [bytes, symbols] : {std::pair{105U, 4}, {106U, 5}}) {
+        CHECK(Wifi{WifiStandard::a}.airtime(Duration{20'000}, 54_Mbps, bytes) ==
+              Duration{20'000 + symbols * 4'000});
+    }
     CHECK(Wifi{WifiStandard::b}.airtime(Duration{192'000}, 11_Mbps, 64) ==
           Duration{192'000 + 47'000});
 }
