@@ -103,16 +103,12 @@ std::string held_keys(const StudyTable& study, const Scenario& base) {
                        fmt::join(keys, ", "));
 }
 
-Value optional_value(const std::optional<double>& v) {
-    return v && std::isfinite(*v) ? Value(*v) : Value();
-}
-
 Table as_table(const ComparedModel& m) {
     Table row;
     row.set("model", m.model);
-    row.set("mean", optional_value(m.answer.value));
-    row.set("low", optional_value(m.answer.low));
-    row.set("high", optional_value(m.answer.high));
+    row.set("mean", m.answer.value);
+    row.set("low", m.answer.low);
+    row.set("high", m.answer.high);
     row.set("n", std::uint64_t{m.answer.values.size()});
     row.set("failed", m.answer.gaps.failed);
     row.set("missing", m.answer.gaps.missing);
@@ -123,7 +119,7 @@ Table as_table(const ComparedModel& m) {
     row.set("difference_high", d ? Value(d->high) : Value());
     row.set("difference_n", d ? Value(std::uint64_t{d->difference.n}) : Value());
     row.set("p", d ? Value(d->p) : Value());
-    row.set("detectable", d ? optional_value(d->detectable) : Value());
+    row.set("detectable", d ? d->detectable : std::nullopt);
     if (const auto& e = m.equivalence) {
         const auto count = [](const std::optional<std::size_t>& n) {
             return n ? Value(std::uint64_t{*n}) : Value();
@@ -133,13 +129,13 @@ Table as_table(const ComparedModel& m) {
         row.set("decided_at", count(e->decided_at));
         row.set("needed", count(e->needed));
     }
-    row.set("error", optional_value(m.error));
+    row.set("error", m.error);
     row.set("error_n", std::uint64_t{m.error_n});
     row.set("cpu_s", m.cpu_s);
     row.set("cost_s", m.cost ? Value(m.cost->median_s) : Value());
     row.set("cost_low_s", m.cost ? Value(m.cost->low_s) : Value());
     row.set("cost_high_s", m.cost ? Value(m.cost->high_s) : Value());
-    row.set("radio_share", optional_value(m.radio_share));
+    row.set("radio_share", m.radio_share);
     return row;
 }
 
@@ -159,7 +155,7 @@ void print_json(const Comparison& c) {
         Table row;
         row.set("a", pair.a);
         row.set("b", pair.b);
-        row.set("variance_ratio", optional_value(pair.ratio));
+        row.set("variance_ratio", pair.ratio);
         pairs.emplace_back(std::move(row));
     }
     table.set("cost", c.cost_text);

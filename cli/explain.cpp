@@ -10,12 +10,6 @@
 #include <fmt/format.h>
 
 namespace rovernet::cli {
-namespace {
-
-Value optional_value(const std::optional<double>& v) { return v ? Value(*v) : Value(); }
-
-}  // namespace
-
 void explain(const ExplainArguments& a) {
     const Store store = Store::open(a.store);
     const FoundRun found = find_run(store, a.run);
@@ -39,7 +33,7 @@ void explain(const ExplainArguments& a) {
     table.set("host", m.host);
     Table metrics;
     for (const MetricValue& metric : m.metrics) {
-        metrics.set(metric.name, optional_value(metric.value));
+        metrics.set(metric.name, metric.value);
     }
     table.set("metrics", std::move(metrics));
     if (a.json) {

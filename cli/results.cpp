@@ -22,20 +22,18 @@ namespace {
 
 constexpr std::size_t few_replications = 5;
 
-Value optional_value(const std::optional<double>& v) { return v ? Value(*v) : Value(); }
-
 Table as_table(const Answer& answer, const Answers& all) {
     Table row;
     row.set("settings", answer.settings);
     row.set("metric", answer.metric);
     row.set("n", std::uint64_t{answer.values.size()});
-    row.set("value", optional_value(answer.value));
-    row.set("low", optional_value(answer.low));
-    row.set("high", optional_value(answer.high));
+    row.set("value", answer.value);
+    row.set("low", answer.low);
+    row.set("high", answer.high);
     row.set("skewed", answer.skewed);
     row.set("interval", answer.method ? Value(std::string(name_of(*answer.method))) : Value());
     const auto& s = answer.summary;
-    row.set("sd", s ? optional_value(s->standard_deviation) : Value());
+    row.set("sd", s ? s->standard_deviation : std::nullopt);
     row.set("min", s ? Value(s->min) : Value());
     row.set("max", s ? Value(s->max) : Value());
     row.set("averaged", Array(all.averaged.begin(), all.averaged.end()));

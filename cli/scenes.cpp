@@ -32,7 +32,7 @@ std::string presence_text(std::string_view presence) {
     return text;
 }
 
-void print_table(const LinkTable& table) {
+void print_links(const LinkTable& table) {
     const Device& d = table.device;
     fmt::print("{}  ip {}  mac {}  essid \"{}\"  {:g} MHz  {}{}\n", d.robot, d.ip, d.mac, d.essid,
                d.frequency.value / 1e6, name_of(d.mode), d.encryption ? "  encrypted" : "");
@@ -164,7 +164,7 @@ void links(const LinksArguments& a) {
     }
     const Time at = time_in(scenario, a.at);
     const auto network = played(a.file, scenario, at);
-    if (!a.json) return for_each_link_table(*network, a.robot, print_table);
+    if (!a.json) return for_each_link_table(*network, a.robot, print_links);
     fmt::print("{{\n  \"time_s\": {},\n  \"robots\": [", to_json_line(seconds(at)));
     const char* between = "\n";
     for_each_link_table(*network, a.robot, [&](const LinkTable& table) {

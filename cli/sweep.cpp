@@ -101,7 +101,7 @@ Array imprecise_points(const Study& study, const SweepResult& result) {
         row.set("point", std::uint64_t{point.point});
         row.set("settings", study.points()[point.point].settings);
         row.set("n", std::uint64_t{point.values});
-        row.set("half_width", point.half_width ? Value(*point.half_width) : Value());
+        row.set("half_width", point.half_width);
         list.emplace_back(std::move(row));
     }
     return list;

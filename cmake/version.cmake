@@ -20,4 +20,5 @@ add_custom_command(
   VERBATIM)
 target_sources(rovernet PRIVATE ${generated}/version_build.hpp)
 set_source_files_properties(${PROJECT_SOURCE_DIR}/experiment/version.cpp PROPERTIES
-                            INCLUDE_DIRECTORIES ${generated})
+                            INCLUDE_DIRECTORIES ${generated}
+                            SKIP_UNITY_BUILD_INCLUSION ON)

@@ -43,8 +43,6 @@ std::string host_name() {
 
 namespace {
 
-Value optional_value(const std::optional<double>& v) { return v ? Value(*v) : Value(); }
-
 /// The scenario as a document that can be run from `folder`: its files are named from there.
 Table document_in(const std::string& folder, Scenario scenario) {
     namespace fs = std::filesystem;
@@ -142,9 +140,9 @@ void append_metrics(Table& table, const MetricValues& m) {
     table.set("transmissions", m.transmissions);
     table.set("receptions", m.receptions);
     table.set("deliveries", m.deliveries);
-    table.set("delivery_ratio", optional_value(m.delivery_ratio));
-    table.set("reach", optional_value(m.reach));
-    table.set("saved_rebroadcasts", optional_value(m.saved_rebroadcasts));
+    table.set("delivery_ratio", m.delivery_ratio);
+    table.set("reach", m.reach);
+    table.set("saved_rebroadcasts", m.saved_rebroadcasts);
     const auto latency = [&](double LatencyValues::*part) {
         return m.latency ? Value((*m.latency).*part) : Value();
     };
@@ -152,7 +150,7 @@ void append_metrics(Table& table, const MetricValues& m) {
     table.set("latency_p50_s", latency(&LatencyValues::p50));
     table.set("latency_p95_s", latency(&LatencyValues::p95));
     table.set("latency_max_s", latency(&LatencyValues::max));
-    table.set("hops_mean", optional_value(m.mean_hops));
+    table.set("hops_mean", m.mean_hops);
     table.set("hops_max", m.max_hops);
     Table drops;
     for (const auto& drop : m.drops) {
@@ -167,10 +165,10 @@ Table part_table(const PartValues& part, Duration measured) {
     Table table;
     table.set("messages", part.messages);
     table.set("deliveries", part.deliveries);
-    table.set("delivery_ratio", optional_value(part.delivery_ratio()));
+    table.set("delivery_ratio", part.delivery_ratio());
     const double bits = 8 * static_cast<double>(part.bytes);
     table.set("throughput_bps", measured > Duration{0} ? Value(bits / seconds(measured)) : Value());
-    table.set("latency_mean_s", optional_value(part.latency_mean()));
+    table.set("latency_mean_s", part.latency_mean());
     return table;
 }
 
@@ -201,10 +199,10 @@ void append_parts(Table& table, const Scenario& scenario, const Network& network
     const Time end = start_of_run + scenario.scenario.duration;
     const TopologyValues values = topology ? topology->values(end) : TopologyValues{};
     Table list;
-    list.set("degree_mean", optional_value(values.degree_mean));
-    list.set("components_mean", optional_value(values.components_mean));
-    list.set("speed_mean_m_s", optional_value(values.speed_mean));
-    list.set("link_lifetime_mean_s", optional_value(values.link_lifetime_mean));
+    list.set("degree_mean", values.degree_mean);
+    list.set("components_mean", values.components_mean);
+    list.set("speed_mean_m_s", values.speed_mean);
+    list.set("link_lifetime_mean_s", values.link_lifetime_mean);
     list.set("links_ended", values.links_ended);
     table.set("topology", std::move(list));
 }

@@ -46,7 +46,7 @@ constexpr Unit sizes[] = {{"B", 1},
 
 constexpr double degree = 3.14159265358979323846 / 180;
 constexpr Unit angles[] = {{"deg", degree}, {"rad", 1}};
-constexpr Unit turn_rates[] = {{"deg/s", degree}, {"rad/s", 1}};
+constexpr Unit turn_rate_units[] = {{"deg/s", degree}, {"rad/s", 1}};
 constexpr Unit attenuations[] = {{"dB/m", 1}, {"dB/cm", 100}};
 
 constexpr Kind kinds[] = {
@@ -59,7 +59,7 @@ constexpr Kind kinds[] = {
     {"a bit rate", "11 Mb/s", rates, 1e15, "1e6 Gb/s"},
     {"a size", "64 B", sizes, 1e15, "1e6 GB"},
     {"an angle", "90 deg", angles, 1e6, "1e6 rad"},
-    {"a turn rate", "45 deg/s", turn_rates, 1e9, "1e9 rad/s"},
+    {"a turn rate", "45 deg/s", turn_rate_units, 1e9, "1e9 rad/s"},
     {"an attenuation", "75 dB/m", attenuations, 1e6, "1e6 dB/m"},
 };
 

@@ -42,14 +42,9 @@ bool is_model_key(std::string_view key) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-Value placed(Value value, const Location& where) {
-    value.where = where;
-    return value;
-}
-
-class Reader {
+class RadioReader {
   public:
-    Reader(const WorldEntity& wifi, const WorldUnits& units) : wifi_(wifi), units_(units) {}
+    RadioReader(const WorldEntity& wifi, const WorldUnits& units) : wifi_(wifi), units_(units) {}
 
     StageRadio read() {
         for (const std::string_view label : {"essid", "ip", "netmask", "mac"}) {
@@ -101,14 +96,14 @@ class Reader {
 
 /// Success rate: Stage draws a whole number from 0 to 100 and lets the message pass if it is at
 /// most the rate.
-void Reader::success_rate() {
+void RadioReader::success_rate() {
     const auto* p = wifi_.find("link_success_rate");
     if (!p) return;
     const double share = (std::floor(p->number()) + 1) / 101;
     out_.radio.set("success_rate", placed(std::clamp(share, 0.0, 1.0), p->where));
 }
 
-void Reader::model() {
+void RadioReader::model() {
     const auto* p = wifi_.find("model");
     out_.model_given = p != nullptr;
     if (!p) return;
@@ -124,7 +119,7 @@ void Reader::model() {
                                            list, near.empty() ? "write model \"friis\"" : near));
 }
 
-void Reader::range() {
+void RadioReader::range() {
     const auto* p = wifi_.find("range");
     if (p) {
         out_.propagation.set("range", text(p->number() * units_.metres, "m", p->where));
@@ -137,7 +132,7 @@ void Reader::range() {
         world_notice(model->where, "model \"simple\" without a range has range 0, as in Stage"));
 }
 
-void Reader::seed() {
+void RadioReader::seed() {
     const auto* p = wifi_.find("random_seed");
     if (!p) return;
     constexpr double most = 9e15;  // whole numbers are exact up to here
@@ -151,7 +146,7 @@ void Reader::seed() {
                                            number));
 }
 
-void Reader::unknown_keys() {
+void RadioReader::unknown_keys() {
     for (const auto& p : wifi_.properties) {
         const auto& keys = wifi_keys();
         if (std::find(keys.begin(), keys.end(), p.name) != keys.end()) continue;
@@ -166,7 +161,7 @@ void Reader::unknown_keys() {
 }  // namespace
 
 StageRadio stage_radio(const WorldEntity& wifi, const WorldUnits& units) {
-    return Reader(wifi, units).read();
+    return RadioReader(wifi, units).read();
 }
 
 }  // namespace rovernet

@@ -17,11 +17,6 @@
 namespace rovernet {
 namespace {
 
-Value placed(Value value, const Location& where) {
-    value.where = where;
-    return value;
-}
-
 /// List of words for a notice: "a, b and 3 more".
 std::string listed(const std::vector<std::string>& words) {
     constexpr std::size_t most = 10;

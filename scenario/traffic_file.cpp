@@ -36,9 +36,9 @@ std::vector<Word> words_of(std::string_view line) {
     return words;
 }
 
-class Reader {
+class TrafficReader {
   public:
-    explicit Reader(const std::string& path) : lines_(TextSource(path)) {}
+    explicit TrafficReader(const std::string& path) : lines_(TextSource(path)) {}
 
     TrafficFile read() {
         while (const auto line = lines_.next()) {
@@ -129,7 +129,7 @@ class Reader {
     std::size_t random_ = 0;          // flows that ns-2 would make irregular
 };
 
-void Reader::command() {
+void TrafficReader::command() {
     const Word first = word(0);
     if (first.text == "set") return make();
     if (first.text == "$ns_" || first.text == "$ns") return tell_simulator();
@@ -141,7 +141,7 @@ void Reader::command() {
 }
 
 /// Command  set NAME [new CLASS]
-void Reader::make() {
+void TrafficReader::make() {
     constexpr std::string_view classes =
         "Agent/UDP, Agent/Null, Agent/LossMonitor or Application/Traffic/CBR";
     const std::string name(word(1).text);
@@ -159,7 +159,7 @@ void Reader::make() {
     }
 }
 
-void Reader::tell_simulator() {
+void TrafficReader::tell_simulator() {
     const Word verb = word(1);
     if (verb.text == "at") return schedule();
     if (verb.text == "attach-agent") {
@@ -175,7 +175,7 @@ void Reader::tell_simulator() {
 }
 
 /// Command  $ns_ at TIME "$cbr_(0) start"
-void Reader::schedule() {
+void TrafficReader::schedule() {
     const Time time = moment(word(2), lines_.where());
     if (word(3).text.starts_with("$god")) return;
     App& app = named(apps_, word(3), "an application that was made before");
@@ -190,7 +190,7 @@ void Reader::schedule() {
 }
 
 /// Command  $cbr_(0) set KEY VALUE  or  $cbr_(0) attach-agent $udp_(0)
-void Reader::tell(App& app) {
+void TrafficReader::tell(App& app) {
     if (word(1).text == "attach-agent") {
         app.agent = reference(word(2));
         named(agents_, word(2), "an agent that was made before");
@@ -217,7 +217,7 @@ void Reader::tell(App& app) {
     }
 }
 
-void Reader::add_flow(const App& app, TrafficFile& file) {
+void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     const auto fault = [&](std::string_view what) {
         throw InputError(app.where, fmt::format("this application {}", what));
     };
@@ -248,7 +248,7 @@ void Reader::add_flow(const App& app, TrafficFile& file) {
 
 }  // namespace
 
-TrafficFile read_traffic_file(const std::string& path) { return Reader(path).read(); }
+TrafficFile read_traffic_file(const std::string& path) { return TrafficReader(path).read(); }
 
 void read_flows(const Value& value, Scenario& out) {
     TableReader table(value, "[traffic] with a file");

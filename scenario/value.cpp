@@ -23,11 +23,19 @@ Value::Value(std::int64_t v) : data(v) {}
 Value::Value(std::uint64_t v) : data(static_cast<std::int64_t>(v)) {}
 Value::Value(std::uint32_t v) : data(std::int64_t{v}) {}
 Value::Value(double v) : data(v) {}
+Value::Value(const std::optional<double>& v) {
+    if (v) data = *v;
+}
 Value::Value(const char* v) : data(std::string(v)) {}
 Value::Value(std::string_view v) : data(std::string(v)) {}
 Value::Value(std::string v) : data(std::move(v)) {}
 Value::Value(Array v) : data(std::move(v)) {}
 Value::Value(Table v) : data(std::move(v)) {}
+
+Value placed(Value value, const Location& where) {
+    value.where = where;
+    return value;
+}
 
 const Value* Table::find(std::string_view key) const {
     const auto found = std::find_if(entries.begin(), entries.end(),

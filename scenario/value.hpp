@@ -4,6 +4,7 @@
 #include "sim/error.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -66,6 +67,7 @@ struct Value {
     Value(std::uint64_t v);
     Value(std::uint32_t v);
     Value(double v);
+    Value(const std::optional<double>& v);  ///< empty if there is none
     Value(const char* v);
     Value(std::string_view v);
     Value(std::string v);
@@ -82,6 +84,9 @@ struct Value {
     /// Words for it in an error: "the number 5", "a table"; a text is cut at 60 bytes.
     std::string description() const;
 };
+
+/// A value made in code, as if it stood at a place.
+Value placed(Value value, const Location& where);
 
 /// Key with its value, and the place of the key: that of the value may be another line.
 struct Entry {

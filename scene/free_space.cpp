@@ -10,7 +10,7 @@ namespace rovernet {
 namespace {
 
 /// Half of what Scene::passable allows [m], so that every step found here is passable there.
-constexpr double touching = 0.5e-9;
+constexpr double slack = 0.5e-9;
 
 /// Squared distance along one axis from the centre of the cell that lies `beyond` cells beyond a
 /// rectangle's side [m^2]; 0: within the rectangle's rows or columns.
@@ -170,7 +170,7 @@ class FreeRuns {
 FreeSpace::FreeSpace(const Scene& scene, Meters radius)
     : free(scene.grid().cells.size(), 1), part(scene.grid().cells.size(), -1) {
     const OccupancyGrid& grid = scene.grid();
-    const Margin margin(grid, std::max(radius.value - touching, 0.0));
+    const Margin margin(grid, std::max(radius.value - slack, 0.0));
     for (const CellRectangle& r : scene.obstacles()) take_away(free, grid, r, margin);
     steps = steps_between(free, grid);
     if (!free.empty()) {

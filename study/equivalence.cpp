@@ -16,7 +16,7 @@ namespace rovernet {
 namespace {
 
 constexpr double largest_stake = 0.9;  // of what a gambler may stake
-constexpr std::size_t most_replications = 100'000;
+constexpr std::size_t most_searched = 100'000;
 
 void check(double margin, double alpha, std::size_t family) {
     if (!(margin > 0)) {
@@ -42,7 +42,7 @@ EquivalenceVerdict by_betting(std::span<const double> differences, double margin
     EquivalenceTest test(margin / range, alpha, family);
     const std::size_t n = differences.size();
     // The forecast: after the last replication the first one comes again.
-    for (std::size_t i = 0; n > 0 && i < std::max(n, most_replications); ++i) {
+    for (std::size_t i = 0; n > 0 && i < std::max(n, most_searched); ++i) {
         test.add(std::clamp(differences[i % n] / range, -1.0, 1.0));
         if (test.verdict() == Equivalence::undecided) continue;
         if (i < n) {
@@ -80,7 +80,7 @@ EquivalenceVerdict by_student(std::span<const double> differences, double margin
         result.decided_at = summary->n;
         return result;
     }
-    std::size_t few = summary->n, many = most_replications;
+    std::size_t few = summary->n, many = most_searched;
     if (few >= many || verdict_after(many) == Equivalence::undecided) return result;
     while (many - few > 1) {
         const std::size_t middle = few + (many - few) / 2;

@@ -86,8 +86,8 @@ class Likelihood {
 };
 
 /// Solves A s = v by Cholesky's method; nothing if A is not positive definite.
-std::optional<std::vector<double>> solve(std::vector<std::vector<double>> A,
-                                         std::vector<double> v) {
+std::optional<std::vector<double>> newton_step(std::vector<std::vector<double>> A,
+                                               std::vector<double> v) {
     const std::size_t n = v.size();
     for (std::size_t j = 0; j < n; ++j) {
         for (std::size_t k = 0; k < j; ++k) A[j][j] -= A[j][k] * A[j][k];
@@ -132,7 +132,7 @@ TobitFit tobit(const Observations& observations, const std::vector<bool>& unseen
     Surface here = likelihood.at(point);
     constexpr int most_steps = 200;
     for (int step = 0; step < most_steps; ++step) {
-        const auto way = solve(here.bend, here.slope);
+        const auto way = newton_step(here.bend, here.slope);
         if (!way) throw std::invalid_argument("tobit: the columns depend on each other");
         double gain = 0;
         for (std::size_t j = 0; j < way->size(); ++j) gain += (*way)[j] * here.slope[j];

@@ -14,7 +14,7 @@ namespace {
 using Item = BonnMotionNumbers::Item;
 
 constexpr std::size_t longest_number = 400;  // [bytes]; "%f" of the largest double has 317
-constexpr std::string_view blanks = " \t\r";
+constexpr std::string_view between_numbers = " \t\r";
 
 /// Puts numbers together to waypoints, in one of the ways to read them.
 class WaypointLine {
@@ -169,7 +169,7 @@ void BonnMotionNumbers::check_length() const {
 bool BonnMotionNumbers::skip_blanks() {
     while (true) {
         const std::string_view text = source_.window();
-        const std::size_t n = text.find_first_not_of(blanks);
+        const std::size_t n = text.find_first_not_of(between_numbers);
         source_.take(std::min(n, text.size()));
         check_length();
         if (n != text.npos) return true;

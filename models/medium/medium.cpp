@@ -9,11 +9,6 @@
 #include <limits>
 
 namespace rovernet {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-}  // namespace
-
 void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propagation) {
     check_fields(radio, "radio");
     propagation.check_frequency(radio.frequency);
@@ -94,7 +89,8 @@ Db Medium::margin(NodeId from, NodeId to, Time t, const Legs& legs) const {
 }
 
 Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    return {loss(from, to, antenna(from, t, legs), antenna(to, t, legs), t, 0, Db{infinity})};
+    return {loss(from, to, antenna(from, t, legs), antenna(to, t, legs), t, 0,
+                 Db{std::numeric_limits<double>::infinity()})};
 }
 
 /// Path loss [dB] from `from` here to `to` there.

@@ -18,7 +18,6 @@
 namespace rovernet {
 namespace {
 
-constexpr int most_ticks = 8;
 constexpr double note_width = 640;       // [px]
 constexpr std::size_t most_in_key = 40;  // series
 

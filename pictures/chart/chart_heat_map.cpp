@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/chart/chart_heat_map.hpp"
 
+#include "pictures/chart/chart_style.hpp"
 #include "pictures/draw/color.hpp"
 
 #include <fmt/format.h>
@@ -11,8 +12,6 @@
 namespace rovernet {
 namespace {
 
-constexpr double text_size = 11;  // [px]
-constexpr double baseline = 4;    // [px] below the middle of a line
 constexpr const char* edge = "#333333";
 
 /// The values of one row, at their columns; the last one counts where there are several.
@@ -24,10 +23,10 @@ std::vector<const DrawnPoint*> row_of(const ChartView& view, std::size_t row) {
 
 void draw_value(Svg& svg, const Box& cell, const std::string& text, bool dark) {
     constexpr double margin = 4;  // [px]
-    if (text_width(text, text_size) > cell.right - cell.left - margin) return;
-    if (text_size + margin > cell.bottom - cell.top) return;
-    svg.text((cell.left + cell.right) / 2, (cell.top + cell.bottom) / 2 + baseline, text,
-             {.size = text_size,
+    if (text_width(text, chart_text_size) > cell.right - cell.left - margin) return;
+    if (chart_text_size + margin > cell.bottom - cell.top) return;
+    svg.text((cell.left + cell.right) / 2, (cell.top + cell.bottom) / 2 + text_drop, text,
+             {.size = chart_text_size,
               .anchor = TextAnchor::middle,
               .color = dark ? Color{0x11, 0x11, 0x11} : Color{0xff, 0xff, 0xff}});
 }
@@ -123,7 +122,7 @@ void draw_color_bar(Svg& svg, const ChartFrame& frame, const ChartAxis& colors,
     for (const auto& tick : colors.ticks) {
         const double y = frame.box.bottom - colors.share(tick.value) * height;
         ticks.move(left + width, y).horizontal(left + width + 4);
-        svg.text(left + width + 7, y + baseline, tick.text, {.size = text_size});
+        svg.text(left + width + 7, y + text_drop, tick.text, {.size = chart_text_size});
     }
     svg.add("path", {{"d", ticks.text()}, {"stroke", edge}, {"stroke-width", 1.0}});
 }

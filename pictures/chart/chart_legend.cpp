@@ -11,7 +11,6 @@
 namespace rovernet {
 namespace {
 
-constexpr double text_size = 11;    // [px] of a legend
 constexpr double line_length = 30;  // [px]
 constexpr double sign_size = 12;    // [px] of the others
 
@@ -69,11 +68,11 @@ Legend chart_legend(const Chart& chart, const ChartView& view, bool marks, doubl
         return legend;
     }
     if (!chart.legend_title.empty() && !chart.series.empty()) {
-        legend.add({.text = fitted(chart.legend_title, width / 2, text_size), .width = 0});
+        legend.add({.text = fitted(chart.legend_title, width / 2, chart_text_size), .width = 0});
     }
     for (std::size_t i = 0; i < std::min(chart.series.size(), most); ++i) {
         LegendItem sign = item(chart, view, i, marks && chart.kind == ChartKind::lines);
-        sign.text = fitted(chart.series[i].name, width - 2 * line_length, text_size);
+        sign.text = fitted(chart.series[i].name, width - 2 * line_length, chart_text_size);
         if (!sign.text.empty()) legend.add(std::move(sign));
     }
     if (chart.series.size() > most) {

@@ -3,6 +3,7 @@
 
 #include "pictures/chart/chart_heat_map.hpp"
 #include "pictures/chart/chart_legend.hpp"
+#include "pictures/chart/chart_style.hpp"
 
 #include <fmt/format.h>
 
@@ -12,11 +13,10 @@
 namespace rovernet {
 namespace {
 
-constexpr double text_size = 11, label_size = 12, title_size = 14;  // [px]
-constexpr double line_height = 15, title_height = 19;               // [px]
-constexpr double tick_length = 4;                                   // [px]
-constexpr double label_room = 20;                                   // [px] of the label of an axis
-constexpr double baseline = 4;                                      // [px] below a line's middle
+constexpr double label_size = 12, panel_title_size = 14;  // [px]
+constexpr double line_height = 15, title_line = 19;       // [px]
+constexpr double tick_length = 4;                         // [px]
+constexpr double label_room = 20;                         // [px] of the label of an axis
 constexpr const char* ink = "#333333";
 constexpr const char* grid = "#e4e4e4";
 constexpr Color note_color{0x55, 0x55, 0x55};
@@ -25,7 +25,7 @@ constexpr double most_slanted = 130;                      // [px] of their lengt
 
 double widest(const ChartAxis& axis) {
     double out = 0;
-    for (const auto& tick : axis.ticks) out = std::max(out, text_width(tick.text, text_size));
+    for (const auto& tick : axis.ticks) out = std::max(out, text_width(tick.text, chart_text_size));
     return out;
 }
 
@@ -36,7 +36,7 @@ bool side_by_side(const ChartAxis& axis, double length) {
     for (const auto& tick : axis.ticks) {
         if (tick.text.empty()) continue;
         const double middle = axis.share(tick.value) * length;
-        const double half = text_width(tick.text, text_size) / 2;
+        const double half = text_width(tick.text, chart_text_size) / 2;
         if (middle - half < end + gap) return false;
         end = middle + half;
     }
@@ -99,8 +99,8 @@ ChartPanel::ChartPanel(const Chart& chart, const ChartLayout& layout, std::size_
     : chart_(chart), width_(layout.width), number_(number), view_(view_of(chart)) {
     constexpr std::size_t title_lines = 3, note_lines = 12;
     place_axes(layout.height);
-    title_ = lines_of({chart.title}, width_, title_size, title_lines);
-    notes_ = lines_of(notes(), width_, text_size, note_lines);
+    title_ = lines_of({chart.title}, width_, panel_title_size, title_lines);
+    notes_ = lines_of(notes(), width_, chart_text_size, note_lines);
     legend_ = chart_legend(chart, view_, room_for_marks(view_, frame_), width_);
 }
 
@@ -144,7 +144,8 @@ void ChartPanel::place_below() {
     const double length = frame_.box.right - frame_.box.left;
     slanted_ = view_.has_words && !side_by_side(frame_.x, length);
     const double longest = std::min(widest(frame_.x), most_slanted);
-    texts_below_ = tick_length + gap + (slanted_ ? slope_sin * longest + text_size : text_size);
+    texts_below_ =
+        tick_length + gap + (slanted_ ? slope_sin * longest + chart_text_size : chart_text_size);
 }
 
 std::size_t ChartPanel::stride_below() const {
@@ -154,7 +155,7 @@ std::size_t ChartPanel::stride_below() const {
 
 double ChartPanel::head() const {
     constexpr double gap = 10;  // [px]
-    return static_cast<double>(title_.size()) * title_height +
+    return static_cast<double>(title_.size()) * title_line +
            (heat_map() && !chart_.value_label.empty() ? label_room : 0) + gap;
 }
 
@@ -168,16 +169,16 @@ void ChartPanel::draw(Svg& svg, PicturePoint corner, double head_of_row) const {
     svg.open("g", {{"class", "panel"},
                    {"transform",
                     fmt::format("translate({} {})", svg_number(corner.x), svg_number(corner.y))}});
-    double y = title_size - head_of_row;
+    double y = panel_title_size - head_of_row;
     for (const auto& line : title_) {
         svg.text(width_ / 2, y, line,
-                 {.size = title_size, .anchor = TextAnchor::middle, .bold = true});
-        y += title_height;
+                 {.size = panel_title_size, .anchor = TextAnchor::middle, .bold = true});
+        y += title_line;
     }
     if (view_.points == 0) {
         const double middle = (frame_.box.left + frame_.box.right) / 2;
         svg.text(middle, frame_.box.bottom / 2, "no results",
-                 {.size = title_size, .anchor = TextAnchor::middle, .color = note_color});
+                 {.size = panel_title_size, .anchor = TextAnchor::middle, .color = note_color});
     }
     draw_axes(svg);
     draw_points(svg);
@@ -238,8 +239,9 @@ void ChartPanel::draw_texts_beside(Svg& svg) const {
     for (std::size_t i = 0; i < ticks.size(); i += every) {
         const double y = frame_.at(frame_.x.low, ticks[i].value).y;
         if (ticks[i].text.empty()) continue;
-        svg.text(box.left - tick_length - 3, y + baseline, fitted(ticks[i].text, room, text_size),
-                 {.size = text_size, .anchor = TextAnchor::end});
+        svg.text(box.left - tick_length - 3, y + text_drop,
+                 fitted(ticks[i].text, room, chart_text_size),
+                 {.size = chart_text_size, .anchor = TextAnchor::end});
     }
     svg.close();
 }
@@ -248,19 +250,20 @@ void ChartPanel::draw_texts_below(Svg& svg) const {
     constexpr double slope = -40;  // [degrees]
     const auto& ticks = frame_.x.ticks;
     const std::size_t every = stride_below();
-    const double y = frame_.box.bottom + tick_length + text_size;
+    const double y = frame_.box.bottom + tick_length + chart_text_size;
     svg.open("g", {{"class", "x-texts"}});
     for (std::size_t i = 0; i < ticks.size(); i += every) {
         const double x = frame_.at(ticks[i].value, frame_.y.low).x;
         if (ticks[i].text.empty()) continue;
         if (slanted_) {
             const double room = std::min(most_slanted, x / slope_cos);
-            svg.open("g", {{"transform", rotation(slope, x + baseline, y)}});
-            svg.text(x + baseline, y, fitted(ticks[i].text, room, text_size),
-                     {.size = text_size, .anchor = TextAnchor::end});
+            svg.open("g", {{"transform", rotation(slope, x + text_drop, y)}});
+            svg.text(x + text_drop, y, fitted(ticks[i].text, room, chart_text_size),
+                     {.size = chart_text_size, .anchor = TextAnchor::end});
             svg.close();
         } else {
-            svg.text(x, y + 2, ticks[i].text, {.size = text_size, .anchor = TextAnchor::middle});
+            svg.text(x, y + 2, ticks[i].text,
+                     {.size = chart_text_size, .anchor = TextAnchor::middle});
         }
     }
     svg.close();
@@ -277,8 +280,9 @@ void ChartPanel::draw_labels(Svg& svg) const {
     }
     if (heat_map() && view_.points > 0) {
         draw_color_bar(svg, frame_, colors_, number_);
-        svg.text(width_, box.top - label_room / 2, fitted(chart_.value_label, width_, text_size),
-                 {.size = text_size, .anchor = TextAnchor::end});
+        svg.text(width_, box.top - label_room / 2,
+                 fitted(chart_.value_label, width_, chart_text_size),
+                 {.size = chart_text_size, .anchor = TextAnchor::end});
     }
 }
 
@@ -297,7 +301,7 @@ void ChartPanel::draw_foot(Svg& svg) const {
     y += legend_.height(width_);
     for (const auto& line : notes_) {
         y += line_height;
-        svg.text(0, y - baseline, line, {.size = text_size, .color = note_color});
+        svg.text(0, y - text_drop, line, {.size = chart_text_size, .color = note_color});
     }
 }
 

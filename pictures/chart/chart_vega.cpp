@@ -17,7 +17,6 @@
 namespace rovernet {
 namespace {
 
-constexpr int most_ticks = 8;
 constexpr int width = 560;  // [px] between the axes
 constexpr const char* with_interval = "isValid(datum.low) && isValid(datum.high)";
 
@@ -28,8 +27,6 @@ Value object(std::initializer_list<std::pair<const char*, Value>> entries) {
 }
 
 Value list(const std::vector<std::string>& texts) { return Array(texts.begin(), texts.end()); }
-
-Value or_null(const std::optional<double>& v) { return v ? Value(*v) : Value(); }
 
 Value or_null(const std::string& text) { return text.empty() ? Value() : Value(text); }
 
@@ -91,8 +88,8 @@ class Specification {
         }
         out.set("y", p.y);
         if (chart_.kind == ChartKind::cdf) return out;
-        out.set("low", or_null(p.low));
-        out.set("high", or_null(p.high));
+        out.set("low", p.low);
+        out.set("high", p.high);
         out.set("n", p.source->n);
         if (!p.source->label.empty()) out.set("label", p.source->label);
         if (chart_.kind == ChartKind::lines) out.set("part", part);

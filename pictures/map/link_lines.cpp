@@ -14,7 +14,7 @@
 namespace rovernet {
 namespace {
 
-constexpr std::uint32_t most_robots = 5000;
+constexpr std::uint32_t most_linked = 5000;
 constexpr std::size_t many = 500;  // lines, from which on they fill the picture
 
 /// Lines of one look.
@@ -37,7 +37,7 @@ std::size_t grade_of(double margin) {
 }
 
 /// Margin of the link from `from` to `to` [dB]; none if `to` cannot hear.
-std::optional<double> margin(const Network& network, NodeId from, NodeId to, Time at) {
+std::optional<double> link_margin(const Network& network, NodeId from, NodeId to, Time at) {
     const Medium& medium = network.medium();
     const Radio& sender = medium.radio(from);
     const Db budget = link_budget(sender, medium.radio(to));
@@ -87,14 +87,15 @@ LegendItem sample(std::string text, std::size_t grade, bool dashed) {
 
 LinkLines::LinkLines(const Network& network, Time at) {
     const auto robots = static_cast<std::uint32_t>(network.size());
-    if (robots > most_robots) {
+    if (robots > most_linked) {
         throw RunError(fmt::format("links of {} robots make no picture; expected at most {}",
-                                   robots, most_robots));
+                                   robots, most_linked));
     }
     for (std::uint32_t i = 0; i < robots; ++i) {
         for (std::uint32_t j = i + 1; j < robots; ++j) {
             const NodeId a{i}, b{j};
-            const auto there = margin(network, a, b, at), back = margin(network, b, a, at);
+            const auto there = link_margin(network, a, b, at),
+                       back = link_margin(network, b, a, at);
             if (there && back) {
                 lines_.push_back({a, b, std::min(*there, *back), true});
             } else if (there) {

@@ -14,7 +14,7 @@ constexpr double tick = 5;        // [px] length
 constexpr double gap = 3;         // [px] between a tick and its text
 constexpr double label = 18;      // [px] room for an axis' label
 constexpr double baseline = 4;    // [px] below a line's middle
-constexpr const char* ink = "#333333";
+constexpr const char* axis_ink = "#333333";
 
 std::string tick_text(double metres) { return fmt::format("{:.6g}", metres + 0.0); }
 
@@ -49,7 +49,7 @@ void MapAxes::draw(Svg& svg, const Plot& plot) const {
         svg.text(plot.left - tick - gap, at + baseline, tick_text(y),
                  {.size = text_size, .anchor = TextAnchor::end});
     }
-    svg.add("path", {{"d", path.text()}, {"stroke", ink}, {"stroke-width", 1.0}});
+    svg.add("path", {{"d", path.text()}, {"stroke", axis_ink}, {"stroke-width", 1.0}});
     svg.text((plot.left + plot.right()) / 2, plot.bottom() + below - 4, "x [m]",
              {.size = text_size, .anchor = TextAnchor::middle});
     const double x = plot.left - left() + text_size, y = (plot.top + plot.bottom()) / 2;

@@ -29,7 +29,7 @@ constexpr double caption_size = 12;  // [px]
 constexpr double title_line = 22;    // [px]
 constexpr double caption_line = 17;  // [px]
 constexpr Color faint{0x44, 0x44, 0x44};
-constexpr double gap = 10;  // [px] between the parts
+constexpr double part_gap = 10;  // [px] between the parts
 constexpr std::uint32_t most_robots = 100'000;
 // A picture is laid out in points, px in what follows: 1200 of them are its width where its texts
 // have their usual size. Larger texts are fewer points with all else the same.
@@ -82,7 +82,7 @@ class Painter {
     /// Distance from the robot whose coverage is drawn up to which an open field is shown [m].
     double shown_reach(const Extent& robots) const;
     /// Room for the colour bar beside the plot [px]; 0 if there is none.
-    double bar_room() const { return source_ ? gap + HeatLayer::bar_width : 0; }
+    double bar_room() const { return source_ ? part_gap + HeatLayer::bar_width : 0; }
     Legend legend(const Plot& plot, const RobotMarks& robots) const;
     void draw_world(Svg& svg, const Plot& plot, const RobotMarks& robots) const;
 
@@ -232,7 +232,7 @@ std::string Painter::paint() {
     if (links_) links_->keep_off(places, robots);
     robots.place_names(places);
     const Legend legend = this->legend(plot, robots);
-    const double foot = plot.bottom() + gap + (options_.axes ? MapAxes::below : 0);
+    const double foot = plot.bottom() + part_gap + (options_.axes ? MapAxes::below : 0);
     const double width = std::ceil(plot.right() + right + margin);
     const double height = std::ceil(foot + legend.height(text_width) + margin / 2);
     Svg svg(width, height, options_.width / width_);
@@ -242,7 +242,8 @@ std::string Painter::paint() {
     draw_world(svg, plot, robots);
     if (heat_) {
         constexpr double highest_bar = 420;
-        heat_->draw_bar(svg, {plot.right() + gap, plot.top}, std::min(plot.height, highest_bar));
+        heat_->draw_bar(svg, {plot.right() + part_gap, plot.top},
+                        std::min(plot.height, highest_bar));
     }
     if (options_.axes) MapAxes(plot).draw(svg, plot);
     legend.draw(svg, {margin, foot}, text_width);

@@ -11,7 +11,7 @@ namespace rovernet {
 namespace {
 
 constexpr double least_radius = 5;  // [px]
-constexpr double tick = 5;          // [px] that the heading stands out beyond the circle
+constexpr double beyond = 5;        // [px] that the heading stands out beyond the circle
 constexpr Color ink{0x11, 0x11, 0x11};
 
 void draw_circle(Svg& svg, const RobotMark& robot) {
@@ -27,7 +27,7 @@ void draw_circle(Svg& svg, const RobotMark& robot) {
 
 void draw_heading(Svg& svg, const RobotMark& robot) {
     const auto [sin, cos] = math::sincos(robot.heading);
-    const double length = robot.radius + tick;
+    const double length = robot.radius + beyond;
     SvgPath path;
     path.move(robot.at.x, robot.at.y);
     path.line(robot.at.x + length * cos, robot.at.y - length * sin);
@@ -118,7 +118,7 @@ void RobotMarks::keep_marks_free(LabelPlaces& places) const {
         places.keep_free({robot.at.x - r, robot.at.y - r, robot.at.x + r, robot.at.y + r});
         if (!robot.on()) continue;
         const auto [sin, cos] = math::sincos(robot.heading);
-        const double x = robot.at.x + (r + tick) * cos, y = robot.at.y - (r + tick) * sin;
+        const double x = robot.at.x + (r + beyond) * cos, y = robot.at.y - (r + beyond) * sin;
         places.keep_free({x - 2, y - 2, x + 2, y + 2});
     }
 }
