@@ -3,8 +3,6 @@
 // many get it? Each case is run thirty times, with the same robots on the same ways, and every mean
 // has its interval.
 #include "rovernet.hpp"
-#include "study/interval.hpp"
-#include "study/summary.hpp"
 
 #include <fmt/format.h>
 

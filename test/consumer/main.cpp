@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a user of the installed package may write: a propagation model, a router and a sink of their
-// own, as plain structs, without rebuilding the library.
+// What a user of the installed package may write: a propagation model, a router, a movement and a
+// sink of their own, as plain structs, without rebuilding the library; and the run of a file.
 #include <fmt/format.h>
 
 #include <rovernet.hpp>
@@ -31,6 +31,13 @@ struct Shout {
     }
 };
 
+/// One metre a second towards where the x axis begins.
+struct Homing {
+    Step next_leg(Mover& mover) {
+        return Straight{.to = {0, mover.position.y}, .speed = MetersPerSecond{1}}.next_leg(mover);
+    }
+};
+
 /// Says who hears something.
 struct Listener {
     KindMask kinds() const { return kind_of<Received>(); }
@@ -43,7 +50,19 @@ struct Listener {
     }
 };
 
-int main() {
+double moved_into_range() {
+    Network net{{.propagation = Disc{.range = 10}}};
+    const auto a = net.add({.name = "a", .at = {0, 0}});
+    const auto b = net.add({.name = "b", .at = {20, 0}, .move = Homing{}});
+    net.route(Shout{});
+    double heard_at = -1;
+    net.on_receive(b, [&](const Message&) { heard_at = net.position(b).x; });
+    net.at(start_of_run + 12s, [&] { net.broadcast(a, "home"); });
+    net.run_for(13s);
+    return heard_at;
+}
+
+int main(int /*argc*/, char** argv) {
     Network net{{.propagation = Fog{}}};
     const auto a = net.add({.name = "a", .at = {0, 0}});
     net.add({.name = "near", .at = {91, 0}});
@@ -53,4 +72,9 @@ int main() {
     net.at(start_of_run + 1s, [&] { net.broadcast(a, "hello"); });
     net.run_for(2s);
     fmt::print("delivery ratio {}\n", net.metrics().delivery_ratio.value_or(-1));
+    fmt::print("heard {:.1f} m from home\n", moved_into_range());
+
+    Session session(load_scenario(argv[1], {}));
+    session.step(session.end());
+    fmt::print("the file's run delivers {}\n", session.network().metrics().deliveries);
 }
