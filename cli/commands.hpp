@@ -150,6 +150,13 @@ struct CompareArguments : StudyArguments {
 };
 void compare(const CompareArguments& arguments);
 
+struct FitArguments : FileArguments {
+    std::string to;
+    std::optional<std::string> links, check, floor;
+    bool json = false;
+};
+void fit(const FitArguments& arguments);
+
 struct ResultsArguments {
     std::string store;
     std::vector<std::string> metrics, group_by, where;

@@ -96,12 +96,34 @@ void add_compare(CLI::App& app, const std::string& typed) {
     add_study_run(compare, a);
 }
 
+void add_fit(CLI::App& app) {
+    const auto [fit, a] = add_command(
+        app, "fit", "The parameters with which each model comes nearest to known losses", cli::fit);
+    add_examples(fit, {"rovernet fit examples/rescue/rescue.toml --to multi_wall",
+                       "rovernet fit office.toml --links monday.csv --check tuesday.csv",
+                       "rovernet fit office.toml --links monday.csv --floor \"-94 dBm\""});
+    add_file(fit, a, any_file);
+    CLI::Option* to = fit.add_option(
+        "--to", a.to, "model that the others are fitted to (default: the scenario's own)");
+    CLI::Option* links =
+        fit.add_option("--links", a.links,
+                       "measured levels (.csv) to fit to: columns from_x_m, from_y_m, to_x_m, "
+                       "to_y_m, level_dbm; also from_z_m, to_z_m, group")
+            ->excludes(to);
+    fit.add_option("--check", a.check, "levels of another day or drive, to judge the fits by")
+        ->needs(links);
+    fit.add_option("--floor", a.floor, "level below which nothing was received: an empty level_dbm")
+        ->needs(links);
+    add_json(fit, a.json);
+}
+
 }  // namespace
 
 void add_run_commands(CLI::App& app, const std::string& typed) {
     add_run(app);
     add_sweep(app, typed);
     add_compare(app, typed);
+    add_fit(app);
 }
 
 }  // namespace rovernet::cli

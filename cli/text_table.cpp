@@ -4,8 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace rovernet::cli {
+
+void TextTable::add(Line line) {
+    if (line.size() != lines_.front().size()) {
+        throw std::invalid_argument("TextTable: a line of another number of cells");
+    }
+    lines_.push_back(std::move(line));
+}
 
 std::string TextTable::text() const {
     std::vector<std::size_t> widths(lines_.front().size());

@@ -12,7 +12,8 @@ class TextTable {
     using Line = std::vector<std::string>;
 
     explicit TextTable(Line head) : lines_{std::move(head)} {}
-    void add(Line line) { lines_.push_back(std::move(line)); }
+    /// @throws std::invalid_argument if it has not as many cells as the head
+    void add(Line line);
     /// A line each, with its newline and no blanks at its end.
     std::string text() const;
 

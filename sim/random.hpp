@@ -35,6 +35,8 @@ enum class Purpose : std::uint16_t {
     traffic_source = 10,
     /// Delays and choices of other routing protocols. Robot, message.
     routing_jitter = 11,
+    /// Time at which links are sampled for a fit [share of the duration].
+    sample_time = 15,
 };
 
 /// Key of one draw, which alone decides it: equal keys give equal numbers, in any order and from

@@ -40,8 +40,8 @@ struct Surface {
 
 class Likelihood {
   public:
-    Likelihood(const Observations& all, const std::vector<bool>& unseen, double floor)
-        : all_(all), unseen_(unseen), floor_(floor), size_(all.columns + 1) {}
+    Likelihood(const Observations& all, const std::vector<bool>& unseen)
+        : all_(all), unseen_(unseen), size_(all.columns + 1) {}
 
     Surface at(const std::vector<double>& point) const {
         const double g = point.back();
@@ -55,7 +55,7 @@ class Likelihood {
             const auto x = all_.row(i);
             double middle = 0;
             for (std::size_t j = 0; j < x.size(); ++j) middle += x[j] * point[j];
-            const double y = unseen_[i] ? floor_ : all_.y[i];
+            const double y = all_.y[i];
             const double z = g * y - middle;
             double pull = z, stiffness = 1;  // of the row: -d/dz and -d2/dz2
             if (unseen_[i]) {
@@ -81,7 +81,6 @@ class Likelihood {
   private:
     const Observations& all_;
     const std::vector<bool>& unseen_;
-    double floor_;
     std::size_t size_;
 };
 
@@ -111,9 +110,12 @@ std::optional<std::vector<double>> newton_step(std::vector<std::vector<double>> 
 
 }  // namespace
 
-TobitFit tobit(const Observations& observations, const std::vector<bool>& unseen, double floor) {
-    if (unseen.size() != observations.rows() || !std::isfinite(floor)) {
-        throw std::invalid_argument("tobit: sizes differ, or the floor is not finite");
+TobitFit tobit(const Observations& observations, const std::vector<bool>& unseen) {
+    if (unseen.size() != observations.rows()) {
+        throw std::invalid_argument("tobit: sizes differ");
+    }
+    for (const double y : observations.y) {
+        if (!std::isfinite(y)) throw std::invalid_argument("tobit: numbers must be finite");
     }
     Observations seen{.columns = observations.columns};
     for (std::size_t i = 0; i < observations.rows(); ++i) {
@@ -128,7 +130,7 @@ TobitFit tobit(const Observations& observations, const std::vector<bool>& unseen
     for (const auto& c : start.coefficients) point.push_back(c ? c->value * g : 0);
     point.push_back(g);
 
-    const Likelihood likelihood(observations, unseen, floor);
+    const Likelihood likelihood(observations, unseen);
     Surface here = likelihood.at(point);
     constexpr int most_steps = 200;
     for (int step = 0; step < most_steps; ++step) {

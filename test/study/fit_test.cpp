@@ -172,10 +172,10 @@ TEST_CASE("tobit: the unseen far links count; the plain fit is the peer's, too")
     for (std::size_t i = 0; i < links.size(); ++i) {
         const std::vector row{1.0, -x_of(links.number(i, "distance_m"))};
         unseen.push_back(links.text(i, "level_dbm").empty());
-        data.add(row, unseen.back() ? 0 : links.number(i, "level_dbm"));
+        data.add(row, unseen.back() ? floor : links.number(i, "level_dbm"));
         if (!unseen.back()) seen.add(row, data.y.back());
     }
-    const TobitFit fit = tobit(data, unseen, floor);
+    const TobitFit fit = tobit(data, unseen);
     CHECK(near(fit.coefficients[0], expected.number(0, "level_at_1m_dbm"), tobit_tolerance));
     CHECK(near(fit.coefficients[1], expected.number(0, "exponent"), tobit_tolerance));
     CHECK(near(fit.sigma, expected.number(0, "sigma_db"), tobit_tolerance));
@@ -192,12 +192,12 @@ TEST_CASE("tobit: with everything seen it is least squares") {
         data.add(std::vector{1.0, x}, 7 - 0.5 * x + (i * 7 % 5));
         unseen.push_back(false);
     }
-    const TobitFit fit = tobit(data, unseen, -1000);
+    const TobitFit fit = tobit(data, unseen);
     const LinearFit plain = least_squares(data);
     CHECK(near(fit.coefficients[0], plain.coefficients[0]->value, 1e-8));
     CHECK(near(fit.coefficients[1], plain.coefficients[1]->value, 1e-8));
     CHECK(near(fit.sigma, plain.rmse, 1e-8));
-    CHECK_THROWS_AS(tobit(data, {}, -1000), std::invalid_argument);
+    CHECK_THROWS_AS(tobit(data, {}), std::invalid_argument);
 }
 
 TEST_CASE("disc fit: the range with the fewest wrong decisions is that of the vectors") {

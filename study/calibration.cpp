@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "study/calibration.hpp"
+
+#include "study/disc_fit.hpp"
+#include "study/free_parameters.hpp"
+#include "study/linear_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+constexpr double least_distance = 1e-3;  // [m] a disc's range is fitted on a logarithmic scale
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+std::set<std::uint32_t> groups_of(const KnownLinks& known) {
+    std::set<std::uint32_t> groups;
+    for (const KnownLink& link : known.links) groups.insert(link.group);
+    return groups;
+}
+
+void calibrate_linear(const KnownLinks& known, const Scenario& scenario, Meters decided_within,
+                      CalibratedModel& out) {
+    const LinearCalibration linear(known, scenario, out.model);
+    const auto all = linear.fit([](const KnownLink&) { return true; });
+    FittedSettings settings = linear.settings(all);
+    out.parameters = std::move(settings.parameters);
+    out.settings = std::move(settings.tables);
+    Predictions fitted(known, decided_within), left_out(known, decided_within);
+    for (std::size_t i = 0; i < known.links.size(); ++i) fitted.add(i, linear.predict(all, i));
+    out.fitted = fitted.errors();
+    out.worst = fitted.worst();
+    const auto groups = groups_of(known);
+    if (groups.size() < 2) return;
+    for (const std::uint32_t group : groups) {
+        const auto others = linear.fit([&](const KnownLink& l) { return l.group != group; });
+        for (std::size_t i = 0; i < known.links.size(); ++i) {
+            if (known.links[i].group == group) left_out.add(i, linear.predict(others, i));
+        }
+    }
+    out.left_out = left_out.errors();
+}
+
+/// The disc that decides best the links of which `takes(link)` is true.
+template <class Takes>
+DiscFit disc_of(const KnownLinks& known, Meters within, const Takes& takes) {
+    std::vector<DiscLink> links;
+    for (const KnownLink& link : known.links) {
+        if (!takes(link) || link.distance() > within.value) continue;
+        links.push_back({std::max(link.distance(), least_distance), link.up()});
+    }
+    return fit_disc(std::move(links));
+}
+
+void calibrate_disc(const KnownLinks& known, Meters decided_within, CalibratedModel& out) {
+    const Meters range =
+        disc_of(known, decided_within, [](const KnownLink&) { return true; }).range;
+    out.parameters.push_back({.key = "range",
+                              .unit = "m",
+                              .value = range.value,
+                              .se_plain = no_number,
+                              .se_by_group = no_number});
+    Table propagation;
+    propagation.set("model", "disc");
+    propagation.set("range", fmt::format("{:.6g} m", range.value));
+    out.settings.set("propagation", std::move(propagation));
+    Predictions fitted(known, decided_within), left_out(known, decided_within);
+    for (std::size_t i = 0; i < known.links.size(); ++i) {
+        fitted.add(i, std::nullopt, known.links[i].distance() <= range.value);
+    }
+    out.fitted = fitted.errors();
+    const auto groups = groups_of(known);
+    if (groups.size() < 2) return;
+    for (const std::uint32_t group : groups) {
+        const Meters others = disc_of(known, decided_within, [&](const KnownLink& l) {
+                                  return l.group != group;
+                              }).range;
+        for (std::size_t i = 0; i < known.links.size(); ++i) {
+            const KnownLink& link = known.links[i];
+            if (link.group == group) left_out.add(i, std::nullopt, link.distance() <= others.value);
+        }
+    }
+    out.left_out = left_out.errors();
+}
+
+/// Errors of a model as the scenario has it; nothing if it lacks a parameter there.
+std::optional<PredictionErrors> errors_as_given(const KnownLinks& known, const Scenario& scenario,
+                                                const std::string& model, Meters decided_within) {
+    try {
+        const Propagation given = model_with(scenario, model, {});
+        Predictions predictions(known, decided_within);
+        for (std::size_t i = 0; i < known.links.size(); ++i) {
+            given.check_frequency(known.links[i].frequency);
+            const double loss = known.loss_by(given, known.links[i]);
+            if (model == "disc") {
+                predictions.add(i, std::nullopt, loss <= known.links[i].budget);
+            } else {
+                predictions.add(i, loss);
+            }
+        }
+        return predictions.errors();
+    } catch (const InputError&) {
+        return std::nullopt;
+    } catch (const std::invalid_argument&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& scenario,
+                                       const std::string& except, Meters decided_within) {
+    std::vector<CalibratedModel> out;
+    for_each_model([&]<class Model>() {
+        CalibratedModel model;
+        model.model = Model::name;
+        if (model.model == except) return;
+        try {
+            if (model.model == "disc") {
+                calibrate_disc(known, decided_within, model);
+            } else {
+                calibrate_linear(known, scenario, decided_within, model);
+            }
+            model.as_given = errors_as_given(known, scenario, model.model, decided_within);
+        } catch (const std::invalid_argument& e) {
+            model.failure = e.what();
+        } catch (const InputError& e) {
+            model.failure = e.message();
+        }
+        out.push_back(std::move(model));
+    });
+    return out;
+}
+
+double loss_error_at_budget(const KnownLinks& known, const Scenario& scenario) {
+    const auto losses =
+        linear_losses(known, scenario, "log_distance", free_parameters("log_distance"));
+    const auto fitted = [&](double shift) {
+        Observations data{.columns = 2};
+        for (std::size_t i = 0; i < losses.size(); ++i) {
+            if (known.links[i].unseen) continue;
+            data.add(std::vector{losses[i].columns[0] - shift, losses[i].columns[1]},
+                     known.links[i].loss - losses[i].offset, known.links[i].group);
+        }
+        return least_squares(data);
+    };
+    const LinearFit fit = fitted(0);
+    if (!fit.coefficients[0] || !fit.coefficients[1]) return no_number;
+    double budget = 0, offset = 0;
+    for (std::size_t i = 0; i < losses.size(); ++i) {
+        budget += known.links[i].budget / static_cast<double>(losses.size());
+        offset += losses[i].offset / static_cast<double>(losses.size());
+    }
+    const double crossing =
+        (budget - offset - fit.coefficients[1]->value) / fit.coefficients[0]->value;
+    return fitted(crossing).coefficients[1]->se_by_group;
+}
+
+Calibration calibrate_to_model(const Scenario& scenario, const std::string& reference,
+                               const std::function<void(double)>& tell) {
+    constexpr std::uint32_t most_replications_sampled = 320;
+    Calibration out;
+    const std::string model =
+        reference.empty() ? std::string(scenario.propagation.make().name()) : reference;
+    const Propagation truth = model_with(scenario, model, {});
+    out.reference = model;
+    for (SampleSize size;; size.replications *= 2) {
+        out.known = sample_links(scenario, truth, size, tell);
+        out.loss_error = loss_error_at_budget(out.known, scenario);
+        const bool alike = out.known.groups < size.replications;  // more would be the same again
+        if (out.loss_error <= Calibration::enough || alike ||
+            size.replications >= most_replications_sampled) {
+            break;
+        }
+    }
+    const KnownLink& some = out.known.links.front();
+    double budget = some.budget;
+    for (const KnownLink& link : out.known.links) budget = std::max(budget, link.budget);
+    const Meters reach = truth.reach(Db{budget}, some.frequency);
+    out.models = calibrate(out.known, scenario, model, reach);
+    return out;
+}
+
+Calibration calibrate_to_levels(const Scenario& scenario, const std::string& path,
+                                std::optional<Dbm> floor) {
+    Calibration out;
+    out.known = read_levels(path, scenario, floor);
+    out.loss_error = loss_error_at_budget(out.known, scenario);
+    out.models = calibrate(out.known, scenario, "", Propagation::anything);
+    return out;
+}
+
+Repeatability check(Calibration& calibration, const Scenario& scenario, const std::string& path,
+                    std::optional<Dbm> floor) {
+    const KnownLinks others = read_levels(path, scenario, floor);
+    for (CalibratedModel& model : calibration.models) {
+        if (!model.failure.empty()) continue;
+        std::map<std::string, double> values;
+        double constant = 0;
+        for (const FittedParameter& p : model.parameters) {
+            if (p.key == "power") {
+                constant = scenario.radio.power.value - p.value;
+            } else if (p.determined) {
+                values[p.key] = p.value;
+            }
+        }
+        const Propagation fitted = model_with(scenario, model.model, values);
+        Predictions predictions(others, Propagation::anything);
+        for (std::size_t i = 0; i < others.links.size(); ++i) {
+            const double loss = others.loss_by(fitted, others.links[i]) + constant;
+            const bool up = loss <= others.links[i].budget;
+            predictions.add(i, model.model == "disc" ? std::nullopt : std::optional(loss), up);
+        }
+        model.checked = predictions.errors();
+    }
+    return repeatability(calibration.known, others);
+}
+
+}  // namespace rovernet

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenario/scenario.hpp"
+#include "study/known_links.hpp"
+#include "study/linear_calibration.hpp"
+#include "study/prediction_errors.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Calibration: each model gets the parameters with which it comes nearest to known losses, before
+// anybody compares it. Models of which nothing is free are judged as they stand.
+
+namespace rovernet {
+
+/// A model with the parameters that suit the known links best.
+struct CalibratedModel {
+    std::string model;
+    std::vector<FittedParameter> parameters;
+    /// [propagation], and [radio] if its power was fitted: for a scenario file.
+    Table settings;
+    PredictionErrors fitted;                   ///< on the links that it was fitted to
+    std::optional<PredictionErrors> left_out;  ///< each group by the fit of the others
+    std::optional<PredictionErrors> as_given;  ///< with the scenario's own parameters
+    std::optional<PredictionErrors> checked;   ///< on other links, see check()
+    std::vector<WorstLink> worst;              ///< the five largest errors
+    std::string failure;                       ///< why it could not be fitted; empty: it was
+};
+
+/// Fits all listed models but `except` to the known links, in the order of the list: by least
+/// squares in dB; by the Tobit model if some levels were below the floor; a disc by its decisions.
+/// Losses of walls are >= 0. With measured levels one constant is free in each model, as powers and
+/// gains are only roughly known: `excess` where a model has it, else the radios' power.
+/// Decisions are counted on links no longer than `decided_within`.
+/// Source: reference/accuracy, C1.
+std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& scenario,
+                                       const std::string& except, Meters decided_within);
+
+/// Standard error [dB] of the loss that log_distance, fitted to the links, predicts where it
+/// crosses their mean budget: whether these are enough links. Not a number with one group.
+double loss_error_at_budget(const KnownLinks& known, const Scenario& scenario);
+
+/// Links of a scenario, and its models calibrated to them.
+struct Calibration {
+    std::string reference;  ///< model; empty: measured levels
+    KnownLinks known;
+    std::vector<CalibratedModel> models;
+    /// See loss_error_at_budget() [dB].
+    double loss_error = 0;
+    /// Links are enough if their loss error is no more [dB].
+    static constexpr double enough = 0.5;
+};
+
+/// Calibrates to a reference model on links of the scenario's own robots: those of 20 replications,
+/// and of twice as many as long as they are not enough, up to 320.
+/// @param reference  listed model, with the scenario's parameters; empty: the scenario's own
+/// @param tell       told the share that is done, 0 ... 1; may be empty
+/// @throws InputError, RunError
+Calibration calibrate_to_model(const Scenario& scenario, const std::string& reference,
+                               const std::function<void(double)>& tell);
+
+/// Calibrates to measured levels, see read_levels().
+Calibration calibrate_to_levels(const Scenario& scenario, const std::string& path,
+                                std::optional<Dbm> floor);
+/// Judges the calibrated models on other measured levels, from another day or drive.
+/// @return how well the levels of both files repeat
+Repeatability check(Calibration& calibration, const Scenario& scenario, const std::string& path,
+                    std::optional<Dbm> floor);
+
+}  // namespace rovernet

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/propagation/propagation.hpp"
+#include "scenario/scenario.hpp"
+#include "study/known_links.hpp"
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// Parameter of a propagation model in which its loss is linear, so that a fit can find it.
+struct FreeParameter {
+    std::string_view model, key;
+    std::string_view unit = "";  ///< empty: a bare number
+    double base = 0;             ///< some value at which no loss is held at 0
+    bool non_negative = false;   ///< what walls take
+};
+
+/// The free parameters of a listed model; none for most.
+std::vector<FreeParameter> free_parameters(std::string_view model);
+
+/// A listed model with the scenario's parameters, but with these; without its random part.
+/// @param values  by key, in the units of FreeParameter
+/// @throws InputError as read_propagation()
+Propagation model_with(const Scenario& scenario, std::string_view model,
+                       const std::map<std::string, double>& values);
+
+/// What a model says of one link: its loss is offset + sum over j of columns[j] b_j, with its free
+/// parameters b.
+struct LinearLoss {
+    double offset = 0;  ///< [dB]
+    std::vector<double> columns;
+};
+
+/// The losses of links as linear functions of a model's free parameters, found by asking the model
+/// at values one apart.
+/// @throws InputError, std::invalid_argument if the model cannot be asked
+std::vector<LinearLoss> linear_losses(const KnownLinks& known, const Scenario& scenario,
+                                      std::string_view model, std::span<const FreeParameter> free);
+
+}  // namespace rovernet

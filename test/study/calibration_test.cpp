@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// Calibration against truths of known parameters, and against two measured buildings, whose
+// numbers field_flat_fits.csv and field_lab_fits.csv give. The measurements are read from the
+// folder that ROVERNET_FIELD names.
+#include "study/calibration.hpp"
+
+#include "scenario/toml.hpp"
+#include "test/models/vectors.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+using namespace rovernet;
+using test::near;
+using test::Vectors;
+
+namespace {
+
+Scenario scenario_from(const std::string& text) {
+    const test::TemporaryFolder folder;
+    return load_scenario(folder.write("s.toml", text), {});
+}
+
+const std::string wanderers = R"([scenario]
+duration = "100 s"
+[[robot]]
+name = "r"
+count = 6
+move = { model = "random_waypoint", area = [["0 m", "0 m"], ["300 m", "300 m"]] }
+)";
+
+const CalibratedModel& model(const std::vector<CalibratedModel>& all, const std::string& name) {
+    const auto at = std::find_if(all.begin(), all.end(),
+                                 [&](const CalibratedModel& m) { return m.model == name; });
+    REQUIRE(at != all.end());
+    CAPTURE(at->failure);
+    REQUIRE(at->failure.empty());
+    return *at;
+}
+
+double value(const CalibratedModel& m, const std::string& key) {
+    for (const FittedParameter& p : m.parameters) {
+        if (p.key == key) return p.value;
+    }
+    FAIL("no parameter " << key);
+    return 0;
+}
+
+std::string error_of(const std::string& levels, std::optional<Dbm> floor = {}) {
+    const test::TemporaryFolder folder;
+    try {
+        read_levels(folder.write("levels.csv", levels), scenario_from(wanderers), floor);
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+/// Levels of a law with exponent 3 and 50 dB at 1 m, in a file; those below -95 dBm are empty.
+std::string levels_of_a_law(double floor) {
+    std::string out = "# a law\nlevel_dbm, to_y_m ,to_x_m,from_x_m,from_y_m,group\n";
+    for (int i = 1; i <= 200; ++i) {
+        const double d = 2.0 * i, error = 4 * std::sin(1.7 * i);
+        const double level = 16.53 - 50 - 30 * std::log10(d) + error;
+        out += fmt::format("{},0,{},0,0,{}\n", level < floor ? "" : fmt::format("{}", level), d,
+                           i % 5);
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("calibration: a model finds the parameters of its own kind again") {
+    const Scenario scenario = scenario_from(
+        wanderers + "[propagation]\nmodel = \"log_distance\"\nexponent = 3.2\nexcess = \"4 dB\"\n");
+    const KnownLinks known =
+        sample_links(scenario, scenario.propagation.make().median(), {.replications = 5});
+    CHECK(known.groups == 5);
+    CHECK(known.links.size() > 500);
+    const auto models = calibrate(known, scenario, "", Propagation::anything);
+    const CalibratedModel& log_distance = model(models, "log_distance");
+    CHECK(near(value(log_distance, "exponent"), 3.2, 1e-9));
+    CHECK(near(value(log_distance, "excess"), 4, 1e-7));
+    CHECK(log_distance.fitted.rmse < 1e-9);
+    CHECK(log_distance.left_out->rmse < 1e-9);
+    CHECK(log_distance.left_out->wrong() == 0);
+    // Without a wall it is multi_wall's law, too; 30 of N in 3.2 cannot make up for its constant.
+    const CalibratedModel& multi_wall = model(models, "multi_wall");
+    CHECK(near(value(multi_wall, "exponent"), 3.2, 1e-9));
+    CHECK(!multi_wall.parameters.back().determined);
+    CHECK(model(models, "friis").parameters.empty());
+    CHECK(model(models, "friis").fitted.rmse > 10);
+    CHECK(model(models, "itu_indoor").fitted.rmse < model(models, "itu_indoor").as_given->rmse);
+    // A disc decides like any law of the distance.
+    const CalibratedModel& disc = model(models, "disc");
+    CHECK(disc.fitted.wrong() == 0);
+    const double budget = known.links.front().budget;
+    const double at_range = 40.231105 + 4 + 32 * std::log10(value(disc, "range"));
+    CHECK(std::abs(at_range - budget) < 1);
+}
+
+TEST_CASE("calibration: the fitted parameters, put into the scenario, predict what the fit says") {
+    const Scenario scenario = scenario_from(wanderers + "[propagation]\nmodel = \"two_ray\"\n");
+    Calibration calibration = calibrate_to_model(scenario, "", {});
+    CHECK(calibration.reference == "two_ray");
+    CHECK(calibration.loss_error <= Calibration::enough);
+    const CalibratedModel& fitted = model(calibration.models, "log_distance");
+    const Scenario refitted = scenario_from(wanderers + to_toml(fitted.settings));
+    const auto again = calibrate(calibration.known, refitted, "", Propagation::anything);
+    CHECK(near(model(again, "log_distance").as_given->rmse, fitted.fitted.rmse, 1e-4));
+    CHECK(fitted.worst.size() == 5);
+    CHECK(std::abs(fitted.worst[0].error) >= std::abs(fitted.worst[4].error));
+}
+
+TEST_CASE("calibration: robots that never move are sampled once, and grouped by sender") {
+    const Scenario scenario = scenario_from(R"([[robot]]
+name = "a"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "b"
+at = ["30 m", "0 m"]
+[[robot]]
+name = "c"
+at = ["0 m", "90 m"]
+)");
+    const KnownLinks known = sample_links(scenario, Friis{}, {});
+    CHECK(known.links.size() == 3);
+    CHECK(known.groups == 2);
+    CHECK(std::string(known.group_name) == "sender");
+}
+
+TEST_CASE("calibration: levels that were not seen count by the Tobit model") {
+    const test::TemporaryFolder folder;
+    const Scenario scenario = scenario_from(wanderers);
+    const auto fitted = [&](double floor) {
+        const auto path = folder.write("levels.csv", levels_of_a_law(floor));
+        return calibrate_to_levels(scenario, path, Dbm{floor}).models;
+    };
+    const double all = value(model(fitted(-300), "log_distance"), "exponent");
+    const auto some = fitted(-95);
+    CHECK(near(all, 3, 0.05));
+    CHECK(near(value(model(some, "log_distance"), "exponent"), 3, 0.1));
+    CHECK(near(value(model(some, "log_distance"), "excess"), 50 - 40.231105, 1.5));
+    CHECK(!std::isfinite(model(some, "log_distance").parameters[0].se_by_group));
+    // friis has no constant of its own: the radios' power takes it up.
+    CHECK(model(some, "friis").parameters.at(0).key == "power");
+}
+
+TEST_CASE("levels: what is wrong with a file is told with its place") {
+    const auto has = [](const std::string& text, const std::string& words) {
+        CAPTURE(text);
+        return text.find(words) != std::string::npos;
+    };
+    CHECK(has(error_of("from_x_m,from_y_m,to_x_m,to_y_m\n"), "levels.csv:1"));
+    CHECK(has(error_of("from_x_m,from_y_m,to_x_m,to_y_m\n"), "no column \"level_dbm\""));
+    const std::string head = "from_x_m,from_y_m,to_x_m,to_y_m,level_dbm\n";
+    CHECK(has(error_of(head), "no level in this file"));
+    CHECK(has(error_of(head + "0,0,1,x,-50\n"), "levels.csv:2:7"));
+    CHECK(has(error_of(head + "0,0,1,1\n"), "found 4 fields, expected 5"));
+    CHECK(has(error_of(head + "0,0,1,1,\n"), "needs --floor"));
+    CHECK(has(error_of(head + "0,0,1,1,\n", Dbm{-90}), "no error"));
+    CHECK(has(error_of(""), "empty"));
+}
+
+TEST_CASE("calibration: a measured flat and a laboratory, by their maps") {
+    const char* folder = std::getenv("ROVERNET_FIELD");
+    if (!folder) {
+        MESSAGE("skipped: ROVERNET_FIELD is not set");
+        return;
+    }
+    const std::string field = std::string(folder) + "/";
+    const test::TemporaryFolder made;
+    const Vectors cells(field, "flat/cells.csv"), anchors(field, "flat/anchors.csv");
+    std::map<std::string, std::string> places;
+    for (std::size_t i = 0; i < anchors.size(); ++i) {
+        places[anchors.text(i, "anchor")] =
+            anchors.text(i, "x_m") + "," + anchors.text(i, "y_m") + "," + anchors.text(i, "z_m");
+    }
+    const auto file = [&](const std::string& set) {
+        std::string out = "from_x_m,from_y_m,from_z_m,to_x_m,to_y_m,to_z_m,level_dbm,group,place\n";
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (cells.text(i, "set") != set) continue;
+            out += fmt::format("{},{},1.3,{},{},{},{} {}\n", cells.text(i, "x_m"),
+                               cells.text(i, "y_m"), places[cells.text(i, "anchor")],
+                               cells.text(i, "mean_rssi_dbm"), cells.text(i, "anchor"),
+                               cells.text(i, "cell_x"), cells.text(i, "cell_y"));
+        }
+        return made.write(set + ".csv", out);
+    };
+    const Scenario scenario =
+        scenario_from(fmt::format("[scene]\nmap = \"{}flat/map.yaml\"\n[radio]\nfrequency = \"2440 "
+                                  "MHz\"\nsensitivity = \"-65 dBm\"\n[[robot]]\nname = \"tag\"\nat "
+                                  "= [\"2 m\", \"4 m\"]\n",
+                                  field));
+    Calibration flat = calibrate_to_levels(scenario, file("calibration"), {});
+    const Repeatability again = check(flat, scenario, file("robot"), {});
+    CHECK(again.levels == 240);
+    CHECK(near(again.rms, 3.060100, 1e-6));
+    const Vectors expected("field_flat_fits.csv");
+    const auto row = [&](const std::string& name) {
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            if (expected.text(i, "model") == name) return i;
+        }
+        return expected.size();
+    };
+    for (const std::string name : {"friis", "log_distance", "multi_wall"}) {
+        CAPTURE(name);
+        const CalibratedModel& fitted = model(flat.models, name);
+        const double own = expected.number(row(name), "rmse_calibration_db");
+        const double other = expected.number(row(name), "rmse_robot_db");
+        if (name == "multi_wall") {  // light walls have a loss of their own here: it fits no worse
+            CHECK(fitted.fitted.rmse < own + 0.2);
+            CHECK(fitted.checked->rmse < other + 0.2);
+        } else {  // below 1 m, friis goes on
+            CHECK(near(fitted.fitted.rmse, own, 0.005));
+            CHECK(near(fitted.checked->rmse, other, 0.005));
+        }
+    }
+    CHECK(near(value(model(flat.models, "log_distance"), "exponent"),
+               expected.number(row("log_distance"), "exponent_or_wall"), 1e-4));
+    CHECK(near(model(flat.models, "friis").checked->wrong(),
+               expected.number(row("friis"), "decision_error_at_-65dbm"), 0.005));
+}
