@@ -68,6 +68,14 @@ struct LossArguments {
 };
 void loss(const LossArguments& arguments);
 
+struct MaterialArguments {
+    std::string material, thickness;
+    std::string frequency = "2450 MHz";
+    double angle = 0;  ///< to the normal [degrees]
+    bool json = false;
+};
+void material(const MaterialArguments& arguments);
+
 struct LinkArguments : FileArguments {
     std::string from, to;
     std::string at = "0 s";

@@ -57,6 +57,21 @@ void add_bench(CLI::App& app) {
     add_json(flood, a.json);
 }
 
+void add_material(CLI::App& app) {
+    const auto [material, a] = add_command(
+        app, "material", "What a slab of a building material takes from a wave", cli::material);
+    add_examples(
+        material,
+        {"rovernet material concrete --thickness 0.2",
+         "rovernet material glass --thickness \"6 mm\" --frequency \"5.2 GHz\" --angle 30"});
+    material.add_option("MATERIAL", a.material, "concrete, brick, glass, ...")->required();
+    material.add_option("--thickness", a.thickness, "such as 0.2 or \"13 mm\"")->required();
+    material.add_option("--frequency", a.frequency, "such as \"2450 MHz\"")->capture_default_str();
+    material.add_option("--angle", a.angle, "of the wave's way to the normal [degrees]")
+        ->capture_default_str();
+    add_json(material, a.json);
+}
+
 void add_trace(CLI::App& app) {
     CLI::App* trace = app.add_subcommand("trace", "Work with trace files");
     trace->require_subcommand(1);
@@ -94,6 +109,7 @@ void add_completion(CLI::App& app) {
 void add_tool_commands(CLI::App& app) {
     add_models(app);
     add_loss(app);
+    add_material(app);
     add_trace(app);
     add_bench(app);
     add_version(app);

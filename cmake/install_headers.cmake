@@ -1,5 +1,6 @@
 # Installs rovernet.hpp and what it includes, directly or not: the headers that a user needs.
 # Expects SOURCE and DESTINATION, the folders.
+cmake_minimum_required(VERSION 3.22)
 set(found rovernet.hpp)
 set(unread rovernet.hpp)
 while(unread)

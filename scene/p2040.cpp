@@ -59,17 +59,41 @@ Permittivity permittivity(ItuMaterial material, Hertz frequency) {
     return {law.a * power(f, law.b), per_farad * law.c * power(f, law.d) / f};
 }
 
-Db slab_loss(ItuMaterial material, Meters thickness, Hertz frequency) {
+namespace {
+
+/// Losses of a slab for one polarisation.
+struct Losses {
+    Db transmission, reflection;
+};
+/// @param r  reflection coefficient of its face
+/// @param a  square root of eta - sin^2 of the angle, with the complex permittivity eta
+/// @param k  wave number in air times the thickness
+Losses losses(Complex r, Complex a, double k) {
     constexpr double db_per_neper = 8.685889638065037;
-    const Permittivity p = permittivity(material, frequency);
-    const Complex a = square_root({p.real, -p.imaginary});
-    const Complex r = (1.0 - a) / (1.0 + a);
-    constexpr double two_pi_over_c = 6.283185307179586 / 299'792'458;
-    const double k = two_pi_over_c * frequency.value * thickness.value;
+    const Complex twice = wave(2 * k, a);  // over to the other face and back
     // |T| = |1 - r^2| |e^-jq| / |1 - r^2 e^-2jq|; the middle factor in decibels, where a thick
-    // sheet of metal cannot underflow.
-    return {db_per_neper * k * -a.imag() - decibels(1.0 - r * r) +
-            decibels(1.0 - r * r * wave(2 * k, a))};
+    // sheet of metal cannot underflow. |R| = |r| |1 - e^-2jq| / |1 - r^2 e^-2jq|.
+    const double several = decibels(1.0 - r * r * twice);
+    return {Db{db_per_neper * k * -a.imag() - decibels(1.0 - r * r) + several},
+            Db{several - decibels(r) - decibels(1.0 - twice)}};
+}
+
+}  // namespace
+
+SlabLosses slab_losses(ItuMaterial material, Meters thickness, Hertz frequency, Radians incidence) {
+    constexpr double two_pi_over_c = 6.283185307179586 / 299'792'458;
+    const Permittivity p = permittivity(material, frequency);
+    const auto [sine, cosine] = math::sincos(incidence.value);
+    const Complex eta{p.real, -p.imaginary};
+    const Complex a = square_root({p.real - sine * sine, -p.imaginary});
+    const double k = two_pi_over_c * frequency.value * thickness.value;
+    const Losses te = losses((cosine - a) / (cosine + a), a, k);
+    const Losses tm = losses((eta * cosine - a) / (eta * cosine + a), a, k);
+    return {te.transmission, tm.transmission, te.reflection, tm.reflection};
+}
+
+Db slab_loss(ItuMaterial material, Meters thickness, Hertz frequency) {
+    return slab_losses(material, thickness, frequency, Radians{0}).te_transmission;
 }
 
 }  // namespace rovernet

@@ -41,8 +41,22 @@ struct Permittivity {
 /// the law is extrapolated. Source: ITU-R P.2040-3, table 3 and eq. 28.
 Permittivity permittivity(ItuMaterial material, Hertz frequency);
 
-/// Transmission loss [dB] of a flat slab in air at normal incidence: reflections inside included.
-/// Finite for any thickness >= 0 [m]. Source: ITU-R P.2040-3, eqs. 43 and 44.
+/// What a flat slab in air takes from a plane wave [dB], reflections inside included: of the wave
+/// that passes through, and of the one that comes back. TE: the electric field stands across the
+/// plane of incidence, as that of an upright antenna before an upright wall; TM: it lies in it.
+struct SlabLosses {
+    Db te_transmission, tm_transmission;
+    Db te_reflection, tm_reflection;
+};
+
+/// Losses of a slab at an angle. Those of transmission are finite for any thickness; what does not
+/// reflect, a slab of thickness 0 say, has an infinite loss of reflection.
+/// Source: ITU-R P.2040-3, eqs. 37, 43 and 44.
+/// @param thickness  [m], >= 0
+/// @param incidence  angle between the wave's way and the normal [rad], from 0 to below pi / 2
+SlabLosses slab_losses(ItuMaterial material, Meters thickness, Hertz frequency, Radians incidence);
+
+/// Transmission loss [dB] of a slab at normal incidence, see slab_losses().
 Db slab_loss(ItuMaterial material, Meters thickness, Hertz frequency);
 
 }  // namespace rovernet

@@ -10,11 +10,14 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 
 using namespace rovernet;
 using test::Vectors;
 
 namespace {
+
+constexpr double pi = 3.14159265358979323846;
 
 /// The material of that name; none for older editions' and for the ground.
 std::optional<ItuMaterial> material_named(const std::string& name) {
@@ -67,21 +70,55 @@ TEST_CASE("p2040: deep inside a material a wave loses what the vectors say per m
     }
 }
 
-TEST_CASE("p2040: slabs at normal incidence lose what the vectors say (slab_transmission)") {
+TEST_CASE("p2040: slabs lose what the vectors say at every angle (slab_transmission)") {
     constexpr double tolerance = 1e-8;  // [dB], see the vectors' description
     const Vectors vectors("slab_transmission.csv");
     std::size_t rows = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const auto material = material_named(vectors.text(i, "material"));
-        if (!material || vectors.number(i, "theta_deg") != 0) continue;
+        if (!material) continue;
         CAPTURE(vectors.text(i, "material"));
         CAPTURE(vectors.text(i, "thickness_m"));
-        const Db loss =
-            slab_loss(*material, {vectors.number(i, "thickness_m")}, frequency(vectors, i));
-        CHECK(test::near(loss.value, vectors.number(i, "TE_trans_loss_dB"), tolerance));
+        CAPTURE(vectors.text(i, "theta_deg"));
+        const Meters thickness{vectors.number(i, "thickness_m")};
+        const Hertz f = frequency(vectors, i);
+        const double degrees = vectors.number(i, "theta_deg");
+        const SlabLosses slab = slab_losses(*material, thickness, f, Radians{degrees * pi / 180});
+        CHECK(test::near(slab.te_transmission.value, vectors.number(i, "TE_trans_loss_dB"),
+                         tolerance));
+        CHECK(test::near(slab.tm_transmission.value, vectors.number(i, "TM_trans_loss_dB"),
+                         tolerance));
+        CHECK(
+            test::near(slab.te_reflection.value, vectors.number(i, "TE_refl_loss_dB"), tolerance));
+        CHECK(
+            test::near(slab.tm_reflection.value, vectors.number(i, "TM_refl_loss_dB"), tolerance));
+        if (degrees == 0) CHECK(slab_loss(*material, thickness, f) == slab.te_transmission);
         ++rows;
     }
-    CHECK(rows == 23);
+    CHECK(rows == 243);
+}
+
+TEST_CASE("p2040: a slab neither makes nor keeps power, but for what it turns into heat") {
+    for (std::size_t i = 0; i < EnumNames<ItuMaterial>::values.size(); ++i) {
+        for (const double degrees : {0.0, 20.0, 63.4, 80.0, 89.9}) {
+            for (const double thickness : {1e-6, 0.001, 0.013, 0.2, 3.0}) {
+                CAPTURE(i);
+                CAPTURE(degrees);
+                CAPTURE(thickness);
+                const SlabLosses slab = slab_losses(static_cast<ItuMaterial>(i), {thickness},
+                                                    2450_MHz, Radians{degrees * pi / 180});
+                const auto share = [](Db loss) { return std::pow(10, -loss.value / 10); };
+                for (const auto& [through, back] :
+                     {std::pair{slab.te_transmission, slab.te_reflection},
+                      std::pair{slab.tm_transmission, slab.tm_reflection}}) {
+                    CHECK(std::isfinite(through.value));
+                    CHECK(through.value > -1e-9);
+                    CHECK(back.value > -1e-9);
+                    CHECK(share(through) + share(back) < 1 + 1e-9);
+                }
+            }
+        }
+    }
 }
 
 TEST_CASE("p2040: real walls have the wall factors of the vectors (wallfactor_equivalent)") {
