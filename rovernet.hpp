@@ -13,6 +13,7 @@
 #include "mobility/straight.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/access/list.hpp"
+#include "models/medium/medium.hpp"
 #include "models/propagation/list.hpp"
 #include "models/reception/list.hpp"
 #include "network/network.hpp"

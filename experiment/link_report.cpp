@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
+#include "models/medium/medium.hpp"
 
 #include <fmt/format.h>
 

@@ -3,6 +3,7 @@
 
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
+#include "models/medium/medium.hpp"
 
 #include <fmt/format.h>
 

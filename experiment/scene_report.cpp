@@ -2,6 +2,7 @@
 #include "experiment/scene_report.hpp"
 
 #include "experiment/link_table.hpp"
+#include "models/medium/medium.hpp"
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/biconnected_components.hpp>

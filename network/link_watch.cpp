@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "network/link_watch.hpp"
 
+#include "models/medium/medium.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 
 #include "models/links/link_changes.hpp"
 #include "models/links/wall_passages.hpp"
-#include "models/medium/medium.hpp"
 #include "scene/scene.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
@@ -16,6 +15,8 @@
 #include <vector>
 
 namespace rovernet {
+
+class Medium;
 
 /// Change of a link: from `time` on `to` can hear `from`, or cannot any more.
 struct LinkChange {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "network/network.hpp"
 
+#include "models/medium/medium.hpp"
 #include "network/engine.hpp"
 
 #include <limits>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mobility/movement.hpp"
-#include "models/medium/medium.hpp"
 #include "models/medium/neighbour.hpp"
 #include "network/robot.hpp"
 #include "network/settings.hpp"
@@ -35,6 +34,7 @@ struct Heard {
 using SinkId = std::uint32_t;
 
 class Engine;
+class Medium;
 
 /// Robots, their radios and what they say to each other, in one simulated world. It is the face of
 /// the library:

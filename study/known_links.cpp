@@ -4,6 +4,7 @@
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
 #include "models/link_gain.hpp"
+#include "models/medium/medium.hpp"
 #include "network/network.hpp"
 #include "sim/random.hpp"
 

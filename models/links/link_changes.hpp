@@ -2,9 +2,7 @@
 #pragma once
 
 #include "models/links/link_search.hpp"
-#include "models/links/range_crossing.hpp"
 #include "models/links/wall_passages.hpp"
-#include "models/medium/medium.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/time.hpp"
@@ -18,6 +16,9 @@
 //     if (change) ...  // at *change the link is up if it was down, and the reverse
 
 namespace rovernet {
+
+class Medium;
+class Scene;
 
 /// The first time in (after, until] at which the link from `from` to `to` is not what it is at
 /// `after`, on the legs as they are now; none if there is no such time. Neither leg may end before

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "models/medium/neighbour.hpp"
 
+#include "models/medium/medium.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/medium/medium.hpp"
 #include "models/radio.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
@@ -13,6 +12,8 @@
 // Neighbours as a radio sees them: for tables of links, pictures and applications.
 
 namespace rovernet {
+
+class Medium;
 
 /// Neighbour of a robot: one that it hears, as its radio sees it. The levels are local means,
 /// without errors or interference.

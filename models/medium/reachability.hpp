@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/medium/medium.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/time.hpp"
@@ -16,6 +15,8 @@
 // to. A search of the whole network for each message would cost more than the messages.
 
 namespace rovernet {
+
+class Medium;
 
 /// Number of robots that a chain of links joins to a sender: that of Medium::reachable(), found
 /// with less work, for when it is asked for with every message. Applications have one.

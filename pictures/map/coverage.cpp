@@ -2,6 +2,7 @@
 #include "pictures/map/coverage.hpp"
 
 #include "models/link_gain.hpp"
+#include "models/medium/medium.hpp"
 #include "sim/random.hpp"
 
 #include <fmt/format.h>

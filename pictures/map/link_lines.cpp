@@ -2,6 +2,7 @@
 #include "pictures/map/link_lines.hpp"
 
 #include "models/link_gain.hpp"
+#include "models/medium/medium.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 // What robots of a scenario do when something happens, and robots that a movement file moves.
 #include "experiment/run.hpp"
 #include "experiment/whereabouts.hpp"
+#include "models/medium/medium.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/whereabouts.hpp"
 
+#include "models/medium/medium.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -3,6 +3,7 @@
 // network keeps them.
 #include "mobility/waypoints.hpp"
 #include "models/link_gain.hpp"
+#include "models/medium/medium.hpp"
 #include "models/propagation/list.hpp"
 #include "models/reception/list.hpp"
 #include "network/network.hpp"

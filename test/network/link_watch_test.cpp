@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "network/link_watch.hpp"
 
+#include "models/medium/medium.hpp"
 #include "models/propagation/list.hpp"
 #include "sim/error.hpp"
 #include "test/scene/drawn_map.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a routing protocol is given and told by the network that runs it.
 #include "models/access/list.hpp"
+#include "models/medium/medium.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/propagation/friis.hpp"
 #include "network/network.hpp"

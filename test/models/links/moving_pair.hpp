@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/links/link_changes.hpp"
+#include "models/medium/medium.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <vector>

@@ -3,6 +3,7 @@
 
 #include "experiment/build.hpp"
 #include "models/link_gain.hpp"
+#include "models/medium/medium.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/log_distance.hpp"
 #include "scenario/toml.hpp"

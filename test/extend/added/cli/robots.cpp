@@ -2,6 +2,7 @@
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "experiment/build.hpp"
+#include "models/medium/medium.hpp"
 #include "scenario/json.hpp"
 
 #include <fmt/format.h>
