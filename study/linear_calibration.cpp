@@ -50,9 +50,9 @@ LinearCalibration::Solution LinearCalibration::fit(
 }
 
 LinearCalibration::Solution LinearCalibration::by_least_squares(const Observations& data) const {
-    std::vector<bool> non_negative;
-    for (const std::size_t j : used_) non_negative.push_back(free_[j].non_negative);
-    const LinearFit fit = least_squares(data, non_negative);
+    std::vector<bool> held;
+    for (const std::size_t j : used_) held.push_back(free_[j].non_negative);
+    const LinearFit fit = least_squares(data, held);
     Solution out{.coefficients = {}, .at_bound = fit.at_bound, .sigma = fit.sigma};
     for (std::size_t k = 0; k < used_.size(); ++k) {
         if (!fit.coefficients[k]) {
