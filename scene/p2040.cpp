@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "scene/p2040.hpp"
 
+#include "sim/complex_math.hpp"
 #include "sim/math.hpp"
 
-#include <cmath>
 #include <complex>
 
 namespace rovernet {
 namespace {
 
-using Complex = std::complex<double>;
+using math::Complex;
 
 /// eps_r = a f^b, sigma = c f^d [S/m], f in GHz.
 struct Law {
@@ -32,20 +32,6 @@ constexpr std::array<Law, EnumNames<ItuMaterial>::values.size()> laws = {{
 }};
 
 double power(double base, double exponent) { return math::exp2(exponent * math::log2(base)); }
-
-/// The square root in the right half plane.
-Complex square_root(Complex z) {
-    const double real = std::sqrt((std::sqrt(std::norm(z)) + z.real()) / 2);
-    return {real, z.imag() / (2 * real)};
-}
-
-/// e^(-j q) for q = k a, the lossy part left out when it has vanished.
-Complex wave(double k, Complex a) {
-    const double decay = k * -a.imag();  // >= 0, in nepers
-    if (decay > 300) return 0;
-    const auto [s, c] = math::sincos(k * a.real());
-    return math::exp(-decay) * Complex{c, -s};
-}
 
 double decibels(Complex z) { return 10 * math::log10(std::norm(z)); }
 
@@ -70,7 +56,7 @@ struct Losses {
 /// @param k  wave number in air times the thickness
 Losses losses(Complex r, Complex a, double k) {
     constexpr double db_per_neper = 8.685889638065037;
-    const Complex twice = wave(2 * k, a);  // over to the other face and back
+    const Complex twice = math::exp(Complex{0, -2 * k} * a);  // over to the other face and back
     // |T| = |1 - r^2| |e^-jq| / |1 - r^2 e^-2jq|; the middle factor in decibels, where a thick
     // sheet of metal cannot underflow. |R| = |r| |1 - e^-2jq| / |1 - r^2 e^-2jq|.
     const double several = decibels(1.0 - r * r * twice);
@@ -85,10 +71,10 @@ SlabLosses slab_losses(ItuMaterial material, Meters thickness, Hertz frequency, 
     const Permittivity p = permittivity(material, frequency);
     const auto [sine, cosine] = math::sincos(incidence.value);
     const Complex eta{p.real, -p.imaginary};
-    const Complex a = square_root({p.real - sine * sine, -p.imaginary});
+    const Complex a = math::square_root({p.real - sine * sine, -p.imaginary});
     const double k = two_pi_over_c * frequency.value * thickness.value;
-    const Losses te = losses((cosine - a) / (cosine + a), a, k);
-    const Losses tm = losses((eta * cosine - a) / (eta * cosine + a), a, k);
+    const Losses te = losses(math::quotient(cosine - a, cosine + a), a, k);
+    const Losses tm = losses(math::quotient(eta * cosine - a, eta * cosine + a), a, k);
     return {te.transmission, tm.transmission, te.reflection, tm.reflection};
 }
 
