@@ -2,6 +2,7 @@
 #include "models/links/link_changes.hpp"
 
 #include "models/link_gain.hpp"
+#include "models/links/range_crossing.hpp"
 #include "models/medium/medium.hpp"
 
 #include <algorithm>
