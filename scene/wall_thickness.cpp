@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace rovernet {
@@ -15,7 +14,8 @@ WallThickness::WallThickness(const MapFrame& frame, std::shared_ptr<const WallIn
       walls_(std::move(walls)) {}
 
 double WallThickness::at(CellPoint p) const {
-    if (!walls_->holds(p)) return 0;
+    const bool inside = p.u >= 0 && p.v >= 0 && p.u < walls_->columns() && p.v < walls_->rows();
+    if (!inside) return 0;
     std::call_once(measured_, [this] { measure(); });
     const auto column = static_cast<std::size_t>(p.u), row = static_cast<std::size_t>(p.v);
     return thickness_[row * static_cast<std::size_t>(walls_->columns()) + column];
@@ -29,13 +29,15 @@ void WallThickness::measure() const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                static_cast<std::size_t>(column);
     };
-    thickness_.assign(number(0, rows), std::numeric_limits<float>::infinity());
+    thickness_.assign(number(0, rows), 0);
     const auto walk = [&](int column, int row, int right, int up, double step) {
         std::vector<std::size_t> run;
         const auto end_run = [&] {
             const auto length = static_cast<float>(static_cast<double>(run.size()) * step);
-            for (const std::size_t cell : run)
-                thickness_[cell] = std::min(thickness_[cell], length);
+            for (const std::size_t cell : run) {
+                float& least = thickness_[cell];
+                least = least > 0 ? std::min(least, length) : length;
+            }
             run.clear();
         };
         for (; column >= 0 && column < columns && row < rows; column += right, row += up) {
