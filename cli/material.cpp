@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 namespace rovernet::cli {
 namespace {
 
@@ -22,30 +24,28 @@ ItuMaterial material_named(const std::string& name) {
     return material;
 }
 
-Radians incidence_of(double degrees) {
-    constexpr double degree = 3.14159265358979323846 / 180;
-    if (!(degrees >= 0 && degrees < 90)) {
-        throw InputError(option("--angle", fmt::format("{}", degrees)),
-                         "expected an angle to the normal from 0 to below 90 degrees");
-    }
-    return Radians{degrees * degree};
+Meters thickness_of(const std::string& text) {
+    const Meters thickness = option_length("--thickness", text);
+    if (thickness.value > 0) return thickness;
+    throw InputError(option("--thickness", text), "expected a thickness > 0");
 }
 
 }  // namespace
 
 void material(const MaterialArguments& a) {
     const ItuMaterial material = material_named(a.material);
-    const Meters thickness = option_length("--thickness", a.thickness);
+    const Meters thickness = thickness_of(a.thickness);
     const Hertz frequency = option_frequency("--frequency", a.frequency);
-    const SlabLosses slab = slab_losses(material, thickness, frequency, incidence_of(a.angle));
+    const SlabLosses slab =
+        slab_losses(material, thickness, frequency, Radians{a.angle * (std::numbers::pi / 180)});
     const Permittivity eps = permittivity(material, frequency);
     if (!a.json) {
         fmt::print(
             "{}, {:g} m thick, at {:g} GHz and {:g} degrees to the normal\n"
             "permittivity {:.4g} - {:.4g}j\n\n"
-            "            TE [dB]     TM [dB]\n"
-            "through  {:10.4f}  {:10.4f}\n"
-            "back     {:10.4f}  {:10.4f}\n",
+            "                      TE [dB]     TM [dB]\n"
+            "transmission loss  {:>10.4f}  {:>10.4f}\n"
+            "reflection loss    {:>10.4f}  {:>10.4f}\n",
             a.material, thickness.value, frequency.value / 1e9, a.angle, eps.real, eps.imaginary,
             slab.te_transmission.value, slab.tm_transmission.value, slab.te_reflection.value,
             slab.tm_reflection.value);

@@ -45,6 +45,11 @@ CLI::Validator not_negative() {
                                 [](double v) { return std::isfinite(v) && v >= 0; });
 }
 
+CLI::Validator below_90_degrees() {
+    return number_check<double>("an angle to the normal from 0 to below 90 degrees", "DEGREES",
+                                [](double v) { return v >= 0 && v < 90; });
+}
+
 CLI::Validator whole_number() {
     return number_check<std::int64_t>("a whole number >= 0, below 2^63", "",
                                       [](std::int64_t v) { return v >= 0; });

@@ -57,6 +57,7 @@ constexpr const char* any_file =
 /// Checks of an option's text, whose errors say what was found and expected.
 CLI::Validator above_zero();
 CLI::Validator not_negative();
+CLI::Validator below_90_degrees();
 /// Whole number from 0 to 2^63 - 1, as in a file.
 CLI::Validator whole_number();
 

@@ -59,15 +59,17 @@ void add_bench(CLI::App& app) {
 
 void add_material(CLI::App& app) {
     const auto [material, a] = add_command(
-        app, "material", "What a slab of a building material takes from a wave", cli::material);
+        app, "material", "Print the losses of a slab of a building material", cli::material);
     add_examples(
         material,
         {"rovernet material concrete --thickness 0.2",
+         "rovernet material concrete --thickness 0.2 --frequency \"2.4 GHz\" --angle 30 --json",
          "rovernet material glass --thickness \"6 mm\" --frequency \"5.2 GHz\" --angle 30"});
-    material.add_option("MATERIAL", a.material, "concrete, brick, glass, ...")->required();
+    material.add_option("MATERIAL", a.material, "concrete, brick, glass, metal, ...")->required();
     material.add_option("--thickness", a.thickness, "such as 0.2 or \"13 mm\"")->required();
     material.add_option("--frequency", a.frequency, "such as \"2450 MHz\"")->capture_default_str();
     material.add_option("--angle", a.angle, "of the wave's way to the normal [degrees]")
+        ->check(below_90_degrees())
         ->capture_default_str();
     add_json(material, a.json);
 }

@@ -217,6 +217,7 @@ Scenario load_scenario(const std::string& path, const ScenarioOptions& options) 
         scenario.walls = load_map(scenario.scene, scenario.file, scenario.notices);
     }
     note_places(scenario, scenario.walls.get());
+    note_walls_twice(scenario, scenario.walls.get());
     return scenario;
 }
 

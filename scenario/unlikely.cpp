@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/unlikely.hpp"
 
+#include "models/propagation/raytrace_2007.hpp"
 #include "scenario/quantity.hpp"
 #include "sim/geometry.hpp"
 
@@ -189,6 +190,32 @@ void note_places(Scenario& scenario, const Scene* scene) {
     }
     beyond.note(scenario.notices);
     in_walls.note(scenario.notices);
+}
+
+void note_walls_twice(Scenario& scenario, const Scene* scene) {
+    if (!scene || scene->open_field()) return;
+    constexpr double largest_without_walls = 22;  // ITU-R P.1238: commercial, open-plan
+    Affected twice;
+    const auto look = [&](const PropagationTable& propagation, const Location& where) {
+        const Propagation model = propagation.make();
+        const auto* rays = model.as<Raytrace2007>();
+        if (!rays || rays->coefficient <= largest_without_walls) return;
+        twice.add([&] {
+            return fmt::format(
+                "{}: coefficient: N = {} of raytrace_2007 holds the walls of a usual building, "
+                "and the walls of the map are added; did you mean coefficient = 20?",
+                where.text(), rays->coefficient);
+        });
+    };
+    const auto& robots = scenario.robots;
+    const auto has_own = [](const RobotTable& robot) { return robot.propagation.has_value(); };
+    if (robots.empty() || !std::all_of(robots.begin(), robots.end(), has_own)) {
+        look(scenario.propagation, scenario.propagation_where);
+    }
+    for (const RobotTable& robot : robots) {
+        if (robot.propagation) look(*robot.propagation, robot.propagation_where);
+    }
+    twice.note(scenario.notices);
 }
 
 }  // namespace rovernet

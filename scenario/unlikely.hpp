@@ -20,6 +20,11 @@ void note_unlikely(Scenario& scenario);
 /// @param scene  the scenario's; null: an open field
 void note_places(Scenario& scenario, const Scene* scene);
 
+/// Notices walls that count twice: in the map, and in the coefficient N of raytrace_2007, which
+/// holds those of a usual building from N = 23 on.
+/// @param scene  the scenario's; null: an open field
+void note_walls_twice(Scenario& scenario, const Scene* scene);
+
 /// Notices robots that choose a propagation model of their own where [study] varies [propagation]:
 /// they are the same at every point.
 void note_own_models(Scenario& scenario);

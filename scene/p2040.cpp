@@ -51,16 +51,19 @@ namespace {
 struct Losses {
     Db transmission, reflection;
 };
-/// @param r  reflection coefficient of its face
-/// @param a  square root of eta - sin^2 of the angle, with the complex permittivity eta
+/// @param x  cosine of the angle (TE), or that times the complex permittivity eta (TM)
+/// @param a  square root of eta - sin^2 of the angle: its face reflects r = (x - a) / (x + a)
 /// @param k  wave number in air times the thickness
-Losses losses(Complex r, Complex a, double k) {
+Losses losses(Complex x, Complex a, double k) {
     constexpr double db_per_neper = 8.685889638065037;
+    const Complex r = math::quotient(x - a, x + a);
+    // 1 - r^2 along the face, where r is nearly -1, has no digits as a difference.
+    const Complex both_faces = math::quotient(4.0 * x * a, (x + a) * (x + a));
     const Complex twice = math::exp(Complex{0, -2 * k} * a);  // over to the other face and back
     // |T| = |1 - r^2| |e^-jq| / |1 - r^2 e^-2jq|; the middle factor in decibels, where a thick
     // sheet of metal cannot underflow. |R| = |r| |1 - e^-2jq| / |1 - r^2 e^-2jq|.
-    const double several = decibels(1.0 - r * r * twice);
-    return {Db{db_per_neper * k * -a.imag() - decibels(1.0 - r * r) + several},
+    const double several = decibels(both_faces + r * r * (1.0 - twice));
+    return {Db{db_per_neper * k * -a.imag() - decibels(both_faces) + several},
             Db{several - decibels(r) - decibels(1.0 - twice)}};
 }
 
@@ -73,8 +76,8 @@ SlabLosses slab_losses(ItuMaterial material, Meters thickness, Hertz frequency, 
     const Complex eta{p.real, -p.imaginary};
     const Complex a = math::square_root({p.real - sine * sine, -p.imaginary});
     const double k = two_pi_over_c * frequency.value * thickness.value;
-    const Losses te = losses(math::quotient(cosine - a, cosine + a), a, k);
-    const Losses tm = losses(math::quotient(eta * cosine - a, eta * cosine + a), a, k);
+    const Losses te = losses(cosine, a, k);
+    const Losses tm = losses(eta * cosine, a, k);
     return {te.transmission, tm.transmission, te.reflection, tm.reflection};
 }
 

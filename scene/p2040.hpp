@@ -53,7 +53,7 @@ struct SlabLosses {
 /// reflect, a slab of thickness 0 say, has an infinite loss of reflection.
 /// Source: ITU-R P.2040-3, eqs. 37, 43 and 44.
 /// @param thickness  [m], >= 0
-/// @param incidence  angle between the wave's way and the normal [rad], from 0 to below pi / 2
+/// @param incidence  angle between the wave's way and the normal [rad], from 0 to pi / 2
 SlabLosses slab_losses(ItuMaterial material, Meters thickness, Hertz frequency, Radians incidence);
 
 /// Transmission loss [dB] of a slab at normal incidence, see slab_losses().

@@ -215,6 +215,20 @@ TEST_CASE("loss --wall: half a metre at 2 dB per centimetre costs 100 dB") {
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--wall", "2"}).exit == 2);
 }
 
+TEST_CASE("loss --heights: antennas 1.5 m high over a field lose what the vectors say (two_ray)") {
+    const TemporaryFolder folder;
+    const auto loss = [&](const std::string& heights) {
+        return json_of(
+            folder, {"loss", "two_ray", "form=exact", "polarization=horizontal", "--distance", "10",
+                     "--heights", heights, "--frequency", "2398339664 Hz"});
+    };
+    const Json both = loss("1.5,1.5");
+    CHECK(std::abs(both["rows"][0]["loss_db"].get<double>() - 54.8584734406206) < 1e-6);
+    CHECK(both["from_height_m"] == 1.5);
+    CHECK(loss("1.5") == both);  // one height is that of both antennas
+    CHECK(command(folder, {"loss", "friis", "--distance", "1", "--heights", "1,2,3"}).exit == 2);
+}
+
 TEST_CASE("link --json: the budget and its walls") {
     const TemporaryFolder folder;
     const png_byte w = 255;

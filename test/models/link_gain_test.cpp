@@ -62,3 +62,9 @@ TEST_CASE("link gain: the medium's level and margin are those of the path loss b
     CHECK(near(medium.margin(a, b, start_of_run, legs).value, 115.5 - loss.value, tolerance));
     CHECK(medium.pose(b, start_of_run, legs).antenna == Vec3{30, 0, 1});
 }
+
+TEST_CASE("link gain: a loss of 10,000 dB leaves a level, not minus infinity (S10)") {
+    const Dbm level = received_power({.power = 40_dBm}, {}, 10000_dB);
+    CHECK(near(level.value, 40 - 10000, tolerance));
+    CHECK(near(received_power({.power = 40_dBm}, {}, 500_dB).value, -460, tolerance));
+}

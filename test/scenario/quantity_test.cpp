@@ -126,6 +126,11 @@ TEST_CASE("quantity: what is no finite number is an error") {
     CHECK(contains(error_of(from_option(HUGE_VAL), Dimension::power), "at most"));
 }
 
+TEST_CASE("quantity: a length whose square overflows is refused (S38)") {
+    CHECK(contains(error_of("1e200 m", Dimension::length), "a length of at most 1e6 km"));
+    CHECK(contains(error_of("-1e200 m", Dimension::length), "a length of at most 1e6 km"));
+}
+
 TEST_CASE("quantity: the text of a quantity reads back as the same number, to the last bit") {
     const double numbers[] = {
         0, 1, -75, 16.532125137753436, 0.1, 1.0 / 3, 0.5, 5e-9, 4321.78901, 1e-300, -1e-7, 9999.5};

@@ -109,6 +109,21 @@ TEST_CASE("unlikely: a robot that starts off the map is a notice, once for all o
     check_notice(on_map + two, {"robot \"B\"", "1 m off the map", "and 1 more"});
 }
 
+TEST_CASE("unlikely: walls that are in the map and in N, too, are a notice") {
+    const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
+    const std::string own = "propagation = { model = \"raytrace_2007\" }\n";
+    const std::string rays = "[propagation]\nmodel = \"raytrace_2007\"\n";
+    check_notice(on_map + robot + rays, {":7:1: coefficient: N = 30 of raytrace_2007 holds",
+                                         "did you mean coefficient = 20?"});
+    check_notice(on_map + robot + rays + "coefficient = 22.5\n", {"N = 22.5"});
+    check_notice(on_map + robot + own, {":7:15: coefficient: N = 30"});
+    CHECK(notices_of(on_map + robot + rays + "coefficient = 22\n").empty());
+    CHECK(notices_of(robot + rays).empty());  // an open field
+    CHECK(notices_of(on_map + robot + "[propagation]\nmodel = \"itu_indoor\"\n").empty());
+    // Nobody sends by [propagation] where all robots have their own.
+    CHECK(notices_of(on_map + robot + "propagation = { model = \"friis\" }\n" + rays).empty());
+}
+
 TEST_CASE("unlikely: pixels of a material that are no walls are a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     check_notice(

@@ -147,3 +147,27 @@ TEST_CASE("p2040: a slab of no thickness loses nothing, and the thickest loss is
         CHECK(std::isfinite(slab_loss(material, 1000_m, 2450_MHz).value));
     }
 }
+
+TEST_CASE("p2040: along the face of a slab, at 90 degrees, losses are finite and large (S13)") {
+    for (std::size_t i = 0; i < EnumNames<ItuMaterial>::values.size(); ++i) {
+        const SlabLosses slab =
+            slab_losses(static_cast<ItuMaterial>(i), 0.1_m, 2450_MHz, Radians{pi / 2});
+        for (const Db through : {slab.te_transmission, slab.tm_transmission}) {
+            CAPTURE(i);
+            CHECK(std::isfinite(through.value));
+            CHECK(through.value > 100);
+        }
+        CHECK(test::near(slab.te_reflection.value, 0, 1e-9));
+    }
+}
+
+TEST_CASE("p2040: the ends of a law's range are in it, and beyond it the law goes on (S44)") {
+    const auto eps = [](double ghz) {
+        return permittivity(ItuMaterial::concrete, Hertz{ghz * 1e9}).imaginary;
+    };
+    CHECK(test::near(eps(1), 17.975103584522344 * 0.0462, 1e-12));
+    for (const double end : {1.0, 100.0}) {
+        CHECK(test::near(eps(end * (1 - 1e-9)), eps(end), 1e-8));
+        CHECK(test::near(eps(end * (1 + 1e-9)), eps(end), 1e-8));
+    }
+}

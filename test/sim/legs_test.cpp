@@ -126,3 +126,16 @@ TEST_CASE("legs: who sets out and rests again and again takes no more memory") {
     walk();
     CHECK(mallinfo2().uordblks == before);
 }
+
+TEST_CASE(
+    "legs: looking a million times does not move a robot from where one look finds it (S30)") {
+    Legs legs;
+    legs.add({.start = start_of_run,
+              .end = start_of_run + 200'000s,
+              .velocity = {1, 0},
+              .to = {2e5, 0}});
+    const NodeId robot{0};
+    Vec3 last;
+    for (int i = 1; i <= 1'000'000; ++i) last = legs.position(robot, start_of_run + i * 100ms);
+    CHECK(last.x == 100'000);  // 0.1 m added a million times is 1.3 micrometres off
+}

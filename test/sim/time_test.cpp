@@ -51,3 +51,14 @@ TEST_CASE("time: 292 years are the limit, either way") {
     CHECK_THROWS_WITH(from_seconds(1e10),
                       "a time must be within +-9.2e9 s (292 years), got 10000000000.000000 s");
 }
+
+TEST_CASE("time: after 30 years a nanosecond is a nanosecond, which a double has lost (S33)") {
+    const Time late = start_of_run + 1'000'000'000s;
+    CHECK((late + 10us) - late == 10us);
+    CHECK((late + 1ns) - late == 1ns);
+}
+
+TEST_CASE(
+    "time: a tenth and two tenths of a second are three tenths, so that ties are ties (S34)") {
+    CHECK(start_of_run + from_seconds(0.1) + from_seconds(0.2) == start_of_run + from_seconds(0.3));
+}

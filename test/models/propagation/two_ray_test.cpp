@@ -199,3 +199,38 @@ TEST_CASE("two-ray: without a bound of the heights the reach is that of free spa
     const Propagation model = TwoRay{};
     CHECK(model.reach(80_dB, 2450_MHz) == Friis{}.reach(80_dB, 2450_MHz));
 }
+
+TEST_CASE("two-ray, exact: low antennas kilometres apart keep their digits (S08)") {
+    TwoRay mirror{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
+    mirror.ground_permittivity = 1e300;
+    struct Row {
+        double d, h, loss;
+    };
+    // A difference of the two ways in single precision is up to 0.15 dB off, or infinite.
+    for (const Row& row :
+         {Row{1e3, 0.3, 140.9152}, Row{1e4, 0.3, 180.9152}, Row{1e4, 1.5, 152.9565},
+          Row{1e5, 1.5, 192.9564}, Row{1e8, 0.3, 340.9151}}) {
+        CAPTURE(row.d);
+        constexpr double half_a_digit = 1e-4;  // [dB], and the last phase before the far field
+        CHECK(
+            near(loss_over_ground(row.h, row.h, row.d, 2450_MHz, mirror), row.loss, half_a_digit));
+    }
+}
+
+TEST_CASE("two-ray, exact: the last null before the far field is finite, 110 dB (S09)") {
+    TwoRay mirror{.form = TwoRayForm::exact, .polarization = Polarization::horizontal};
+    mirror.ground_permittivity = 1e300;
+    constexpr double half_a_digit = 0.005;  // [dB]
+    CHECK(near(loss_over_ground(1.5, 1.5, 36, Hertz{2398339664.0}, mirror), 110.04, half_a_digit));
+}
+
+TEST_CASE("two-ray, exact: antennas straight above one another are a place like any other (S39)") {
+    const TwoRay exact{.form = TwoRayForm::exact};
+    for (const double rise : {0.1, 1.0, 50.0}) {
+        const double above = loss_over_ground(1, 1 + rise, 0, 2450_MHz, exact);
+        CHECK(std::isfinite(above));
+        for (const double d : {1e-12, 1e-9, 1e-6}) {
+            CHECK(near(loss_over_ground(1, 1 + rise, d, 2450_MHz, exact), above, 1e-9));
+        }
+    }
+}

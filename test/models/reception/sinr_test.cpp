@@ -165,3 +165,47 @@ TEST_CASE("sinr: a draw decides where bits may fail, and none where they cannot"
         CHECK(r.judge(r.hear(NodeId{1}, later, until, -40)) == Fate::waiting);
     }
 }
+
+TEST_CASE("sinr: a faint interferer counts when a loud one before it has ended (S28)") {
+    // The loud one overlaps the preamble's first microseconds only. A sum to which it was added and
+    // from which it was taken would have lost the faint ones: 1e-3 + 1e-19 - 1e-3 mW.
+    for (const double faint : {-300.0, -96.0}) {
+        Receiver r;
+        r.draw = 1e-12;
+        const auto frame = r.hear(NodeId{1}, at(0), at(300), -88);
+        r.hear(NodeId{2}, at(-100), at(1), -20, false);
+        for (unsigned i = 3; i < 9; ++i) r.hear(NodeId{i}, at(10), at(300), faint, false);
+        CAPTURE(faint);
+        CHECK(r.judge(frame) == (faint < -200 ? Fate::waiting : Fate::collided));
+    }
+}
+
+TEST_CASE("sinr: interference is the same bits in whatever order it becomes known (S28)") {
+    // A draw at the boundary: the last bit of the sum would show.
+    const auto judged = [](std::vector<unsigned> order, double draw) {
+        Receiver r;
+        r.draw = draw;
+        const auto frame = r.hear(NodeId{1}, at(0), at(300), -88);
+        for (const unsigned i : order) {
+            r.hear(NodeId{i}, at(5 + i), at(290 - i), -97 - 0.37 * i, false);
+        }
+        return r.judge(frame);
+    };
+    double low = 0, high = 1;
+    for (int i = 0; i < 200; ++i) {  // to the last bit of the chance of success
+        const double middle = (low + high) / 2;
+        (judged({2, 3, 4, 5}, middle) == Fate::waiting ? low : high) = middle;
+    }
+    CHECK(low > 0);
+    CHECK(high < 1);
+    for (const auto& order : {std::vector<unsigned>{5, 4, 3, 2}, {3, 5, 2, 4}, {4, 2, 5, 3}}) {
+        CHECK(judged(order, low) == Fate::waiting);
+        CHECK(judged(order, high) != Fate::waiting);
+    }
+}
+
+TEST_CASE("sinr: without any signal to speak of a frame is lost, and nothing is 0 / 0 (S29)") {
+    Receiver r;
+    const auto nothing = r.hear(NodeId{1}, at(0), at(100), -10000);
+    CHECK(r.judge(nothing) == Fate::garbled);
+}
