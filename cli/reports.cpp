@@ -36,6 +36,10 @@ Table as_table(const LinkReport& report) {
     table.set("walls", std::move(walls));
     table.set("wall_m", report.wall_m);
     table.set("path_loss_db", report.path_loss.value);
+    if (report.shadowing) table.set("shadowing_db", report.shadowing->value);
+    if (report.sender.is_directional()) table.set("sender_pattern_db", report.sender_pattern.value);
+    if (report.receiver.is_directional())
+        table.set("receiver_pattern_db", report.receiver_pattern.value);
     table.set("rx_power_dbm", report.received.value);
     table.set("margin_db", report.margin.value);
     table.set("up", report.up);
@@ -61,9 +65,13 @@ void print_budget(const LinkReport& r) {
     };
     line("power", r.sender.power.value, "dBm");
     line("sender's antenna gain", r.sender.antenna_gain.value, "dB");
+    if (r.sender.is_directional()) line("sender's pattern", r.sender_pattern.value, "dB");
     line("sender's cable loss", -r.sender.cable_loss.value, "dB");
-    line("path loss", -r.path_loss.value, "dB");
+    const Db shadowing = r.shadowing.value_or(Db{0});
+    line("path loss", -(r.path_loss - shadowing).value, "dB");
+    if (r.shadowing) line("shadowing", -shadowing.value, "dB");
     line("receiver's antenna gain", r.receiver.antenna_gain.value, "dB");
+    if (r.receiver.is_directional()) line("receiver's pattern", r.receiver_pattern.value, "dB");
     line("receiver's cable loss", -r.receiver.cable_loss.value, "dB");
     line("received power", r.received.value, "dBm");
     line("receiver's sensitivity", r.receiver.sensitivity.value, "dBm");

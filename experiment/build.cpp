@@ -294,6 +294,8 @@ NetworkSettings network_settings(const Scenario& scenario) {
         .replication = static_cast<std::uint32_t>(scenario.scenario.replication),
         .propagation =
             located(scenario.propagation_where, [&] { return scenario.propagation.make(); }),
+        .shadowing = scenario.shadowing,
+        .fading = scenario.fading,
         .floor_height = scenario.scene.floor_height,
         .links = {.tolerance = scenario.links.tolerance, .min_dwell = scenario.links.min_dwell},
         .reception = scenario.reception.make(),

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
+
+#include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
+#include "models/medium/shadowed.hpp"
 
 #include <fmt/format.h>
 
@@ -80,32 +83,38 @@ void keep_others_still(Network& network, const Scenario& scenario,
     }
 }
 
-/// What each wall of a link takes [dB]. A material with a loss of its own takes that; what the
-/// propagation model takes for the rest is in proportion to their lengths.
-std::vector<Db> wall_losses(const Network& network, const Scenario& scenario, NodeId from,
-                            NodeId to, const LinkReport& link, Vec3 here, Vec3 there) {
+/// Loss [dB] of a link by another model or in another scene than its own.
+double loss_by(const Propagation& model, const Scene& scene, const Network& network, NodeId from,
+               NodeId to, Vec3 here, Vec3 there) {
     const Medium& medium = network.medium();
     const std::uint64_t to_key = medium.key(to);
-    const Scene open_field;
-    LinkBatch batch{.frequency = link.sender.frequency,
-                    .from = here,
-                    .to = {&there, 1},
-                    .from_key = medium.key(from),
-                    .to_keys = {&to_key, 1},
-                    .scene = &open_field,
-                    .floor_height = scenario.scene.floor_height,
-                    .seed = scenario.scenario.seed,
-                    .replication = static_cast<std::uint32_t>(scenario.scenario.replication)};
-    double without_walls = 0;
-    medium.model(from).loss(batch, Db{std::numeric_limits<double>::infinity()},
-                            {&without_walls, 1});
+    const LinkBatch batch{.frequency = medium.radio(from).frequency,
+                          .from = here,
+                          .to = {&there, 1},
+                          .from_key = medium.key(from),
+                          .to_keys = {&to_key, 1},
+                          .scene = &scene,
+                          .floor_height = network.settings().floor_height,
+                          .seed = network.settings().seed,
+                          .replication = network.settings().replication};
+    double db = 0;
+    model.loss(batch, Db{std::numeric_limits<double>::infinity()}, {&db, 1});
+    return db;
+}
+
+/// What each wall of a link takes [dB]. A material with a loss of its own takes that; what the
+/// propagation model takes for the rest is in proportion to their lengths.
+std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, const LinkReport& link,
+                            Vec3 here, Vec3 there) {
+    const double without_walls =
+        loss_by(network.medium().model(from), Scene(), network, from, to, here, there);
 
     const auto& materials = network.scene().materials();
     std::vector<Db> losses;
     double left = link.path_loss.value - without_walls, plain_m = 0;
     for (const Crossing& wall : link.walls) {
         const Material& material = materials[wall.material];
-        const WallRate rate = wall_rate(material, batch.frequency, 0);
+        const WallRate rate = wall_rate(material, link.sender.frequency, 0);
         losses.push_back({rate.per_crossing + rate.per_metre * wall.length});
         left -= losses.back().value;
         if (material.follows_model()) plain_m += wall.length;
@@ -151,11 +160,14 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
     play_until(network, at, tell);
 
     const Medium& medium = network.medium();
-    const Vec3 pa = medium.antenna(a, at, network.legs());
-    const Vec3 pb = medium.antenna(b, at, network.legs());
+    const Pose here = medium.pose(a, at, network.legs());
+    const Pose there = medium.pose(b, at, network.legs());
+    const Vec3 pa = here.antenna, pb = there.antenna;
+    const Shadowed* shadowed = medium.model(a).as<Shadowed>();
+    const Propagation& model = shadowed ? shadowed->base() : medium.model(a);
     LinkReport report{.from = from,
                       .to = to,
-                      .model = std::string(medium.model(a).name()),
+                      .model = std::string(model.name()),
                       .at = at,
                       .distance_m = distance(pa, pb),
                       .walls = network.scene().crossings(pa, pb),
@@ -165,14 +177,21 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
                       .sender = medium.radio(a),
                       .receiver = medium.radio(b),
                       .path_loss = medium.path_loss(a, b, at, network.legs()),
+                      .shadowing = {},
+                      .sender_pattern = pattern_gain(medium.radio(a), here, pb),
+                      .receiver_pattern = pattern_gain(medium.radio(b), there, pa),
                       .received = medium.level(a, b, at, network.legs()),
                       .margin = medium.margin(a, b, at, network.legs()),
                       .up = false,
                       .why_down = {}};
     report.up = medium.link_up(a, b, at, network.legs());
     if (!report.up) report.why_down = why_down(network, a, b, report);
-    if (medium.model(a).shape() == LossShape::by_walls) {
-        report.wall_losses = wall_losses(network, scenario, a, b, report, pa, pb);
+    if (shadowed) {
+        report.shadowing =
+            report.path_loss - Db{loss_by(model, network.scene(), network, a, b, pa, pb)};
+    }
+    if (model.shape() == LossShape::by_walls) {
+        report.wall_losses = wall_losses(network, a, b, report, pa, pb);
     }
     for (const Crossing& wall : report.walls) {
         report.materials.push_back(network.scene().materials()[wall.material].name);

@@ -93,7 +93,9 @@ struct LinkReport {
     std::vector<Db> wall_losses;         ///< loss of each wall; part of the path loss
     double wall_m;
     Radio sender, receiver;
-    Db path_loss;
+    Db path_loss;                         ///< all of it: walls and shadowing are in it
+    std::optional<Db> shadowing;          ///< part of the path loss, if there is some
+    Db sender_pattern, receiver_pattern;  ///< gain of each antenna towards the other, <= 0
     Dbm received;
     Db margin;
     bool up;               ///< the link is up, and both robots are on

@@ -21,6 +21,17 @@ struct Pose {
     Radians heading{0};
 };
 
+/// Gain of a directional antenna towards a place, below antenna_gain [dB], <= 0; its equations are
+/// those of AntennaShape. The place counts by its horizontal direction from the antenna; straight
+/// above and below the gain is 0 dB.
+/// @param radio  checked by check_antenna()
+Db pattern_gain(const Radio& radio, const Pose& pose, Vec3 place);
+
+/// Checks what fields() cannot: a pattern's table has points if the shape is `table`, at angles
+/// that ascend within one turn, with gains of at most 0 dB.
+/// @throws std::invalid_argument saying what is wrong
+void check_antenna(const Radio& radio);
+
 /// Gain of antennas and cables on a link [dB], by its ends. Gains are added here and nowhere else.
 struct LinkGain {
     /// Gain less cable loss at each end.
@@ -30,12 +41,17 @@ struct LinkGain {
     static constexpr LinkGain most(const Radio& from, const Radio& to) {
         return {from.antenna_gain - from.cable_loss, to.antenna_gain - to.cable_loss};
     }
-    /// Gains of antennas in their poses. All antennas are isotropic, so that poses are not asked
-    /// for, and cost nothing.
-    /// @param poses  returns the Pose of the sender's antenna and that of the receiver's, as a pair
+    /// Gains of antennas in their poses, which cost nothing where both are isotropic.
+    /// @param poses  returns the Pose of the sender's antenna and that of the receiver's, as a
+    /// pair; called only if one of the antennas is directional
     template <class Poses>
-    static constexpr LinkGain of(const Radio& from, const Radio& to, const Poses& /*poses*/) {
-        return most(from, to);
+    static LinkGain of(const Radio& from, const Radio& to, const Poses& poses) {
+        LinkGain gain = most(from, to);
+        if (!from.is_directional() && !to.is_directional()) return gain;
+        const auto [here, there] = poses();
+        gain.sender = gain.sender + pattern_gain(from, here, there.antenna);
+        gain.receiver = gain.receiver + pattern_gain(to, there, here.antenna);
+        return gain;
     }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/antenna.hpp"
 #include "sim/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 // Radios of robots. A scenario file has their parameters in [radio] and in a robot's own `radio`;
 // in code they are designated:
@@ -57,8 +59,20 @@ struct Radio {
     BitRate rate{11e6};
     /// Time [ns] sent before the first bit.
     Duration preamble{192'000};
-    /// Gain of the antenna [dBi], both ways.
+    /// Gain of the antenna [dBi], both ways; of a directional one in its strongest direction.
     Db antenna_gain{0};
+    /// Shape of the antenna's pattern; isotropic if not given.
+    std::optional<AntennaShape> antenna = std::nullopt;
+    /// Direction of a directional antenna [rad], from the robot's heading counter-clockwise; 0 if
+    /// not given.
+    std::optional<Radians> antenna_direction = std::nullopt;
+    /// Width of the shape `cosine` [rad] between its directions of -3 dB; 60 degrees if not given.
+    std::optional<Radians> antenna_beamwidth = std::nullopt;
+    /// Ratio of the strongest to the weakest direction of the shape `cosine` [dB]; 20 dB if not
+    /// given.
+    std::optional<Db> front_to_back = std::nullopt;
+    /// Points of the shape `table`.
+    std::optional<std::vector<PatternPoint>> antenna_pattern = std::nullopt;
     /// Loss between radio and antenna [dB].
     Db cable_loss{0};
     /// Height of the antenna above the robot's own z [m].
@@ -90,6 +104,11 @@ struct Radio {
     /// Level [dBm] that pictures draw as a contour.
     std::optional<Dbm> range_db = std::nullopt;
 
+    /// Whether the gain of its antenna depends on the direction.
+    bool is_directional() const {
+        return antenna.value_or(AntennaShape::isotropic) != AntennaShape::isotropic;
+    }
+
     friend bool operator==(const Radio&, const Radio&) = default;
 
     /// Parameters of scenario files. Labels and addresses are among them: tables and pictures show
@@ -106,6 +125,17 @@ struct Radio {
                   Range{.low = 0, .high = 1e9, .text = "from 0 to 1e9 s"},
                   "sent before the first bit"),
             field("antenna_gain", &Radio::antenna_gain, "antenna gain, both ways"),
+            field("antenna", &Radio::antenna,
+                  "shape of the antenna's pattern: isotropic, cosine "
+                  "or table"),
+            field("antenna_direction", &Radio::antenna_direction,
+                  "of a directional antenna, from the robot's heading counter-clockwise"),
+            field("antenna_beamwidth", &Radio::antenna_beamwidth, beamwidths,
+                  "of cosine: between the directions of -3 dB"),
+            field("front_to_back", &Radio::front_to_back, non_negative,
+                  "of cosine: the strongest direction over the weakest"),
+            field("antenna_pattern", &Radio::antenna_pattern,
+                  "of table: [degrees, dB] from the antenna's direction counter-clockwise"),
             field("cable_loss", &Radio::cable_loss, non_negative, "loss between radio and antenna"),
             field("antenna_height", &Radio::antenna_height, "antenna above the robot's own z"),
             field("bandwidth", &Radio::bandwidth, positive, "of the receiver's filter"),

@@ -62,16 +62,14 @@ void LinkWatch::search(NodeId from, NodeId to, Time after) {
     const Legs& legs = *settings_.legs;
     const Time ends = std::min(legs.leg(from).end, legs.leg(to).end);
     Time until = ends;
-    const LossShape shape = shape_in_motion(settings_.medium->model(from).shape(),
-                                            legs.leg(from).velocity, legs.leg(to).velocity);
-    if (shape == LossShape::unknown) {
+    if (settings_.medium->shape(from, to, after, legs) == LossShape::unknown) {
         const Duration most = never - after;
         const Duration dwell = settings_.search.min_dwell;
         if (dwell < most / most_looks) until = std::min(until, after + dwell * most_looks);
     }
     const auto change = next_link_change(*settings_.medium, legs, walls_for(from), from, to, after,
                                          until, settings_.search);
-    const bool moving = legs.leg(from).velocity != Vec3{} || legs.leg(to).velocity != Vec3{};
+    const bool moving = settings_.medium->may_change(from, to, after, legs);
     if (change)
         expect(from, to, *change, true);
     else

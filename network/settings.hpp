@@ -6,6 +6,8 @@
 #include "models/propagation/friis.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/reception/judge.hpp"
+#include "models/variation/fading.hpp"
+#include "models/variation/shadowing.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 #include "traces/metric_values.hpp"
@@ -31,6 +33,10 @@ struct NetworkSettings {
     std::uint32_t replication = 0;
     /// Propagation model of robots that do not have their own.
     Propagation propagation = Friis{};
+    /// Shadowing over the propagation models of all robots; these are not random themselves then.
+    Shadowing shadowing = {};
+    /// Fading of frames.
+    Fading fading = {};
     /// Scene with walls; null: an open field.
     std::shared_ptr<const Scene> scene = nullptr;
     /// Planners of the scene, if some are kept from an earlier run in it; see KeptPlanners.

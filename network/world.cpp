@@ -25,6 +25,8 @@ World::World(NetworkSettings given)
               .propagation_delay = settings.propagation_delay,
               .all_pairs = settings.reference,
               .interference_cut = settings.reception.interference_cut(),
+              .shadowing = settings.shadowing,
+              .fading = settings.fading,
               .seed = settings.seed,
               .replication = settings.replication}),
       phy(settings.access.phy()) {

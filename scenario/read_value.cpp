@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace rovernet {
 namespace {
@@ -108,6 +109,21 @@ void read_value(const Value& value, std::string_view key, Vec3& out) {
     }
 }
 
+void read_value(const Value& value, std::string_view key, PatternPoint& out) {
+    const Array* pair = value.array();
+    if (!pair || pair->size() != 2) {
+        wrong_type(value, key, "a list of points, [degrees, dB] each, such as [180, -20]");
+    }
+    const auto number = [&](const Value& each, Dimension dimension, double unit) {
+        double plain = 0;
+        if (each.string()) return read_quantity(each, key, dimension) / unit;
+        read_value(each, key, plain);
+        return plain;
+    };
+    constexpr double degree = std::numbers::pi / 180;
+    out = {number((*pair)[0], Dimension::angle, degree), number((*pair)[1], Dimension::gain, 1)};
+}
+
 void check_printable(const Value& value, std::string_view key, std::string_view text) {
     const auto control = [](char c) {
         return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7f;
@@ -165,5 +181,7 @@ Value to_value(Vec3 v) {
     if (v.z != 0) list.push_back(to_value(Meters{v.z}));
     return list;
 }
+
+Value to_value(const PatternPoint& v) { return Array{v.degrees, v.db}; }
 
 }  // namespace rovernet

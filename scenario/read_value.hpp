@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/antenna.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/value.hpp"
 #include "sim/fields.hpp"
@@ -54,6 +55,8 @@ void read_value(const Value& value, std::string_view key, Duration& out);
 void read_value(const Value& value, std::string_view key, Bytes& out);
 /// Position: a list of two or three lengths; z is 0 if it is not given.
 void read_value(const Value& value, std::string_view key, Vec3& out);
+/// Point of an antenna's pattern: a list of two numbers, degrees and dB.
+void read_value(const Value& value, std::string_view key, PatternPoint& out);
 
 /// Checks that a text that is printed and names things has no control characters.
 /// @throws InputError at the value
@@ -120,6 +123,7 @@ Value to_value(Duration v);
 Value to_value(Bytes v);
 /// Position as a list of lengths, z left out if it is 0.
 Value to_value(Vec3 v);
+Value to_value(const PatternPoint& v);
 /// Word of an enumeration. List, item by item.
 template <class E>
 requires std::is_enum_v<E> Value to_value(E v) { return name_of(v); }

@@ -2,6 +2,8 @@
 #include "scenario/robot_table.hpp"
 
 #include "mobility/movement.hpp"
+#include "models/link_gain.hpp"
+#include "scenario/located.hpp"
 #include "scenario/scenario.hpp"
 
 #include <fmt/format.h>
@@ -188,6 +190,9 @@ void read_radio(const Value& value, const std::string& name, Radio& out, RadioPl
     for (const char* label : {"essid", "ip", "netmask", "mac"}) {
         if (const Value* text = table.take(label)) check_printable(*text, label, *text->string());
     }
+    const Value* pattern = table.take("antenna_pattern");
+    const Value* antenna = pattern ? pattern : table.take("antenna");
+    located(antenna ? antenna->where : value.where, [&] { check_antenna(out); });
     const auto find = [&](std::string_view key, Location& where) {
         if (const Value* key_value = table.take(key)) where = key_value->where;
     };

@@ -148,6 +148,39 @@ void check_csma(const AccessTable& access, const Table& table) {
     }
 }
 
+/// Reads [shadowing] or [fading], whose parameters are nothing without a model.
+template <Described T>
+void read_variation(TableReader& document, std::string_view key, std::string_view example, T& out) {
+    read_section(document, key, out);
+    const Value* value = document.take(key);
+    if (!value || value->table()->find("model")) return;
+    throw InputError(
+        value->where,
+        fmt::format("[{}]: the key \"model\" is missing; expected model = \"{}\"", key, example));
+}
+
+/// Checks that no model with a shadowing of its own gets another.
+void check_shadowing(TableReader& document, const Scenario& scenario) {
+    if (scenario.shadowing.model == ShadowingModel::none) return;
+    const Location where = document.take("shadowing")->where;
+    const auto check = [&](const PropagationTable& propagation) {
+        const Propagation model = propagation.make();
+        if (!model.is_random()) return;
+        throw InputError(where, fmt::format("[shadowing]: propagation model \"{}\" has a shadowing "
+                                            "of its own; expected one of the two: [propagation] "
+                                            "sigma = \"0 dB\", or [shadowing] model = \"none\"",
+                                            model.name()));
+    };
+    const auto has_own = [](const RobotTable& robot) { return robot.propagation.has_value(); };
+    const auto& robots = scenario.robots;
+    const bool all_own = !robots.empty() && scenario.movement.robots.empty() &&
+                         std::all_of(robots.begin(), robots.end(), has_own);
+    if (!all_own) check(scenario.propagation);
+    for (const RobotTable& robot : robots) {
+        if (robot.propagation) check(*robot.propagation);
+    }
+}
+
 /// Reads [access]. Radios of OFDM have its preamble and its highest rate, unless [radio] says
 /// otherwise.
 void read_access(TableReader& document, Scenario& out) {
@@ -296,6 +329,8 @@ Scenario read_scenario(const Value& value, const std::string& file) {
         out.propagation_where = propagation->where;
         read_propagation(*propagation, out.propagation);
     }
+    read_variation(document, "shadowing", "field", out.shadowing);
+    read_variation(document, "fading", "rayleigh", out.fading);
     read_section(document, "reception", out.reception);
     read_section(document, "links", out.links);
     read_movement(document, out);
@@ -321,6 +356,7 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     check_names(out);
     check_traffic(out);
     check_sinr(out);
+    check_shadowing(document, out);
     note_decay(out);
     note_unlikely(out);
     check_addresses(out);

@@ -3,6 +3,8 @@
 
 #include "models/links/link_search.hpp"
 #include "models/radio.hpp"
+#include "models/variation/fading.hpp"
+#include "models/variation/shadowing.hpp"
 #include "scenario/access_table.hpp"
 #include "scenario/metrics_table.hpp"
 #include "scenario/movement_table.hpp"
@@ -106,6 +108,9 @@ struct Scenario {
     PropagationTable propagation;
     /// Places of tables, for what is found wrong once everything is read.
     Location propagation_where;
+    /// [shadowing] and [fading]; printed only if a model is chosen.
+    Shadowing shadowing;
+    Fading fading;
     ReceptionTable reception;
     AccessTable access;
     /// Place of [access] basic_rates if it is given, or else of the table.

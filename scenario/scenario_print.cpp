@@ -79,6 +79,12 @@ Table to_document(const Scenario& scenario) {
     document.set("radio", section(scenario.radio));
     document.set("medium", section(scenario.medium));
     document.set("propagation", propagation_document(scenario.propagation));
+    if (scenario.shadowing.model != ShadowingModel::none) {
+        document.set("shadowing", section(scenario.shadowing));
+    }
+    if (scenario.fading.model != FadingModel::none) {
+        document.set("fading", section(scenario.fading));
+    }
     document.set("reception", section(scenario.reception));
     document.set("access", section(scenario.access));
     document.set("links", section(scenario.links));

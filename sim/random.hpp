@@ -37,6 +37,12 @@ enum class Purpose : std::uint16_t {
     routing_jitter = 11,
     /// Time at which links are sampled for a fit [share of the duration].
     sample_time = 15,
+    /// Waves of the field of shadowing. Number of the wave.
+    field_shadowing = 16,
+    /// Fade of a frame at a receiver. Frame and robot, see Fades.
+    frame_fading = 17,
+    /// Waves of the field of fading. Number of the wave.
+    place_fading = 18,
 };
 
 /// Key of one draw, which alone decides it: equal keys give equal numbers, in any order and from

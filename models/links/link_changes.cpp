@@ -130,8 +130,7 @@ Piece Search::piece(Time begin, Time end) const {
 
 /// by_distance, by_walls or unknown: the pair is one and the same.
 LossShape Search::shape(const Piece& piece) const {
-    const LossShape shape =
-        shape_in_motion(medium_.model(from_).shape(), piece.a.velocity, piece.b.velocity);
+    const LossShape shape = medium_.shape(from_, to_, piece.begin, legs_);
     const bool clear = shape == LossShape::by_walls && walls_.empty();
     return clear || shape == LossShape::by_pair ? LossShape::by_distance : shape;
 }
@@ -150,7 +149,7 @@ std::optional<Time> Search::next_change(Time after, Time until) {
 }
 
 std::optional<Time> Search::change_in(const Piece& all) {
-    if (all.a.velocity == Vec3{} && all.b.velocity == Vec3{}) return std::nullopt;
+    if (!medium_.may_change(from_, to_, all.begin, legs_)) return std::nullopt;
     std::optional<Bracket> found;
     Time looked = all.begin;
     if (const auto piece = in_reach(all)) {

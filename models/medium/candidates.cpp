@@ -4,9 +4,10 @@
 namespace rovernet {
 
 void Candidates::compute_losses(const Propagation& model, LinkBatch link, NodeId from,
-                                PairCache& cache) {
+                                PairCache& cache, Db beyond) {
     asked_.clear();
-    const Db give_up = at_rest_ > 0 ? cache.open(from, give_up_) : give_up_;
+    const Db most = give_up_ + beyond;
+    const Db give_up = at_rest_ > 0 ? cache.open(from, most) : most;
     std::size_t known = 0;
     for (std::uint32_t i = 0; i < all_.size(); ++i) {
         const double* const kept = all_[i].rests ? cache.find(all_[i].node) : nullptr;

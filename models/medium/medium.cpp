@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/medium/medium.hpp"
 
+#include "models/medium/shadowed.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>
@@ -9,11 +10,40 @@
 #include <limits>
 
 namespace rovernet {
+namespace {
+
+std::shared_ptr<const Fades> fades_of(const MediumSettings& settings) {
+    if (settings.fading.model == FadingModel::none) return nullptr;
+    return std::make_shared<Fades>(settings.fading, settings.seed, settings.replication);
+}
+
+}  // namespace
+
+Medium::Medium(const Settings& settings)
+    : settings_(settings),
+      draws_(shadowing_draws(settings.seed, settings.replication)),
+      fades_(fades_of(settings)),
+      kinds_(settings.interference_cut, fades_ ? std::optional<Db>(fades_->most()) : std::nullopt) {
+    check_fields(settings.shadowing, "shadowing");
+}
+
+Propagation Medium::shadowed(const Propagation& model) {
+    if (settings_.shadowing.model == ShadowingModel::none || model.as<Shadowed>()) return model;
+    for (const auto& [plain, with_shadowing] : shadowed_) {
+        if (plain == model) return with_shadowing;
+    }
+    const Propagation with_shadowing =
+        Shadowed(model, settings_.shadowing, settings_.seed, settings_.replication);
+    shadowed_.emplace_back(model, with_shadowing);
+    return with_shadowing;
+}
+
 void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propagation) {
     check_fields(radio, "radio");
+    check_antenna(radio);
     propagation.check_frequency(radio.frequency);
     if (radios_.empty() || radios_.back() != radio) radios_.push_back(radio);
-    const Kind kind = kinds_.add(radio, propagation);
+    const Kind kind = kinds_.add(radio, shadowed(propagation));
     keys_.push_back(key);
     if (radios_.size() > 1 || kinds_.size() > 1 || !stations_.empty()) {
         list_stations();
@@ -88,6 +118,22 @@ Db Medium::margin(NodeId from, NodeId to, Time t, const Legs& legs) const {
            path_loss(from, to, t, legs);
 }
 
+LossShape Medium::shape(NodeId from, NodeId to, Time t, const Legs& legs) const {
+    const Leg a = legs.leg(from), b = legs.leg(to);
+    const bool by_heading = radio(from).is_directional() || radio(to).is_directional();
+    if (by_heading && may_change(from, to, t, legs)) return LossShape::unknown;
+    const auto velocity = [t](const Leg& leg) { return t < leg.end ? leg.velocity : Vec3{}; };
+    return shape_in_motion(model(from).shape(), velocity(a), velocity(b));
+}
+
+bool Medium::may_change(NodeId from, NodeId to, Time t, const Legs& legs) const {
+    const bool by_heading = radio(from).is_directional() || radio(to).is_directional();
+    const auto goes_on = [&](const Leg& leg) {
+        return t < leg.end && (leg.velocity != Vec3{} || (by_heading && leg.turning != 0));
+    };
+    return goes_on(legs.leg(from)) || goes_on(legs.leg(to));
+}
+
 Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
     return {loss(from, to, antenna(from, t, legs), antenna(to, t, legs), t, 0,
                  Db{std::numeric_limits<double>::infinity()})};
@@ -96,12 +142,25 @@ Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
 /// Path loss [dB] from `from` here to `to` there.
 double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
                     Db give_up) const {
+    if (fades_) give_up = give_up + fades_->most();
     LinkBatch link = batch(from, here, t, frame);
     link.to = {&there, 1};
     link.to_keys = {&keys_[to.index()], 1};
     double db = 0;
     model(from).loss(link, give_up, {&db, 1});
-    return db;
+    return fades_ ? faded(db, from, to, here, there, frame) : db;
+}
+
+/// Loss [dB] that a frame sees; the local mean has no frame.
+double Medium::faded(double loss_db, NodeId from, NodeId to, Vec3 here, Vec3 there,
+                     std::uint64_t frame) const {
+    if (!fades_ || frame == 0) return loss_db;
+    const Db gain = fades_->gain({.key = frame,
+                                  .receiver = key(to),
+                                  .from = here,
+                                  .to = there,
+                                  .frequency = radio(from).frequency});
+    return std::max(0.0, loss_db - gain.value);
 }
 
 }  // namespace rovernet

@@ -10,6 +10,7 @@
 #include "models/medium/radio_kinds.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
+#include "models/variation/fading.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/record.hpp"
@@ -17,6 +18,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -36,10 +38,8 @@ class Medium {
     using Settings = MediumSettings;
 
     /// Makes an empty medium; stations are added to it.
-    explicit Medium(const Settings& settings)
-        : settings_(settings),
-          draws_(shadowing_draws(settings.seed, settings.replication)),
-          kinds_(settings.interference_cut) {}
+    /// @throws std::invalid_argument if its shadowing or fading has a parameter out of its range
+    explicit Medium(const Settings& settings);
     /// Settings as they were given.
     const Settings& settings() const { return settings_; }
 
@@ -74,8 +74,10 @@ class Medium {
     bool all_are_on() const { return off_ == 0; }
     /// Number of nodes that are on.
     std::size_t on() const { return keys_.size() - off_; }
-    /// Whether all are of one kind: links go both ways then.
-    bool all_are_alike() const { return kinds_.size() == 1; }
+    /// Whether all are of one kind, with antennas that have no direction: links go both ways then.
+    bool all_are_alike() const { return kinds_.size() == 1 && !is_directional(); }
+    /// Whether some antenna is directional: then headings count.
+    bool is_directional() const { return kinds_.is_directional(); }
     /// Number of changes so far: of legs, and of nodes added or switched.
     std::uint64_t changes() const { return changes_; }
     /// Whether a node's radio is on.
@@ -118,6 +120,10 @@ class Medium {
                                         Receivers& out);
     /// Position of the sender's antenna in the last find_receivers() [m].
     Vec3 origin() const { return origin_; }
+    /// Heading of that sender at `t` [rad]; 0 if no antenna is directional.
+    Radians heading(NodeId node, Time t, const Legs& legs) const {
+        return {is_directional() ? legs.leg(node).heading_at(t) : 0};
+    }
     /// Distance of its farthest receiver [m].
     double heard_within();
     /// Delay [ns] of a frame over a distance [m].
@@ -134,12 +140,15 @@ class Medium {
     /// Frame as it arrives at `to`, which is `at` [m] when it begins; nothing if it is too weak to
     /// interfere, or if the two may have no link. The level is left open where the distance and the
     /// pair decide it.
-    std::optional<Arrival> arrival(const Emission& frame, NodeId to, Vec3 at) {
+    /// @param heading  of `to` when the frame begins [rad]; counts only if some antenna is
+    /// directional
+    std::optional<Arrival> arrival(const Emission& frame, NodeId to, Vec3 at,
+                                   Radians heading = {}) {
         at.z += kinds_.height(kind(to));
         const double d2 = squared_distance(frame.origin, at);
-        return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, at);
+        return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, {at, heading});
     }
-    /// Received power [dBm] at `to` of a frame whose level was left open.
+    /// Received power [dBm] at `to` of a frame, also if its level was left open.
     Dbm level(const Arrival& arrival, NodeId to) const;
     /// Whether the level of `frame` at `to` exceeds that of `other` by `by` or more. Levels that
     /// are open remain so if that is plain without them.
@@ -157,7 +166,8 @@ class Medium {
     /// see Reachability.
     std::uint32_t reachable(NodeId from, Time t, const Legs& legs);
 
-    /// Path loss [dB] from `from` to `to` at `t`, with nothing given up.
+    /// Path loss [dB] from `from` to `to` at `t`, with nothing given up: shadowing is in it, fading
+    /// is not.
     Db path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const;
     /// Gain of the antennas and cables between two nodes at `t`.
     LinkGain gain(NodeId from, NodeId to, Time t, const Legs& legs) const {
@@ -169,6 +179,12 @@ class Medium {
     Dbm level(NodeId from, NodeId to, Time t, const Legs& legs) const;
     /// Path loss [dB] that the link could still bear at `t`; negative: it is too weak.
     Db margin(NodeId from, NodeId to, Time t, const Legs& legs) const;
+
+    /// Shape of the link's margin while both ends go on along their legs as at `t`.
+    LossShape shape(NodeId from, NodeId to, Time t, const Legs& legs) const;
+    /// Whether the margin may change while they do: one of them moves, or turns and an antenna is
+    /// directional.
+    bool may_change(NodeId from, NodeId to, Time t, const Legs& legs) const;
 
     /// Whether `to` can hear `from` at `t`: both are on, may link, and the budget allows it. A
     /// switched-off or gated link is down whatever its level.
@@ -230,12 +246,18 @@ class Medium {
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
     // Frame as it arrives, as arrival(), within its reach.
-    std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there);
+    std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to,
+                                        const Pose& there);
+    // Model with the shadowing of the settings over it; the same for copies of one handle.
+    Propagation shadowed(const Propagation& model);
     // Links of a transmitter, as a model is asked for them.
     LinkBatch batch(NodeId from, Vec3 origin, Time t, std::uint64_t frame) const;
     // Path loss [dB] from `from` here to `to` there.
     double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
                 Db give_up) const;
+    // Loss [dB] that a frame sees where the link's is `loss_db`; that one if frames do not fade.
+    double faded(double loss_db, NodeId from, NodeId to, Vec3 here, Vec3 there,
+                 std::uint64_t frame) const;
     // Key of the frame that a node sends at `t`, see LinkBatch: there is but one.
     std::uint64_t frame_key(NodeId from, Time t) const {
         return combine(key(from), static_cast<std::uint64_t>((t - start_of_run).count()));
@@ -254,7 +276,11 @@ class Medium {
     std::uint64_t changes_ = 0;
     // Draws of links, where tables decide.
     PairDraws draws_;
+    // Fades of frames; null: they do not fade.
+    std::shared_ptr<const Fades> fades_;
     RadioKinds kinds_;
+    // Models as they were given, and with shadowing, if there is some.
+    std::vector<std::pair<Propagation, Propagation>> shadowed_;
     // Nodes by their places, and losses of pairs at rest.
     NeighbourIndex index_;
     // Shares of draws_, by place in the index, if tables decide; number of the index's bin that
@@ -267,8 +293,9 @@ class Medium {
     // Nodes whose heights the kinds know, if heights matter.
     std::size_t measured_ = 0;
 
-    // Search that found_ is of: from, strength, time and changes_; then what is under work.
-    std::optional<std::tuple<NodeId, Strength, Time, std::uint64_t>> last_;
+    // Search that found_ is of: from, strength, time, changes_ and the frame if frames fade; then
+    // what is under work.
+    std::optional<std::tuple<NodeId, Strength, Time, std::uint64_t, std::uint64_t>> last_;
     Vec3 origin_;
     // Results of the last search.
     Sieve<Found> found_, sensors_;

@@ -85,7 +85,7 @@ void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use
 /// Those for whom a signal of `from` is strong enough: in found_ who can decode it, in sensors_ the
 /// others.
 void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame) {
-    const std::tuple search{from, strength, t, changes_};
+    const std::tuple search{from, strength, t, changes_, fades_ ? frame : std::uint64_t{0}};
     if (std::exchange(last_, search) == search) return;  // a message is sent where it was asked for
     found_.clear();
     sensors_.clear();
@@ -184,20 +184,22 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
                                .squared_distance = d2,
                                .budget_db = budget.value});
           });
-    candidates_.compute_losses(model(from), batch(from, origin_, t, frame), from, pairs_);
+    candidates_.compute_losses(model(from), batch(from, origin_, t, frame), from, pairs_,
+                               fades_ ? fades_->most() : Db{0});
     for (const Candidate& c : candidates_.all()) {
-        if (c.loss_db > c.budget_db) continue;
+        const double loss_db = faded(c.loss_db, from, c.node, origin_, c.antenna, frame);
+        if (loss_db > c.budget_db) continue;
         const auto budget = [&] {
             return link_budget(mine, kinds_.radio(kind(c.node)), gain(from, c.node, t, legs));
         };
-        const bool decodes = strength == Strength::decodable || c.loss_db <= budget().value;
+        const bool decodes = strength == Strength::decodable || loss_db <= budget().value;
         (decodes ? found_ : sensors_).put({c.node, c.squared_distance}, true);
     }
 }
 
 /// As arrival(), within the reach of the frame.
 std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, NodeId to,
-                                            Vec3 there) {
+                                            const Pose& there) {
     const Kind mine = kind(frame.from), theirs = kind(to);
     if (!kinds_.may_link(mine, theirs)) return std::nullopt;
     double level_dbm = std::numeric_limits<double>::quiet_NaN();
@@ -213,11 +215,15 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
         }
         case Decision::by_loss: {
             const Radio &sender = kinds_.radio(mine), &receiver = kinds_.radio(theirs);
-            const Db most = kinds_.budget(Strength::interfering, sender, receiver);
+            const LinkGain gain = LinkGain::of(sender, receiver, [&] {
+                return std::pair{Pose{frame.origin, frame.heading}, there};
+            });
+            const Db most = kinds_.budget(Strength::interfering, sender, receiver, gain);
             const std::uint64_t key = frame_key(frame.from, frame.begin);
-            const Db lost{loss(frame.from, to, frame.origin, there, frame.begin, key, most)};
+            const Db lost{
+                loss(frame.from, to, frame.origin, there.antenna, frame.begin, key, most)};
             if (lost > most) return std::nullopt;
-            level_dbm = received_power(sender, receiver, lost).value;
+            level_dbm = received_power(sender, lost, gain).value;
         }
     }
     const Duration under_way = delay(std::sqrt(d2));
@@ -229,6 +235,7 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
 }
 
 Dbm Medium::level(const Arrival& arrival, NodeId to) const {
+    if (!std::isnan(arrival.level_dbm)) return {arrival.level_dbm};
     // Distance and pair decide the level: it is the link's, whichever frame it is of.
     const Vec3 there{std::sqrt(arrival.squared_distance), 0, 0};
     const Db lost{loss(arrival.from, to, {}, there, arrival.begin, 0,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/variation/fading.hpp"
+#include "models/variation/shadowing.hpp"
 #include "sim/units.hpp"
 
 #include <cstdint>
@@ -28,6 +30,10 @@ struct MediumSettings {
     /// Cut of interference [dB]: frames interfere down to so much below the sensitivity (but not to
     /// more than 10 dB below the noise floor); none: only those that are sensed do.
     std::optional<Db> interference_cut = std::nullopt;
+    /// Shadowing over all propagation models; they have no random part of their own then.
+    Shadowing shadowing = {};
+    /// Fading of all frames.
+    Fading fading = {};
     /// Seed and replication of random draws.
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;

@@ -58,6 +58,8 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
                       .noise = noise_floor(plain)});
     heights_.push_back(plain.antenna_height.value);
     heights_matter_ = heights_matter_ || propagation.is_bounded_by_height();
+    directional_ = directional_ || radio.is_directional();
+    varies_ = varies_ || directional_;
     // All match as long as all have the same network, or none is gated.
     const bool gated = kinds_.back().membership.gated;
     gated_ = gated_ || (gated && (essids_.size() > 2 || channels_.size() > 1));
@@ -91,7 +93,7 @@ double RadioKinds::squared_reach(Kind from, Strength strength) {
     if (std::isnan(reach2)) {
         const Radio& sender = radio(from);
         const Db most = best_budget_[static_cast<std::size_t>(strength)] + Db{sender.power.value} +
-                        LinkGain::most(sender, sender).sender;
+                        LinkGain::most(sender, sender).sender + most_fade_;
         const double reach = model(from).reach(most, sender.frequency, highest_).value * slack;
         reach2 = reach * reach;
     }

@@ -50,7 +50,11 @@ class RadioKinds {
     using Kind = std::uint32_t;
 
     /// @param interference_cut  see MediumSettings
-    explicit RadioKinds(std::optional<Db> interference_cut) : interference_cut_(interference_cut) {}
+    /// @param most_fade         gain of the luckiest fade; none: frames do not fade
+    explicit RadioKinds(std::optional<Db> interference_cut, std::optional<Db> most_fade = {})
+        : interference_cut_(interference_cut),
+          most_fade_(most_fade.value_or(Db{0})),
+          varies_(most_fade.has_value()) {}
 
     /// Counts one station. @return its kind
     Kind add(const Radio& radio, const Propagation& model);
@@ -93,6 +97,8 @@ class RadioKinds {
     Meters highest() const { return highest_; }
     /// Whether the bound of some model's range takes the heights of the antennas.
     bool heights_matter() const { return heights_matter_; }
+    /// Whether some antenna is directional.
+    bool is_directional() const { return directional_; }
     /// Squared distance [m^2] beyond which a signal is strong enough for nobody; may be infinite.
     double squared_reach(Kind from, Strength strength);
 
@@ -102,7 +108,7 @@ class RadioKinds {
         constexpr std::size_t most_tables = 16;
         const Decision cheapest = kinds_[from].cheapest;
         const bool pays = cheapest != Decision::by_table || kinds_.size() <= most_tables;
-        return pays ? cheapest : Decision::by_loss;
+        return pays && !varies_ ? cheapest : Decision::by_loss;
     }
     /// Squared range [m^2] for Decision::by_range: in range is who is no farther; negative if
     /// nobody is.
@@ -189,6 +195,11 @@ class RadioKinds {
     // Networks so far, by the numbers that Membership has.
     std::vector<std::string> essids_ = {"any"};
     std::vector<std::pair<int, Hertz>> channels_;
+    // Gain of the luckiest fade [dB].
+    Db most_fade_;
+    // A link varies with the frame or with headings, so that losses alone do not decide.
+    bool varies_;
+    bool directional_ = false;
     // Some two kinds may have no link.
     bool gated_ = false;
     bool heights_matter_ = false;

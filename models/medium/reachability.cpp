@@ -9,15 +9,18 @@
 namespace rovernet {
 namespace {
 
-/// Stays where it is until its leg is replaced.
-bool rests(const Leg& leg) { return leg.velocity == Vec3{} && leg.from == leg.to; }
+/// Stays where it is until its leg is replaced, with its antenna in one direction if that counts.
+bool rests(const Leg& leg, bool by_heading) {
+    return leg.velocity == Vec3{} && leg.from == leg.to && !(by_heading && leg.turning != 0);
+}
 
 }  // namespace
 
 bool Reachability::is_at_rest(const Now& now) {
     if (std::exchange(answers_of_, now.medium.changes()) == now.medium.changes()) return at_rest_;
     answers_.clear();
-    const auto moves = [&](NodeId node) { return !rests(now.legs.leg(node)); };
+    const bool by_heading = now.medium.is_directional();
+    const auto moves = [&](NodeId node) { return !rests(now.legs.leg(node), by_heading); };
     at_rest_ = mover_.index() >= now.legs.size() || !moves(mover_);
     for (NodeId n{0}; at_rest_ && n.index() < now.legs.size(); ++n.value) {
         if (!moves(n)) continue;

@@ -11,6 +11,7 @@ std::uint64_t Interference::add(Emission frame, BitRate rate,
                                 std::span<const Reception> receptions) {
     Medium& medium = *settings_.medium;
     frame.origin = medium.origin();
+    frame.heading = medium.heading(frame.from, frame.begin, *settings_.legs);
     frame.heard_within = medium.heard_within();
     frame.squared_reach = medium.squared_reach(frame.from);
     const std::uint64_t serial = on_air_.add(frame);
@@ -51,10 +52,12 @@ std::optional<Arrival> Interference::arrival(const Emission& frame, NodeId node)
     if (on_air_.has_changed(node)) {
         if (const OnAir::Before* before = on_air_.before(node, frame)) {
             if (!before->on) return std::nullopt;
-            return medium.arrival(frame, node, before->leg.position(frame.begin));
+            return medium.arrival(frame, node, before->leg.position(frame.begin),
+                                  Radians{before->leg.heading_at(frame.begin)});
         }
     }
-    return medium.arrival(frame, node, medium.position(node, frame.begin, *settings_.legs));
+    return medium.arrival(frame, node, medium.position(node, frame.begin, *settings_.legs),
+                          medium.heading(node, frame.begin, *settings_.legs));
 }
 
 double Interference::draw(Purpose purpose, NodeId from, NodeId to, std::uint64_t number) const {

@@ -43,6 +43,7 @@ Transmitter transmitter(const Network& network, NodeId robot, Time at) {
     return {.model = network.medium().model(robot).median(),
             .radio = network.medium().radio(robot),
             .antenna = network.medium().antenna(robot, at, network.legs()),
+            .heading = network.medium().heading(robot, at, network.legs()),
             .key = name_key(network.name(robot)),
             .scene = &network.scene(),
             .floor_height = settings.floor_height,
@@ -65,6 +66,11 @@ void received_levels(const Transmitter& transmitter, std::span<const Vec3> anten
                           .replication = transmitter.replication};
     transmitter.model.loss(links, {std::numeric_limits<double>::infinity()}, out_dbm);
     for (double& v : out_dbm) v = received_power(radio, radio, Db{v}).value;
+    if (!radio.is_directional()) return;
+    const Pose pose{transmitter.antenna, transmitter.heading};
+    for (std::size_t i = 0; i < antennas.size(); ++i) {
+        out_dbm[i] += pattern_gain(radio, pose, antennas[i]).value;
+    }
 }
 
 Vec3 CoverageMap::centre(int column, int row) const {

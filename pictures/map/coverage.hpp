@@ -18,6 +18,7 @@ struct Transmitter {
     Propagation model;
     Radio radio = {};
     Vec3 antenna = {};             ///< [m]
+    Radians heading{0};            ///< [rad] of the robot, for a directional antenna
     std::uint64_t key = 0;         ///< the robot's, for random draws
     const Scene* scene = nullptr;  ///< not null; outlives the transmitter
     Meters floor_height{3};        ///< [m] of one storey
@@ -25,8 +26,9 @@ struct Transmitter {
     std::uint32_t replication = 0;
 };
 
-/// The robot as it stands at `at`. Its model is the median: shadowing belongs to pairs of robots,
-/// and there is no robot at most places. The network outlives the transmitter.
+/// The robot as it stands at `at`. Its model is the median: shadowing of links belongs to pairs of
+/// robots, and there is no robot at most places. A field of shadowing belongs to places, and stays.
+/// The network outlives the transmitter.
 Transmitter transmitter(const Network& network, NodeId robot, Time at);
 
 /// Levels [dBm] at which a radio like the transmitter's own would receive it.

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "models/variation/fading.hpp"
+
+#include "models/variation/gamma.hpp"
+#include "test/models/vectors.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace rovernet;
+
+namespace {
+
+constexpr Hertz frequency{2450e6};
+const double wavelength = speed_of_light / frequency.value;
+
+Fading settings_of(const std::string& model, const std::string& m) {
+    if (model == "nakagami") return {.model = FadingModel::nakagami, .m = std::stod(m)};
+    const double k = std::stod(model.substr(model.find('=') + 1));
+    return {.model = FadingModel::rician, .k_factor = Db{k}};
+}
+
+double power(const Fades& fades, const Fades::Frame& frame) {
+    return std::pow(10, fades.gain(frame).value / 10);
+}
+
+std::vector<Fading> all_settings(Coherence coherence) {
+    return {{.model = FadingModel::rayleigh, .coherence = coherence},
+            {.model = FadingModel::rician, .coherence = coherence, .k_factor = Db{3}},
+            {.model = FadingModel::nakagami, .coherence = coherence, .m = 0.75},
+            {.model = FadingModel::nakagami, .coherence = coherence, .m = 4}};
+}
+
+/// Checks a sample of powers: its mean, and its shares below the quantiles.
+void check_distribution(const Fading& settings, const std::vector<double>& powers,
+                        double tolerance) {
+    double sum = 0;
+    for (const double each : powers) sum += each;
+    const auto n = static_cast<double>(powers.size());
+    CHECK(test::near(sum / n, 1, 2 * tolerance));
+    for (const double p : {0.01, 0.1, 0.5, 0.9, 0.99}) {
+        CAPTURE(p);
+        const double quantile = settings.quantile(p);
+        double below = 0;
+        for (const double each : powers) below += each < quantile;
+        CHECK(test::near(below / n, p, tolerance));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("fading: quantiles of the power (vectors)") {
+    const test::Vectors vectors("fading_power_quantiles.csv");
+    constexpr double tolerance = 1e-9;  // relative
+    for (std::size_t row = 0; row < vectors.size(); ++row) {
+        const Fading fading = settings_of(vectors.text(row, "model"), vectors.text(row, "m"));
+        const double expected = vectors.number(row, "power/mean");
+        CAPTURE(vectors.text(row, "model"));
+        CAPTURE(expected);
+        const double found = fading.quantile(vectors.number(row, "cdf"));
+        CHECK(test::near(found / expected, 1, tolerance));
+    }
+    const Fading rayleigh{.model = FadingModel::rayleigh};
+    CHECK(test::near(10 * std::log10(rayleigh.quantile(0.01)), -19.98, 0.005));
+}
+
+TEST_CASE("fading: it is cut at the quantile of 1 - 1e-6, 11.4 dB of rayleigh") {
+    CHECK(test::near(Fades({.model = FadingModel::rayleigh}, 1, 0).most().value, 11.404, 5e-4));
+    const Fading even{.model = FadingModel::nakagami, .m = 1};
+    CHECK(test::near(Fades(even, 1, 0).most().value, 11.404, 5e-4));
+    const Fading sight{.model = FadingModel::rician, .k_factor = Db{-100}};
+    CHECK(test::near(Fades(sight, 1, 0).most().value, 11.404, 5e-4));
+}
+
+TEST_CASE("fading: with a strong line of sight the power is the local mean") {
+    const Fades fades({.model = FadingModel::rician, .k_factor = Db{30}}, 1, 0);
+    CHECK(fades.most().value < 1);
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        CHECK(std::abs(fades.gain({i, 1, {}, {9, 0, 0}, frequency}).value) < 1.5);
+    }
+}
+
+TEST_CASE("fading: frames have powers of the distribution, of mean 1") {
+    for (const Fading& settings : all_settings(Coherence::frame)) {
+        const Fades fades(settings, 5, 2);
+        std::vector<double> powers;
+        for (std::uint64_t i = 0; i < 40'000; ++i) {
+            powers.push_back(power(fades, {i, i % 7, {}, {9, 0, 0}, frequency}));
+        }
+        constexpr double tolerance = 0.01;  // 4 sqrt(p (1 - p) / n)
+        check_distribution(settings, powers, tolerance);
+    }
+}
+
+TEST_CASE("fading: P(g < 0.1) of rayleigh is 0.09516: a power, not an amplitude") {
+    const Fades fades({.model = FadingModel::rayleigh}, 6, 0);
+    int below = 0;
+    constexpr int n = 40'000;
+    for (std::uint64_t i = 0; i < n; ++i)
+        below += power(fades, {i, 3, {}, {9, 0, 0}, frequency}) < 0.1;
+    CHECK(test::near(below / double{n}, 0.09516, 4 * std::sqrt(0.09516 / n)));
+}
+
+TEST_CASE("fading: one fade for a frame at a receiver, another for each other") {
+    const Fades fades({.model = FadingModel::rayleigh}, 5, 2);
+    const Fades::Frame frame{11, 4, {}, {9, 0, 0}, frequency};
+    Fades::Frame other = frame;
+    other.receiver = 5;
+    CHECK(fades.gain(frame).value != fades.gain(other).value);
+    other = frame;
+    other.key = 12;
+    CHECK(fades.gain(frame).value != fades.gain(other).value);
+    other = frame;
+    other.to = {90, 0, 0};
+    CHECK(fades.gain(frame).value == fades.gain(other).value);
+}
+
+TEST_CASE("fading: places have powers of the distribution, of mean 1 over the seeds") {
+    for (const Fading& settings : all_settings(Coherence::place)) {
+        std::vector<double> powers;
+        for (std::uint64_t seed = 0; seed < 80; ++seed) {
+            const Fades fades(settings, seed, 2);
+            for (int i = 0; i < 125; ++i) {
+                const Vec3 a{1.7 * i, 40, 0}, b{-2.9 * i, 0.3 * i, 0};
+                powers.push_back(power(fades, {1, 1, a, b, frequency}));
+            }
+        }
+        constexpr double tolerance = 0.025;  // 4 sqrt(p (1 - p) / n), and 32 waves, not many
+        check_distribution(settings, powers, tolerance);
+    }
+}
+
+TEST_CASE("fading: a robot that comes back finds the fade, in both directions, in any frame") {
+    for (const Fading& settings : all_settings(Coherence::place)) {
+        const Fades fades(settings, 5, 2);
+        for (int i = 0; i < 50; ++i) {
+            const Vec3 a{1.7 * i, 4, 1}, b{2, 0.1 * i, 1};
+            const double there = fades.gain({1, 1, a, b, frequency}).value;
+            CHECK(there == fades.gain({2, 9, b, a, frequency}).value);
+            CHECK(there <= fades.most().value);
+            const Vec3 aside = a + Vec3{wavelength / 2, 0, 0};
+            CHECK(there != fades.gain({1, 1, aside, b, frequency}).value);
+        }
+    }
+}
+
+TEST_CASE("fading: power correlation J0^2 as one end moves (vectors: Jakes)") {
+    const test::Vectors vectors("jakes_autocorr_2450MHz.csv");
+    int rows = 0;
+    for (std::size_t row = 0; row < vectors.size(); ++row) {
+        const double moved = vectors.number(row, "speed_m/s") * vectors.number(row, "tau_s");
+        if (moved > wavelength || vectors.number(row, "tau_s") < 0.05) continue;
+        ++rows;
+        double xy = 0, xx = 0, x = 0, n = 0;
+        for (std::uint64_t seed = 0; seed < 400; ++seed) {
+            const Fades fades({.model = FadingModel::rayleigh, .coherence = Coherence::place}, seed,
+                              0);
+            for (int i = 0; i < 20; ++i) {
+                const double angle = 0.7 * i;
+                const Vec3 a{2.3 * i, 60, 0}, b{-3.1 * i, 0, 0};
+                const Vec3 way{moved * std::cos(angle), moved * std::sin(angle), 0};
+                const double here = power(fades, {1, 1, a, b, frequency});
+                const double then = power(fades, {1, 1, a, b + way, frequency});
+                xy += here * then;
+                xx += (here * here + then * then) / 2;
+                x += (here + then) / 2;
+                ++n;
+            }
+        }
+        const double mean = x / n;
+        const double correlation = (xy / n - mean * mean) / (xx / n - mean * mean);
+        CAPTURE(moved);
+        constexpr double noise = 0.06;  // of 8,000 looks, whose powers have heavy tails
+        CHECK(test::near(correlation, vectors.number(row, "power_corr_J0^2"), noise));
+    }
+    CHECK(rows >= 4);
+}
+
+TEST_CASE("fading: a level is crossed as often on the way as Rice says (vectors)") {
+    const test::Vectors vectors("rayleigh_lcr_afd.csv");
+    constexpr int seeds = 60, steps = 2000;
+    constexpr double step = 0.02;  // wavelengths
+    std::vector<std::vector<double>> ways;
+    for (int seed = 0; seed < seeds; ++seed) {
+        const Fades fades({.model = FadingModel::rayleigh, .coherence = Coherence::place},
+                          static_cast<std::uint64_t>(seed), 4);
+        auto& way = ways.emplace_back();
+        for (int i = 0; i < steps; ++i) {
+            const Vec3 b{step * i * wavelength, 0, 0};
+            way.push_back(std::sqrt(power(fades, {1, 1, {0, 70, 0}, b, frequency})));
+        }
+    }
+    for (std::size_t row = 0; row < vectors.size(); ++row) {
+        const double rho = vectors.number(row, "rho=R/Rrms");
+        if (rho < 0.2 || rho > 2) continue;
+        const double per_wavelength =
+            vectors.number(row, "LCR_per_s") / vectors.number(row, "fD_Hz");
+        double crossings = 0, below = 0;
+        for (const auto& way : ways) {
+            for (std::size_t i = 1; i < way.size(); ++i) {
+                crossings += way[i - 1] >= rho && way[i] < rho;
+                below += way[i] < rho;
+            }
+        }
+        CAPTURE(rho);
+        constexpr double n = seeds * steps;
+        CHECK(test::near(crossings / (n * step) / per_wavelength, 1, 0.1));
+        CHECK(test::near(below / n, vectors.number(row, "outage_prob"), 0.03));
+    }
+}
+
+TEST_CASE("fading: the table of gamma variates agrees with their equation") {
+    for (const double m : {0.5, 0.75, 3.0, 100.0}) {
+        const GammaTable table(m);
+        for (double p = 1e-19; p < 15; p *= 1.37) {
+            CHECK(test::near(table(p) / gamma_of_exponential(m, p), 1, 1e-6));
+            CHECK(test::near(minus_log_gamma_q(m, gamma_of_exponential(m, p)) / p, 1, 1e-11));
+        }
+    }
+    CHECK(test::near(gamma_of_exponential(1, 2.5), 2.5, 1e-12));  // exponential itself
+}
+
+TEST_CASE("fading: parameters out of their ranges are refused") {
+    const auto make = [](const Fading& settings) { return Fades(settings, 1, 0); };
+    CHECK_THROWS_AS(make({.model = FadingModel::nakagami, .m = 0.4}), std::invalid_argument);
+    CHECK_THROWS_AS(make({.model = FadingModel::rician, .k_factor = Db{31}}),
+                    std::invalid_argument);
+}
