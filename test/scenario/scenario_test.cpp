@@ -45,6 +45,11 @@ frequency = "5200 MHz"
 rate = "54 Mb/s"
 preamble = "96 us"
 antenna_gain = "2 dB"
+antenna = "table"
+antenna_direction = "90 deg"
+antenna_beamwidth = "45 deg"
+front_to_back = "30 dB"
+antenna_pattern = [[-90.5, -12], [0, 0], [90, -12.25]]
 cable_loss = "1 dB"
 antenna_height = "150 cm"
 bandwidth = "20 MHz"
@@ -71,6 +76,17 @@ exponent = 3.5
 sigma = "6 dB"
 reference_distance = "2 m"
 wall_factor = 10.0
+
+[shadowing]
+model = "field"
+sigma = "6 dB"
+decorrelation_distance = "7 m"
+
+[fading]
+model = "rician"
+coherence = "place"
+k_factor = "3 dB"
+m = 1.5
 
 [reception]
 model = "collision"
@@ -263,6 +279,15 @@ TEST_CASE("scenario: every key of the file arrives in its field") {
     CHECK(a.top_speed == MetersPerSecond{2});
     CHECK(a.turn_rate == RadiansPerSecond{std::numbers::pi / 4});
     CHECK(s.radio.gate == Gate::none);
+    CHECK(s.radio.antenna == AntennaShape::table);
+    CHECK(s.radio.antenna_direction == Radians{std::numbers::pi / 2});
+    REQUIRE(s.radio.antenna_pattern->size() == 3);
+    CHECK(s.radio.antenna_pattern->front() == PatternPoint{-90.5, -12});
+    CHECK(s.shadowing.model == ShadowingModel::field);
+    CHECK(s.shadowing.decorrelation_distance == Meters{7});
+    CHECK(s.fading.model == FadingModel::rician);
+    CHECK(s.fading.coherence == Coherence::place);
+    CHECK(s.fading.m == 1.5);
     CHECK(s.radio.range_db == Dbm{-60});
     CHECK(s.links.tolerance == 1us);
     CHECK(s.movement.syntax == MovementSyntax::tolerant);

@@ -29,9 +29,8 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr NodeId a{0}, b{1};
 
 const Shadowing link_shadowing{.model = ShadowingModel::link, .sigma = Db{6}};
-const Shadowing field_shadowing{.model = ShadowingModel::field,
-                                .sigma = Db{6},
-                                .decorrelation_distance = 5_m};
+const Shadowing field_shadowing{
+    .model = ShadowingModel::field, .sigma = Db{6}, .decorrelation_distance = 5_m};
 
 /// What varies in a medium, by name.
 struct Variation {
@@ -95,8 +94,12 @@ struct Twins {
         const Vec3 from = place(), to = place();
         const std::uint64_t kind = draw.below(3);
         Leg leg{.from = from, .to = from, .heading = draw.uniform(-3, 3)};
-        if (kind == 1) leg = {.end = start_of_run + 10s, .from = from, .velocity = 0.1 * (to - from),
-                              .to = to, .heading = leg.heading};
+        if (kind == 1)
+            leg = {.end = start_of_run + 10s,
+                   .from = from,
+                   .velocity = 0.1 * (to - from),
+                   .to = to,
+                   .heading = leg.heading};
         if (kind == 2) {
             leg.end = start_of_run + 10s;
             leg.turning = 0.4;
@@ -148,9 +151,8 @@ TEST_CASE("variation: who hears is who a search over all pairs finds, and whose 
                 const Emission frame = frame_of(twins.fast, from, t, twins.legs);
                 for (NodeId to{0}; to.value < robots; ++to.value) {
                     if (to == from) continue;
-                    const auto arrives =
-                        twins.fast.arrival(frame, to, twins.legs.position(to, t),
-                                           twins.fast.heading(to, t, twins.legs));
+                    const auto arrives = twins.fast.arrival(frame, to, twins.legs.position(to, t),
+                                                            twins.fast.heading(to, t, twins.legs));
                     const bool hears = std::binary_search(heard.begin(), heard.end(), to);
                     if (!arrives) CHECK_FALSE(hears);
                     if (!arrives) continue;
@@ -248,8 +250,8 @@ TEST_CASE("variation: where places have fades, a robot that comes back is heard 
     Medium medium({.fading = {.model = FadingModel::rayleigh, .coherence = Coherence::place}});
     Legs legs;
     legs.add(test::resting({0, 0, 0}));
-    legs.add({.end = start_of_run + 10s, .from = {200, 0, 0}, .velocity = {1, 0, 0},
-              .to = {210, 0, 0}});
+    legs.add(
+        {.end = start_of_run + 10s, .from = {200, 0, 0}, .velocity = {1, 0, 0}, .to = {210, 0, 0}});
     for (const std::uint64_t key : {1, 2}) medium.add({}, key, Friis{});
     const auto level = [&](Time t) {
         Emission frame = frame_of(medium, a, t, legs);
@@ -270,8 +272,8 @@ TEST_CASE("antennas: a sector hears in front, not behind; its link has the patte
     Radio sector{.antenna = AntennaShape::cosine,
                  .antenna_beamwidth = Radians{60 * degree},
                  .front_to_back = Db{25}};
-    for (const Leg& leg : {test::resting({}), test::resting({50, 0, 0}),
-                           test::resting({-50, 0, 0}), test::resting({0, 50, 0})}) {
+    for (const Leg& leg : {test::resting({}), test::resting({50, 0, 0}), test::resting({-50, 0, 0}),
+                           test::resting({0, 50, 0})}) {
         legs.add(leg);
         medium.add(legs.size() == 1 ? sector : Radio{}, legs.size(), Friis{});
     }
@@ -302,12 +304,11 @@ TEST_CASE("antennas: a robot that turns in place gets links, and loses them, on 
     turning.heading = -180 * degree;
     pair.add(Friis{}, turning, sector);
     pair.add(Friis{}, test::resting({200, 0, 0}));
-    const double spare =
-        91.532125137753436 - free_space_db(200, 2450_MHz);
+    const double spare = 91.532125137753436 - free_space_db(200, 2450_MHz);
     const double n = -3 / (20 * std::log10(std::cos(15 * degree)));
     const double edge = 2 * std::acos(std::pow(10, -spare / (20 * n))) / degree;
-    const auto found = pair.changes(a, b, start_of_run, start_of_run + 36s,
-                                    {.tolerance = 1us, .min_dwell = 10ms});
+    const auto found =
+        pair.changes(a, b, start_of_run, start_of_run + 36s, {.tolerance = 1us, .min_dwell = 10ms});
     REQUIRE(found.size() == 2);
     constexpr double tolerance = 2e-6;
     CHECK(test::near(seconds(found[0] - start_of_run), (180 - edge) / 10, tolerance));
@@ -329,8 +330,8 @@ TEST_CASE("shadowing field: link changes are found within min_dwell, those of a 
         const LinkSearch search{.tolerance = 1us, .min_dwell = 20ms};
         std::vector<Time> found;
         Time after = start_of_run;
-        while (const auto t = next_link_change(medium, legs, scene, a, b, after,
-                                               start_of_run + 90s, search))
+        while (const auto t =
+                   next_link_change(medium, legs, scene, a, b, after, start_of_run + 90s, search))
             found.push_back(after = *t);
         const bool by_field = shadowing.model == ShadowingModel::field;
         CHECK(medium.shape(a, b, start_of_run, legs) ==

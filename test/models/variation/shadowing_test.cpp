@@ -33,7 +33,8 @@ Vec3 heading(std::uint64_t seed, std::uint64_t index) {
 const std::vector<ShadowingField>& fields() {
     static const std::vector<ShadowingField> all = [] {
         std::vector<ShadowingField> made;
-        for (std::uint32_t seed = 0; seed < seeds; ++seed) made.emplace_back(decorrelation, seed, 3);
+        for (std::uint32_t seed = 0; seed < seeds; ++seed)
+            made.emplace_back(decorrelation, seed, 3);
         return made;
     }();
     return all;
