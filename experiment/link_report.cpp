@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
-
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
 #include "models/medium/shadowed.hpp"
