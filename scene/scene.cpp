@@ -96,7 +96,16 @@ Scene::Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials)
     for (const OccupancyGrid& map : maps) check(map, materials_.size());
     std::erase_if(maps, [](const OccupancyGrid& map) { return map.columns == 0; });
     if (maps.empty()) return;
-    for (const OccupancyGrid& map : maps) add_map(map);
+    std::vector<WallsOfMap> walls;
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        const std::size_t before = layers_.size();
+        add_map(maps[i]);
+        for (std::size_t k = before; k < layers_.size(); ++k) {
+            const WallLayer& layer = layers_[k];
+            walls.push_back({layer.frame, layer.walls, layer.material, layer.height, i});
+        }
+    }
+    faces_ = std::make_shared<const Faces>(std::move(walls));
     grid_ = maps.size() == 1 ? std::move(maps.front()) : planning_grid(maps);
     frame_ = MapFrame(grid_);
     obstacle_cells_ = solid_rectangles(grid_, Solid::obstacles);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/faces.hpp"
 #include "scene/map_frame.hpp"
 #include "scene/material.hpp"
 #include "scene/obstacles.hpp"
@@ -14,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -77,6 +79,8 @@ class Scene {
     /// Drawn thickness of the walls at a point, whatever their height [m]; 0 outside of walls. See
     /// WallThickness.
     Meters wall_thickness(Vec3 p) const;
+    /// The walls as straight faces; null on an open field.
+    const Faces* faces() const { return faces_.get(); }
     /// What its walls are made of; at least one.
     const std::vector<Material>& materials() const { return materials_; }
     /// All walls follow the propagation model and are infinitely high: their length tells all.
@@ -116,6 +120,7 @@ class Scene {
     std::vector<Material> materials_ = {Material{}};
     std::vector<WallLayer> layers_;
     std::vector<Obstacles> obstacles_;
+    std::shared_ptr<const Faces> faces_;
     bool plain_ = true;
     std::size_t occupied_cells_ = 0;
     Vec3 lower_left_{};

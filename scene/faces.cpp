@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "scene/faces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+using Point = std::array<double, 2>;  // [m], in the map's own axes
+
+Point on_line_of(const OutlineSide& side, Point p) {
+    const double t =
+        (p[0] - side.point[0]) * side.direction[0] + (p[1] - side.point[1]) * side.direction[1];
+    return {side.point[0] + t * side.direction[0], side.point[1] + t * side.direction[1]};
+}
+
+bool near(Point p, Point q, double within) {
+    const double dx = p[0] - q[0], dy = p[1] - q[1];
+    return dx * dx + dy * dy <= within * within;
+}
+
+/// Where the lines of two sides meet; nothing if they are parallel.
+std::optional<Point> meeting(const OutlineSide& a, const OutlineSide& b) {
+    const double cross = a.direction[0] * b.direction[1] - a.direction[1] * b.direction[0];
+    if (std::abs(cross) < 1e-6) return std::nullopt;
+    const double t =
+        ((b.point[0] - a.point[0]) * b.direction[1] - (b.point[1] - a.point[1]) * b.direction[0]) /
+        cross;
+    return Point{a.point[0] + t * a.direction[0], a.point[1] + t * a.direction[1]};
+}
+
+/// Where one side ends and the next begins, both near the corner of the outline between them.
+std::pair<Point, Point> joint(const OutlineSide& a, const OutlineSide& b, Point corner,
+                              double cell) {
+    if (a.deviation == 0 && b.deviation == 0) return {corner, corner};
+    constexpr double farthest = 1.5;  // [cells]
+    const auto meet = meeting(a, b);
+    if (meet && near(*meet, corner, farthest * cell)) return {*meet, *meet};
+    return {on_line_of(a, corner), on_line_of(b, corner)};
+}
+
+/// A map's cells by material; -1 where no wall is.
+class CellMaterials {
+  public:
+    explicit CellMaterials(std::span<const WallsOfMap> walls)
+        : columns_(walls.front().walls->columns()),
+          rows_(walls.front().walls->rows()),
+          cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1) {
+        for (const WallsOfMap& layer : walls)
+            for (int row = 0; row < rows_; ++row)
+                for (int column = 0; column < columns_; ++column)
+                    if (layer.walls->solid(column, row))
+                        cells_[number(column, row)] = static_cast<std::int16_t>(layer.material);
+    }
+    int operator()(int column, int row) const {
+        const bool inside = column >= 0 && column < columns_ && row >= 0 && row < rows_;
+        return inside ? cells_[number(column, row)] : -1;
+    }
+
+  private:
+    std::size_t number(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column);
+    }
+    int columns_, rows_;
+    std::vector<std::int16_t> cells_;
+};
+
+}  // namespace
+
+const Faces::Made& Faces::made() const {
+    std::call_once(once_, [this] { make(); });
+    return made_;
+}
+
+void Faces::make() const {
+    for (std::size_t i = 0; i < walls_.size();) {
+        std::size_t end = i;
+        while (end < walls_.size() && walls_[end].map == walls_[i].map) ++end;
+        add_map(std::span(walls_).subspan(i, end - i));
+        i = end;
+    }
+    for (Face& face : made_.faces)
+        for (const WallsOfMap& layer : walls_)
+            if (layer.material == face.material) face.height = layer.height;
+}
+
+void Faces::add_map(std::span<const WallsOfMap> walls) const {
+    const MapFrame& frame = walls.front().frame;
+    const CellMaterials material(walls);
+    const int columns = walls.front().walls->columns(), rows = walls.front().walls->rows();
+    std::vector<std::vector<Run>> by_line(static_cast<std::size_t>(columns + rows + 2));
+    for (const Outline& outline : outlines(columns, rows, material)) {
+        const auto sides = straight_sides(outline, frame.cell_width(), frame.cell_height());
+        const std::size_t first_face = made_.faces.size();
+        add_outline(outline, sides, frame);
+        for (std::size_t s = 0; s < sides.size(); ++s) {
+            for (std::size_t i = 0; i < sides[s].count; ++i) {
+                const OutlineEdge& e = outline[(sides[s].first + i) % outline.size()];
+                const bool upright = e.u0 == e.u1;
+                const auto [low, high] =
+                    upright ? std::minmax(e.v0, e.v1) : std::minmax(e.u0, e.u1);
+                by_line[static_cast<std::size_t>(upright ? e.u0 : columns + 1 + e.v0)].push_back(
+                    {low, high, first_face + s});
+            }
+        }
+    }
+    Lines lines{frame, columns, rows, {}, {}};
+    for (auto& runs : by_line) {
+        std::sort(runs.begin(), runs.end(), [](Run a, Run b) { return a.low < b.low; });
+        lines.first.push_back(lines.runs.size());
+        lines.runs.insert(lines.runs.end(), runs.begin(), runs.end());
+    }
+    lines.first.push_back(lines.runs.size());
+    made_.maps.push_back(std::move(lines));
+}
+
+void Faces::add_outline(const Outline& outline, const std::vector<OutlineSide>& sides,
+                        const MapFrame& frame) const {
+    const std::size_t number = made_.faces.empty() ? 0 : made_.faces.back().outline + 1;
+    const double width = frame.cell_width(), height = frame.cell_height();
+    std::vector<std::pair<Point, Point>> joints;  // between a side and the one before
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+        const OutlineEdge& e = outline[sides[s].first % outline.size()];
+        joints.push_back(joint(sides[(s + sides.size() - 1) % sides.size()], sides[s],
+                               {e.u0 * width, e.v0 * height}, std::max(width, height)));
+    }
+    const auto world = [&](Point p) { return frame.to_world({p[0] / width, p[1] / height}); };
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+        const auto& d = sides[s].direction;
+        const Point begin = joints[s].second, end = joints[(s + 1) % sides.size()].first;
+        const double along = (end[0] - begin[0]) * d[0] + (end[1] - begin[1]) * d[1];
+        const Vec3 out = frame.to_world({d[1] / width, -d[0] / height}) - frame.to_world({0, 0});
+        made_.faces.push_back({.from = world(begin),
+                               .to = along > 0 ? world(end) : world(begin),
+                               .normal = out,
+                               .length = std::max(along, 0.0),
+                               .deviation = sides[s].deviation,
+                               .material = outline[sides[s].first % outline.size()].material,
+                               .outline = number});
+    }
+}
+
+std::optional<std::size_t> Faces::on_line(const Lines& map, std::size_t line, double along,
+                                          std::size_t material) const {
+    constexpr double tolerance = 1e-6;  // [cells]
+    const auto begin = map.runs.begin() + static_cast<std::ptrdiff_t>(map.first[line]);
+    const auto end = map.runs.begin() + static_cast<std::ptrdiff_t>(map.first[line + 1]);
+    // From the last run that begins before the point: it, or the one before, if they touch there.
+    auto run = std::upper_bound(begin, end, along + tolerance,
+                                [](double x, const Run& r) { return x < r.low; });
+    for (int tries = 0; tries < 2 && run != begin; ++tries) {
+        --run;
+        if (run->high < along - tolerance) break;
+        if (made_.faces[run->face].material == material) return run->face;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> Faces::at(Vec3 p, std::size_t material) const {
+    constexpr double tolerance = 1e-6;  // [cells]
+    for (const Lines& map : made().maps) {
+        const CellPoint c = map.frame.to_cells(p);
+        const double u = std::floor(c.u + 0.5), v = std::floor(c.v + 0.5);
+        const double off_u = std::abs(c.u - u), off_v = std::abs(c.v - v);
+        const auto upright = [&]() -> std::optional<std::size_t> {
+            if (off_u > tolerance || u < 0 || u > map.columns) return std::nullopt;
+            return on_line(map, static_cast<std::size_t>(u), c.v, material);
+        };
+        const auto level = [&]() -> std::optional<std::size_t> {
+            if (off_v > tolerance || v < 0 || v > map.rows) return std::nullopt;
+            return on_line(map,
+                           static_cast<std::size_t>(map.columns + 1) + static_cast<std::size_t>(v),
+                           c.u, material);
+        };
+        auto found = off_u <= off_v ? upright() : level();
+        if (!found) found = off_u <= off_v ? level() : upright();
+        if (found) return found;
+    }
+    return std::nullopt;
+}
+
+}  // namespace rovernet
