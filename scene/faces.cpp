@@ -84,9 +84,38 @@ void Faces::make() const {
         add_map(std::span(walls_).subspan(i, end - i));
         i = end;
     }
-    for (Face& face : made_.faces)
-        for (const WallsOfMap& layer : walls_)
-            if (layer.material == face.material) face.height = layer.height;
+    for (Face& face : made_.faces) measure(face);
+}
+
+void Faces::measure(Face& face) const {
+    for (const WallsOfMap& layer : walls_)
+        if (layer.material == face.material) face.height = layer.height;
+    std::array<double, 3> ways{thickness(face, 0.25), thickness(face, 0.5), thickness(face, 0.75)};
+    std::sort(ways.begin(), ways.end());
+    face.thickness = ways[1];
+}
+
+/// The way through the wall behind one point of the face [m].
+double Faces::thickness(const Face& face, double along) const {
+    constexpr double farthest = 5;  // [m]
+    const Vec3 on_face = face.from + along * (face.to - face.from);
+    // From in front of the drawn outline, which the line leaves on both sides.
+    const Vec3 begin = on_face + (face.deviation + 1e-6) * face.normal;
+    const Vec3 end = on_face - farthest * face.normal;
+    const double length = distance(begin, end);
+    std::vector<Crossing> crossings;
+    for (const WallsOfMap& layer : walls_) {
+        if (layer.material != face.material) continue;
+        layer.walls->crossings(layer.frame.to_cells(begin), layer.frame.to_cells(end), length,
+                               crossings);
+        if (crossings.empty() || crossings[0].entry > 2 * face.deviation + 2e-6) continue;
+        const Vec3 exit = begin + (crossings[0].exit / length) * (end - begin);
+        const auto other = find(exit, face.material);
+        if (other && face.opposite(made_.faces[*other]))
+            return std::max(0.0, -made_.faces[*other].in_front(on_face));
+        return crossings[0].length;
+    }
+    return 0;
 }
 
 void Faces::add_map(std::span<const WallsOfMap> walls) const {
@@ -162,8 +191,13 @@ std::optional<std::size_t> Faces::on_line(const Lines& map, std::size_t line, do
 }
 
 std::optional<std::size_t> Faces::at(Vec3 p, std::size_t material) const {
+    made();
+    return find(p, material);
+}
+
+std::optional<std::size_t> Faces::find(Vec3 p, std::size_t material) const {
     constexpr double tolerance = 1e-6;  // [cells]
-    for (const Lines& map : made().maps) {
+    for (const Lines& map : made_.maps) {
         const CellPoint c = map.frame.to_cells(p);
         const double u = std::floor(c.u + 0.5), v = std::floor(c.v + 0.5);
         const double off_u = std::abs(c.u - u), off_v = std::abs(c.v - v);

@@ -26,6 +26,10 @@ struct Face {
     double length = 0;
     /// Farthest distance from the drawn outline to the face's line [m]; 0 if it runs along cells.
     double deviation = 0;
+    /// Thickness of the wall behind the face [m]: the median of three ways through its material,
+    /// square to the face, each to the line of the face on the other side if that is nearly
+    /// parallel; at most 5 m.
+    double thickness = 0;
     /// Material of the wall, an index into the scene's.
     std::size_t material = 0;
     /// Height of the wall [m].
@@ -36,6 +40,8 @@ struct Face {
 
     /// Distance of a point in front of the face's line [m]; negative behind it.
     double in_front(Vec3 p) const { return (p.x - from.x) * normal.x + (p.y - from.y) * normal.y; }
+    /// Both are sides of one straight wall: they face away from each other within 25 degrees.
+    bool opposite(const Face& other) const { return dot(normal, other.normal) < -0.9; }
 };
 
 /// Walls of one material on one map, of which faces are made.
@@ -86,6 +92,9 @@ class Faces {
     };
     const Made& made() const;
     void make() const;
+    void measure(Face& face) const;
+    double thickness(const Face& face, double along) const;
+    std::optional<std::size_t> find(Vec3 p, std::size_t material) const;
     void add_map(std::span<const WallsOfMap> walls) const;
     void add_outline(const Outline&, const std::vector<OutlineSide>&, const MapFrame&) const;
     std::optional<std::size_t> on_line(const Lines&, std::size_t line, double along,

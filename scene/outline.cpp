@@ -104,9 +104,14 @@ class Straightener {
         return (cross > 0) - (cross < 0);
     }
     bool cap(std::size_t i) const { return turn(i) == turn(i + 1); }
-    /// No stair goes on from the edge before to this one.
+    bool is_long(std::size_t i) const {
+        const OutlineEdge& e = edge(i);
+        return std::abs(e.u1 - e.u0) + std::abs(e.v1 - e.v0) > 1;
+    }
+    /// No stair goes on from the edge before to this one: of two edges of a stair one has one cell.
     bool parted(std::size_t i) const {
-        return edge(i).material != edge(i - 1).material || cap(i - 1) || cap(i);
+        return edge(i).material != edge(i - 1).material || cap(i - 1) || cap(i) ||
+               (is_long(i - 1) && is_long(i));
     }
 
     /// Cuts a stair into sides, each as long as the tolerance allows.
@@ -147,6 +152,8 @@ class Straightener {
         constexpr double cosine_of_45_degrees = 0.7071;
         const double cosine = a.direction[0] * b.direction[0] + a.direction[1] * b.direction[1];
         if (cosine < cosine_of_45_degrees) return false;
+        const OutlineSide& between = sides[(i + 1) % sides.size()];
+        if (further == 2 && (between.count > 1 || is_long(between.first))) return false;
         std::size_t count = 0;
         for (std::size_t k = i; k <= i + further; ++k) count += sides[k % sides.size()].count;
         for (std::size_t k = a.first; k < a.first + count; ++k)

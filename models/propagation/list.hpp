@@ -7,6 +7,7 @@
 #include "models/propagation/itu_site_general.hpp"
 #include "models/propagation/log_distance.hpp"
 #include "models/propagation/multi_wall.hpp"
+#include "models/propagation/rays.hpp"
 #include "models/propagation/raytrace_2007.hpp"
 #include "models/propagation/two_ray.hpp"
 
@@ -21,7 +22,7 @@ namespace rovernet {
 /// that follows from its fields(). `rovernet compare` takes the last of those that it compares as
 /// the most detailed one.
 using PropagationModels = std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, ItuSiteGeneral,
-                                     MultiWall, Raytrace2007>;
+                                     MultiWall, Raytrace2007, Rays>;
 
 /// Calls `visit.template operator()<Model>()` for each listed model, in that order:
 ///

@@ -207,3 +207,14 @@ TEST_CASE("faces: a turned map has turned faces; an open field has none; threads
     CHECK(distance(first[0]->from, scene.frame().to_world({1, 1})) < 1e-12);
     CHECK(Scene{}.faces() == nullptr);
 }
+
+TEST_CASE("faces: they know how thick their wall is, at any angle and beside a junction") {
+    for (int degrees = 0; degrees < 90; degrees += 5) {
+        CAPTURE(degrees);
+        const Scene scene(slanting_wall(6, 0.3, degrees * degree));
+        for (const Face& f : long_faces(scene, 1)) CHECK(std::abs(f.thickness - 0.3) < 0.03);
+    }
+    const Scene junction(test::drawn_map({"....#....", "....#....", "#########"}));
+    for (const Face& f : junction.faces()->all())
+        if (f.length > 3) CHECK(f.thickness == 1);
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/faces.hpp"
+#include "sim/geometry.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rovernet {
+
+/// Mirror images of a sender in the faces of a scene, in plan: what a receiver may see of it by
+/// way of reflections.
+///
+/// An image of order n is that of an image of order n - 1, in a face that lies before it and in
+/// the beam in which it is seen: the sector from the image through its own face. There are up to
+/// F (F - 1)^(n - 1) of them for F faces; the beams leave far fewer. Walls that stand between do
+/// not count here: radio passes through walls.
+class RayImages {
+  public:
+    /// Empty: no faces, no images.
+    RayImages() = default;
+    /// @param faces  outlives the images
+    /// @param order  most reflections, >= 0
+    /// @param shortest  faces shorter than this [m] reflect nothing
+    RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest);
+
+    /// Calls visit(chain) for each image in whose beam a point lies, beams being a tenth of a
+    /// micrometre wider than they are; chain: the image's faces, the last reflection first.
+    template <class Visit>
+    void seen_from(Vec3 p, Visit visit) {
+        for (const Image& image : images_) {
+            bool inside = true;
+            for (const Line& line : image.beam) inside = inside && line.at(p.x, p.y) >= -slack;
+            if (inside) visit(chain_of(image));
+        }
+    }
+    std::size_t size() const { return images_.size(); }
+
+  private:
+    static constexpr double slack = 1e-7;                                  // [m]
+    static constexpr std::uint32_t root = static_cast<std::uint32_t>(-1);  // the sender
+    /// Distance from a line [m]: a x + b y + c.
+    struct Line {
+        double a, b, c;
+        double at(double x, double y) const { return a * x + b * y + c; }
+    };
+    struct Image {
+        std::array<Line, 3> beam;  // in front of the face, and between two sides
+        double x, y;               // [m]
+        std::uint32_t face, parent;
+    };
+    void add_images_of(Vec3 at, std::uint32_t parent);
+    void add_image(Vec3 at, std::uint32_t parent, std::uint32_t face);
+    std::span<const std::uint32_t> chain_of(const Image& image);
+
+    std::span<const Face> faces_;
+    std::vector<std::uint32_t> mirrors_;  // faces that reflect
+    std::vector<Image> images_;
+    std::vector<std::uint32_t> chain_;
+};
+
+}  // namespace rovernet

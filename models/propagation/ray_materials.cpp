@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "models/propagation/ray_materials.hpp"
+
+#include "models/propagation/diffraction.hpp"
+#include "sim/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rovernet {
+namespace {
+constexpr double db_per_neper = 8.685889638065037;
+constexpr double grazing = 0.0174524064373;  // cosine of 89 degrees
+}  // namespace
+
+double RayFactor::loss() const {
+    constexpr double least = 1e-300;
+    return db_per_neper * decay - 10 * math::log10(std::max(std::norm(field), least));
+}
+
+RayMaterials::RayMaterials(const std::vector<Material>& materials, Hertz frequency,
+                           ItuMaterial wall, Db reflection_loss)
+    : wavelength_(speed_of_light / frequency.value),
+      mirror_(-math::exp10(-reflection_loss.value / 20)) {
+    for (const Material& m : materials) {
+        Entry entry{std::nullopt, std::nullopt, 0, 0};
+        if (m.follows_model()) {
+            entry.slab = Slab(wall, frequency);
+        } else if (m.slab) {
+            entry.slab = Slab(*m.slab, frequency);
+            entry.thickness = m.thickness.value;
+        } else {
+            const WallRate rate = wall_rate(m, frequency, 0);
+            entry.per_crossing = rate.per_crossing;
+            entry.per_metre = rate.per_metre;
+        }
+        entries_.push_back(entry);
+    }
+}
+
+RayFactor RayMaterials::factor(const RayHit& hit) const {
+    return hit.kind == RayHit::Kind::reflection
+               ? reflected(hit.material, hit.thickness, hit.cosine)
+               : crossed(hit.material, hit.thickness, hit.cosine, hit.length);
+}
+
+RayFactor RayMaterials::around(const RayEdge& edge, RayDiffraction by, bool mirrors) const {
+    if (by == RayDiffraction::knife_edge) {
+        const double nu = 2 * std::sqrt(edge.detour / wavelength_);
+        const double loss = knife_edge_loss_p526_db(edge.shadowed ? nu : -nu);
+        return {math::phasor(-std::numbers::pi / 4), loss / db_per_neper};
+    }
+    const WedgePath path{edge.n, {edge.phi_after}, {edge.phi_before}};
+    WedgeFaces faces{0, 0, 0};
+    const double cosine = std::clamp(edge.cosine, grazing, 1.0);
+    const RayFactor through =
+        crossed(edge.material, edge.thickness, cosine, edge.thickness / cosine);
+    faces.through = math::exp(math::Complex{-through.decay, 0}) * through.field;
+    if (mirrors) {
+        const FaceIncidence at = face_incidence(path);
+        const auto mirror = [&](Radians incidence) {
+            const double c = std::clamp(math::sincos(incidence.value).cos, grazing, 1.0);
+            return reflected(edge.material, edge.thickness, c).field;
+        };
+        faces.face_0 = mirror(at.face_0);
+        faces.face_n = mirror(at.face_n);
+    }
+    constexpr double nearest = 1e-6;  // [m]
+    const double before = std::max(edge.before, nearest), after = std::max(edge.after, nearest);
+    const double L = before * after / (before + after);
+    LitBy lit = lit_by(path);
+    lit.direct = !edge.shadowed;
+    const math::Complex D =
+        wedge_coefficient(path, 2 * std::numbers::pi / wavelength_, {L}, faces, lit);
+    // No way around an edge is stronger than one of its length in the open.
+    const math::Complex field = D / std::sqrt(L);
+    return {field / std::max(1.0, std::sqrt(std::norm(field))), 0};
+}
+
+double RayMaterials::beside_edge(double clearance) const {
+    return std::isfinite(clearance)
+               ? knife_edge_loss_p526_db(-2 * std::sqrt(clearance / wavelength_))
+               : 0;
+}
+
+RayFactor RayMaterials::reflected(std::size_t material, double thickness, double cosine) const {
+    const Entry& entry = entries_[material];
+    if (!entry.slab) return {mirror_, 0};
+    return {entry.slab->fields(entry.thickness.value_or(thickness), cosine).reflected, 0};
+}
+
+RayFactor RayMaterials::crossed(std::size_t material, double thickness, double cosine,
+                                double length) const {
+    const Entry& entry = entries_[material];
+    if (!entry.slab) return {1, (entry.per_crossing + entry.per_metre * length) / db_per_neper};
+    const SlabFields fields = entry.slab->fields(entry.thickness.value_or(thickness), cosine);
+    return {fields.transmitted, fields.decay};
+}
+
+}  // namespace rovernet

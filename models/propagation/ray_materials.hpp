@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/propagation/ray_path.hpp"
+#include "scene/material.hpp"
+#include "scene/slab.hpp"
+#include "sim/complex_math.hpp"
+#include "sim/units.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace rovernet {
+
+/// What a wall makes of the field of a path: its factor is `field` times e^-decay.
+struct RayFactor {
+    math::Complex field;
+    /// [Np], >= 0: apart from the field, which metal would make 0.
+    double decay;
+
+    double loss() const;  ///< [dB], finite
+};
+
+/// Coefficients of a scene's materials at one frequency.
+///
+/// A material of ITU-R P.2040 is a slab of its own thickness, at the path's angle, in the
+/// polarisation TE. One that follows the model is a slab of the model's `wall`, as thick as it is
+/// drawn. One that gives decibels takes those from what passes, whatever the angle, without a turn
+/// of the phase, and reflects all but the model's `reflection_loss`, with a turn by half a wave.
+class RayMaterials {
+  public:
+    RayMaterials(const std::vector<Material>& materials, Hertz frequency, ItuMaterial wall,
+                 Db reflection_loss);
+    RayFactor factor(const RayHit& hit) const;
+    /// Field around an edge over that in free space at the way's length.
+    ///
+    /// knife_edge: J(nu) by P.526, nu = 2 sqrt(detour / lambda). utd: D sqrt((s + s') / (s s')),
+    /// with the wall's own transmission into its shadow, and its reflection if `mirrors`; at
+    /// most 1.
+    /// @param mirrors  paths that faces reflect are added with their phases
+    RayFactor around(const RayEdge& edge, RayDiffraction by, bool mirrors) const;
+    /// Loss of a straight path that passes an edge with that clearance [dB], 0 to 6.
+    double beside_edge(double clearance) const;
+
+  private:
+    RayFactor reflected(std::size_t material, double thickness, double cosine) const;
+    RayFactor crossed(std::size_t material, double thickness, double cosine, double length) const;
+
+  private:
+    struct Entry {
+        std::optional<Slab> slab;         // or decibels
+        std::optional<double> thickness;  // [m], instead of the drawn one
+        double per_crossing, per_metre;   // [dB], [dB/m]
+    };
+    double wavelength_;
+    std::vector<Entry> entries_;
+    double mirror_;  // reflection of materials that give decibels
+};
+
+}  // namespace rovernet

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/fields.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+// Paths of radio from one antenna to another: geometry alone, without what materials do to it. So
+// the paths of a link can be kept, and weighed anew for other materials.
+
+namespace rovernet {
+
+/// A wall on a path.
+struct RayHit {
+    enum class Kind : std::uint8_t {
+        crossing,   ///< the path passes through it
+        reflection  ///< the path is reflected
+    };
+    Kind kind;
+    /// Face of the scene that reflects, or whose normal counts; no_face if the path lies in the
+    /// wall from end to end.
+    std::size_t face;
+    /// Material of the wall, an index into the scene's.
+    std::size_t material;
+    /// Thickness of the wall as drawn, square to it [m].
+    double thickness;
+    /// Cosine of the angle between the path and the wall's normal [-], 0.0175 (89 degrees) to 1:
+    /// ways along a wall count as ways at 89 degrees.
+    double cosine;
+    /// Length of the path inside the wall [m]; 0 of a reflection.
+    double length;
+};
+inline constexpr std::size_t no_face = static_cast<std::size_t>(-1);
+
+/// Ways of radio around edges.
+enum class RayDiffraction {
+    none,
+    knife_edge,  ///< edges as those of screens that let nothing through
+    utd          ///< edges as wedges, by the uniform theory of diffraction
+};
+/// Words of `diffraction` in files.
+template <>
+struct EnumNames<RayDiffraction> {
+    static constexpr std::array<std::string_view, 3> values = {"none", "knife_edge", "utd"};
+};
+
+/// Edge that a path goes around: the free end of a wall, or a corner.
+struct RayEdge {
+    /// Ways to the edge and on from it [m], in three dimensions.
+    double before, after;
+    /// Length of the way around it beyond that of the straight path [m].
+    double detour;
+    /// Angle of the open space around the edge over pi [-], 1 to 2, and the directions from the
+    /// edge to the path's ends [rad], from its first face: see WedgePath.
+    double n, phi_before, phi_after;
+    /// The wall at the edge: its material, an index into the scene's, its thickness [m], and the
+    /// cosine of the angle between the straight path and its normal [-].
+    std::size_t material;
+    double thickness, cosine;
+    /// The wall stands in the straight path.
+    bool shadowed;
+};
+
+/// Path between two antennas.
+struct RayPath {
+    /// Length [m], in three dimensions.
+    double length;
+    /// Hits of the path, as RayPaths has them.
+    std::size_t first_hit, hits;
+    /// Edge around which it goes, if it is diffracted.
+    std::optional<RayEdge> edge;
+    /// Least detour around an edge [m], of the straight path: how near to one it passes, on either
+    /// side; infinite if it is not traced with edges.
+    double clearance = std::numeric_limits<double>::infinity();
+};
+
+/// Paths of a link: the straight one, those around edges, those with reflections.
+struct RayPaths {
+    std::vector<RayPath> paths;
+    std::vector<RayHit> all_hits;
+
+    std::span<const RayHit> hits(const RayPath& path) const {
+        return std::span(all_hits).subspan(path.first_hit, path.hits);
+    }
+    void clear() {
+        paths.clear();
+        all_hits.clear();
+    }
+};
+
+}  // namespace rovernet

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "models/propagation/ray_tracer.hpp"
+
+#include "models/propagation/friis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace rovernet {
+namespace {
+
+constexpr double touching = 1e-9;            // [m]
+constexpr double grazing = 0.0174524064373;  // cosine of 89 degrees
+
+double free_space(double length, Hertz f) { return std::max(0.0, free_space_db(length, f)); }
+
+bool is_first(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) <= std::tie(b.x, b.y, b.z); }
+
+Vec3 in_plan(Vec3 p) { return {p.x, p.y, 0}; }
+
+/// The part of a leg from p to q beside a slanting face at one end, where the steps of its outline
+/// are [m].
+double among_steps(const Face& face, Vec3 p, Vec3 q) {
+    if (face.deviation == 0) return 0;
+    const double leaving = std::abs(dot(q - p, face.normal));
+    return leaving > 0 ? face.deviation / leaving * distance(p, q)
+                       : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+RayTracer::RayTracer(const Scene& scene, Vec3 from, int order, double wavelength, bool edges)
+    : scene_(scene), from_(from), wavelength_(wavelength) {
+    if (!scene.faces()) return;
+    faces_ = scene.faces()->all();
+    images_ = RayImages(faces_, from, order, wavelength);
+    if (edges) edges_ = RayEdges(faces_, wavelength);
+}
+
+void RayTracer::trace(Vec3 to, const RayLimit* limit, RayPaths& out) {
+    out.clear();
+    losses_.clear();
+    const bool forward = is_first(from_, to);
+    a_ = forward ? from_ : to;
+    b_ = forward ? to : from_;
+    best_ = std::numeric_limits<double>::infinity();
+    plan({});
+    add({}, limit, out);
+    if (!edges_.all().empty()) add_diffracted(limit, out);
+    propose(to, limit);
+    for (const Candidate& c : candidates_) {
+        if (limit && c.bound > best_ + limit->faintest) break;
+        plan(chain_of(c));
+        add(chain_of(c), limit, out);
+    }
+    if (!limit) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < losses_.size(); ++i) {
+        if (losses_[i] > best_ + limit->faintest) continue;
+        losses_[kept] = losses_[i];
+        out.paths[kept++] = out.paths[i];
+    }
+    losses_.resize(kept);
+    out.paths.resize(kept);
+}
+
+/// Collects the paths that images propose and that exist, the strongest first as far as is known,
+/// in an order that is the same in both directions.
+void RayTracer::propose(Vec3 to, const RayLimit* limit) {
+    candidates_.clear();
+    chains_.clear();
+    const bool forward = a_ == from_;
+    images_.seen_from(to, [&](std::span<const std::uint32_t> chain) {
+        const std::size_t first = chains_.size();
+        chains_.insert(chains_.end(), chain.begin(), chain.end());
+        const auto begin = chains_.begin() + static_cast<std::ptrdiff_t>(first);
+        if (forward) std::reverse(begin, chains_.end());
+        Candidate candidate{0, first, chain.size()};
+        if (plan(chain_of(candidate))) {
+            if (limit) candidate.bound = bound(chain_of(candidate), *limit);
+            candidates_.push_back(candidate);
+        } else {
+            chains_.erase(begin, chains_.end());
+        }
+    });
+    std::sort(candidates_.begin(), candidates_.end(), [&](const Candidate& p, const Candidate& q) {
+        if (p.bound != q.bound) return p.bound < q.bound;
+        if (p.count != q.count) return p.count < q.count;
+        const auto p_chain = chain_of(p), q_chain = chain_of(q);
+        return std::lexicographical_compare(p_chain.begin(), p_chain.end(), q_chain.begin(),
+                                            q_chain.end());
+    });
+}
+
+/// Finds the points of the path by these faces; false if it does not exist.
+bool RayTracer::plan(std::span<const std::uint32_t> chain) {
+    mirrored_.assign(1, in_plan(a_));
+    for (const std::uint32_t number : chain) {
+        const Face& face = faces_[number];
+        const double before = face.in_front(mirrored_.back());
+        if (!(before > 0)) return false;
+        mirrored_.push_back(mirrored_.back() - 2 * before * face.normal);
+    }
+    const Vec3 image = mirrored_.back();
+    const double flat = distance(image, in_plan(b_)), rise = b_.z - a_.z;
+    length_ = std::sqrt(flat * flat + rise * rise);
+    points_.assign(chain.size() + 2, b_);
+    double left = flat;  // of the way in plan, from b back
+    for (std::size_t k = chain.size(); k > 0; --k) {
+        const Face& face = faces_[chain[k - 1]];
+        const Vec3 p = points_[k + 1];
+        const double front = face.in_front(p), behind = -face.in_front(mirrored_[k]);
+        if (!(front > 0)) return false;
+        const Vec3 way = mirrored_[k] - in_plan(p);
+        Vec3 at = in_plan(p) + (front / (front + behind)) * way;
+        const double along = dot(at - face.from, face.to - face.from);
+        if (along < 0 || along > face.length * face.length) return false;
+        left -= distance(in_plan(p), at);
+        at.z = a_.z + rise * (left / flat);
+        if (at.z > face.height) return false;
+        points_[k] = at;
+    }
+    points_[0] = a_;
+    return true;
+}
+
+double RayTracer::bound(std::span<const std::uint32_t> chain, const RayLimit& limit) const {
+    double loss = free_space(length_, limit.frequency);
+    for (std::size_t k = 0; k < chain.size(); ++k)
+        loss += limit.materials.factor(reflection(k, chain[k])).loss();
+    return loss;
+}
+
+/// Adds the planned path with the walls in its way, unless it is too faint.
+void RayTracer::add(std::span<const std::uint32_t> chain, const RayLimit* limit, RayPaths& out) {
+    const std::size_t first = out.all_hits.size();
+    double loss = limit ? free_space(length_, limit->frequency) : 0;
+    std::size_t weighed = first;
+    for (std::size_t leg = 0; leg <= chain.size(); ++leg) {
+        if (leg > 0) out.all_hits.push_back(reflection(leg - 1, chain[leg - 1]));
+        const Vec3 p = points_[leg], q = points_[leg + 1];
+        pass(p, q, leg > 0 ? among_steps(faces_[chain[leg - 1]], p, q) : 0,
+             leg < chain.size() ? among_steps(faces_[chain[leg]], p, q) : 0, out.all_hits);
+        if (!weigh(limit, weighed, loss, out)) return out.all_hits.resize(first);
+    }
+    if (limit) losses_.push_back(loss);
+    best_ = std::min(best_, loss);
+    out.paths.push_back({length_, first, out.all_hits.size() - first, std::nullopt});
+}
+
+/// Adds up the losses of new hits; false if the path is too faint.
+bool RayTracer::weigh(const RayLimit* limit, std::size_t& weighed, double& loss,
+                      RayPaths& out) const {
+    if (!limit) return true;
+    for (; weighed < out.all_hits.size(); ++weighed)
+        loss += limit->materials.factor(out.all_hits[weighed]).loss();
+    return loss <= best_ + limit->faintest;
+}
+
+/// Adds the ways around edges; the straight path is the only one so far.
+void RayTracer::add_diffracted(const RayLimit* limit, RayPaths& out) {
+    const std::vector<std::size_t> in_the_way = crossed_;
+    const auto stands = [&](std::size_t face) {
+        return std::find(in_the_way.begin(), in_the_way.end(), face) != in_the_way.end();
+    };
+    const Vec3 a = in_plan(a_), b = in_plan(b_);
+    const double near = 2.25 * wavelength_, straight = distance(a, b);
+    double clearance = std::numeric_limits<double>::infinity();
+    for (const WallEdge& edge : edges_.all()) {
+        const auto by = [&](Vec3 corner) { return distance(a, corner) + distance(corner, b); };
+        const bool beside = std::min(by(edge.corners[0]), by(edge.corners[1])) - straight < near;
+        if (!beside && !stands(edge.before) && !stands(edge.behind)) continue;
+        const auto way = edges_.around(edge, a_, b_);
+        if (!way) continue;
+        clearance = std::min(clearance, way->detour);
+        const bool close =
+            way->detour < near && (!limit || limit->diffraction == RayDiffraction::utd);
+        if (way->edge.shadowed || close) add_around(edge, *way, limit, out);
+    }
+    if (out.paths.empty()) return;
+    out.paths[0].clearance = clearance;
+    if (limit && limit->diffraction == RayDiffraction::knife_edge)
+        losses_[0] += limit->materials.beside_edge(clearance);
+    if (limit) best_ = *std::min_element(losses_.begin(), losses_.end());
+}
+
+void RayTracer::add_around(const WallEdge& edge, const WayAround& way, const RayLimit* limit,
+                           RayPaths& out) {
+    const std::size_t first = out.all_hits.size();
+    double loss = 0;
+    if (limit)
+        loss = free_space(way.length, limit->frequency) +
+               limit->materials.around(way.edge, limit->diffraction, limit->coherent).loss();
+    std::size_t weighed = first;
+    // The drawn outline may stick out of the faces near the corner, as far as their lines meet.
+    const double skipped = 3 * edge.steps;
+    pass(a_, way.corners[0], 0, skipped, out.all_hits);
+    if (!weigh(limit, weighed, loss, out)) return out.all_hits.resize(first);
+    pass(way.corners[1], b_, skipped, 0, out.all_hits);
+    if (!weigh(limit, weighed, loss, out)) return out.all_hits.resize(first);
+    if (limit) losses_.push_back(loss);
+    best_ = std::min(best_, loss);
+    out.paths.push_back({way.length, first, out.all_hits.size() - first, way.edge});
+}
+
+/// The k-th reflection of the planned path.
+RayHit RayTracer::reflection(std::size_t k, std::uint32_t number) const {
+    const Face& face = faces_[number];
+    const Vec3 way = points_[k + 1] - points_[k];
+    const double length = distance(points_[k + 1], points_[k]);
+    const double cosine = length > 0 ? std::abs(dot(way, face.normal)) / length : 1;
+    return {RayHit::Kind::reflection,         number, face.material, face.thickness,
+            std::clamp(cosine, grazing, 1.0), 0};
+}
+
+/// Appends the walls that a leg passes, but for its first `begin` and last `end` metres.
+void RayTracer::pass(Vec3 p, Vec3 q, double begin, double end, std::vector<RayHit>& out) {
+    crossed_.clear();
+    scene_.crossings(p, q, crossings_);
+    if (crossings_.empty()) return;
+    const double length = distance(p, q);
+    const Vec3 along = (1 / length) * (q - p);
+    for (Crossing c : crossings_) {
+        const bool cut = c.entry < begin || c.exit > length - end;
+        c.entry = std::max(c.entry, begin);
+        c.exit = std::min(c.exit, length - end);
+        if (c.exit - c.entry <= touching) continue;
+        if (cut) c.length = c.exit - c.entry;
+        if (const auto hit = crossing(c, p, along)) out.push_back(*hit);
+    }
+}
+
+/// The wall of a crossing, as its faces have it; nothing if the path only touches steps of a face.
+std::optional<RayHit> RayTracer::crossing(const Crossing& c, Vec3 from, Vec3 along) {
+    auto entry = scene_.faces()->at(from + c.entry * along, c.material);
+    auto exit = scene_.faces()->at(from + c.exit * along, c.material);
+    RayHit hit{RayHit::Kind::crossing, no_face, c.material, c.length, 1, c.length};
+    if (!entry && !exit) return hit;
+    if (entry == exit) return std::nullopt;
+    for (const auto& face : {entry, exit})
+        if (face) crossed_.push_back(*face);
+    // A long side of a wall tells its direction better than its end does.
+    const auto longer = [&](std::size_t f, std::size_t g) {
+        return std::tie(faces_[f].length, g) > std::tie(faces_[g].length, f);
+    };
+    hit.face = !exit || (entry && longer(*entry, *exit)) ? *entry : *exit;
+    const Face& face = faces_[hit.face];
+    hit.cosine = std::clamp(std::abs(dot(along, face.normal)), grazing, 1.0);
+    hit.thickness = c.length * hit.cosine;
+    if (entry && exit && faces_[*entry].opposite(faces_[*exit])) {
+        const Vec3 middle = from + ((c.entry + c.exit) / 2) * along;
+        hit.thickness =
+            std::max(0.0, -faces_[*entry].in_front(middle) - faces_[*exit].in_front(middle));
+    }
+    return hit;
+}
+
+}  // namespace rovernet

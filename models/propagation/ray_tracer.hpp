@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/propagation/ray_edges.hpp"
+#include "models/propagation/ray_images.hpp"
+#include "models/propagation/ray_materials.hpp"
+#include "models/propagation/ray_path.hpp"
+#include "scene/scene.hpp"
+#include "sim/geometry.hpp"
+#include "sim/units.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rovernet {
+
+/// Limit to the paths that are worth their time.
+struct RayLimit {
+    const RayMaterials& materials;
+    Hertz frequency;
+    /// Paths are left out that lose this much more than the strongest one [dB].
+    double faintest;
+    /// How paths go around edges, and whether reflected paths are added with their phases.
+    RayDiffraction diffraction = RayDiffraction::none;
+    bool coherent = false;
+};
+
+/// Finds the paths from one sender to its receivers, by images.
+///
+/// The paths are planned in plan, and rise evenly from one antenna to the other: walls are upright,
+/// and floors and ceilings do not reflect. A reflection at a height where the face has ended does
+/// not happen. A path passes through every wall that stands in its way.
+///
+/// With edges, paths go around one edge each: around the ends of the walls that stand in the
+/// straight path, and around edges that it passes on the other side with a detour of less than 2.25
+/// wavelengths.
+///
+/// Walls are what is drawn, except where a path comes from a slanting face: the steps of the
+/// outline that the face stands for are no walls, neither to the path that the face reflects nor to
+/// one that touches them and leaves by the same face.
+///
+/// All numbers of a path are the same to the last bit in both directions: images only propose it;
+/// its points are computed from that end which comes first by its coordinates.
+class RayTracer {
+  public:
+    /// @param scene  outlives the tracer
+    /// @param order  most reflections
+    /// @param wavelength  [m]; shorter faces do not reflect
+    /// @param edges  paths go around edges, too
+    RayTracer(const Scene& scene, Vec3 from, int order, double wavelength, bool edges = false);
+
+    /// Fills `out` with the paths to a receiver.
+    /// @param limit  null: all paths; else the strongest and those that are within the limit
+    void trace(Vec3 to, const RayLimit* limit, RayPaths& out);
+    /// Losses of the last link's paths [dB], in their order; only with a limit.
+    std::span<const double> losses() const { return losses_; }
+
+  private:
+    /// Path whose walls are not looked for yet.
+    struct Candidate {
+        double bound;              // least loss [dB]
+        std::size_t first, count;  // its faces among chains_, in the order of the path
+    };
+    void propose(Vec3 to, const RayLimit* limit);
+    bool plan(std::span<const std::uint32_t> chain);
+    double bound(std::span<const std::uint32_t> chain, const RayLimit& limit) const;
+    void add(std::span<const std::uint32_t> chain, const RayLimit* limit, RayPaths& out);
+    void add_diffracted(const RayLimit* limit, RayPaths& out);
+    void add_around(const WallEdge& edge, const WayAround& way, const RayLimit* limit,
+                    RayPaths& out);
+    bool weigh(const RayLimit* limit, std::size_t& weighed, double& loss, RayPaths& out) const;
+    RayHit reflection(std::size_t k, std::uint32_t face) const;
+    void pass(Vec3 p, Vec3 q, double begin, double end, std::vector<RayHit>& out);
+    std::optional<RayHit> crossing(const Crossing& c, Vec3 from, Vec3 along);
+    std::span<const std::uint32_t> chain_of(const Candidate& c) const {
+        return std::span(chains_).subspan(c.first, c.count);
+    }
+
+    const Scene& scene_;
+    Vec3 from_;
+    std::span<const Face> faces_;
+    double wavelength_;
+    RayImages images_;
+    RayEdges edges_;
+    // Of the link that is traced:
+    Vec3 a_, b_;
+    double length_ = 0;  // of the path that is planned [m]
+    double best_ = 0;    // loss of the strongest path so far [dB]
+    std::vector<double> losses_;
+    std::vector<std::uint32_t> chains_;
+    std::vector<Candidate> candidates_;
+    std::vector<Vec3> mirrored_, points_;
+    std::vector<Crossing> crossings_;
+    std::vector<std::size_t> crossed_;  // faces of the last leg's walls
+};
+
+}  // namespace rovernet

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "models/propagation/rays.hpp"
+
+#include "models/propagation/friis.hpp"
+#include "models/propagation/ray_tracer.hpp"
+#include "sim/complex_math.hpp"
+#include "sim/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+namespace rovernet {
+namespace {
+
+constexpr double faintest_path = 40;   // [dB] below the strongest
+constexpr double deepest_null = 1e-4;  // of the sum of powers
+
+/// What the paths together can be stronger than the straight one in free space [dB].
+double most_gain(const Rays& model) {
+    if (model.order == 0 && model.diffraction == RayDiffraction::none) return 0;
+    const double paths = 10 * math::log10(model.max_paths);
+    if (model.sum == RaySum::coherent) return 2 * paths;
+    return paths + (model.diffraction == RayDiffraction::utd ? 10 * math::log10(2) : 0);
+}
+
+/// Adds the paths of one link after the other.
+class Summing {
+  public:
+    Summing(const Rays& model, const RayLimit& limit)
+        : model_(model), limit_(limit), wavelength_(speed_of_light / limit.frequency.value) {}
+
+    /// @param losses  [dB] of the paths, at least one
+    double operator()(const RayPaths& paths, std::span<const double> losses) {
+        choose(losses);
+        const double best = *std::min_element(losses.begin(), losses.end());
+        double power = 0, power_of_field = 0;
+        math::Complex field = 0;
+        for (const std::size_t i : chosen_) {
+            const double share = math::exp10((best - losses[i]) / 10);
+            if (has_phase(paths, paths.paths[i])) {
+                power_of_field += share;
+                field += std::sqrt(share) * phase_of(paths, paths.paths[i]);
+            } else {
+                power += share;
+            }
+        }
+        power += std::clamp(std::norm(field), deepest_null * power_of_field,
+                            model_.sum == RaySum::coherent ? std::norm(field) + power_of_field
+                                                           : 2 * power_of_field);
+        return std::max(0.0, best - 10 * math::log10(power));
+    }
+
+  private:
+    /// The path is added to others by its field.
+    bool has_phase(const RayPaths& paths, const RayPath& path) const {
+        if (model_.sum == RaySum::coherent) return true;
+        if (model_.diffraction != RayDiffraction::utd) return false;
+        const auto hits = paths.hits(path);
+        return std::none_of(hits.begin(), hits.end(),
+                            [](const RayHit& hit) { return hit.kind == RayHit::Kind::reflection; });
+    }
+
+    /// Phase of a path, as a field of size 1.
+    math::Complex phase_of(const RayPaths& paths, const RayPath& path) const {
+        const double waves = path.length / wavelength_;
+        math::Complex phase = math::phasor(-2 * std::numbers::pi * (waves - std::floor(waves)));
+        const auto turn = [&](math::Complex field) {
+            const double size = std::sqrt(std::norm(field));
+            if (size > 0) phase *= field / size;
+        };
+        for (const RayHit& hit : paths.hits(path)) turn(limit_.materials.factor(hit).field);
+        if (path.edge)
+            turn(limit_.materials.around(*path.edge, limit_.diffraction, limit_.coherent).field);
+        return phase;
+    }
+
+    /// Chooses the strongest paths, and keeps them in their order.
+    void choose(std::span<const double> losses) {
+        chosen_.resize(losses.size());
+        std::iota(chosen_.begin(), chosen_.end(), std::size_t{0});
+        const auto most = static_cast<std::size_t>(model_.max_paths);
+        if (chosen_.size() <= most) return;
+        std::stable_sort(chosen_.begin(), chosen_.end(),
+                         [&](std::size_t i, std::size_t k) { return losses[i] < losses[k]; });
+        chosen_.resize(most);
+        std::sort(chosen_.begin(), chosen_.end());
+    }
+
+    const Rays& model_;
+    const RayLimit& limit_;
+    double wavelength_;
+    std::vector<std::size_t> chosen_;
+};
+
+}  // namespace
+
+Meters Rays::reach(Db loss, Hertz f) const { return Friis{}.reach(loss + Db{most_gain(*this)}, f); }
+
+void Rays::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+    const Hertz f = links.frequency;
+    const double wavelength = speed_of_light / f.value, gain = most_gain(*this);
+    const RayMaterials materials(links.scene->materials(), f, wall, reflection_loss);
+    const RayLimit limit{materials, f, faintest_path, diffraction, sum == RaySum::coherent};
+    Summing sum_of(*this, limit);
+    std::optional<RayTracer> tracer;  // nothing is traced for receivers that are too far
+    RayPaths paths;
+    for (std::size_t i = 0; i < out_db.size(); ++i) {
+        out_db[i] = std::max(0.0, free_space_db(links.distance(i), f) - gain);
+        if (out_db[i] > give_up.value) continue;
+        if (!tracer)
+            tracer.emplace(*links.scene, links.from, order, wavelength,
+                           diffraction != RayDiffraction::none);
+        tracer->trace(links.to[i], &limit, paths);
+        out_db[i] = sum_of(paths, tracer->losses());
+    }
+}
+
+}  // namespace rovernet

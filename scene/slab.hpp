@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/p2040.hpp"
+#include "sim/complex_math.hpp"
+#include "sim/units.hpp"
+
+namespace rovernet {
+
+/// Fields that a slab makes of a plane wave of unit field, time convention e^(+j omega t).
+struct SlabFields {
+    /// Field behind the slab over that which would be there without it, but for the decay.
+    math::Complex transmitted;
+    /// Decay of the transmitted field [Np], >= 0: it is e^-decay of `transmitted`. Apart, since a
+    /// sheet of metal takes thousands of decibels.
+    double decay;
+    /// Field reflected at the slab's face.
+    math::Complex reflected;
+};
+
+/// Slabs of one material at one frequency, for many thicknesses and angles; for the polarisation
+/// TE, that of an upright antenna before an upright wall. The equations are those of slab_losses(),
+/// and so are the decibels, to rounding.
+///
+///   |transmitted|^2 e^(-2 decay) + |reflected|^2 <= 1
+class Slab {
+  public:
+    Slab(ItuMaterial material, Hertz frequency);
+    /// @param thickness  [m], >= 0
+    /// @param cosine     of the angle between the wave's way and the normal, above 0 to 1
+    SlabFields fields(double thickness, double cosine) const;
+
+  private:
+    double wave_number_;  // in air [rad/m]
+    math::Complex permittivity_;
+};
+
+}  // namespace rovernet
