@@ -110,7 +110,6 @@ std::optional<WayAround> RayEdges::around(const WallEdge& edge, Vec3 a, Vec3 b) 
     e.phi_after = direction_of(b, *at_b);
     const auto open = [&](double phi) { return phi >= 0 && phi <= edge.n * pi; };
     if (!open(e.phi_before) || !open(e.phi_after)) return std::nullopt;
-    e.shadowed = std::abs(e.phi_after - e.phi_before) > pi;
     e.detour = way.detour;
     const Face& wall = before.length >= behind.length ? before : behind;
     const double straight = distance(a, b);

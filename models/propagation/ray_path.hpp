@@ -45,6 +45,9 @@ enum class RayDiffraction {
     knife_edge,  ///< edges as those of screens that let nothing through
     utd          ///< edges as wedges, by the uniform theory of diffraction
 };
+/// Detour around an edge [wavelengths] below which the edge acts on the straight path: up to there
+/// the straight path and the way around the edge are one field.
+inline constexpr double near_edge = 2.25;
 /// Words of `diffraction` in files.
 template <>
 struct EnumNames<RayDiffraction> {
@@ -64,8 +67,8 @@ struct RayEdge {
     /// cosine of the angle between the straight path and its normal [-].
     std::size_t material;
     double thickness, cosine;
-    /// The wall stands in the straight path.
-    bool shadowed;
+    /// The straight path passes through a face beside the edge.
+    bool shadowed = false;
 };
 
 /// Path between two antennas.

@@ -166,14 +166,16 @@ void RayTracer::add_diffracted(const RayLimit* limit, RayPaths& out) {
         return std::find(in_the_way.begin(), in_the_way.end(), face) != in_the_way.end();
     };
     const Vec3 a = in_plan(a_), b = in_plan(b_);
-    const double near = 2.25 * wavelength_, straight = distance(a, b);
+    const double near = near_edge * wavelength_, straight = distance(a, b);
     double clearance = std::numeric_limits<double>::infinity();
     for (const WallEdge& edge : edges_.all()) {
         const auto by = [&](Vec3 corner) { return distance(a, corner) + distance(corner, b); };
         const bool beside = std::min(by(edge.corners[0]), by(edge.corners[1])) - straight < near;
         if (!beside && !stands(edge.before) && !stands(edge.behind)) continue;
-        const auto way = edges_.around(edge, a_, b_);
+        auto way = edges_.around(edge, a_, b_);
         if (!way) continue;
+        // As the straight path has it, and not as angles have it: so the two switch together.
+        way->edge.shadowed = stands(edge.before) || stands(edge.behind);
         clearance = std::min(clearance, way->detour);
         const bool close =
             way->detour < near && (!limit || limit->diffraction == RayDiffraction::utd);

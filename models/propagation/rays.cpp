@@ -59,6 +59,8 @@ class Summing {
     bool has_phase(const RayPaths& paths, const RayPath& path) const {
         if (model_.sum == RaySum::coherent) return true;
         if (model_.diffraction != RayDiffraction::utd) return false;
+        // Far edges interfere with one another within half a metre: a mean does not show that.
+        if (path.edge && path.edge->detour >= near_edge * wavelength_) return false;
         const auto hits = paths.hits(path);
         return std::none_of(hits.begin(), hits.end(),
                             [](const RayHit& hit) { return hit.kind == RayHit::Kind::reflection; });

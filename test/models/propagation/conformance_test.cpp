@@ -72,6 +72,15 @@ std::vector<Raytrace2007> variants() {
     return {{}, {.coefficient = 20, .wall_factor = 0.1}, {.wall_factor = 0}};
 }
 
+template <>
+std::vector<Rays> variants() {
+    return {{},
+            {.order = 0, .diffraction = RayDiffraction::none},
+            {.order = 1, .diffraction = RayDiffraction::utd, .max_paths = 3},
+            {.order = 1, .sum = RaySum::coherent, .wall = ItuMaterial::metal},
+            {.order = 1, .diffraction = RayDiffraction::utd, .sum = RaySum::coherent}};
+}
+
 /// Calls check(model) for each variant of each listed model.
 template <class Check>
 void for_each_variant(Check check) {
