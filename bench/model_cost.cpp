@@ -8,6 +8,7 @@
 //   their number
 
 #include "bench/office.hpp"
+#include "models/medium/shadowed.hpp"
 #include "models/propagation/list.hpp"
 #include "models/propagation/propagation.hpp"
 #include "sim/random.hpp"
@@ -53,6 +54,10 @@ std::vector<NamedModel> all_models() {
             out.push_back({std::string(Model::name), Propagation(Model{})});
     });
     out.push_back({"two_ray_exact", TwoRay{.form = TwoRayForm::exact}});
+    out.push_back({"rays_order_1", Rays{.order = 1, .diffraction = RayDiffraction::none}});
+    out.push_back({"rays_order_2_utd", Rays{.order = 2, .diffraction = RayDiffraction::utd}});
+    out.push_back(
+        {"friis_in_field", Shadowed(Friis{}, Shadowing{.model = ShadowingModel::field}, 1, 0)});
     return out;
 }
 
