@@ -20,8 +20,8 @@ void note_unlikely(Scenario& scenario);
 /// @param scene  the scenario's; null: an open field
 void note_places(Scenario& scenario, const Scene* scene);
 
-/// Notices walls that count twice: in the map, and in the coefficient N of raytrace_2007, which
-/// holds those of a usual building from N = 23 on.
+/// Notices walls that count twice: those of the map, and those of a usual building that the
+/// coefficient N of raytrace_2007 holds where it is above 22.
 /// @param scene  the scenario's; null: an open field
 void note_walls_twice(Scenario& scenario, const Scene* scene);
 
