@@ -52,7 +52,7 @@ Tails rician_tails(double k, double x) {
 }
 
 double rician_quantile(double k, double p) {
-    double low = -30, high = 8;  // logarithms of powers
+    double low = -30, high = 3.1;  // logarithms of powers; of rayleigh's 1 - 1e-9 it is 3.03
     for (int i = 0; i < 64; ++i) {
         const double middle = (low + high) / 2;
         const Tails tails = rician_tails(k, math::exp(middle));

@@ -123,9 +123,9 @@ TEST_CASE("fading: one fade for a frame at a receiver, another for each other") 
 TEST_CASE("fading: places have powers of the distribution, of mean 1 over the seeds") {
     for (const Fading& settings : all_settings(Coherence::place)) {
         std::vector<double> powers;
-        for (std::uint64_t seed = 0; seed < 80; ++seed) {
+        for (std::uint64_t seed = 0; seed < 40; ++seed) {
             const Fades fades(settings, seed, 2);
-            for (int i = 0; i < 125; ++i) {
+            for (int i = 0; i < 250; ++i) {
                 const Vec3 a{1.7 * i, 40, 0}, b{-2.9 * i, 0.3 * i, 0};
                 powers.push_back(power(fades, {1, 1, a, b, frequency}));
             }
@@ -151,15 +151,18 @@ TEST_CASE("fading: a robot that comes back finds the fade, in both directions, i
 
 TEST_CASE("fading: power correlation J0^2 as one end moves (vectors: Jakes)") {
     const test::Vectors vectors("jakes_autocorr_2450MHz.csv");
+    std::vector<Fades> seeds;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        seeds.emplace_back(Fading{.model = FadingModel::rayleigh, .coherence = Coherence::place},
+                           seed, 0);
+    }
     int rows = 0;
     for (std::size_t row = 0; row < vectors.size(); ++row) {
         const double moved = vectors.number(row, "speed_m/s") * vectors.number(row, "tau_s");
         if (moved > wavelength || vectors.number(row, "tau_s") < 0.05) continue;
         ++rows;
         double xy = 0, xx = 0, x = 0, n = 0;
-        for (std::uint64_t seed = 0; seed < 400; ++seed) {
-            const Fades fades({.model = FadingModel::rayleigh, .coherence = Coherence::place}, seed,
-                              0);
+        for (const Fades& fades : seeds) {
             for (int i = 0; i < 20; ++i) {
                 const double angle = 0.7 * i;
                 const Vec3 a{2.3 * i, 60, 0}, b{-3.1 * i, 0, 0};
@@ -175,7 +178,7 @@ TEST_CASE("fading: power correlation J0^2 as one end moves (vectors: Jakes)") {
         const double mean = x / n;
         const double correlation = (xy / n - mean * mean) / (xx / n - mean * mean);
         CAPTURE(moved);
-        constexpr double noise = 0.06;  // of 8,000 looks, whose powers have heavy tails
+        constexpr double noise = 0.06;  // of 6,000 looks, whose powers have heavy tails
         CHECK(test::near(correlation, vectors.number(row, "power_corr_J0^2"), noise));
     }
     CHECK(rows >= 4);
@@ -183,7 +186,7 @@ TEST_CASE("fading: power correlation J0^2 as one end moves (vectors: Jakes)") {
 
 TEST_CASE("fading: a level is crossed as often on the way as Rice says (vectors)") {
     const test::Vectors vectors("rayleigh_lcr_afd.csv");
-    constexpr int seeds = 60, steps = 2000;
+    constexpr int seeds = 40, steps = 2000;
     constexpr double step = 0.02;  // wavelengths
     std::vector<std::vector<double>> ways;
     for (int seed = 0; seed < seeds; ++seed) {
