@@ -120,10 +120,6 @@ class Medium {
                                         Receivers& out);
     /// Position of the sender's antenna in the last find_receivers() [m].
     Vec3 origin() const { return origin_; }
-    /// Heading of that sender at `t` [rad]; 0 if no antenna is directional.
-    Radians heading(NodeId node, Time t, const Legs& legs) const {
-        return {is_directional() ? legs.leg(node).heading_at(t) : 0};
-    }
     /// Distance of its farthest receiver [m].
     double heard_within();
     /// Delay [ns] of a frame over a distance [m].
@@ -194,6 +190,10 @@ class Medium {
 
     /// Position of a node's antenna at `t` [m].
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
+    /// Heading of a node at `t` [rad]; 0 if no antenna is directional, as nobody needs it then.
+    Radians heading(NodeId node, Time t, const Legs& legs) const {
+        return {is_directional() ? legs.leg(node).heading_at(t) : 0};
+    }
     /// Pose of a node's antenna at `t`.
     Pose pose(NodeId node, Time t, const Legs& legs) const;
 

@@ -273,3 +273,33 @@ TEST_CASE("link watch: more robots than it can watch are refused") {
     for (std::size_t i = 0; i <= LinkWatch::most_robots; ++i) network.add(disc, resting({}));
     CHECK_THROWS_AS(network.watch.start(begin), RunError);
 }
+
+TEST_CASE("link watch: a directional antenna that turns in place changes links, leg by leg") {
+    const Scene field;
+    Harness network{&field, {.tolerance = 1us, .min_dwell = 10ms}};
+    const Radio sector{.antenna = AntennaShape::cosine, .antenna_beamwidth = Radians{1}};
+    Leg turning = resting({});
+    turning.end = begin + 1000s;  // longer than one search looks ahead
+    turning.heading = -3;
+    turning.turning = 0.006;
+    network.add(Friis{}, turning, sector);
+    network.add(Friis{}, resting({200, 0, 0}));
+    network.watch.start(begin);
+    for (int s = 0; s <= 1000; s += 50) {
+        network.run_until(begin + s * 1s);
+        network.check(begin + s * 1s);
+    }
+    const auto told = network.take();
+    REQUIRE(told.size() == 4);  // both ways, in and out
+    for (const LinkChange& change : told) {
+        CHECK(network.medium.link_up(change.from, change.to, change.time, network.legs) ==
+              change.up);
+        CHECK(network.medium.link_up(change.from, change.to, change.time - 1us, network.legs) !=
+              change.up);
+    }
+    // Another heading at rest is a change at once.
+    Leg ahead = resting({}, begin + 1001s);
+    network.replace(a, ahead);
+    network.run_until(begin + 1001s);
+    CHECK(network.take().size() == 2);
+}
