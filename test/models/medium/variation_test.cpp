@@ -246,6 +246,30 @@ TEST_CASE("variation: links are local means, which no frame's fade is in") {
     CHECK(differ > 20);
 }
 
+TEST_CASE(
+    "variation: Rayleigh frames reach a robot with probability e^(-1 / margin), near and far") {
+    Medium medium({.fading = {.model = FadingModel::rayleigh}});
+    Legs legs;
+    const std::vector<double> places{0, 100, 300, 420, 700, 1000};
+    for (const double x : places) {
+        legs.add(test::resting({x, 0, 0}));
+        medium.add({}, legs.size(), Friis{});
+    }
+    constexpr int frames = 2000;
+    std::vector<int> heard(places.size());
+    for (int i = 0; i < frames; ++i) {
+        for (const NodeId node : receivers(medium, a, start_of_run + i * 1ms, legs))
+            ++heard[node.index()];
+    }
+    for (NodeId to{1}; to.value < places.size(); ++to.value) {
+        CAPTURE(places[to.index()]);
+        const double margin = medium.margin(a, to, start_of_run, legs).value;
+        const double p = std::exp(-std::pow(10, -margin / 10));
+        const double four_sigma = 4 * std::sqrt(p * (1 - p) / frames);
+        CHECK(test::near(heard[to.index()] / double{frames}, p, four_sigma));
+    }
+}
+
 TEST_CASE("variation: where places have fades, a robot that comes back is heard as before") {
     Medium medium({.fading = {.model = FadingModel::rayleigh, .coherence = Coherence::place}});
     Legs legs;
