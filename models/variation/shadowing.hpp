@@ -66,9 +66,10 @@ struct Shadowing {
 ///   |k| = sqrt((1 - u Z_K)^-2 - 1) / d_cor,  Z_K = 1 - 1 / sqrt(1 + K^2 d_cor^2),  K d_cor = 50,
 ///
 /// with u uniform in (0, 1) and directions and phases uniform. Z has mean 0 and variance 1 over the
-/// seeds. Its correlation is e^(-D / d_cor), within 0.018, as one end moves by D, and the product
+/// seeds. Its correlation is e^(-D / d_cor), within 0.022, as one end moves by D, and the product
 /// of both ends' as both move. (A sum S(a) + S(b) of a field of places would keep one half however
-/// far one end moves.) Distances are horizontal.
+/// far one end moves.) That holds for ends at least d_cor apart; nearer ones change places, and are
+/// more alike: for |a - b| << D by sqrt(2 / (1 + e^(-2 D / d_cor))). Distances are horizontal.
 ///
 /// Sources: M. Gudmundson, Correlation model for shadow fading in mobile radio systems, Electronics
 /// Letters 27(23), 1991, for the correlation; |k| is the radial spectrum of e^(-D / d_cor) in the

@@ -7,6 +7,11 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
 using namespace rovernet;
 using test::near;
 
@@ -67,4 +72,81 @@ TEST_CASE("link gain: a loss of 10,000 dB leaves a level, not minus infinity (S1
     const Dbm level = received_power({.power = 40_dBm}, {}, 10000_dB);
     CHECK(near(level.value, 40 - 10000, tolerance));
     CHECK(near(received_power({.power = 40_dBm}, {}, 500_dB).value, -460, tolerance));
+}
+
+namespace {
+
+constexpr double degree = 3.141592653589793 / 180;
+constexpr double pattern_tolerance = 1e-9;  // [dB], of angles in degrees
+
+/// Gain of a radio at the origin that heads along `heading`, towards an angle, both in degrees.
+double gain_at(const Radio& radio, double angle, double heading = 0) {
+    const Vec3 place{5 * std::cos(angle * degree), 5 * std::sin(angle * degree), 7};
+    return pattern_gain(radio, {{0, 0, 1}, Radians{heading * degree}}, place).value;
+}
+
+}  // namespace
+
+TEST_CASE("antennas: a table is linear in dB between its points, around the whole turn") {
+    const Radio radio{.antenna = AntennaShape::table,
+                      .antenna_direction = Radians{30 * degree},
+                      .antenna_pattern = {{{0, 0}, {90, -9}, {180, -20}, {270, -4}}}};
+    for (const double turn : {0.0, 360.0, -720.0, 77.0}) {
+        const auto gain = [&](double from_axis) {
+            return gain_at(radio, turn + 30 + from_axis, turn);
+        };
+        CHECK(near(gain(0), 0, pattern_tolerance));
+        CHECK(near(gain(30), -3, pattern_tolerance));
+        CHECK(near(gain(135), -14.5, pattern_tolerance));
+        CHECK(near(gain(-45), -2, pattern_tolerance));  // between 270 and 360
+        CHECK(near(gain(-135), -12, pattern_tolerance));
+    }
+    CHECK(pattern_gain(radio, {}, {0, 0, 9}).value == 0);  // straight above
+}
+
+TEST_CASE("antennas: a sector loses 3 dB at half its beamwidth, and never more than behind") {
+    for (const double width : {20.0, 60.0, 120.0, 300.0}) {
+        const Radio radio{.antenna = AntennaShape::cosine,
+                          .antenna_beamwidth = Radians{width * degree},
+                          .front_to_back = Db{17}};
+        CHECK(near(gain_at(radio, 0), 0, pattern_tolerance));
+        CHECK(near(gain_at(radio, width / 2), -3, pattern_tolerance));
+        CHECK(near(gain_at(radio, -width / 2), -3, pattern_tolerance));
+        CHECK(near(gain_at(radio, 40 + width / 2, 40), -3, pattern_tolerance));
+        CHECK(near(gain_at(radio, 180), -17, pattern_tolerance));
+        for (double angle = 0; angle < 360; angle += 7) {
+            CHECK(gain_at(radio, angle) <= 0);
+            CHECK(gain_at(radio, angle) >= -17);
+        }
+    }
+}
+
+TEST_CASE(
+    "antennas: gains are those of the poses where an antenna is directional, and only there") {
+    const Radio plain{.antenna_gain = 2_dB, .cable_loss = 1_dB};
+    Radio sector = plain;
+    sector.antenna = AntennaShape::cosine;
+    bool asked = false;
+    const auto poses = [&] {
+        asked = true;
+        return std::pair{Pose{{0, 0, 0}, Radians{180 * degree}}, Pose{{9, 0, 0}, Radians{0}}};
+    };
+    CHECK(LinkGain::of(plain, plain, poses).sender == 1_dB);
+    CHECK_FALSE(asked);
+    const LinkGain gain = LinkGain::of(sector, plain, poses);
+    CHECK(near(gain.sender.value, 1 - 20, pattern_tolerance));
+    CHECK(gain.receiver == 1_dB);
+    CHECK(near(LinkGain::of(plain, sector, poses).receiver.value, 1 - 20, pattern_tolerance));
+}
+
+TEST_CASE("antennas: a table without points, above 0 dB or out of order is refused") {
+    const auto check = [](std::vector<PatternPoint> points) {
+        check_antenna({.antenna = AntennaShape::table, .antenna_pattern = std::move(points)});
+    };
+    CHECK_NOTHROW(check({{0, 0}}));
+    CHECK_NOTHROW(check({{-180, -3}, {0, 0}, {179, -2}}));
+    CHECK_THROWS_AS(check({}), std::invalid_argument);
+    CHECK_THROWS_AS(check({{0, 0.1}}), std::invalid_argument);
+    CHECK_THROWS_AS(check({{0, 0}, {0, -1}}), std::invalid_argument);
+    CHECK_THROWS_AS(check({{0, 0}, {360, -1}}), std::invalid_argument);
 }
