@@ -43,7 +43,7 @@ struct Shadowing {
     ShadowingModel model = ShadowingModel::none;
     /// Standard deviation of X [dB], >= 0.
     Db sigma{5};
-    /// Distance d_cor [m], > 0, over which the correlation of `field` falls to 1 / e as one end
+    /// Distance d_cor [m], >= 1 mm, over which the correlation of `field` falls to 1 / e as one end
     /// moves. 3GPP TR 38.901, table 7.5-6, has 10 m and 6 m for offices with and without line of
     /// sight.
     Meters decorrelation_distance{10};
@@ -54,7 +54,8 @@ struct Shadowing {
             field("model", &Shadowing::model,
                   "none; link: a draw of each pair of robots; field: of both places"),
             field("sigma", &Shadowing::sigma, non_negative, "standard deviation of the shadowing"),
-            field("decorrelation_distance", &Shadowing::decorrelation_distance, positive,
+            field("decorrelation_distance", &Shadowing::decorrelation_distance,
+                  Range{.low = 1e-3, .text = ">= 1 mm"},
                   "of field: the correlation falls to 1 / e as one end moves so far"));
     }
 };
