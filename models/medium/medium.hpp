@@ -142,7 +142,7 @@ class Medium {
                                    Radians heading = {}) {
         at.z += kinds_.height(kind(to));
         const double d2 = squared_distance(frame.origin, at);
-        return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, {at, heading});
+        return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, at, heading);
     }
     /// Received power [dBm] at `to` of a frame, also if its level was left open.
     Dbm level(const Arrival& arrival, NodeId to) const;
@@ -246,8 +246,8 @@ class Medium {
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
     // Frame as it arrives, as arrival(), within its reach.
-    std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to,
-                                        const Pose& there);
+    std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there,
+                                        Radians heading);
     // Model with the shadowing of the settings over it; the same for copies of one handle.
     Propagation shadowed(const Propagation& model);
     // Links of a transmitter, as a model is asked for them.

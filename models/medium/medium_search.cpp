@@ -198,8 +198,8 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
 }
 
 /// As arrival(), within the reach of the frame.
-std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, NodeId to,
-                                            const Pose& there) {
+std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there,
+                                            Radians heading) {
     const Kind mine = kind(frame.from), theirs = kind(to);
     if (!kinds_.may_link(mine, theirs)) return std::nullopt;
     double level_dbm = std::numeric_limits<double>::quiet_NaN();
@@ -216,12 +216,11 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
         case Decision::by_loss: {
             const Radio &sender = kinds_.radio(mine), &receiver = kinds_.radio(theirs);
             const LinkGain gain = LinkGain::of(sender, receiver, [&] {
-                return std::pair{Pose{frame.origin, frame.heading}, there};
+                return std::pair{Pose{frame.origin, frame.heading}, Pose{there, heading}};
             });
             const Db most = kinds_.budget(Strength::interfering, sender, receiver, gain);
             const std::uint64_t key = frame_key(frame.from, frame.begin);
-            const Db lost{
-                loss(frame.from, to, frame.origin, there.antenna, frame.begin, key, most)};
+            const Db lost{loss(frame.from, to, frame.origin, there, frame.begin, key, most)};
             if (lost > most) return std::nullopt;
             level_dbm = received_power(sender, lost, gain).value;
         }
