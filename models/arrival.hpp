@@ -4,7 +4,6 @@
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/time.hpp"
-#include "sim/units.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -21,8 +20,6 @@ struct Emission {
     Time begin, end;
     /// Position of the sender's antenna at `begin` [m].
     Vec3 origin = {};
-    /// Heading of the sender at `begin` [rad], for a directional antenna.
-    Radians heading{0};
     /// Sender.
     NodeId from;
     /// Distance from the origin [m] within which all its receivers are.

@@ -21,6 +21,11 @@ struct Pose {
     Radians heading{0};
 };
 
+/// Headings of both ends of a frame when it begins [rad], for directional antennas.
+struct Headings {
+    Radians from, to;
+};
+
 /// Gain of a directional antenna towards a place, below antenna_gain [dB], <= 0; its equations are
 /// those of AntennaShape. The place counts by its horizontal direction from the antenna; straight
 /// above and below the gain is 0 dB.

@@ -123,15 +123,15 @@ void Channel::find_levels(Flight& flight, Time end) {
     const Emission frame{.begin = world_.now,
                          .end = end,
                          .origin = medium.origin(),
-                         .heading = medium.heading(sender, world_.now, world_.legs),
                          .from = sender,
                          .heard_within = medium.heard_within(),
                          .squared_reach = std::numeric_limits<double>::infinity()};
     for (const Reception& r : flight.receivers.all()) {
         const Vec3 there = medium.position(r.node, world_.now, world_.legs);
-        const Radians heading = medium.heading(r.node, world_.now, world_.legs);
+        const Headings headings{{world_.legs.leg(sender).heading_at(world_.now)},
+                                {world_.legs.leg(r.node).heading_at(world_.now)}};
         flight.levels.push_back(
-            medium.level(*medium.arrival(frame, r.node, there, heading), r.node));
+            medium.level(*medium.arrival(frame, r.node, there, &headings), r.node));
     }
 }
 

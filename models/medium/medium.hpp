@@ -136,13 +136,12 @@ class Medium {
     /// Frame as it arrives at `to`, which is `at` [m] when it begins; nothing if it is too weak to
     /// interfere, or if the two may have no link. The level is left open where the distance and the
     /// pair decide it.
-    /// @param heading  of `to` when the frame begins [rad]; counts only if some antenna is
-    /// directional
+    /// @param headings  null unless some antenna is directional
     std::optional<Arrival> arrival(const Emission& frame, NodeId to, Vec3 at,
-                                   Radians heading = {}) {
+                                   const Headings* headings = nullptr) {
         at.z += kinds_.height(kind(to));
         const double d2 = squared_distance(frame.origin, at);
-        return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, at, heading);
+        return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, at, headings);
     }
     /// Received power [dBm] at `to` of a frame, also if its level was left open.
     Dbm level(const Arrival& arrival, NodeId to) const;
@@ -190,10 +189,6 @@ class Medium {
 
     /// Position of a node's antenna at `t` [m].
     Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
-    /// Heading of a node at `t` [rad]; 0 if no antenna is directional, as nobody needs it then.
-    Radians heading(NodeId node, Time t, const Legs& legs) const {
-        return {is_directional() ? legs.leg(node).heading_at(t) : 0};
-    }
     /// Pose of a node's antenna at `t`.
     Pose pose(NodeId node, Time t, const Legs& legs) const;
 
@@ -247,7 +242,7 @@ class Medium {
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
     // Frame as it arrives, as arrival(), within its reach.
     std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there,
-                                        Radians heading);
+                                        const Headings* headings);
     // Model with the shadowing of the settings over it; the same for copies of one handle.
     Propagation shadowed(const Propagation& model);
     // Links of a transmitter, as a model is asked for them.
@@ -293,9 +288,8 @@ class Medium {
     // Nodes whose heights the kinds know, if heights matter.
     std::size_t measured_ = 0;
 
-    // Search that found_ is of: from, strength, time, changes_ and the frame if frames fade; then
-    // what is under work.
-    std::optional<std::tuple<NodeId, Strength, Time, std::uint64_t, std::uint64_t>> last_;
+    // Search that found_ is of: from, strength, time and changes_; then what is under work.
+    std::optional<std::tuple<NodeId, Strength, Time, std::uint64_t>> last_;
     Vec3 origin_;
     // Results of the last search.
     Sieve<Found> found_, sensors_;

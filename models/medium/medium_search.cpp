@@ -85,8 +85,9 @@ void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use
 /// Those for whom a signal of `from` is strong enough: in found_ who can decode it, in sensors_ the
 /// others.
 void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame) {
-    const std::tuple search{from, strength, t, changes_, fades_ ? frame : std::uint64_t{0}};
-    if (std::exchange(last_, search) == search) return;  // a message is sent where it was asked for
+    const std::tuple search{from, strength, t, changes_};
+    // A message is sent where it was asked for; but that had no fade.
+    if (std::exchange(last_, search) == search && !fades_) return;
     found_.clear();
     sensors_.clear();
     kinds_.prepare(kind(from));
@@ -199,7 +200,7 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
 
 /// As arrival(), within the reach of the frame.
 std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there,
-                                            Radians heading) {
+                                            const Headings* headings) {
     const Kind mine = kind(frame.from), theirs = kind(to);
     if (!kinds_.may_link(mine, theirs)) return std::nullopt;
     double level_dbm = std::numeric_limits<double>::quiet_NaN();
@@ -216,7 +217,7 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
         case Decision::by_loss: {
             const Radio &sender = kinds_.radio(mine), &receiver = kinds_.radio(theirs);
             const LinkGain gain = LinkGain::of(sender, receiver, [&] {
-                return std::pair{Pose{frame.origin, frame.heading}, Pose{there, heading}};
+                return std::pair{Pose{frame.origin, headings->from}, Pose{there, headings->to}};
             });
             const Db most = kinds_.budget(Strength::interfering, sender, receiver, gain);
             const std::uint64_t key = frame_key(frame.from, frame.begin);

@@ -11,7 +11,6 @@ std::uint64_t Interference::add(Emission frame, BitRate rate,
                                 std::span<const Reception> receptions) {
     Medium& medium = *settings_.medium;
     frame.origin = medium.origin();
-    frame.heading = medium.heading(frame.from, frame.begin, *settings_.legs);
     frame.heard_within = medium.heard_within();
     frame.squared_reach = medium.squared_reach(frame.from);
     const std::uint64_t serial = on_air_.add(frame);
@@ -49,15 +48,31 @@ void Interference::judge(std::uint64_t serial, std::span<Reception> receptions, 
 std::optional<Arrival> Interference::arrival(const Emission& frame, NodeId node) {
     if (frame.from == node) return own_frame(node, frame.begin, frame.end);
     Medium& medium = *settings_.medium;
+    if (medium.is_directional()) [[unlikely]]
+        return directional_arrival(frame, node);
     if (on_air_.has_changed(node)) {
         if (const OnAir::Before* before = on_air_.before(node, frame)) {
             if (!before->on) return std::nullopt;
-            return medium.arrival(frame, node, before->leg.position(frame.begin),
-                                  Radians{before->leg.heading_at(frame.begin)});
+            return medium.arrival(frame, node, before->leg.position(frame.begin));
         }
     }
-    return medium.arrival(frame, node, medium.position(node, frame.begin, *settings_.legs),
-                          medium.heading(node, frame.begin, *settings_.legs));
+    return medium.arrival(frame, node, medium.position(node, frame.begin, *settings_.legs));
+}
+
+/// As arrival(), with the headings of both ends when the frame began.
+std::optional<Arrival> Interference::directional_arrival(const Emission& frame, NodeId node) {
+    const auto before = [&](NodeId end) {
+        return on_air_.has_changed(end) ? on_air_.before(end, frame) : nullptr;
+    };
+    const auto leg_of = [&](NodeId end) {
+        const OnAir::Before* changed = before(end);
+        return changed ? changed->leg : settings_.legs->leg(end);
+    };
+    if (const OnAir::Before* changed = before(node); changed && !changed->on) return std::nullopt;
+    const Leg leg = leg_of(node);
+    const Headings headings{{leg_of(frame.from).heading_at(frame.begin)},
+                            {leg.heading_at(frame.begin)}};
+    return settings_.medium->arrival(frame, node, leg.position(frame.begin), &headings);
 }
 
 double Interference::draw(Purpose purpose, NodeId from, NodeId to, std::uint64_t number) const {

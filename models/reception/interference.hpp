@@ -104,6 +104,9 @@ class Interference {
     std::uint64_t key(NodeId node) const { return settings_.medium->key(node); }
 
   private:
+    // Frame as it arrives at a node that is not its sender, where antennas are directional.
+    std::optional<Arrival> directional_arrival(const Emission& frame, NodeId node);
+
     Settings settings_;
     std::unique_ptr<Judge> judge_;
     // Frames on air, and what nodes were before they changed.

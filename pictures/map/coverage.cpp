@@ -43,7 +43,7 @@ Transmitter transmitter(const Network& network, NodeId robot, Time at) {
     return {.model = network.medium().model(robot).median(),
             .radio = network.medium().radio(robot),
             .antenna = network.medium().antenna(robot, at, network.legs()),
-            .heading = network.medium().heading(robot, at, network.legs()),
+            .heading = Radians{network.legs().leg(robot).heading_at(at)},
             .key = name_key(network.name(robot)),
             .scene = &network.scene(),
             .floor_height = settings.floor_height,

@@ -126,7 +126,6 @@ Emission frame_of(Medium& medium, NodeId from, Time t, const Legs& legs) {
     return {.begin = t,
             .end = t + 1ms,
             .origin = medium.antenna(from, t, legs),
-            .heading = medium.heading(from, t, legs),
             .from = from,
             .heard_within = medium.heard_within(),
             .squared_reach = medium.squared_reach(from)};
@@ -151,8 +150,10 @@ TEST_CASE("variation: who hears is who a search over all pairs finds, and whose 
                 const Emission frame = frame_of(twins.fast, from, t, twins.legs);
                 for (NodeId to{0}; to.value < robots; ++to.value) {
                     if (to == from) continue;
-                    const auto arrives = twins.fast.arrival(frame, to, twins.legs.position(to, t),
-                                                            twins.fast.heading(to, t, twins.legs));
+                    const Headings headings{{twins.legs.leg(from).heading_at(t)},
+                                            {twins.legs.leg(to).heading_at(t)}};
+                    const auto arrives =
+                        twins.fast.arrival(frame, to, twins.legs.position(to, t), &headings);
                     const bool hears = std::binary_search(heard.begin(), heard.end(), to);
                     if (!arrives) CHECK_FALSE(hears);
                     if (!arrives) continue;
