@@ -130,8 +130,11 @@ void Channel::find_levels(Flight& flight, Time end) {
         const Vec3 there = medium.position(r.node, world_.now, world_.legs);
         const Headings headings{{world_.legs.leg(sender).heading_at(world_.now)},
                                 {world_.legs.leg(r.node).heading_at(world_.now)}};
-        flight.levels.push_back(
-            medium.level(*medium.arrival(frame, r.node, there, &headings), r.node));
+        const auto arrives = medium.is_directional()
+                                 ? medium.arrival(frame, r.node, there, headings)
+                                 : medium.arrival(frame, r.node, there);
+        const bool open = std::isnan(arrives->level_dbm);
+        flight.levels.push_back(open ? medium.level(*arrives, r.node) : Dbm{arrives->level_dbm});
     }
 }
 

@@ -142,13 +142,16 @@ Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
 /// Path loss [dB] from `from` here to `to` there.
 double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
                     Db give_up) const {
-    if (fades_) give_up = give_up + fades_->most();
     LinkBatch link = batch(from, here, t, frame);
     link.to = {&there, 1};
     link.to_keys = {&keys_[to.index()], 1};
     double db = 0;
-    model(from).loss(link, give_up, {&db, 1});
-    return fades_ ? faded(db, from, to, here, there, frame) : db;
+    if (!fades_) {
+        model(from).loss(link, give_up, {&db, 1});
+        return db;
+    }
+    model(from).loss(link, give_up + fades_->most(), {&db, 1});
+    return faded(db, from, to, here, there, frame);
 }
 
 /// Loss [dB] that a frame sees; the local mean has no frame.

@@ -136,14 +136,20 @@ class Medium {
     /// Frame as it arrives at `to`, which is `at` [m] when it begins; nothing if it is too weak to
     /// interfere, or if the two may have no link. The level is left open where the distance and the
     /// pair decide it.
-    /// @param headings  null unless some antenna is directional
-    std::optional<Arrival> arrival(const Emission& frame, NodeId to, Vec3 at,
-                                   const Headings* headings = nullptr) {
+    std::optional<Arrival> arrival(const Emission& frame, NodeId to, Vec3 at) {
         at.z += kinds_.height(kind(to));
         const double d2 = squared_distance(frame.origin, at);
-        return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, at, headings);
+        return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, at);
     }
-    /// Received power [dBm] at `to` of a frame, also if its level was left open.
+    /// The same where some antenna is directional, with the headings of both ends as it begins.
+    std::optional<Arrival> arrival(const Emission& frame, NodeId to, Vec3 at,
+                                   const Headings& headings) {
+        at.z += kinds_.height(kind(to));
+        const double d2 = squared_distance(frame.origin, at);
+        if (d2 > frame.squared_reach || !may_link(frame.from, to)) return std::nullopt;
+        return arrival_by_loss(frame, d2, to, at, headings);
+    }
+    /// Received power [dBm] at `to` of a frame whose level was left open.
     Dbm level(const Arrival& arrival, NodeId to) const;
     /// Whether the level of `frame` at `to` exceeds that of `other` by `by` or more. Levels that
     /// are open remain so if that is plain without them.
@@ -241,8 +247,12 @@ class Medium {
     template <class Use>
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
     // Frame as it arrives, as arrival(), within its reach.
-    std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there,
-                                        const Headings* headings);
+    std::optional<Arrival> arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there);
+    // Frame as it arrives between two that may have a link, by Decision::by_loss.
+    std::optional<Arrival> arrival_by_loss(const Emission& frame, double d2, NodeId to, Vec3 there,
+                                           const Headings& headings) const;
+    // Frame that arrives over a squared distance, with this level.
+    Arrival arrival_of(const Emission& frame, double d2, double level_dbm) const;
     // Model with the shadowing of the settings over it; the same for copies of one handle.
     Propagation shadowed(const Propagation& model);
     // Links of a transmitter, as a model is asked for them.

@@ -198,12 +198,33 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
     }
 }
 
+Arrival Medium::arrival_of(const Emission& frame, double d2, double level_dbm) const {
+    const Duration under_way = delay(std::sqrt(d2));
+    return {.begin = frame.begin + under_way,
+            .end = frame.end + under_way,
+            .level_dbm = level_dbm,
+            .squared_distance = d2,
+            .from = frame.from};
+}
+
+std::optional<Arrival> Medium::arrival_by_loss(const Emission& frame, double d2, NodeId to,
+                                               Vec3 there, const Headings& headings) const {
+    const Radio &sender = kinds_.radio(kind(frame.from)), &receiver = kinds_.radio(kind(to));
+    const LinkGain gain = LinkGain::of(sender, receiver, [&] {
+        return std::pair{Pose{frame.origin, headings.from}, Pose{there, headings.to}};
+    });
+    const Db most = kinds_.budget(Strength::interfering, sender, receiver, gain);
+    const std::uint64_t key = frame_key(frame.from, frame.begin);
+    const Db lost{loss(frame.from, to, frame.origin, there, frame.begin, key, most)};
+    if (lost > most) return std::nullopt;
+    return arrival_of(frame, d2, received_power(sender, lost, gain).value);
+}
+
 /// As arrival(), within the reach of the frame.
-std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, NodeId to, Vec3 there,
-                                            const Headings* headings) {
+std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, NodeId to,
+                                            Vec3 there) {
     const Kind mine = kind(frame.from), theirs = kind(to);
     if (!kinds_.may_link(mine, theirs)) return std::nullopt;
-    double level_dbm = std::numeric_limits<double>::quiet_NaN();
     kinds_.prepare(mine);
     switch (kinds_.decision(mine)) {
         case Decision::by_range:
@@ -214,28 +235,12 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
             if (!table.in_range(d2, draws_.bits(key(frame.from), key(to)))) return std::nullopt;
             break;
         }
-        case Decision::by_loss: {
-            const Radio &sender = kinds_.radio(mine), &receiver = kinds_.radio(theirs);
-            const LinkGain gain = LinkGain::of(sender, receiver, [&] {
-                return std::pair{Pose{frame.origin, headings->from}, Pose{there, headings->to}};
-            });
-            const Db most = kinds_.budget(Strength::interfering, sender, receiver, gain);
-            const std::uint64_t key = frame_key(frame.from, frame.begin);
-            const Db lost{loss(frame.from, to, frame.origin, there, frame.begin, key, most)};
-            if (lost > most) return std::nullopt;
-            level_dbm = received_power(sender, lost, gain).value;
-        }
+        case Decision::by_loss: return arrival_by_loss(frame, d2, to, there, {});
     }
-    const Duration under_way = delay(std::sqrt(d2));
-    return Arrival{.begin = frame.begin + under_way,
-                   .end = frame.end + under_way,
-                   .level_dbm = level_dbm,
-                   .squared_distance = d2,
-                   .from = frame.from};
+    return arrival_of(frame, d2, std::numeric_limits<double>::quiet_NaN());
 }
 
 Dbm Medium::level(const Arrival& arrival, NodeId to) const {
-    if (!std::isnan(arrival.level_dbm)) return {arrival.level_dbm};
     // Distance and pair decide the level: it is the link's, whichever frame it is of.
     const Vec3 there{std::sqrt(arrival.squared_distance), 0, 0};
     const Db lost{loss(arrival.from, to, {}, there, arrival.begin, 0,

@@ -72,7 +72,7 @@ std::optional<Arrival> Interference::directional_arrival(const Emission& frame, 
     const Leg leg = leg_of(node);
     const Headings headings{{leg_of(frame.from).heading_at(frame.begin)},
                             {leg.heading_at(frame.begin)}};
-    return settings_.medium->arrival(frame, node, leg.position(frame.begin), &headings);
+    return settings_.medium->arrival(frame, node, leg.position(frame.begin), headings);
 }
 
 double Interference::draw(Purpose purpose, NodeId from, NodeId to, std::uint64_t number) const {
