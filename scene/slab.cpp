@@ -28,4 +28,20 @@ SlabFields Slab::fields(double thickness, double cosine) const {
             math::quotient(r * (1.0 - twice), several)};
 }
 
+SlabPowers Slab::powers(double thickness, double cosine) const {
+    const Complex a = math::square_root(permittivity_ - 1.0 + cosine * cosine);
+    const Complex r = math::quotient(cosine - a, cosine + a);
+    const double kd = wave_number_ * thickness, decay = kd * -a.imag();
+    const double left = math::exp(-2 * decay);
+    const Complex twice = left == 0 ? Complex{} : left * math::phasor(-2 * kd * a.real());
+    const double several = std::norm(1.0 - r * r * twice);
+    return {std::norm(1.0 - r * r) / several, decay, std::norm(r * (1.0 - twice)) / several};
+}
+
+double Slab::most_reflected(double cosine) const {
+    const Complex a = math::square_root(permittivity_ - 1.0 + cosine * cosine);
+    const double r2 = std::norm(cosine - a) / std::norm(cosine + a);
+    return 4 * r2 / ((1 + r2) * (1 + r2));
+}
+
 }  // namespace rovernet

@@ -12,19 +12,23 @@ namespace rovernet {
 namespace {
 constexpr double db_per_neper = 8.685889638065037;
 constexpr double grazing = 0.0174524064373;  // cosine of 89 degrees
+
+/// Loss of a power [dB], finite.
+double decibels(double power) {
+    constexpr double least = 1e-300;
+    return -10 * math::log10(std::max(power, least));
+}
 }  // namespace
 
-double RayFactor::loss() const {
-    constexpr double least = 1e-300;
-    return db_per_neper * decay - 10 * math::log10(std::max(std::norm(field), least));
-}
+double RayFactor::loss() const { return db_per_neper * decay + decibels(std::norm(field)); }
 
 RayMaterials::RayMaterials(const std::vector<Material>& materials, Hertz frequency,
                            ItuMaterial wall, Db reflection_loss)
     : wavelength_(speed_of_light / frequency.value),
       mirror_(-math::exp10(-reflection_loss.value / 20)) {
     for (const Material& m : materials) {
-        Entry entry{std::nullopt, std::nullopt, 0, 0};
+        Entry entry{std::nullopt, std::nullopt, {}, 0, 0};
+        entry.least.fill(reflection_loss.value);
         if (m.follows_model()) {
             entry.slab = Slab(wall, frequency);
         } else if (m.slab) {
@@ -35,6 +39,10 @@ RayMaterials::RayMaterials(const std::vector<Material>& materials, Hertz frequen
             entry.per_crossing = rate.per_crossing;
             entry.per_metre = rate.per_metre;
         }
+        for (std::size_t i = 0; entry.slab && i < entry.least.size(); ++i) {
+            const double cosine = std::max(static_cast<double>(i) / 64, grazing);
+            entry.least[i] = -10 * math::log10(entry.slab->most_reflected(cosine));
+        }
         entries_.push_back(entry);
     }
 }
@@ -43,6 +51,20 @@ RayFactor RayMaterials::factor(const RayHit& hit) const {
     return hit.kind == RayHit::Kind::reflection
                ? reflected(hit.material, hit.thickness, hit.cosine)
                : crossed(hit.material, hit.thickness, hit.cosine, hit.length);
+}
+
+double RayMaterials::loss(const RayHit& hit) const {
+    const Entry& entry = entries_[hit.material];
+    if (!entry.slab) return factor(hit).loss();
+    const SlabPowers powers =
+        entry.slab->powers(entry.thickness.value_or(hit.thickness), hit.cosine);
+    const bool mirror = hit.kind == RayHit::Kind::reflection;
+    return decibels(mirror ? powers.reflected : powers.transmitted) +
+           (mirror ? 0 : db_per_neper * powers.decay);
+}
+
+double RayMaterials::least_reflection_loss(std::size_t material, double cosine) const {
+    return entries_[material].least[static_cast<std::size_t>(64 * cosine)];
 }
 
 RayFactor RayMaterials::around(const RayEdge& edge, RayDiffraction by, bool mirrors) const {

@@ -7,6 +7,7 @@
 #include "sim/complex_math.hpp"
 #include "sim/units.hpp"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,12 @@ class RayMaterials {
     RayMaterials(const std::vector<Material>& materials, Hertz frequency, ItuMaterial wall,
                  Db reflection_loss);
     RayFactor factor(const RayHit& hit) const;
+    /// The material is a slab: what it takes depends on thickness and angle, not on a length.
+    bool is_slab(std::size_t material) const { return entries_[material].slab.has_value(); }
+    /// Loss of a hit [dB]: that of its factor, to rounding.
+    double loss(const RayHit& hit) const;
+    /// Loss that no reflection by the material at that angle falls short of [dB].
+    double least_reflection_loss(std::size_t material, double cosine) const;
     /// Field around an edge over that in free space at the way's length.
     ///
     /// knife_edge: J(nu) by P.526, nu = 2 sqrt(detour / lambda). utd: D sqrt((s + s') / (s s')),
@@ -50,6 +57,7 @@ class RayMaterials {
     struct Entry {
         std::optional<Slab> slab;         // or decibels
         std::optional<double> thickness;  // [m], instead of the drawn one
+        std::array<double, 65> least;     // loss of reflection [dB], by cosine * 64
         double per_crossing, per_metre;   // [dB], [dB/m]
     };
     double wavelength_;

@@ -18,6 +18,12 @@ double free_space(double length, Hertz f) { return std::max(0.0, free_space_db(l
 
 bool is_first(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) <= std::tie(b.x, b.y, b.z); }
 
+/// Nearest multiple of a step that is a power of two, so that the walls of a room, which a path
+/// meets at few angles, have few of them in spite of rounding.
+double rounded(double x, double step) { return std::floor(x / step + 0.5) * step; }
+double cosine_of(double x) { return rounded(std::clamp(std::abs(x), grazing, 1.0), 0x1p-36); }
+double thickness_of(double x) { return rounded(std::max(x, 0.0), 0x1p-34); }
+
 Vec3 in_plan(Vec3 p) { return {p.x, p.y, 0}; }
 
 /// The part of a leg from p to q beside a slanting face at one end, where the steps of its outline
@@ -36,7 +42,9 @@ RayTracer::RayTracer(const Scene& scene, Vec3 from, int order, double wavelength
     if (!scene.faces()) return;
     faces_ = scene.faces()->all();
     images_ = RayImages(faces_, from, order, wavelength);
-    if (edges) edges_ = RayEdges(faces_, wavelength);
+    if (!edges) return;
+    edges_ = RayEdges(faces_, wavelength);
+    stands_.assign(faces_.size(), false);
 }
 
 void RayTracer::trace(Vec3 to, const RayLimit* limit, RayPaths& out) {
@@ -128,59 +136,89 @@ bool RayTracer::plan(std::span<const std::uint32_t> chain) {
 
 double RayTracer::bound(std::span<const std::uint32_t> chain, const RayLimit& limit) const {
     double loss = free_space(length_, limit.frequency);
-    for (std::size_t k = 0; k < chain.size(); ++k)
-        loss += limit.materials.factor(reflection(k, chain[k])).loss();
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+        const RayHit hit = reflection(k, chain[k]);
+        loss += limit.materials.least_reflection_loss(hit.material, hit.cosine);
+    }
     return loss;
 }
 
 /// Adds the planned path with the walls in its way, unless it is too faint.
 void RayTracer::add(std::span<const std::uint32_t> chain, const RayLimit* limit, RayPaths& out) {
-    const std::size_t first = out.all_hits.size();
-    double loss = limit ? free_space(length_, limit->frequency) : 0;
-    std::size_t weighed = first;
-    for (std::size_t leg = 0; leg <= chain.size(); ++leg) {
+    Draft draft{out, limit, out.all_hits.size(), 0};
+    if (limit) draft.loss = free_space(length_, limit->frequency);
+    for (std::size_t k = 0; limit && k < chain.size(); ++k)
+        draft.loss += loss_of(reflection(k, chain[k]), limit->materials);
+    bool bright = !is_faint(draft);
+    for (std::size_t leg = 0; bright && leg <= chain.size(); ++leg) {
         if (leg > 0) out.all_hits.push_back(reflection(leg - 1, chain[leg - 1]));
         const Vec3 p = points_[leg], q = points_[leg + 1];
-        pass(p, q, leg > 0 ? among_steps(faces_[chain[leg - 1]], p, q) : 0,
-             leg < chain.size() ? among_steps(faces_[chain[leg]], p, q) : 0, out.all_hits);
-        if (!weigh(limit, weighed, loss, out)) return out.all_hits.resize(first);
+        bright = pass(p, q, leg > 0 ? among_steps(faces_[chain[leg - 1]], p, q) : 0,
+                      leg < chain.size() ? among_steps(faces_[chain[leg]], p, q) : 0, draft);
     }
-    if (limit) losses_.push_back(loss);
-    best_ = std::min(best_, loss);
-    out.paths.push_back({length_, first, out.all_hits.size() - first, std::nullopt});
+    finish(draft, bright, length_, std::nullopt);
 }
 
-/// Adds up the losses of new hits; false if the path is too faint.
-bool RayTracer::weigh(const RayLimit* limit, std::size_t& weighed, double& loss,
-                      RayPaths& out) const {
-    if (!limit) return true;
-    for (; weighed < out.all_hits.size(); ++weighed)
-        loss += limit->materials.factor(out.all_hits[weighed]).loss();
-    return loss <= best_ + limit->faintest;
+bool RayTracer::is_faint(const Draft& draft) const {
+    return draft.limit && draft.loss > best_ + draft.limit->faintest;
+}
+
+/// Keeps the path whose hits were collected, or drops them.
+void RayTracer::finish(const Draft& draft, bool bright, double length,
+                       const std::optional<RayEdge>& edge) {
+    std::vector<RayHit>& hits = draft.out.all_hits;
+    if (!bright) return hits.resize(draft.first);
+    if (draft.limit) losses_.push_back(draft.loss);
+    best_ = std::min(best_, draft.loss);
+    draft.out.paths.push_back({length, draft.first, hits.size() - draft.first, edge});
+}
+
+/// Loss of a hit [dB]; those of a few slabs are remembered.
+double RayTracer::loss_of(const RayHit& hit, const RayMaterials& materials) {
+    if (!materials.is_slab(hit.material)) return materials.loss(hit);
+    for (const auto& [known, loss] : known_)
+        if (known.cosine == hit.cosine && known.thickness == hit.thickness &&
+            known.kind == hit.kind && known.material == hit.material)
+            return loss;
+    auto& place = known_[next_known_++ % known_.size()];
+    place = {hit, materials.loss(hit)};
+    return place.second;
+}
+
+/// A way by one of the edge's corners is longer than the straight path by less than this [m], in
+/// plan: the corner lies in an ellipse around both ends, or beside it.
+bool RayTracer::is_near(const WallEdge& edge, double detour) const {
+    const Vec3 way = in_plan(b_ - a_);
+    const double squared = dot(way, way), length = std::sqrt(squared);
+    const double width = detour * (detour + 2 * length) / 4;  // of half the ellipse, squared
+    for (const Vec3 corner : edge.corners) {
+        const Vec3 off = corner - in_plan(a_);
+        const double along = length > 0 ? dot(off, way) / length : 0;
+        if (along < -detour / 2 || along > length + detour / 2) continue;
+        if (dot(off, off) - along * along <= width) return true;
+    }
+    return false;
 }
 
 /// Adds the ways around edges; the straight path is the only one so far.
 void RayTracer::add_diffracted(const RayLimit* limit, RayPaths& out) {
+    for (const std::size_t face : crossed_) stands_[face] = true;
     const std::vector<std::size_t> in_the_way = crossed_;
-    const auto stands = [&](std::size_t face) {
-        return std::find(in_the_way.begin(), in_the_way.end(), face) != in_the_way.end();
-    };
-    const Vec3 a = in_plan(a_), b = in_plan(b_);
-    const double near = near_edge * wavelength_, straight = distance(a, b);
+    const double near = near_edge * wavelength_;
     double clearance = std::numeric_limits<double>::infinity();
     for (const WallEdge& edge : edges_.all()) {
-        const auto by = [&](Vec3 corner) { return distance(a, corner) + distance(corner, b); };
-        const bool beside = std::min(by(edge.corners[0]), by(edge.corners[1])) - straight < near;
-        if (!beside && !stands(edge.before) && !stands(edge.behind)) continue;
+        const bool stands = stands_[edge.before] || stands_[edge.behind];
+        if (!stands && !is_near(edge, near)) continue;
         auto way = edges_.around(edge, a_, b_);
         if (!way) continue;
         // As the straight path has it, and not as angles have it: so the two switch together.
-        way->edge.shadowed = stands(edge.before) || stands(edge.behind);
+        way->edge.shadowed = stands;
         clearance = std::min(clearance, way->detour);
         const bool close =
             way->detour < near && (!limit || limit->diffraction == RayDiffraction::utd);
         if (way->edge.shadowed || close) add_around(edge, *way, limit, out);
     }
+    for (const std::size_t face : in_the_way) stands_[face] = false;
     if (out.paths.empty()) return;
     out.paths[0].clearance = clearance;
     if (limit && limit->diffraction == RayDiffraction::knife_edge)
@@ -190,21 +228,15 @@ void RayTracer::add_diffracted(const RayLimit* limit, RayPaths& out) {
 
 void RayTracer::add_around(const WallEdge& edge, const WayAround& way, const RayLimit* limit,
                            RayPaths& out) {
-    const std::size_t first = out.all_hits.size();
-    double loss = 0;
+    Draft draft{out, limit, out.all_hits.size(), 0};
     if (limit)
-        loss = free_space(way.length, limit->frequency) +
-               limit->materials.around(way.edge, limit->diffraction, limit->coherent).loss();
-    std::size_t weighed = first;
+        draft.loss = free_space(way.length, limit->frequency) +
+                     limit->materials.around(way.edge, limit->diffraction, limit->coherent).loss();
     // The drawn outline may stick out of the faces near the corner, as far as their lines meet.
     const double skipped = 3 * edge.steps;
-    pass(a_, way.corners[0], 0, skipped, out.all_hits);
-    if (!weigh(limit, weighed, loss, out)) return out.all_hits.resize(first);
-    pass(way.corners[1], b_, skipped, 0, out.all_hits);
-    if (!weigh(limit, weighed, loss, out)) return out.all_hits.resize(first);
-    if (limit) losses_.push_back(loss);
-    best_ = std::min(best_, loss);
-    out.paths.push_back({way.length, first, out.all_hits.size() - first, way.edge});
+    const bool bright = !is_faint(draft) && pass(a_, way.corners[0], 0, skipped, draft) &&
+                        pass(way.corners[1], b_, skipped, 0, draft);
+    finish(draft, bright, way.length, way.edge);
 }
 
 /// The k-th reflection of the planned path.
@@ -213,15 +245,16 @@ RayHit RayTracer::reflection(std::size_t k, std::uint32_t number) const {
     const Vec3 way = points_[k + 1] - points_[k];
     const double length = distance(points_[k + 1], points_[k]);
     const double cosine = length > 0 ? std::abs(dot(way, face.normal)) / length : 1;
-    return {RayHit::Kind::reflection,         number, face.material, face.thickness,
-            std::clamp(cosine, grazing, 1.0), 0};
+    return {RayHit::Kind::reflection, number, face.material, thickness_of(face.thickness),
+            cosine_of(cosine),        0};
 }
 
-/// Appends the walls that a leg passes, but for its first `begin` and last `end` metres.
-void RayTracer::pass(Vec3 p, Vec3 q, double begin, double end, std::vector<RayHit>& out) {
+/// Appends the walls that a leg passes, but for its first `begin` and last `end` metres; false if
+/// the path is too faint.
+bool RayTracer::pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft) {
     crossed_.clear();
     scene_.crossings(p, q, crossings_);
-    if (crossings_.empty()) return;
+    if (crossings_.empty()) return true;
     const double length = distance(p, q);
     const Vec3 along = (1 / length) * (q - p);
     for (Crossing c : crossings_) {
@@ -230,8 +263,14 @@ void RayTracer::pass(Vec3 p, Vec3 q, double begin, double end, std::vector<RayHi
         c.exit = std::min(c.exit, length - end);
         if (c.exit - c.entry <= touching) continue;
         if (cut) c.length = c.exit - c.entry;
-        if (const auto hit = crossing(c, p, along)) out.push_back(*hit);
+        const auto hit = crossing(c, p, along);
+        if (!hit) continue;
+        draft.out.all_hits.push_back(*hit);
+        if (!draft.limit) continue;
+        draft.loss += loss_of(*hit, draft.limit->materials);
+        if (is_faint(draft)) return false;
     }
+    return true;
 }
 
 /// The wall of a crossing, as its faces have it; nothing if the path only touches steps of a face.
@@ -249,12 +288,12 @@ std::optional<RayHit> RayTracer::crossing(const Crossing& c, Vec3 from, Vec3 alo
     };
     hit.face = !exit || (entry && longer(*entry, *exit)) ? *entry : *exit;
     const Face& face = faces_[hit.face];
-    hit.cosine = std::clamp(std::abs(dot(along, face.normal)), grazing, 1.0);
-    hit.thickness = c.length * hit.cosine;
+    hit.cosine = cosine_of(dot(along, face.normal));
+    hit.thickness = thickness_of(c.length * hit.cosine);
     if (entry && exit && faces_[*entry].opposite(faces_[*exit])) {
         const Vec3 middle = from + ((c.entry + c.exit) / 2) * along;
         hit.thickness =
-            std::max(0.0, -faces_[*entry].in_front(middle) - faces_[*exit].in_front(middle));
+            thickness_of(-faces_[*entry].in_front(middle) - faces_[*exit].in_front(middle));
     }
     return hit;
 }

@@ -9,10 +9,12 @@
 #include "sim/geometry.hpp"
 #include "sim/units.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -64,6 +66,13 @@ class RayTracer {
         double bound;              // least loss [dB]
         std::size_t first, count;  // its faces among chains_, in the order of the path
     };
+    /// Path whose walls are being looked for.
+    struct Draft {
+        RayPaths& out;
+        const RayLimit* limit;
+        std::size_t first;  // of its hits
+        double loss;        // so far [dB], reflections included
+    };
     void propose(Vec3 to, const RayLimit* limit);
     bool plan(std::span<const std::uint32_t> chain);
     double bound(std::span<const std::uint32_t> chain, const RayLimit& limit) const;
@@ -71,9 +80,12 @@ class RayTracer {
     void add_diffracted(const RayLimit* limit, RayPaths& out);
     void add_around(const WallEdge& edge, const WayAround& way, const RayLimit* limit,
                     RayPaths& out);
-    bool weigh(const RayLimit* limit, std::size_t& weighed, double& loss, RayPaths& out) const;
+    double loss_of(const RayHit& hit, const RayMaterials& materials);
+    bool is_near(const WallEdge& edge, double detour) const;
     RayHit reflection(std::size_t k, std::uint32_t face) const;
-    void pass(Vec3 p, Vec3 q, double begin, double end, std::vector<RayHit>& out);
+    bool pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft);
+    bool is_faint(const Draft& draft) const;
+    void finish(const Draft& draft, bool bright, double length, const std::optional<RayEdge>& edge);
     std::optional<RayHit> crossing(const Crossing& c, Vec3 from, Vec3 along);
     std::span<const std::uint32_t> chain_of(const Candidate& c) const {
         return std::span(chains_).subspan(c.first, c.count);
@@ -95,6 +107,10 @@ class RayTracer {
     std::vector<Vec3> mirrored_, points_;
     std::vector<Crossing> crossings_;
     std::vector<std::size_t> crossed_;  // faces of the last leg's walls
+    std::vector<char> stands_;          // by face: in the way of the straight path
+    // Losses of the last hits, for the same materials.
+    std::array<std::pair<RayHit, double>, 6> known_{};
+    std::size_t next_known_ = 0;
 };
 
 }  // namespace rovernet

@@ -39,8 +39,8 @@ struct EnumNames<RaySum> {
 /// uniform theory of diffraction; the straight path and those around edges are then one field, so
 /// that nothing jumps at the border of a wall's shadow. See RayTracer and RayEdges for which edges.
 ///
-/// The strongest `max_paths` paths are added, of those within 40 dB of the strongest one: what is
-/// left out by the latter adds less than 1e-4 of the power each. With phases, a sum is cut at 40 dB
+/// The strongest `max_paths` paths are added, of those within 30 dB of the strongest one: what is
+/// left out by the latter adds less than 1e-3 of the power each. With phases, a sum is cut at 40 dB
 /// below that of the powers; that of the straight path and edges also at 3 dB above it.
 ///
 /// The loss is anything but monotone, and jumps where a path begins or ends: at the border of a

