@@ -16,7 +16,7 @@
 namespace rovernet {
 namespace {
 
-constexpr double faintest_path = 40;   // [dB] below the strongest
+constexpr double faintest_path = 30;   // [dB] below the strongest
 constexpr double deepest_null = 1e-4;  // of the sum of powers
 
 /// What the paths together can be stronger than the straight one in free space [dB].
