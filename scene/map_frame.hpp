@@ -5,6 +5,7 @@
 #include "sim/math.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 namespace rovernet {
 
@@ -24,7 +25,10 @@ class MapFrame {
   public:
     MapFrame() = default;
     explicit MapFrame(const OccupancyGrid& grid)
-        : origin_(grid.origin), cell_width_(grid.cell_width), cell_height_(grid.cell_height) {
+        : origin_(grid.origin),
+          cell_width_(grid.cell_width),
+          cell_height_(grid.cell_height),
+          yaw_(grid.yaw) {
         const auto [sine, cosine] = math::sincos(grid.yaw);
         sine_ = sine;
         cosine_ = cosine;
@@ -46,6 +50,8 @@ class MapFrame {
     }
     double cell_width() const { return cell_width_; }    ///< [m]
     double cell_height() const { return cell_height_; }  ///< [m]
+    /// A map in this place, all of whose cells are free.
+    OccupancyGrid map(int columns, int rows) const;
 
   private:
     static double snap(double cells) {
@@ -58,6 +64,20 @@ class MapFrame {
     double sine_ = 0;
     double cell_width_ = 1;
     double cell_height_ = 1;
+    double yaw_ = 0;
 };
+
+inline OccupancyGrid MapFrame::map(int columns, int rows) const {
+    OccupancyGrid map;
+    map.columns = columns;
+    map.rows = rows;
+    map.cell_width = cell_width_;
+    map.cell_height = cell_height_;
+    map.origin = origin_;
+    map.yaw = yaw_;
+    const auto cells = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    map.cells.assign(cells, Cell::free);
+    return map;
+}
 
 }  // namespace rovernet

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -256,6 +257,32 @@ std::vector<WallRectangle> Scene::wall_rectangles() const {
         for (const CellRectangle& r : layer.rectangles)
             all.push_back({corners_of(r, layer.frame), layer.material});
     return all;
+}
+
+std::vector<OccupancyGrid> Scene::maps() const {
+    if (obstacles_.size() == 1) return {grid_};
+    std::vector<OccupancyGrid> all;
+    for (const WallLayer& layer : layers_) {
+        OccupancyGrid map = layer.frame.map(layer.walls->columns(), layer.walls->rows());
+        map.material = static_cast<std::uint8_t>(layer.material);
+        for (std::size_t i = 0; i < map.cells.size(); ++i) {
+            const auto columns = static_cast<std::size_t>(map.columns);
+            const bool is_wall =
+                layer.walls->solid(static_cast<int>(i % columns), static_cast<int>(i / columns));
+            if (is_wall) map.cells[i] = Cell::occupied;
+        }
+        all.push_back(std::move(map));
+    }
+    return all;
+}
+
+Scene Scene::with_walls_of(const Scene& other) const {
+    Scene out = *this;
+    out.materials_ = other.materials_;
+    out.layers_ = other.layers_;
+    out.plain_ = other.plain_;
+    out.occupied_cells_ = other.occupied_cells_;
+    return out;
 }
 
 }  // namespace rovernet

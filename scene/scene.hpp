@@ -102,6 +102,11 @@ class Scene {
     Vec3 upper_right() const { return upper_right_; }
     /// The walls as rectangles, disjoint on each map.
     std::vector<WallRectangle> wall_rectangles() const;
+    /// Maps that make these walls again: the map; of several, one for each map and material, with
+    /// its walls only.
+    std::vector<OccupancyGrid> maps() const;
+    /// This scene with the walls of another for radio; robots keep to the obstacles of this one.
+    Scene with_walls_of(const Scene& other) const;
     /// The map; of several, a grid around them all where a cell is free if no obstacle enters it.
     const OccupancyGrid& grid() const { return grid_; }
     const MapFrame& frame() const { return frame_; }
