@@ -4,6 +4,7 @@
 #include "experiment/flood_bench.hpp"
 #include "scenario/scenario.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -164,6 +165,13 @@ struct FitArguments : FileArguments {
     bool json = false;
 };
 void fit(const FitArguments& arguments);
+
+struct ProbeArguments : FileArguments {
+    std::size_t links = 1000, top = 10;
+    bool no_messages = false;
+    bool json = false;
+};
+void probe(const ProbeArguments& arguments);
 
 struct ResultsArguments {
     std::string store;

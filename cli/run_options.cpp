@@ -117,6 +117,22 @@ void add_fit(CLI::App& app) {
     add_json(fit, a.json);
 }
 
+void add_probe(CLI::App& app) {
+    const auto [probe, a] = add_command(
+        app, "probe", "What changes if places, walls or materials are a little others", cli::probe);
+    add_examples(probe, {"rovernet probe examples/rescue/rescue.toml",
+                         "rovernet probe examples/rescue/rescue.toml --no-messages --top 30"});
+    add_file(probe, a, any_file);
+    probe.add_option("--links", a.links, "links looked at, at most")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    probe.add_option("--top", a.top, "links and messages that are listed, at most")
+        ->check(CLI::Range(0, 1'000'000))
+        ->capture_default_str();
+    probe.add_flag("--no-messages", a.no_messages, "look at links only, without runs");
+    add_json(probe, a.json);
+}
+
 }  // namespace
 
 void add_run_commands(CLI::App& app, const std::string& typed) {
@@ -124,6 +140,7 @@ void add_run_commands(CLI::App& app, const std::string& typed) {
     add_sweep(app, typed);
     add_compare(app, typed);
     add_fit(app);
+    add_probe(app);
 }
 
 }  // namespace rovernet::cli

@@ -138,7 +138,7 @@ KnownLinks sample_links(const Scenario& scenario, const Propagation& reference,
     std::unique_ptr<Network> network;
     for (std::uint32_t r = 0; r < size.replications; ++r) {
         if (tell) tell(static_cast<double>(r) / size.replications);
-        played.scenario.replication = first_sampled_replication + r;
+        played.scenario.replication = size.first_replication + r;
         network = std::make_unique<Network>(network_settings(played));
         populate(*network, played);
         for (const Time at : sample_times(played, size.times)) {
@@ -148,26 +148,29 @@ KnownLinks sample_links(const Scenario& scenario, const Propagation& reference,
     }
     const std::vector<RobotPair> pairs = thinned.take();
     if (pairs.empty()) {
-        throw InputError({scenario.file, 0, 0},
-                         fmt::format("no two robots come within reach of {}; nothing to fit to",
-                                     reference.name()));
+        throw InputError(
+            {scenario.file, 0, 0},
+            fmt::format("no two robots come within reach of {}; there are no links to look at",
+                        reference.name()));
     }
     const auto& scene = network->settings().scene;
     out.scene = scene ? scene : std::make_shared<Scene>();
     out.floor_height = network->settings().floor_height;
     const Medium& medium = network->medium();
     for (const RobotPair& c : pairs) {
-        KnownLink link{.name = fmt::format("{} - {} at {:.6g} s, replication {}",
-                                           network->name(c.a), network->name(c.b), seconds(c.at),
-                                           first_sampled_replication + c.replication),
-                       .from = c.from,
-                       .to = c.to,
-                       .frequency = medium.radio(c.a).frequency,
-                       .from_key = medium.key(c.a),
-                       .to_key = medium.key(c.b),
-                       .replication = first_sampled_replication + c.replication,
-                       .group = c.replication,
-                       .budget = link_budget(medium.radio(c.a), medium.radio(c.b)).value};
+        const auto replication = size.first_replication + c.replication;
+        KnownLink link{
+            .name = fmt::format(
+                "{} - {} at {:.6g} s{}", network->name(c.a), network->name(c.b), seconds(c.at),
+                size.replications > 1 ? fmt::format(", replication {}", replication) : ""),
+            .from = c.from,
+            .to = c.to,
+            .frequency = medium.radio(c.a).frequency,
+            .from_key = medium.key(c.a),
+            .to_key = medium.key(c.b),
+            .replication = replication,
+            .group = c.replication,
+            .budget = link_budget(medium.radio(c.a), medium.radio(c.b)).value};
         link.loss = out.loss_by(reference, link);
         out.links.push_back(std::move(link));
     }

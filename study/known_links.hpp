@@ -54,20 +54,21 @@ struct KnownLinks {
     double loss_by(const Propagation& model, const KnownLink& link) const;
 };
 
+/// Replications from this one on are sampled; those that studies compare are below.
+inline constexpr std::uint32_t first_sampled_replication = 1'000'000;
+
 /// Size of a sample.
 struct SampleSize {
     std::uint32_t replications = 20;
     std::uint32_t times = 20;  ///< in each replication
     std::size_t links = 5000;  ///< at most
+    std::uint32_t first_replication = first_sampled_replication;
 };
 
-/// Replications from this one on are sampled; those that studies compare are below.
-inline constexpr std::uint32_t first_sampled_replication = 1'000'000;
-
 /// Links of a scenario's own robots, with their losses by a reference model: at random times of
-/// replications that no study compares, all pairs of robots that are on and no farther apart than
-/// the reference reaches with a budget of 20 dB more. They are chosen by distance alone: chosen by
-/// their loss, they would bias every fit. Of too many every k-th is taken.
+/// replications that (by default) no study compares, all pairs of robots that are on and no farther
+/// apart than the reference reaches with a budget of 20 dB more. They are chosen by distance alone:
+/// chosen by their loss, they would bias every fit. Of too many every k-th is taken.
 ///
 /// Groups are replications; senders if all replications are alike.
 /// @param tell  told the share that is done, 0 ... 1; may be empty

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/record.hpp"
+#include "sim/sink.hpp"
+
+#include <compare>
+#include <cstdint>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+namespace rovernet {
+
+/// A robot got a message of an application. Messages have the same origin and number in two runs of
+/// a scenario, whatever becomes of them.
+struct Delivery {
+    NodeId origin;
+    std::uint32_t number;  ///< among the messages of its origin, from 0
+    NodeId at;
+    Time sent;
+
+    /// Order by message and robot, whenever it was sent.
+    friend auto operator<=>(const Delivery& a, const Delivery& b) {
+        return std::tie(a.origin, a.number, a.at) <=> std::tie(b.origin, b.number, b.at);
+    }
+    friend bool operator==(const Delivery& a, const Delivery& b) { return (a <=> b) == 0; }
+};
+
+/// Sink that keeps who got which message, 24 bytes each, in the order of the run.
+struct Deliveries {
+    std::vector<Delivery> all = {};
+
+    KindMask kinds() const { return kind_of<Received>(); }
+    void on(const Record& record, const RecordContext& context) {
+        const auto* received = std::get_if<Received>(&record);
+        if (!received) return;
+        const Message& message = context.messages[received->frame.message];
+        if (!message.kind.empty()) return;
+        for (const Reception& each : received->receptions) {
+            if (!each.delivered) continue;
+            all.push_back({message.origin, message.number, each.node, message.created});
+        }
+    }
+};
+
+}  // namespace rovernet

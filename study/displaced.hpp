@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/propagation/propagation.hpp"
+#include "sim/random.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// Model by which each antenna is `by` [m] away from where the scenario has it: east, north, west
+/// or south, by the robot's key, for the whole run. Robots move and meet walls as they did.
+///
+///   Displaced{scenario.propagation.make(), Meters{0.01}}
+struct Displaced {
+    static constexpr std::string_view name = "displaced";
+
+    Propagation model;
+    Meters by{0};
+
+    /// Displacement of the antenna of the robot with that key [m].
+    Vec3 displacement(std::uint64_t key) const {
+        const std::array<Vec3, 4> ways{
+            {{by.value, 0}, {0, by.value}, {-by.value, 0}, {0, -by.value}}};
+        return ways[mix(key) % ways.size()];
+    }
+
+    /// Two antennas come nearer by no more than both displacements.
+    Meters reach(Db loss, Hertz frequency, Meters highest) const {
+        constexpr double slack = 1 + 1e-12;  // more than rounding takes
+        return {(model.reach(loss, frequency, highest).value + 2 * by.value) * slack};
+    }
+    void check_frequency(Hertz frequency) const { model.check_frequency(frequency); }
+
+    /// Fills out_db[i] [dB] for the i-th receiver; same size as the batch, which needs keys.
+    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+        std::vector<Vec3> to(links.to.begin(), links.to.end());
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            to[i] = to[i] + displacement(links.to_keys[i]);
+        }
+        LinkBatch moved = links;
+        moved.from = links.from + displacement(links.from_key);
+        moved.to = to;
+        model.loss(moved, give_up, out_db);
+    }
+};
+
+}  // namespace rovernet

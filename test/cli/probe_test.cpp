@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// probe, as its user meets it.
+#include "test/cli/process.hpp"
+#include "test/scene/png_writer.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+using namespace rovernet::test;
+
+namespace {
+
+/// A says something to B each second, at the rim of a disc.
+const std::string rim = R"([scenario]
+duration = "5 s"
+[propagation]
+model = "disc"
+range = "10 m"
+[[robot]]
+name = "A"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "B"
+at = ["10 m", "0 m"]
+[routing]
+protocol = "flood"
+[[traffic]]
+kind = "broadcast"
+from = "A"
+payload = "x"
+start = "1 s"
+every = "1 s"
+)";
+
+/// 16 x 8 cells with a wall of three columns, in the scenario's folder.
+std::string with_map(const TemporaryFolder& folder) {
+    PngPicture picture{.width = 16, .height = 8, .rows = {}};
+    for (int row = 0; row < 8; ++row) {
+        picture.rows.push_back(
+            {255, 255, 255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 255, 255, 255});
+    }
+    folder.write("wall.png", png_bytes(picture));
+    return folder.write("wall.toml", R"([scenario]
+duration = "2 s"
+[scene]
+map = "wall.png"
+size = ["16 m", "8 m"]
+[propagation]
+model = "raytrace_2007"
+wall_factor = 0.01
+[[robot]]
+name = "A"
+at = ["2 m", "4.5 m"]
+[[robot]]
+name = "B"
+at = ["14 m", "4.5 m"]
+)");
+}
+
+}  // namespace
+
+TEST_CASE("probe: the text names the cliff, the flip and the message that is lost") {
+    const TemporaryFolder folder;
+    const Ended ended = command(folder, {"probe", folder.write("rim.toml", rim)});
+    CHECK(ended.exit == 0);
+    CHECK(ended.err.empty());
+    CHECK(ended.out.starts_with("1 links at 20 times, losses by disc; 4 receptions of messages"));
+    CHECK(ended.out.find("up -> down") != std::string::npos);
+    CHECK(ended.out.find("2 cliffs") != std::string::npos);
+    CHECK(ended.out.find("1 um west of the sender") != std::string::npos);
+}
+
+TEST_CASE(
+    "probe: the document has the perturbations of a map, and no more effects than asked for") {
+    const TemporaryFolder folder;
+    const Json all = json_of(folder, {"probe", with_map(folder)});
+    CHECK(all["model"] == "raytrace_2007");
+    CHECK(all["perturbations"].size() == 8);
+    CHECK(all["perturbations"][2]["name"] == "resolution x2");
+    CHECK(all["perturbations"][2]["changed"] == 0);
+    CHECK(all["perturbations"][4]["name"] == "walls outlined");
+    CHECK(all["perturbations"][4]["worst_db"].get<double>() < -0.9);  // 1 of 3 m, 1 dB each
+    CHECK(all["perturbations"][5]["nothing"] == "no wall is hollow");
+    CHECK(all["effects"].size() > 1);
+    CHECK(all["effects"][0]["db_per_mm"].is_null());
+    const Json one = json_of(folder, {"probe", with_map(folder), "--top", "1", "--no-messages"});
+    CHECK(one["effects"].size() == 1);
+    CHECK(one["messages"].empty());
+}
+
+TEST_CASE("probe: robots out of reach and counts that are none are errors in words") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("rim.toml", rim);
+    const Ended alone = command(folder, {"probe", file, "--set", "propagation.range=\"1 m\""});
+    CHECK(alone.exit == 3);
+    CHECK(alone.err.find("no two robots come within reach of disc") != std::string::npos);
+    CHECK(command(folder, {"probe", file, "--links", "0"}).exit == 2);
+}
