@@ -3,6 +3,7 @@
 
 #include "experiment/flood_bench.hpp"
 #include "scenario/scenario.hpp"
+#include "study/advise_candidates.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -158,6 +159,15 @@ struct CompareArguments : StudyArguments {
     std::optional<std::string> picture;
 };
 void compare(const CompareArguments& arguments);
+
+struct AdviseArguments : StudyArguments {
+    std::string metric = "delivery_ratio", criterion = "mean";
+    std::optional<double> tolerance;
+    CandidateQuestion question;
+    bool no_cost = false;
+    std::optional<std::string> picture;
+};
+void advise(const AdviseArguments& arguments);
 
 struct FitArguments : FileArguments {
     std::string to;

@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/passing_store.hpp"
 #include "cli/picture_output.hpp"
 #include "cli/stop.hpp"
 #include "cli/study_run.hpp"
@@ -19,30 +20,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <stdlib.h>
 
 namespace rovernet::cli {
 namespace {
-
-/// A store that vanishes with its object.
-class PassingStore {
-  public:
-    PassingStore() {
-        path_ = (std::filesystem::temp_directory_path() / "rovernet-compare-XXXXXX").string();
-        if (!mkdtemp(path_.data())) throw RunError(path_ + ": no folder can be made there");
-    }
-    ~PassingStore() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    PassingStore(const PassingStore&) = delete;
-    PassingStore& operator=(const PassingStore&) = delete;
-    std::string file() const { return path_ + "/compare.db"; }
-
-  private:
-    std::string path_;
-};
 
 constexpr std::string_view model_path = "propagation.model";
 

@@ -61,7 +61,8 @@ CLI::Validator below_90_degrees();
 /// Whole number from 0 to 2^63 - 1, as in a file.
 CLI::Validator whole_number();
 
-/// Adds run, sweep, compare, fit, probe. @param typed  the command line as it was typed
+/// Adds run, sweep, compare, advise, fit, probe, validate. @param typed  the command line as it was
+/// typed
 void add_run_commands(CLI::App& app, const std::string& typed);
 /// Adds link, links, scene, where, draw, move.
 void add_scene_commands(CLI::App& app);

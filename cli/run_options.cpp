@@ -23,11 +23,19 @@ void add_run(CLI::App& app) {
                  "print the scenario with every default, and do not run it");
 }
 
-/// Options of how a study is run.
-void add_study_run(CLI::App& command, StudyArguments& a) {
+/// Options of how a study's runs are made.
+void add_workers(CLI::App& command, StudyArguments& a) {
     command
         .add_option("--workers", a.workers, "processes at once (default: as many as processors)")
         ->check(CLI::Range(1, 1024));
+    command.add_option("--timeout", a.timeout, "of one run, in real time, such as 60s");
+    command.add_option("--memory", a.memory,
+                       "of one run, such as 2GB (default: what the machine has, over the workers)");
+}
+
+/// Options of how a study is run.
+void add_study_run(CLI::App& command, StudyArguments& a) {
+    add_workers(command, a);
     command.add_option("--replications", a.replications, "of each point; or [study] replications")
         ->check(CLI::Range(1, 1'000'000));
     command
@@ -37,9 +45,6 @@ void add_study_run(CLI::App& command, StudyArguments& a) {
     command.add_option("--max-replications", a.max_replications, "for --precision, at most")
         ->check(CLI::Range(1, 1'000'000));
     add_interval(command, a.interval);
-    command.add_option("--timeout", a.timeout, "of one run, in real time, such as 60s");
-    command.add_option("--memory", a.memory,
-                       "of one run, such as 2GB (default: what the machine has, over the workers)");
     command.add_flag("--fail-fast", a.fail_fast, "begin nothing new once a run has failed");
     add_json(command, a.json);
 }
@@ -96,6 +101,45 @@ void add_compare(CLI::App& app, const std::string& typed) {
     add_study_run(compare, a);
 }
 
+void add_advise(CLI::App& app, const std::string& typed) {
+    const auto [advise, a] = add_command(
+        app, "advise", "The cheapest models with which a scenario has the results of detailed ones",
+        cli::advise);
+    add_examples(advise, {"rovernet advise examples/rescue/rescue.toml --tolerance 0.1 --models "
+                          "friis,log_distance,multi_wall --max-replications 200"});
+    a.command = typed;
+    add_study_file(advise, a, any_file);
+    advise
+        .add_option("--tolerance", a.tolerance,
+                    "error of the metric that does not matter (default: 0.02 of a share)")
+        ->check(CLI::PositiveNumber);
+    advise
+        .add_option("--criterion", a.criterion,
+                    "error that is meant: mean, of many runs; run, of a single one")
+        ->check(CLI::IsMember({"mean", "run"}))
+        ->capture_default_str();
+    advise.add_option("--metric", a.metric, "that has to be right")->capture_default_str();
+    advise
+        .add_option("--reference", a.question.reference,
+                    "change of the reference: propagation.KEY=VALUE or reception.KEY=VALUE")
+        ->allow_extra_args(false);
+    advise
+        .add_option("--models", a.question.models,
+                    "propagation models to judge (default: those less detailed)")
+        ->delimiter(',');
+    advise.add_flag("--as-given", a.question.as_given,
+                    "do not fit models first, but take the parameters of the file");
+    advise
+        .add_option("--max-replications", a.max_replications,
+                    "what is undecided then counts as insufficient (default: 4000)")
+        ->check(CLI::Range(1, 1'000'000));
+    advise.add_flag("--no-cost", a.no_cost, "do not measure costs, which differ from time to time");
+    advise.add_option("--store", a.store, "keep the runs in this file, and go on from there");
+    advise.add_option("-o,--output", a.picture, "picture to write: NAME.svg, NAME.png or NAME.pdf");
+    add_workers(advise, a);
+    add_json(advise, a.json);
+}
+
 void add_fit(CLI::App& app) {
     const auto [fit, a] = add_command(
         app, "fit", "The parameters with which each model comes nearest to known losses", cli::fit);
@@ -139,6 +183,7 @@ void add_run_commands(CLI::App& app, const std::string& typed) {
     add_run(app);
     add_sweep(app, typed);
     add_compare(app, typed);
+    add_advise(app, typed);
     add_fit(app);
     add_probe(app);
 }

@@ -151,12 +151,12 @@ std::string run_id(const std::string& point_id, std::uint32_t replication,
 }
 
 Study::Study(const std::string& path, const ScenarioOptions& options,
-             const std::optional<std::vector<Vary>>& vary)
+             const std::optional<std::vector<Vary>>& vary, const std::vector<Exclusion>& exclude)
     : options_(options), file_(path, options), base_(file_.scenario()) {
     if (vary) {
         base_.study.vary = *vary;
         base_.study.zip.clear();
-        base_.study.exclude.clear();
+        base_.study.exclude = exclude;
     }
     note_own_models(base_);
     const StudyTable& study = base_.study;

@@ -35,10 +35,12 @@ std::string settings_text(const Table& settings);
 class Study {
   public:
     /// Reads every point's scenario.
-    /// @param vary  what varies, if not what the file says; nothing is zipped or excluded then
+    /// @param vary     what varies, if not what the file says; nothing is zipped then
+    /// @param exclude  points that are left out then
     /// @throws InputError at the first mistake, naming the point
     Study(const std::string& path, const ScenarioOptions& options,
-          const std::optional<std::vector<Vary>>& vary = {});
+          const std::optional<std::vector<Vary>>& vary = {},
+          const std::vector<Exclusion>& exclude = {});
 
     const Scenario& base() const { return base_; }  ///< the file's own scenario
     const ScenarioOptions& options() const { return options_; }

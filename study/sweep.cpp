@@ -104,6 +104,8 @@ class Sweep {
 
   private:
     void plan();
+    void plan_replications();
+    bool extends() const { return study_.table().precision && !options_.replications; }
     void add_run(Task task);
     void extend(std::uint32_t point);
     void end_run(Task task);
@@ -162,6 +164,7 @@ void Sweep::add_run(Task task) {
 void Sweep::plan() {
     finished_ = finished_runs(store_);
     finished_.insert(options_.elsewhere.begin(), options_.elsewhere.end());
+    if (options_.replications) return plan_replications();
     const std::uint64_t runs = planned_runs(study_);
     for (std::uint64_t place = 0; place < runs; ++place) {
         add_run(Task::at(place, study_.points().size()));
@@ -171,9 +174,20 @@ void Sweep::plan() {
     }
 }
 
+/// Plans the replications that were asked for, point by point within each replication.
+void Sweep::plan_replications() {
+    const std::vector<std::uint32_t>& asked = *options_.replications;
+    const std::uint32_t most = *std::max_element(asked.begin(), asked.end());
+    for (std::uint32_t r = 0; r < most; ++r) {
+        for (std::uint32_t p = 0; p < asked.size(); ++p) {
+            if (r < asked[p]) add_run({p, r});
+        }
+    }
+}
+
 /// Plans more replications of a point all of whose runs are over, if its precision wants them.
 void Sweep::extend(std::uint32_t point) {
-    if (!study_.table().precision) return;
+    if (!extends()) return;
     while (open_[point] == 0 && hopeless_[point] == 0) {
         const auto wanted = replications_for(study_.table(), values_of(point), planned_[point]);
         if (wanted <= planned_[point]) return;
@@ -192,7 +206,7 @@ std::vector<double> Sweep::values_of(std::uint32_t point) const {
 
 std::vector<ImprecisePoint> Sweep::imprecise_points() const {
     std::vector<ImprecisePoint> list;
-    if (!study_.table().precision || result_.stopped) return list;
+    if (!extends() || result_.stopped) return list;
     for (std::uint32_t point = 0; point < open_.size(); ++point) {
         const ReachedPrecision reached = reached_precision(study_.table(), values_of(point));
         if (reached.enough) continue;

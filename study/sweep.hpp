@@ -37,6 +37,8 @@ struct SweepOptions {
     WorkerLimits limits = {};
     bool fail_fast = false;  ///< begin nothing new once a run has failed
     std::optional<Shard> shard = {};
+    /// Replications of each point, by its number, in place of [study] replications and precision.
+    std::optional<std::vector<std::uint32_t>> replications = {};
     std::set<std::string> elsewhere = {};  ///< ids of runs that another store has: not made here
     /// Asked all the time.
     std::function<Stop()> stop = [] { return Stop::no; };

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "study/advise_candidates.hpp"
+#include "study/advise_decision.hpp"
+#include "study/control_variate.hpp"
+#include "study/interval.hpp"
+#include "study/store.hpp"
+#include "study/study.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// What a model costs on this machine, now. No decision depends on it.
+struct CandidateCost {
+    double run_s = 0;  ///< [s] CPU time of a run, mean
+    /// CPU time of the medium for each transmission [s]: median, lowest and highest turn.
+    std::optional<double> transmission_s, low_s, high_s;
+    std::optional<double> share;  ///< [-] of the medium in a run's CPU time, about
+};
+
+/// What differs between a candidate and the reference.
+enum class AdviceStep { path_loss, reception, both };
+
+/// A candidate that was judged against the reference.
+struct JudgedCandidate {
+    AdviceStep step{};
+    std::size_t path_loss, reception;  ///< places in AdviceCandidates
+    std::string name;                  ///< "log_distance + sinr"
+    CandidateDecision decision;
+    bool needed = true;  ///< false: a cheaper one was found sufficient before its verdict fell
+    double bias = 0, run_error = 0;  ///< means of D and of |D|, in the metric's unit
+    std::optional<MeanInterval> bias_interval, run_error_interval;  ///< each alone, at 1 - alpha
+    CandidateCost cost;
+    std::optional<ControlVariate> helper;  ///< of the reference's mean, by this candidate
+    std::optional<BestMix> mix;            ///< at the costs of both
+};
+
+/// Advice on a scenario: the cheapest path loss and reception whose results are those of the
+/// reference, within the tolerance.
+struct Advice {
+    std::string metric;
+    DecisionRule rule;
+    AdviceCandidates candidates;
+    /// Path losses with the reference's reception, or the most detailed that they go with; receptions
+    /// with the reference's path loss, both in the order of their detail; then the cheapest of both
+    /// together, if that is none of them.
+    std::vector<JudgedCandidate> judged;
+    std::size_t path_loss, reception;  ///< the choice
+    std::size_t replications = 0;      ///< of the reference
+    CandidateCost reference_cost;
+    std::string cost_text = {};  ///< words on how costs were measured; empty: they were not
+
+    /// The judgement that the choice rests on; null: the reference itself was chosen.
+    const JudgedCandidate* chosen() const;
+};
+
+/// Makes the runs that a study's points lack: of each point so many replications. What it throws
+/// ends the advice.
+using MakeRuns = std::function<void(const std::vector<std::uint32_t>& replications)>;
+
+/// Judges the candidates: all on the same replications, added in blocks; each stops with its
+/// verdict, and all stop when the choice depends on none. First path losses, then receptions, then
+/// the choice of both. What is undecided after `rule.most` replications counts as insufficient. If
+/// the pair is insufficient, the chosen path loss keeps the reference's reception.
+///
+/// Depends on results alone: not on the number of workers, the speed of a machine, or what the store
+/// has already.
+/// @param study  over candidates.vary() and candidates.exclude()
+Advice advise(const AdviceCandidates& candidates, const Study& study, const Store& store,
+              const std::string& metric, const DecisionRule& rule, const MakeRuns& make_runs);
+
+/// Replications after the next block, of n so far: 10 at first, then a quarter more each time, for a
+/// candidate that has its verdict early in a block makes the rest for nothing.
+std::size_t next_block(std::size_t n, std::size_t most);
+
+}  // namespace rovernet
