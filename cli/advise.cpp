@@ -95,7 +95,7 @@ void advise(const AdviseArguments& a) {
     const PassingStore passing;
     Store store = open_store(a.store.value_or(passing.file()), study);
     Advice advice =
-        rovernet::advise(candidates, study, store, a.metric,
+        rovernet::advise(candidates, store, a.metric,
                          rule_for(a, scenario.study, candidates.family()),
                          [&](const auto& replications) { make_block(a, study, store, replications); });
     if (!a.no_cost) {

@@ -42,11 +42,17 @@ std::string share_of_run(const CandidateCost& cost) {
     return cost.share ? fmt::format("{:.2g} %", 100 * *cost.share) : "-";
 }
 
-Table choice_of(const Advice& advice) {
+/// Tables of a scenario file.
+std::string toml_of(const CandidateModel& path_loss, const CandidateModel& reception) {
     Table table;
-    table.set("propagation", advice.candidates.path_losses[advice.path_loss].table);
-    table.set("reception", advice.candidates.receptions[advice.reception].table);
-    return table;
+    table.set("propagation", path_loss.table);
+    table.set("reception", reception.table);
+    return to_toml(table);
+}
+
+std::string toml_of_choice(const Advice& advice) {
+    const AdviceCandidates& c = advice.candidates;
+    return toml_of(c.path_losses[advice.path_loss], c.receptions[advice.reception]);
 }
 
 std::string reference_of(const Advice& advice) {
@@ -104,7 +110,7 @@ void print_report(const Advice& advice) {
     fmt::print("\n{}\n", advice_text(advice));
     const std::string mix = control_variate_text(advice);
     if (!mix.empty()) fmt::print("{}\n", mix);
-    fmt::print("\n{}", to_toml(choice_of(advice)));
+    fmt::print("\n{}", toml_of_choice(advice));
 }
 
 void set_interval(Table& row, const std::string& name, double mean,
@@ -158,6 +164,7 @@ Table as_json(const Advice& advice) {
     table.set("replications", std::uint64_t{advice.replications});
     reference.set("path_loss", c.path_losses.back().name);
     reference.set("reception", c.receptions.back().name);
+    reference.set("toml", toml_of(c.path_losses.back(), c.receptions.back()));
     set_cost(reference, advice.reference_cost);
     table.set("reference", std::move(reference));
     Array rows, left_out;
@@ -167,7 +174,7 @@ Table as_json(const Advice& advice) {
     table.set("left_out", std::move(left_out));
     choice.set("path_loss", c.path_losses[advice.path_loss].name);
     choice.set("reception", c.receptions[advice.reception].name);
-    choice.set("toml", to_toml(choice_of(advice)));
+    choice.set("toml", toml_of_choice(advice));
     table.set("choice", std::move(choice));
     table.set("advice", advice_text(advice));
     table.set("control_variate", control_variate_text(advice));

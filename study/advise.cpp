@@ -20,10 +20,9 @@ struct Combination {
 /// Advisor at work: the runs that are there, and what they decided.
 class Advisor {
   public:
-    Advisor(const AdviceCandidates& candidates, const Study& study, const Store& store,
-            std::string metric, const DecisionRule& rule, const MakeRuns& make_runs)
+    Advisor(const AdviceCandidates& candidates, const Store& store, std::string metric,
+            const DecisionRule& rule, const MakeRuns& make_runs)
         : candidates_(candidates),
-          points_(study.points().size()),
           store_(store),
           metric_(std::move(metric)),
           rule_(rule),
@@ -47,7 +46,6 @@ class Advisor {
     JudgedCandidate judged(const Combination& c, const Ladder& ladder, std::size_t i) const;
 
     const AdviceCandidates& candidates_;
-    std::size_t points_;
     const Store& store_;
     std::string metric_;
     DecisionRule rule_;
@@ -57,7 +55,7 @@ class Advisor {
 
 void Advisor::judge_block(Ladder& ladder, const std::vector<Combination>& list, std::size_t from,
                           std::size_t to) {
-    std::vector<std::uint32_t> asked(points_);
+    std::vector<std::uint32_t> asked(candidates_.family() + 1);
     std::vector<std::size_t> waiting;
     asked[point_of(reference())] = static_cast<std::uint32_t>(to);
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -139,9 +137,9 @@ std::size_t next_block(std::size_t n, std::size_t most) {
     return std::min(most, n + std::max(least, n / share));
 }
 
-Advice advise(const AdviceCandidates& candidates, const Study& study, const Store& store,
-              const std::string& metric, const DecisionRule& rule, const MakeRuns& make_runs) {
-    Advisor advisor(candidates, study, store, metric, rule, make_runs);
+Advice advise(const AdviceCandidates& candidates, const Store& store, const std::string& metric,
+              const DecisionRule& rule, const MakeRuns& make_runs) {
+    Advisor advisor(candidates, store, metric, rule, make_runs);
     const Combination reference = advisor.reference();
     std::vector<Combination> path_losses, receptions;
     for (std::size_t p = 0; p < reference.path_loss; ++p) {

@@ -6,7 +6,6 @@
 #include "study/control_variate.hpp"
 #include "study/interval.hpp"
 #include "study/store.hpp"
-#include "study/study.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -72,9 +71,9 @@ using MakeRuns = std::function<void(const std::vector<std::uint32_t>& replicatio
 ///
 /// Depends on results alone: not on the number of workers, the speed of a machine, or what the store
 /// has already.
-/// @param study  over candidates.vary() and candidates.exclude()
-Advice advise(const AdviceCandidates& candidates, const Study& study, const Store& store,
-              const std::string& metric, const DecisionRule& rule, const MakeRuns& make_runs);
+/// @param store  of a study over candidates.vary() and candidates.exclude()
+Advice advise(const AdviceCandidates& candidates, const Store& store, const std::string& metric,
+              const DecisionRule& rule, const MakeRuns& make_runs);
 
 /// Replications after the next block, of n so far: 10 at first, then a quarter more each time, for a
 /// candidate that has its verdict early in a block makes the rest for nothing.

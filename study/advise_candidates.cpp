@@ -255,7 +255,7 @@ std::size_t AdviceCandidates::family() const {
         count += static_cast<std::size_t>(
             std::count_if(row.begin(), row.end(), [](const auto& point) { return point; }));
     }
-    return std::max<std::size_t>(count, 2) - 1;
+    return count - 1;
 }
 
 std::string AdviceCandidates::name_of(std::size_t path_loss, std::size_t reception) const {

@@ -50,7 +50,7 @@ struct AdviceCandidates {
     std::size_t reference_reception() const { return receptions.size() - 1; }
     /// The most detailed reception that a path loss goes with: mostly the reference's.
     std::size_t reception_of(std::size_t path_loss) const;
-    /// Combinations that could be judged: all but the reference. Any of them may become the choice,
+    /// Number of combinations that could be judged: all points but the reference. Any of them may become the choice,
     /// whatever the replications that lead to it, so that all of them share the level.
     std::size_t family() const;
     /// "log_distance + sinr"

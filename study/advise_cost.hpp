@@ -3,6 +3,7 @@
 
 #include "study/advise.hpp"
 #include "study/medium_cost.hpp"
+#include "study/study.hpp"
 
 #include <functional>
 #include <optional>

@@ -99,8 +99,9 @@ std::optional<std::size_t> CandidateDecision::needed() const {
     return forecast.decided_at_;
 }
 
-Ladder::Ladder(std::size_t candidates, const DecisionRule& rule)
-    : decisions_(candidates, CandidateDecision(rule)) {}
+Ladder::Ladder(std::size_t candidates, const DecisionRule& rule) {
+    for (std::size_t i = 0; i < candidates; ++i) decisions_.emplace_back(rule);
+}
 
 std::optional<std::size_t> Ladder::choice() const {
     for (std::size_t i = 0; i < size(); ++i) {

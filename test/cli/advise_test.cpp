@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "study/store.hpp"
+#include "test/cli/process.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace rovernet;
+using namespace rovernet::test;
+
+namespace {
+
+/// Robots on an open field that talk: a run takes a millisecond or two.
+const std::string talkers = R"([scenario]
+name = "talkers"
+duration = "4 s"
+[radio]
+power = "-20 dBm"
+sensitivity = "-85 dBm"
+antenna_height = "1 m"
+[[robot]]
+name = "r"
+count = 8
+place = { model = "uniform", area = [["0 m", "0 m"], ["60 m", "60 m"]] }
+[routing]
+protocol = "flood"
+ttl = 2
+jitter = "10 ms"
+[[traffic]]
+from = "random"
+size = "64 B"
+every = "500 ms"
+)";
+
+struct Advised {
+    TemporaryFolder folder;
+    std::string file = folder.write("talkers.toml", talkers);
+    std::string store() const { return folder.path("advice.db"); }
+
+    std::vector<std::string> words(std::vector<std::string> more) const {
+        std::vector<std::string> all = {"advise",      file,  "--tolerance",        "0.1", "--models",
+                                        "friis,two_ray", "--no-cost", "--max-replications", "120"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+};
+
+std::size_t runs_in(const std::string& store) {
+    try {
+        return std::filesystem::exists(store) ? Store::open(store).runs().size() : 0;
+    } catch (const std::exception&) {
+        return 0;  // it is only just being made
+    }
+}
+
+}  // namespace
+
+TEST_CASE("advise: it prints verdicts, a sentence, and the choice for a scenario file") {
+    const Advised advised;
+    const Ended text = command(advised.folder, advised.words({}));
+    CAPTURE(text.err);
+    REQUIRE(text.exit == 0);
+    for (const char* part : {"delivery_ratio of ", "candidate", "friis + sinr", "two_ray + sinr",
+                             "reference", "Take ", "[propagation]\nmodel = ", "[reception]\nmodel = "}) {
+        CAPTURE(part);
+        CHECK(text.out.find(part) != std::string::npos);
+    }
+    // The tables are a part of a scenario: with them it runs.
+    const std::string tables = text.out.substr(text.out.find("[propagation]"));
+    advised.folder.write("chosen.toml", talkers + tables);
+    CHECK(command(advised.folder, {"run", advised.folder.path("chosen.toml"), "--json", "--out",
+                                   advised.folder.path("out")})
+              .exit == 0);
+}
+
+TEST_CASE("advise: the advice is the same for any number of workers") {
+    const Advised advised;
+    const Json one = json_of(advised.folder, advised.words({"--workers", "1"}));
+    const Json two = json_of(advised.folder, advised.words({"--workers", "2"}));
+    CHECK(one == two);
+    CHECK(one["candidates"].size() >= 4);
+    CHECK(one["method"] == "betting");
+    CHECK(one["reference"]["path_loss"] == "two_ray");
+}
+
+TEST_CASE("advise: interrupted and gone on with, it is the same as in one go") {
+    const Advised advised;
+    const auto with_store = advised.words({"--store", advised.store(), "--workers", "1"});
+    const Process first(advised.folder, with_store);
+    while (runs_in(advised.store()) < 30) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    first.interrupt();
+    const Ended ended = first.wait();
+    CHECK(ended.exit == 130);
+    CHECK(ended.err.find("go on with\n  rovernet advise ") != std::string::npos);
+    const std::size_t kept = runs_in(advised.store());
+    CHECK(kept >= 30);
+    const Json resumed = json_of(advised.folder, with_store);
+    CHECK(runs_in(advised.store()) > kept);
+    CHECK(resumed == json_of(advised.folder, advised.words({"--workers", "2"})));
+    // A stricter question takes what is there.
+    const Json strict =
+        json_of(advised.folder, advised.words({"--store", advised.store(), "--criterion", "run"}));
+    CHECK(strict["criterion"] == "run");
+}
+
+TEST_CASE("advise: with costs it says what each model takes, and draws error against cost") {
+    const Advised advised;
+    auto words = advised.words({"-o", advised.folder.path("advice.svg")});
+    std::erase(words, "--no-cost");
+    const Json json = json_of(advised.folder, words);
+    CHECK(json["reference"]["cost_tx_s"] > 0);
+    CHECK(json["candidates"][0]["cpu_run_s"] > 0);
+    CHECK(json["candidates"][0]["radio_share"] <= 1);
+    const std::string svg = content(advised.folder.path("advice.svg"));
+    CHECK(svg.find("CPU time of the medium per transmission") != std::string::npos);
+    CHECK(svg.find("two_ray + sinr") != std::string::npos);
+}
+
+TEST_CASE("advise: a metric without bounds needs a tolerance, and is judged by Student's looks") {
+    const Advised advised;
+    const std::vector<std::string> metric = {"advise", advised.file, "--no-cost", "--metric",
+                                             "transmissions"};
+    const Ended ended = command(advised.folder, metric);
+    CHECK(ended.exit == 2);
+    CHECK(ended.err.find("--metric transmissions: transmissions has no upper bound; expected a "
+                         "--tolerance") != std::string::npos);
+    const Json json = json_of(advised.folder, {"advise", advised.file, "--no-cost", "--metric",
+                                               "transmissions", "--tolerance", "30", "--models",
+                                               "two_ray", "--max-replications", "40"});
+    CHECK(json["method"] == "t");
+    CHECK(json["advice"].get<std::string>().find("by Student's intervals") != std::string::npos);
+}
+
+TEST_CASE("advise: mistakes in options are told with what is expected") {
+    const Advised advised;
+    const auto error = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"advise", advised.file};
+        words.insert(words.end(), more.begin(), more.end());
+        return command(advised.folder, words);
+    };
+    CHECK(error({"--tolerance", "1"}).err.find("expected a value below 1") != std::string::npos);
+    CHECK(error({"--tolerance", "1"}).exit == 2);
+    CHECK(error({"--tolerance", "0"}).exit == 2);
+    CHECK(error({"--criterion", "max"}).exit == 2);
+    CHECK(error({"--metric", "delivery"}).err.find("did you mean") != std::string::npos);
+    CHECK(error({"--models", "fris"}).err.find("did you mean \"friis\"?") != std::string::npos);
+    CHECK(error({"--reference", "radio.power=1"}).exit == 2);
+    CHECK(error({"-o", "advice.txt"}).err.find("ends in .svg") != std::string::npos);
+}
