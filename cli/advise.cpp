@@ -69,10 +69,10 @@ void make_block(const AdviseArguments& a, Study& study, Store& store,
     if (result.progress.left > 0) check_not_stopped(a);
     if (result.progress.failed == 0) return;
     const StoredRun& run = *result.failure;
-    throw CommandEnd(partly_failed,
-                     fmt::format("a run failed, and without it there is no advice: {}\n  {}",
-                                 run.error,
-                                 run_command(store, store.points().at(run.point), run.replication)));
+    throw CommandEnd(
+        partly_failed,
+        fmt::format("a run failed, and without it there is no advice: {}\n  {}", run.error,
+                    run_command(store, store.points().at(run.point), run.replication)));
 }
 
 }  // namespace
@@ -94,10 +94,9 @@ void advise(const AdviseArguments& a) {
     const HeldStop until_gone;
     const PassingStore passing;
     Store store = open_store(a.store.value_or(passing.file()), study);
-    Advice advice =
-        rovernet::advise(candidates, store, a.metric,
-                         rule_for(a, scenario.study, candidates.family()),
-                         [&](const auto& replications) { make_block(a, study, store, replications); });
+    Advice advice = rovernet::advise(
+        candidates, store, a.metric, rule_for(a, scenario.study, candidates.family()),
+        [&](const auto& replications) { make_block(a, study, store, replications); });
     if (!a.no_cost) {
         add_costs(advice, study, store, [] { return stops_asked() > 0; });
         check_not_stopped(a);

@@ -34,8 +34,8 @@ std::string interval_text(double mean, const std::optional<MeanInterval>& interv
 
 std::string micros_text(const CandidateCost& cost) {
     if (!cost.transmission_s) return "-";
-    return fmt::format("{:.3g} us ({:.3g} to {:.3g})", 1e6 * *cost.transmission_s, 1e6 * *cost.low_s,
-                       1e6 * *cost.high_s);
+    return fmt::format("{:.3g} us ({:.3g} to {:.3g})", 1e6 * *cost.transmission_s,
+                       1e6 * *cost.low_s, 1e6 * *cost.high_s);
 }
 
 std::string share_of_run(const CandidateCost& cost) {
@@ -98,11 +98,12 @@ void print_models(const Advice& advice) {
 
 void print_report(const Advice& advice) {
     const DecisionRule& rule = advice.rule;
-    fmt::print("{} of {} replications against {}: tolerance {:.4g} {}, {:.4g} % sure for all {} "
-               "combinations\n\n",
-               advice.metric, advice.replications, reference_of(advice), rule.tolerance,
-               rule.criterion == ErrorCriterion::mean ? "in the mean" : "in a single run",
-               100 * (1 - rule.alpha), rule.family);
+    fmt::print(
+        "{} of {} replications against {}: tolerance {:.4g} {}, {:.4g} % sure for all {} "
+        "combinations\n\n",
+        advice.metric, advice.replications, reference_of(advice), rule.tolerance,
+        rule.criterion == ErrorCriterion::mean ? "in the mean" : "in a single run",
+        100 * (1 - rule.alpha), rule.family);
     print_judged(advice);
     fmt::print("\n");
     if (!advice.cost_text.empty()) fmt::print("{}\n", advice.cost_text);

@@ -99,14 +99,14 @@ JudgedCandidate Advisor::judged(const Combination& c, const Ladder& ladder, std:
     out.run_error = summary_of(sizes)->mean;
     const double confidence = 1 - rule_.alpha;
     out.bias_interval = interval_of(differences, difference_bounds(rule_.bounds), confidence);
-    const Bounds size_bounds = rule_.by_betting() ? Bounds{0.0, difference_bounds(rule_.bounds).high} : Bounds{};
+    const Bounds size_bounds =
+        rule_.by_betting() ? Bounds{0.0, difference_bounds(rule_.bounds).high} : Bounds{};
     out.run_error_interval = interval_of(sizes, size_bounds, confidence);
     out.helper = control_variate(decision.reference(), decision.candidate());
     return out;
 }
 
-std::vector<JudgedCandidate> Advisor::judge(AdviceStep step,
-                                            const std::vector<Combination>& list) {
+std::vector<JudgedCandidate> Advisor::judge(AdviceStep step, const std::vector<Combination>& list) {
     Ladder ladder(list.size(), rule_);
     for (std::size_t n = 0; n < rule_.most && !ladder.decided();) {
         const std::size_t next = next_block(n, rule_.most);
@@ -153,8 +153,9 @@ Advice advise(const AdviceCandidates& candidates, const Store& store, const std:
     const auto of_path_losses = advisor.judge(AdviceStep::path_loss, path_losses);
     const auto of_receptions = advisor.judge(AdviceStep::reception, receptions);
     const Combination by_path_loss = advisor.choice_of(of_path_losses);
-    const Combination both{by_path_loss.path_loss,
-                           std::min(by_path_loss.reception, advisor.choice_of(of_receptions).reception)};
+    const Combination both{
+        by_path_loss.path_loss,
+        std::min(by_path_loss.reception, advisor.choice_of(of_receptions).reception)};
     Advice out{.metric = metric,
                .rule = rule,
                .candidates = candidates,
@@ -165,8 +166,8 @@ Advice advise(const AdviceCandidates& candidates, const Store& store, const std:
     out.judged.insert(out.judged.end(), of_receptions.begin(), of_receptions.end());
     if (both != reference && !out.chosen()) {
         const bool runs = candidates.points[both.path_loss][both.reception].has_value();
-        const auto of_both = advisor.judge(AdviceStep::both, runs ? std::vector{both}
-                                                                  : std::vector<Combination>{});
+        const auto of_both =
+            advisor.judge(AdviceStep::both, runs ? std::vector{both} : std::vector<Combination>{});
         if (advisor.choice_of(of_both) == reference) out.reception = by_path_loss.reception;
         out.judged.insert(out.judged.end(), of_both.begin(), of_both.end());
     }

@@ -47,9 +47,9 @@ struct Advice {
     std::string metric;
     DecisionRule rule;
     AdviceCandidates candidates;
-    /// Path losses with the reference's reception, or the most detailed that they go with; receptions
-    /// with the reference's path loss, both in the order of their detail; then the cheapest of both
-    /// together, if that is none of them.
+    /// Path losses with the reference's reception, or the most detailed that they go with;
+    /// receptions with the reference's path loss, both in the order of their detail; then the
+    /// cheapest of both together, if that is none of them.
     std::vector<JudgedCandidate> judged;
     std::size_t path_loss, reception;  ///< the choice
     std::size_t replications = 0;      ///< of the reference
@@ -69,14 +69,14 @@ using MakeRuns = std::function<void(const std::vector<std::uint32_t>& replicatio
 /// the choice of both. What is undecided after `rule.most` replications counts as insufficient. If
 /// the pair is insufficient, the chosen path loss keeps the reference's reception.
 ///
-/// Depends on results alone: not on the number of workers, the speed of a machine, or what the store
-/// has already.
+/// Depends on results alone: not on the number of workers, the speed of a machine, or what the
+/// store has already.
 /// @param store  of a study over candidates.vary() and candidates.exclude()
 Advice advise(const AdviceCandidates& candidates, const Store& store, const std::string& metric,
               const DecisionRule& rule, const MakeRuns& make_runs);
 
-/// Replications after the next block, of n so far: 10 at first, then a quarter more each time, for a
-/// candidate that has its verdict early in a block makes the rest for nothing.
+/// Replications after the next block, of n so far: 10 at first, then a quarter more each time, for
+/// a candidate that has its verdict early in a block makes the rest for nothing.
 std::size_t next_block(std::size_t n, std::size_t most);
 
 }  // namespace rovernet

@@ -52,8 +52,8 @@ bool is_listed(std::string_view model) {
 Table propagation_with(const Scenario& scenario, const std::string& model) {
     PropagationTable propagation = scenario.propagation;
     const auto names = listed_models();
-    propagation.model = static_cast<std::size_t>(
-        std::find(names.begin(), names.end(), model) - names.begin());
+    propagation.model =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), model) - names.begin());
     Table table = propagation_document(propagation);
     std::erase_if(table.entries, [](const Entry& entry) {
         return entry.value.string() && entry.value.string()->starts_with("nan");  // not given
@@ -107,7 +107,7 @@ Reference reference_for(const Scenario& scenario, const CandidateQuestion& quest
         const Value* of = said.table()->find(table);
         return of && of->table() ? of->table()->find(key) : nullptr;
     };
-    std::string model = !scenario.walls    ? "two_ray"
+    std::string model = !scenario.walls     ? "two_ray"
                         : is_listed("rays") ? "rays"
                                             : listed_models().back();
     const Value* named = told("propagation", "model");
@@ -118,8 +118,8 @@ Reference reference_for(const Scenario& scenario, const CandidateQuestion& quest
     }
     append_fields(out.reception, scenario.reception);
     out.reception.set("model", "sinr");
-    for (const auto& [name, table] : {std::pair{"propagation", &out.propagation},
-                                      std::pair{"reception", &out.reception}}) {
+    for (const auto& [name, table] :
+         {std::pair{"propagation", &out.propagation}, std::pair{"reception", &out.reception}}) {
         const Value* over = said.table()->find(name);
         if (!over || !over->table()) continue;
         for (const Entry& entry : over->table()->entries) {
@@ -163,9 +163,9 @@ std::vector<CandidateModel> path_losses_for(const Scenario& scenario,
     for (const std::string& model : listed_models()) {
         const auto& asked = question.models;
         const bool wanted =
-            asked.empty() ? model == of_reference ||
-                                is_usual(model, of_reference, scenario.walls != nullptr)
-                          : std::find(asked.begin(), asked.end(), model) != asked.end();
+            asked.empty()
+                ? model == of_reference || is_usual(model, of_reference, scenario.walls != nullptr)
+                : std::find(asked.begin(), asked.end(), model) != asked.end();
         if (!wanted) continue;
         const Table table = propagation_with(scenario, model);
         if (model != of_reference) out.push_back({model, model, table, "", ""});
@@ -282,8 +282,8 @@ std::vector<Exclusion> AdviceCandidates::exclude() const {
 }
 
 AdviceCandidates candidates_for(const std::string& path, const ScenarioOptions& options,
-                          const CandidateQuestion& question,
-                          const std::function<void(double)>& tell) {
+                                const CandidateQuestion& question,
+                                const std::function<void(double)>& tell) {
     const Scenario base = load_scenario(path, options);
     const ScenarioFile file(path, options);
     const Reference reference = reference_for(base, question);

@@ -50,8 +50,9 @@ struct AdviceCandidates {
     std::size_t reference_reception() const { return receptions.size() - 1; }
     /// The most detailed reception that a path loss goes with: mostly the reference's.
     std::size_t reception_of(std::size_t path_loss) const;
-    /// Number of combinations that could be judged: all points but the reference. Any of them may become the choice,
-    /// whatever the replications that lead to it, so that all of them share the level.
+    /// Number of combinations that could be judged: all points but the reference. Any of them may
+    /// become the choice, whatever the replications that lead to it, so that all of them share the
+    /// level.
     std::size_t family() const;
     /// "log_distance + sinr"
     std::string name_of(std::size_t path_loss, std::size_t reception) const;
@@ -61,15 +62,15 @@ struct AdviceCandidates {
     std::vector<Exclusion> exclude() const;
 };
 
-/// Candidates for a scenario. The reference is the model `rays` (order 3, diffraction utd) on a map,
-/// or the most detailed listed model if there is no such; two_ray (form exact) on an open field;
-/// with the reception `sinr`. Free parameters of the others are fitted to it, see
+/// Candidates for a scenario. The reference is the model `rays` (order 3, diffraction utd) on a
+/// map, or the most detailed listed model if there is no such; two_ray (form exact) on an open
+/// field; with the reception `sinr`. Free parameters of the others are fitted to it, see
 /// calibrate_to_model().
 /// @param tell  told the share of the fit that is done, 0 ... 1; may be empty
 /// @throws InputError for the file; at an option for an unknown model, or a reference that the
 ///         scenario cannot have
 AdviceCandidates candidates_for(const std::string& file, const ScenarioOptions& options,
-                          const CandidateQuestion& question,
-                          const std::function<void(double)>& tell = {});
+                                const CandidateQuestion& question,
+                                const std::function<void(double)>& tell = {});
 
 }  // namespace rovernet

@@ -33,18 +33,18 @@ ErrorPoints error_points(const JudgedCandidate& each) {
 
 Chart error_chart(const Advice& advice, const std::string& title, const std::string& x_label) {
     const AdviceCandidates& c = advice.candidates;
-    Chart chart{.kind = ChartKind::scatter,
-                .title = title,
-                .x_label = x_label,
-                .y_label = "error of " + advice.metric,
-                .note = fmt::format("errors to {}, with {:.4g} % intervals; tolerance {:.4g} {}",
-                                    c.name_of(c.reference_path_loss(), c.reference_reception()),
-                                    100 * (1 - advice.rule.alpha), advice.rule.tolerance,
-                                    advice.rule.criterion == ErrorCriterion::mean
-                                        ? "of the mean"
-                                        : "of a single run"),
-                .log_x = true,
-                .y_limits = {.low = 0}};
+    Chart chart{
+        .kind = ChartKind::scatter,
+        .title = title,
+        .x_label = x_label,
+        .y_label = "error of " + advice.metric,
+        .note = fmt::format(
+            "errors to {}, with {:.4g} % intervals; tolerance {:.4g} {}",
+            c.name_of(c.reference_path_loss(), c.reference_reception()),
+            100 * (1 - advice.rule.alpha), advice.rule.tolerance,
+            advice.rule.criterion == ErrorCriterion::mean ? "of the mean" : "of a single run"),
+        .log_x = true,
+        .y_limits = {.low = 0}};
     chart.series = {ChartSeries{.name = "of the mean"}, ChartSeries{.name = "of a single run"}};
     return chart;
 }

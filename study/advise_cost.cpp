@@ -65,10 +65,14 @@ CandidateCost cost_of(const RunMeans& means, const MediumCosts& costs, std::size
 
 std::string percent_text(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
-/// The error that the criterion is about, in words.
-std::string error_words(const Advice& advice) {
-    return advice.rule.criterion == ErrorCriterion::mean ? "mean " + advice.metric
-                                                         : advice.metric + " of a single run";
+/// "its mean delivery_ratio is within 0.02 of that of rays + sinr"
+std::string nearness_text(const Advice& advice, const std::string& reference) {
+    const std::string within =
+        fmt::format("within {:.4g} of that of {}", advice.rule.tolerance, reference);
+    if (advice.rule.criterion == ErrorCriterion::mean) {
+        return fmt::format("its mean {} is {}", advice.metric, within);
+    }
+    return fmt::format("the {} of a single run is {} on average", advice.metric, within);
 }
 
 /// What the choice saves, or that there is nothing to save; empty without costs.
@@ -142,8 +146,8 @@ std::string advice_text(const Advice& advice) {
                            reference, undecided_text(advice));
     }
     return fmt::format(
-        "Take {}: its {} is within {:.4g} of that of {} ({:.4g} % sure{}).{}{}", chosen->name,
-        error_words(advice), advice.rule.tolerance, reference, 100 * (1 - advice.rule.alpha),
+        "Take {}: {} ({:.4g} % sure{}).{}{}", chosen->name, nearness_text(advice, reference),
+        100 * (1 - advice.rule.alpha),
         advice.rule.by_betting() ? ", whatever the distribution" : ", by Student's intervals",
         saving_text(advice, chosen->cost), undecided_text(advice));
 }
@@ -157,15 +161,16 @@ std::string control_variate_text(const Advice& advice) {
         if (each.helper && (!best || worth(each) > worth(*best))) best = &each;
     }
     if (!best) return "";
-    const std::string rho = fmt::format("correlation {:.3f}, n = {}", best->helper->rho,
-                                        best->decision.n());
+    const std::string rho =
+        fmt::format("correlation {:.3f}, n = {}", best->helper->rho, best->decision.n());
     if (!(best->cost.run_s > 0)) {
         return fmt::format("Control variate: {} goes best with the reference, run by run ({}).",
                            best->name, rho);
     }
     if (!best->mix) return "Control variate: no candidate would save CPU time for the mean.";
     return fmt::format(
-        "Control variate: {:.3g} runs of {} for each of the reference tell the reference's mean for "
+        "Control variate: {:.3g} runs of {} for each of the reference tell the reference's mean "
+        "for "
         "{:.2g} times less CPU time ({}).",
         best->mix->ratio, best->name, best->mix->saving, rho);
 }

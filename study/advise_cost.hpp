@@ -20,7 +20,8 @@ namespace rovernet {
 void add_costs(Advice& advice, Study& study, const Store& store,
                const std::function<bool()>& stopped);
 
-/// Advice in a sentence that a user can act on: what to choose, how sure that is, and what it saves.
+/// Advice in a sentence that a user can act on: what to choose, how sure that is, and what it
+/// saves.
 std::string advice_text(const Advice& advice);
 
 /// What the most helpful candidate saves who wants the reference's mean: the best mix of both as a

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-// Decisions of `rovernet advise`: which of several candidates, the cheapest first, is the first that
-// comes near enough to the reference. Nothing here runs a simulation.
+// Decisions of `rovernet advise`: which of several candidates, the cheapest first, is the first
+// that comes near enough to the reference. Nothing here runs a simulation.
 
 namespace rovernet {
 
@@ -49,8 +49,8 @@ struct DecisionRule {
 /// outside, so that family / alpha is enough for it. It is right with a probability of 1 - alpha
 /// for the whole family, whatever the distribution and whenever one looks.
 ///
-/// Elsewhere Student's interval for the mean of D, or of |D|, is looked at after 10, 20, 40, ... and
-/// `most` pairs, two-sided at the level alpha / (family * looks). Within: it lies inside of the
+/// Elsewhere Student's interval for the mean of D, or of |D|, is looked at after 10, 20, 40, ...
+/// and `most` pairs, two-sided at the level alpha / (family * looks). Within: it lies inside of the
 /// tolerance; outside: it lies outside. Equal differences decide nothing. It supposes normal means.
 /// Source: reference/accuracy, C3.
 class CandidateDecision {

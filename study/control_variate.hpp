@@ -22,9 +22,9 @@ struct ControlVariate {
 ///   H = mean_n(H) + beta (mean_m(C) - mean_n(C)),
 ///   variance of it = var(H) / n * (1 - (1 - n / m) rho^2)
 ///
-/// It is unbiased whatever the cheap model's error, but for O(1/n) from beta. Variances and beta are
-/// over the n pairs. Source: B. Peherstorfer, K. Willcox, M. Gunzburger, Optimal model management
-/// for multifidelity Monte Carlo estimation, SIAM J. Sci. Comput. 38(5), 2016.
+/// It is unbiased whatever the cheap model's error, but for O(1/n) from beta. Variances and beta
+/// are over the n pairs. Source: B. Peherstorfer, K. Willcox, M. Gunzburger, Optimal model
+/// management for multifidelity Monte Carlo estimation, SIAM J. Sci. Comput. 38(5), 2016.
 ///
 /// @return nothing for fewer than 2 pairs, or if the values of one model are all equal
 /// @throws std::invalid_argument if there are fewer cheap runs than expensive ones, or a value is

@@ -44,8 +44,9 @@ struct Advised {
     std::string store() const { return folder.path("advice.db"); }
 
     std::vector<std::string> words(std::vector<std::string> more) const {
-        std::vector<std::string> all = {"advise",      file,  "--tolerance",        "0.1", "--models",
-                                        "friis,two_ray", "--no-cost", "--max-replications", "120"};
+        std::vector<std::string> all = {
+            "advise",        file,        "--tolerance",        "0.1", "--models",
+            "friis,two_ray", "--no-cost", "--max-replications", "120"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -66,8 +67,9 @@ TEST_CASE("advise: it prints verdicts, a sentence, and the choice for a scenario
     const Ended text = command(advised.folder, advised.words({}));
     CAPTURE(text.err);
     REQUIRE(text.exit == 0);
-    for (const char* part : {"delivery_ratio of ", "candidate", "friis + sinr", "two_ray + sinr",
-                             "reference", "Take ", "[propagation]\nmodel = ", "[reception]\nmodel = "}) {
+    for (const char* part :
+         {"delivery_ratio of ", "candidate", "friis + sinr", "two_ray + sinr", "reference", "Take ",
+          "[propagation]\nmodel = ", "[reception]\nmodel = "}) {
         CAPTURE(part);
         CHECK(text.out.find(part) != std::string::npos);
     }
@@ -130,9 +132,9 @@ TEST_CASE("advise: a metric without bounds needs a tolerance, and is judged by S
     CHECK(ended.exit == 2);
     CHECK(ended.err.find("--metric transmissions: transmissions has no upper bound; expected a "
                          "--tolerance") != std::string::npos);
-    const Json json = json_of(advised.folder, {"advise", advised.file, "--no-cost", "--metric",
-                                               "transmissions", "--tolerance", "30", "--models",
-                                               "two_ray", "--max-replications", "40"});
+    const Json json = json_of(
+        advised.folder, {"advise", advised.file, "--no-cost", "--metric", "transmissions",
+                         "--tolerance", "30", "--models", "two_ray", "--max-replications", "40"});
     CHECK(json["method"] == "t");
     CHECK(json["advice"].get<std::string>().find("by Student's intervals") != std::string::npos);
 }

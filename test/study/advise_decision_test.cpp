@@ -20,7 +20,9 @@ constexpr Bounds share{0.0, 1.0};
 constexpr Bounds delay{0.0, std::nullopt};
 
 /// Adds a difference -1 ... 1 as two values of a share.
-void add(CandidateDecision& decision, double d) { decision.add(std::max(d, 0.0), std::max(-d, 0.0)); }
+void add(CandidateDecision& decision, double d) {
+    decision.add(std::max(d, 0.0), std::max(-d, 0.0));
+}
 
 void add(Ladder& ladder, std::size_t i, double d) {
     ladder.add(i, std::max(d, 0.0), std::max(-d, 0.0));
@@ -161,9 +163,9 @@ TEST_CASE("decision: what is undecided tells how many replications would decide"
 }
 
 TEST_CASE("decision: of 1000 studies with candidates at the tolerance at most 5 % decide falsely") {
-    // Six candidates each, one for each distribution, with E D = 0.05, the tolerance: neither within
-    // nor outside. Half of the studies judge the mean, half the single run, where E|D| = 0.05: those
-    // distributions that are negative at times are left as they are only for the mean.
+    // Six candidates each, one for each distribution, with E D = 0.05, the tolerance: neither
+    // within nor outside. Half of the studies judge the mean, half the single run, where E|D| =
+    // 0.05: those distributions that are negative at times are left as they are only for the mean.
     // 150 replications, as each further one costs time; wealth grows early or hardly.
     constexpr std::uint32_t studies = 1000;
     constexpr std::uint64_t replications = 150;

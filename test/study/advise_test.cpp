@@ -67,16 +67,20 @@ std::string error_of(const CandidateQuestion& question) {
 /// Metric of a combination in a replication, for a study that nobody simulates.
 using Metric = std::function<double(std::size_t path_loss, std::size_t reception, std::uint32_t r)>;
 
-/// A grid of 3 path losses and 2 receptions, the last of each the reference, whose runs are made up.
+/// A grid of 3 path losses and 2 receptions, the last of each the reference, whose runs are made
+/// up.
 struct MadeUp {
     explicit MadeUp(Metric metric) : metric_(std::move(metric)) {
-        for (const char* name : {"a", "b", "top"}) grid.path_losses.push_back({name, name, {}, "", ""});
-        for (const char* name : {"some", "all"}) grid.receptions.push_back({name, name, {}, "", ""});
+        for (const char* name : {"a", "b", "top"})
+            grid.path_losses.push_back({name, name, {}, "", ""});
+        for (const char* name : {"some", "all"})
+            grid.receptions.push_back({name, name, {}, "", ""});
         grid.points = {{0, 1}, {2, 3}, {4, 5}};
     }
 
     Advice advice(const DecisionRule& rule) {
-        return advise(grid, store, "delivery_ratio", rule, [&](const auto& wanted) { make(wanted); });
+        return advise(grid, store, "delivery_ratio", rule,
+                      [&](const auto& wanted) { make(wanted); });
     }
     void make(const std::vector<std::uint32_t>& wanted) {
         ++blocks;
@@ -118,7 +122,8 @@ struct MadeUp {
 };
 
 DecisionRule rule_of(double tolerance) {
-    return {.tolerance = tolerance, .bounds = bounds_of("delivery_ratio"), .family = 5, .most = 400};
+    return {
+        .tolerance = tolerance, .bounds = bounds_of("delivery_ratio"), .family = 5, .most = 400};
 }
 
 const JudgedCandidate& judged(const Advice& advice, const std::string& name) {
@@ -159,7 +164,8 @@ TEST_CASE("advise: a disc is judged with the most detailed reception that takes 
     CHECK(c.exclude().size() == 1);
 }
 
-TEST_CASE("advise: on a map the reference is the most detailed model, candidates are those before") {
+TEST_CASE(
+    "advise: on a map the reference is the most detailed model, candidates are those before") {
     const AdviceCandidates c =
         candidates_for(std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml", {}, as_given);
     CHECK(c.on_map);
@@ -191,25 +197,27 @@ TEST_CASE("advise: mistakes about the reference and the candidates are told at t
     const auto reference = [](const std::string& text) {
         return error_of({.models = {}, .reference = {text}, .as_given = true});
     };
-    CHECK(reference("radio.power=3").starts_with("--reference radio.power=3: expected "
-                                                 "propagation.KEY=VALUE or reception.KEY=VALUE"));
+    CHECK(reference("radio.power=3")
+              .starts_with("--reference radio.power=3: expected "
+                           "propagation.KEY=VALUE or reception.KEY=VALUE"));
     CHECK(reference("propagation.model=raays").find("unknown propagation model \"raays\"") !=
           std::string::npos);
     CHECK(reference("propagation.model=raays").starts_with("--reference propagation.model=raays:"));
     CHECK(reference("propagation.from=exact").find("did you mean \"form\"?") != std::string::npos);
     CHECK(reference("propagation.from=exact").starts_with("--reference propagation.from=exact:"));
-    CHECK(reference("propagation.model=disc").starts_with("--reference propagation.model=disc: the "
-                                                          "reference cannot run:"));
+    CHECK(reference("propagation.model=disc")
+              .starts_with("--reference propagation.model=disc: the "
+                           "reference cannot run:"));
     CHECK(error_of({.models = {"fris"}, .reference = {}, .as_given = true})
               .starts_with("--models fris: unknown propagation model \"fris\""));
 }
 
 TEST_CASE("advise: fitted to a model whose form it can take, a candidate is that model") {
-    CandidateQuestion question{.models = {"friis", "multi_wall"},
-                               .reference = {"propagation.model=log_distance",
-                                             "propagation.exponent=3", "propagation.sigma=0 dB",
-                                             "propagation.excess=2 dB"},
-                               .as_given = false};
+    CandidateQuestion question{
+        .models = {"friis", "multi_wall"},
+        .reference = {"propagation.model=log_distance", "propagation.exponent=3",
+                      "propagation.sigma=0 dB", "propagation.excess=2 dB"},
+        .as_given = false};
     const AdviceCandidates c = candidates_of(open_field, question);
     const CandidateModel& fitted = c.path_losses[1];
     CAPTURE(fitted.note);
@@ -220,12 +228,12 @@ TEST_CASE("advise: fitted to a model whose form it can take, a candidate is that
 TEST_CASE("advise: a simulated study finds the model that equals the reference, and no other") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", open_field);
-    const AdviceCandidates c = candidates_for(
-        file, {},
-        {.models = {"friis", "multi_wall"},
-         .reference = {"propagation.model=log_distance", "propagation.exponent=3.5",
-                       "propagation.sigma=0 dB", "reception.model=collision"},
-         .as_given = false});
+    const AdviceCandidates c =
+        candidates_for(file, {},
+                       {.models = {"friis", "multi_wall"},
+                        .reference = {"propagation.model=log_distance", "propagation.exponent=3.5",
+                                      "propagation.sigma=0 dB", "reception.model=collision"},
+                        .as_given = false});
     Study study(file, {}, c.vary(), c.exclude());
     CHECK(study.points().size() == c.family() + 1);
     Store store = open_store(folder.path("s.db"), study);
