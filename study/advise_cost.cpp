@@ -77,14 +77,15 @@ std::string nearness_text(const Advice& advice, const std::string& reference) {
 
 /// What the choice saves, or that there is nothing to save; empty without costs.
 std::string saving_text(const Advice& advice, const CandidateCost& choice) {
-    constexpr double little = 0.05;
+    constexpr double little = 0.05, much = 0.9;
     const CandidateCost& reference = advice.reference_cost;
     if (!(reference.run_s > 0) || !(choice.run_s > 0)) return "";
-    if (reference.share.value_or(1) <= little) {
+    const double share = reference.share.value_or(1);
+    if (share <= little || choice.run_s > much * reference.run_s) {
         return fmt::format(
-            " But radio takes {} of a run's CPU time even with the reference: the choice saves "
-            "next to nothing, so take the reference.",
-            percent_text(*reference.share));
+            " But radio takes {} of a run's CPU time with the reference, and the choice saves next "
+            "to nothing of {:.2g} ms: take the reference.",
+            percent_text(share), 1e3 * reference.run_s);
     }
     return fmt::format(" A run takes {:.2g} ms of CPU time in place of {:.2g} ms.",
                        1e3 * choice.run_s, 1e3 * reference.run_s);

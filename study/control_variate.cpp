@@ -42,6 +42,7 @@ std::optional<BestMix> best_mix(double rho, double w) {
     const double explained = rho * rho, rest = 1 - explained;
     if (!(rest > 0) || !(w > 0) || w * explained <= rest) return std::nullopt;
     const double root = std::sqrt(rest) + std::sqrt(explained / w);
+    if (root >= 1) return std::nullopt;
     return BestMix{.ratio = std::sqrt(w * explained / rest), .saving = 1 / (root * root)};
 }
 

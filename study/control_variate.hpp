@@ -44,7 +44,9 @@ struct BestMix {
 /// Source: as control_variate(), theorem 3.4 and corollary 3.5.
 /// @param  rho         [-] correlation, -1 < rho < 1
 /// @param  cost_ratio  [-] w: cost of an expensive run over that of a cheap one, > 0
-/// @return nothing where the cheap model saves nothing: w <= (1 - rho^2) / rho^2
+/// @return nothing where the cheap model saves nothing: saving <= 1. It needs more than a ratio
+/// above
+///         1, w > (1 - rho^2) / rho^2, as the cheap runs have to be paid for.
 std::optional<BestMix> best_mix(double rho, double cost_ratio);
 
 }  // namespace rovernet

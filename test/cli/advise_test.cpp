@@ -46,7 +46,7 @@ struct Advised {
     std::vector<std::string> words(std::vector<std::string> more) const {
         std::vector<std::string> all = {
             "advise",        file,        "--tolerance",        "0.1", "--models",
-            "friis,two_ray", "--no-cost", "--max-replications", "120"};
+            "friis,two_ray", "--no-cost", "--max-replications", "60"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }

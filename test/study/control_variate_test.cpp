@@ -92,8 +92,11 @@ TEST_CASE("control variate: a mix of n and m runs is the best at the ratio that 
 
 TEST_CASE("control variate: a cheap model that costs too much or tells nothing saves nothing") {
     CHECK_FALSE(best_mix(0, 1000));
-    CHECK_FALSE(best_mix(0.5, 3));  // w has to be above 3
-    CHECK(best_mix(0.5, 3.01));
+    // 1 < saving: w > (rho / (1 - sqrt(1 - rho^2)))^2 = 13.928; a ratio above 1 needs only w > 3.
+    CHECK_FALSE(best_mix(0.5, 3.01));
+    CHECK_FALSE(best_mix(0.5, 13.92));
+    CHECK(best_mix(0.5, 13.94)->saving > 1);
+    CHECK_FALSE(best_mix(0.99999, 0.9));
     CHECK(best_mix(-0.9, 10)->saving == best_mix(0.9, 10)->saving);
     const std::vector<double> same(5, 1.0), other = {1, 2, 3, 4, 5};
     CHECK_FALSE(control_variate(same, other));
