@@ -98,7 +98,7 @@ void advise(const AdviseArguments& a) {
         candidates, store, a.metric, rule_for(a, scenario.study, candidates.family()),
         [&](const auto& replications) { make_block(a, study, store, replications); });
     if (!a.no_cost) {
-        add_costs(advice, study, store, [] { return stops_asked() > 0; });
+        add_costs(advice, study, [] { return stops_asked() > 0; });
         check_not_stopped(a);
     }
     if (a.picture) {

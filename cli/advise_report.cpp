@@ -55,6 +55,11 @@ std::string toml_of_choice(const Advice& advice) {
     return toml_of(c.path_losses[advice.path_loss], c.receptions[advice.reception]);
 }
 
+std::string toml_of_reference(const Advice& advice) {
+    const AdviceCandidates& c = advice.candidates;
+    return toml_of(c.path_losses.back(), c.receptions.back());
+}
+
 std::string reference_of(const Advice& advice) {
     const AdviceCandidates& c = advice.candidates;
     return c.name_of(c.reference_path_loss(), c.reference_reception());
@@ -111,7 +116,7 @@ void print_report(const Advice& advice) {
     fmt::print("\n{}\n", advice_text(advice));
     const std::string mix = control_variate_text(advice);
     if (!mix.empty()) fmt::print("{}\n", mix);
-    fmt::print("\n{}", toml_of_choice(advice));
+    fmt::print("\n{}", advice.saves_nothing() ? toml_of_reference(advice) : toml_of_choice(advice));
 }
 
 void set_interval(Table& row, const std::string& name, double mean,
@@ -165,7 +170,7 @@ Table as_json(const Advice& advice) {
     table.set("replications", std::uint64_t{advice.replications});
     reference.set("path_loss", c.path_losses.back().name);
     reference.set("reception", c.receptions.back().name);
-    reference.set("toml", toml_of(c.path_losses.back(), c.receptions.back()));
+    reference.set("toml", toml_of_reference(advice));
     set_cost(reference, advice.reference_cost);
     table.set("reference", std::move(reference));
     Array rows, left_out;
@@ -177,6 +182,7 @@ Table as_json(const Advice& advice) {
     choice.set("reception", c.receptions[advice.reception].name);
     choice.set("toml", toml_of_choice(advice));
     table.set("choice", std::move(choice));
+    table.set("saves_nothing", advice.saves_nothing());
     table.set("advice", advice_text(advice));
     table.set("control_variate", control_variate_text(advice));
     table.set("cost", advice.cost_text);

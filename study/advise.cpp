@@ -182,4 +182,12 @@ const JudgedCandidate* Advice::chosen() const {
     return nullptr;
 }
 
+bool Advice::saves_nothing() const {
+    constexpr double little = 0.05, most = 0.9;
+    const JudgedCandidate* choice = chosen();
+    if (!choice || !(reference_cost.run_s > 0)) return false;
+    return reference_cost.share.value_or(1) <= little ||
+           choice->cost.run_s > most * reference_cost.run_s;
+}
+
 }  // namespace rovernet

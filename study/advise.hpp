@@ -18,7 +18,7 @@ namespace rovernet {
 
 /// What a model costs on this machine, now. No decision depends on it.
 struct CandidateCost {
-    double run_s = 0;  ///< [s] CPU time of a run, mean
+    double run_s = 0;  ///< [s] CPU time of a run, median; 0: not measured
     /// CPU time of the medium for each transmission [s]: median, lowest and highest turn.
     std::optional<double> transmission_s, low_s, high_s;
     std::optional<double> share;  ///< [-] of the medium in a run's CPU time, about
@@ -58,6 +58,9 @@ struct Advice {
 
     /// The judgement that the choice rests on; null: the reference itself was chosen.
     const JudgedCandidate* chosen() const;
+    /// Whether the reference costs hardly more than the choice: radio takes at most 5 % of its
+    /// runs, or the choice's runs take more than 9/10 of their CPU time. False without costs.
+    bool saves_nothing() const;
 };
 
 /// Makes the runs that a study's points lack: of each point so many replications. What it throws

@@ -1,65 +1,79 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise_cost.hpp"
 
-#include "sim/error.hpp"
+#include "mobility/kept_planners.hpp"
+#include "study/measurement.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <string>
 #include <vector>
 
 namespace rovernet {
 namespace {
 
-/// Means over the finished runs of a point.
-struct RunMeans {
-    double cpu_s = 0, transmissions = 0;
+/// What runs of some scenarios cost: CPU time and transmissions, medians of a few replications.
+struct RunCosts {
+    std::vector<std::vector<double>> cpu_s, transmissions;  // by point and replication
+    std::uint32_t replications = 0;
 };
 
-std::map<std::uint32_t, RunMeans> means_of_runs(const Store& store) {
-    std::map<std::uint32_t, RunMeans> means;
-    std::map<std::uint32_t, double> runs;
-    for (const StoredRun& run : store.runs()) {
-        if (!run.error.empty()) continue;
-        means[run.point].cpu_s += run.measurement.cpu_s;
-        ++runs[run.point];
+double transmissions_of(const Measurement& measurement) {
+    for (const MetricValue& each : measurement.metrics) {
+        if (each.name == "transmissions") return each.value.value_or(0);
     }
-    for (const StoredValue& v : store.values("transmissions")) {
-        means[v.point].transmissions += v.value.value_or(0);
+    return 0;
+}
+
+/// Runs the points in alternation, the first one twice: it plans the ways of all.
+RunCosts costs_of_runs(const std::vector<std::uint32_t>& points, Study& study,
+                       const std::function<bool()>& stopped) {
+    constexpr std::uint32_t most = 9;
+    constexpr double enough_s = 3;  // CPU time
+    RunCosts out{.cpu_s = std::vector<std::vector<double>>(points.size()),
+                 .transmissions = std::vector<std::vector<double>>(points.size())};
+    KeptPlanners kept;
+    double spent_s = 0;
+    for (; out.replications < most && spent_s < enough_s && !stopped(); ++out.replications) {
+        spent_s += measure(study.scenario(points.front(), out.replications), kept).cpu_s;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const auto run = measure(study.scenario(points[i], out.replications), kept);
+            out.cpu_s[i].push_back(run.cpu_s);
+            out.transmissions[i].push_back(transmissions_of(run));
+            spent_s += run.cpu_s;
+        }
     }
-    for (auto& [point, mean] : means) {
-        const double n = std::max(runs[point], 1.0);
-        mean.cpu_s /= n;
-        mean.transmissions /= n;
-    }
-    return means;
+    return out;
+}
+
+double middle_of(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
 }
 
 /// Costs of the medium by path loss, with the reception that each is judged with.
-MediumCosts costs_of_media(const AdviceCandidates& candidates, Study& study, double spent_s,
+MediumCosts costs_of_media(const AdviceCandidates& candidates, Study& study,
                            const std::function<bool()>& stopped) {
     std::vector<Scenario> scenarios;
     for (std::size_t p = 0; p < candidates.path_losses.size(); ++p) {
         scenarios.push_back(study.scenario(*candidates.points[p][candidates.reception_of(p)], 0));
     }
     const MediumRecord record = record_medium(scenarios.back(), stopped);
-    const CostTurns turns{.total_s = std::min(CostTurns{}.total_s, spent_s)};
-    return measure_medium(record, scenarios, turns, stopped);
+    return measure_medium(record, scenarios, CostTurns{}, stopped);
 }
 
-CandidateCost cost_of(const RunMeans& means, const MediumCosts& costs, std::size_t path_loss) {
-    CandidateCost out{
-        .run_s = means.cpu_s, .transmission_s = {}, .low_s = {}, .high_s = {}, .share = {}};
+CandidateCost cost_of(double run_s, double transmissions, const MediumCosts& costs,
+                      std::size_t path_loss) {
+    CandidateCost out{.run_s = run_s, .transmission_s = {}, .low_s = {}, .high_s = {}, .share = {}};
     if (path_loss >= costs.models.size()) return out;
     const MediumCost& medium = costs.models[path_loss];
     out.transmission_s = costs.frames_per_transmission * medium.median_s;
     out.low_s = costs.frames_per_transmission * medium.low_s;
     out.high_s = costs.frames_per_transmission * medium.high_s;
-    if (means.cpu_s > 0) {
-        out.share = std::min(1.0, means.transmissions * *out.transmission_s / means.cpu_s);
-    }
+    if (run_s > 0) out.share = std::min(1.0, transmissions * *out.transmission_s / run_s);
     return out;
 }
 
@@ -75,18 +89,10 @@ std::string nearness_text(const Advice& advice, const std::string& reference) {
     return fmt::format("the {} of a single run is {} on average", advice.metric, within);
 }
 
-/// What the choice saves, or that there is nothing to save; empty without costs.
+/// What the choice saves; empty without costs.
 std::string saving_text(const Advice& advice, const CandidateCost& choice) {
-    constexpr double little = 0.05, much = 0.9;
     const CandidateCost& reference = advice.reference_cost;
     if (!(reference.run_s > 0) || !(choice.run_s > 0)) return "";
-    const double share = reference.share.value_or(1);
-    if (share <= little || choice.run_s > much * reference.run_s) {
-        return fmt::format(
-            " But radio takes {} of a run's CPU time with the reference, and the choice saves next "
-            "to nothing of {:.2g} ms: take the reference.",
-            percent_text(share), 1e3 * reference.run_s);
-    }
     return fmt::format(" A run takes {:.2g} ms of CPU time in place of {:.2g} ms.",
                        1e3 * choice.run_s, 1e3 * reference.run_s);
 }
@@ -109,33 +115,36 @@ std::string undecided_text(const Advice& advice) {
 
 }  // namespace
 
-void add_costs(Advice& advice, Study& study, const Store& store,
-               const std::function<bool()>& stopped) {
+void add_costs(Advice& advice, Study& study, const std::function<bool()>& stopped) {
     const AdviceCandidates& candidates = advice.candidates;
-    double spent_s = 0;
-    for (const StoredRun& run : store.runs()) spent_s += run.measurement.cpu_s;
-    MediumCosts costs;
-    try {
-        costs = costs_of_media(candidates, study, spent_s, stopped);
-    } catch (const RunError&) {
-        return;
-    }
-    if (stopped()) return;
-    auto means = means_of_runs(store);
     const std::size_t last = candidates.reference_path_loss();
-    advice.reference_cost =
-        cost_of(means[*candidates.points[last][candidates.reference_reception()]], costs, last);
-    for (JudgedCandidate& each : advice.judged) {
-        const auto point = *candidates.points[each.path_loss][each.reception];
-        each.cost = cost_of(means[point], costs, each.path_loss);
+    std::vector<std::uint32_t> points{*candidates.points[last][candidates.reference_reception()]};
+    for (const JudgedCandidate& each : advice.judged) {
+        points.push_back(*candidates.points[each.path_loss][each.reception]);
+    }
+    const MediumCosts costs = costs_of_media(candidates, study, stopped);
+    const RunCosts runs = costs_of_runs(points, study, stopped);
+    if (stopped()) return;
+    const auto cost = [&](std::size_t i, std::size_t path_loss) {
+        return cost_of(middle_of(runs.cpu_s[i]), middle_of(runs.transmissions[i]), costs,
+                       path_loss);
+    };
+    advice.reference_cost = cost(0, last);
+    for (std::size_t i = 0; i < advice.judged.size(); ++i) {
+        JudgedCandidate& each = advice.judged[i];
+        each.cost = cost(i + 1, each.path_loss);
         if (!each.helper || !(each.cost.run_s > 0)) continue;
         each.mix = best_mix(each.helper->rho, advice.reference_cost.run_s / each.cost.run_s);
     }
-    if (costs.models.empty()) return;
-    advice.cost_text = fmt::format(
-        "CPU/transmission: what it takes the medium to find who hears it; median of {} turns of "
-        "{:.2g} s over the same {} frames; of run: its share of a run's CPU time",
-        costs.turns, costs.turn_s, costs.frames);
+    if (!costs.models.empty()) {
+        advice.cost_text = fmt::format(
+            "CPU/transmission: what it takes the medium to find who hears it; median of {} turns "
+            "of "
+            "{:.2g} s over the same {} frames\nof run: its share of CPU/run, which is the median "
+            "of "
+            "{} replications, the planning of ways apart",
+            costs.turns, costs.turn_s, costs.frames, runs.replications);
+    }
 }
 
 std::string advice_text(const Advice& advice) {
@@ -146,11 +155,19 @@ std::string advice_text(const Advice& advice) {
         return fmt::format("Take the reference, {}: no cheaper candidate was found sufficient.{}",
                            reference, undecided_text(advice));
     }
-    return fmt::format(
-        "Take {}: {} ({:.4g} % sure{}).{}{}", chosen->name, nearness_text(advice, reference),
-        100 * (1 - advice.rule.alpha),
-        advice.rule.by_betting() ? ", whatever the distribution" : ", by Student's intervals",
-        saving_text(advice, chosen->cost), undecided_text(advice));
+    const std::string sure = fmt::format(
+        "{:.4g} % sure{}", 100 * (1 - advice.rule.alpha),
+        advice.rule.by_betting() ? ", whatever the distribution" : ", by Student's intervals");
+    if (advice.saves_nothing()) {
+        return fmt::format(
+            "Take the reference, {}: radio takes {} of its runs' CPU time ({:.2g} ms), so that a "
+            "cheaper model saves next to nothing. {} would be sufficient: {} ({}).{}",
+            reference, percent_text(advice.reference_cost.share.value_or(0)),
+            1e3 * advice.reference_cost.run_s, chosen->name, nearness_text(advice, reference), sure,
+            undecided_text(advice));
+    }
+    return fmt::format("Take {}: {} ({}).{}{}", chosen->name, nearness_text(advice, reference),
+                       sure, saving_text(advice, chosen->cost), undecided_text(advice));
 }
 
 std::string control_variate_text(const Advice& advice) {

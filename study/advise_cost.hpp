@@ -11,14 +11,15 @@
 
 namespace rovernet {
 
-/// Measures what the candidates of an advice cost, on the transmissions of replication 0 at the
-/// reference: CPU time of the medium alone, the path losses in alternation; and the CPU time of
-/// their runs. Fills in JudgedCandidate::cost and mix, Advice::reference_cost and cost_text.
+/// Measures what the candidates of an advice cost, and fills in JudgedCandidate::cost and mix,
+/// Advice::reference_cost and cost_text:
 ///
-/// Another reception costs the medium the same: what it costs besides shows in the time of a run.
+/// - CPU time of the medium alone, on the transmissions of replication 0 at the reference, the path
+///   losses in alternation; another reception costs the medium the same
+/// - CPU time of whole runs of a few replications, in alternation, after their ways were planned:
+///   what a reception costs shows in it
 /// @param stopped  asked now and then; true ends the measurement, and nothing is filled in
-void add_costs(Advice& advice, Study& study, const Store& store,
-               const std::function<bool()>& stopped);
+void add_costs(Advice& advice, Study& study, const std::function<bool()>& stopped);
 
 /// Advice in a sentence that a user can act on: what to choose, how sure that is, and what it
 /// saves.

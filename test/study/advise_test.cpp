@@ -250,10 +250,19 @@ TEST_CASE("advise: a simulated study finds the model that equals the reference, 
     CHECK(equal.decision.verdict() == Equivalence::within);
     CHECK(equal.run_error < 0.01);  // a fitted exponent has six digits
     CHECK(c.path_losses[advice.path_loss].name == "multi_wall");
-    add_costs(advice, study, store, [] { return false; });
+    add_costs(advice, study, [] { return false; });
     CHECK(advice.reference_cost.run_s > 0);
     REQUIRE(equal.cost.transmission_s);
     CHECK(*equal.cost.transmission_s > 0);
+    CHECK(advice_text(advice).find("multi_wall + ") != std::string::npos);
+    // Where radio is a small part of a run, a cheap model saves nothing.
+    advice.reference_cost.share = 0.03;
+    CHECK(advice.saves_nothing());
+    CHECK(advice_text(advice).starts_with(
+        "Take the reference, log_distance + collision: radio takes 3 % of its runs' CPU time"));
+    advice.reference_cost.share = 0.5;
+    advice.reference_cost.run_s = 2 * advice.chosen()->cost.run_s;
+    CHECK_FALSE(advice.saves_nothing());
     CHECK(advice_text(advice).starts_with("Take multi_wall + "));
     CHECK(advice_charts(advice).size() == 2);
 }
