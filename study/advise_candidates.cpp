@@ -187,19 +187,55 @@ std::string fitted_text(const Table& propagation) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+/// Links of which only that is kept of a loss far beyond the budget: that it is. No radio overcomes
+/// it, and a fit to its decibels would miss those that matter.
+KnownLinks within_radio(KnownLinks known) {
+    constexpr double beyond = 20;  // [dB]
+    for (KnownLink& link : known.links) {
+        link.unseen = link.loss > link.budget + beyond;
+        if (link.unseen) link.loss = link.budget + beyond;
+        link.group = 0;  // parameters alone are wanted, no errors of groups left out
+    }
+    known.groups = 1;
+    return known;
+}
+
+/// Whether [propagation] can be had: a fit may end outside of a parameter's range.
+bool can_be_had(const Table& propagation, const Scenario& scenario) {
+    PropagationTable out = scenario.propagation;
+    try {
+        read_propagation(Value(propagation), out);
+    } catch (const InputError&) {
+        return false;
+    }
+    return true;
+}
+
+/// Takes a fit's parameters if there are some, and they can be had.
+bool take_fit(CandidateModel& candidate, const CalibratedModel& fitted, const Scenario& scenario) {
+    candidate.note = fitted.failure;
+    const Value* propagation = fitted.settings.find("propagation");
+    if (!fitted.failure.empty() || fitted.parameters.empty() || !propagation) return false;
+    Table table = candidate.table;
+    for (const Entry& entry : propagation->table()->entries) table.set(entry.key, entry.value);
+    if (!can_be_had(table, scenario)) return false;
+    candidate.table = std::move(table);
+    candidate.fitted = fitted_text(*propagation->table());
+    return true;
+}
+
 void fit_candidates(std::vector<CandidateModel>& candidates, const Scenario& reference,
                     const std::function<void(double)>& tell) {
-    const Calibration calibration = calibrate_to_model(reference, "", tell);
+    const Calibration plain = calibrate_to_model(reference, "", tell);
+    const auto censored =
+        calibrate(within_radio(plain.known), reference, plain.reference, Propagation::anything);
     for (CandidateModel& candidate : candidates) {
-        for (const CalibratedModel& fitted : calibration.models) {
-            if (fitted.model != candidate.model || fitted.model == calibration.reference) continue;
-            candidate.note = fitted.failure;
-            const Value* propagation = fitted.settings.find("propagation");
-            if (!fitted.failure.empty() || fitted.parameters.empty() || !propagation) continue;
-            for (const Entry& entry : propagation->table()->entries) {
-                candidate.table.set(entry.key, entry.value);
-            }
-            candidate.fitted = fitted_text(*propagation->table());
+        if (candidate.model == plain.reference) continue;
+        for (const auto* fits : {&censored, &plain.models}) {
+            const auto fitted = std::find_if(
+                fits->begin(), fits->end(),
+                [&](const CalibratedModel& each) { return each.model == candidate.model; });
+            if (fitted != fits->end() && take_fit(candidate, *fitted, reference)) break;
         }
     }
 }
