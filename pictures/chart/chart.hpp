@@ -32,15 +32,23 @@ struct ChartPoint {
     double x = 0;               ///< place if x is a number
     std::string category = {};  ///< place if x is a word; then the number is not looked at
     double y = 0;
-    std::optional<double> low = {}, high = {};  ///< ends of the interval around y
-    std::string label = {};                     ///< written beside it, in a scatter
-    std::uint64_t n = 0;                        ///< observations behind it; 0 if that is not known
+    std::optional<double> low = {}, high = {};      ///< ends of the interval around y
+    std::optional<double> x_low = {}, x_high = {};  ///< ends of that around x, in a scatter
+    std::string label = {};                         ///< written beside it, in a scatter
+    std::uint64_t n = 0;  ///< observations behind it; 0 if that is not known
 };
 
 /// Points that belong together.
 struct ChartSeries {
     std::string name;
     std::vector<ChartPoint> points = {};
+};
+
+/// Line of a scatter behind its marks, through places of the chart, such as along the points that
+/// no other beats. Only chart_svg() draws it.
+struct ChartGuide {
+    std::vector<ChartPoint> points = {};
+    bool dashed = false;
 };
 
 /// Bounds that the numbers of an axis cannot pass, such as 0 and 1 of a ratio. Neither the axis nor
@@ -61,6 +69,11 @@ struct Chart {
     ChartLimits x_limits = {};             ///< limits of x, if it is a number
     ChartLimits y_limits = {};             ///< limits of y, or of the colours of a heat map
     std::vector<ChartSeries> series = {};  ///< series, whose names differ
+    std::vector<ChartGuide> guides = {};   ///< lines of a scatter
+    /// Upper end of a grey band that a scatter has at its lower edge, in y, and what it says. Only
+    /// chart_svg() draws it.
+    std::optional<double> band = {};
+    std::string band_label = {};
 };
 
 /// Arrangement of the charts of a picture.

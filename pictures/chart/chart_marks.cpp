@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/chart/chart_marks.hpp"
 
+#include "pictures/chart/chart_guides.hpp"
 #include "pictures/chart/chart_style.hpp"
 
 #include <fmt/format.h>
@@ -335,8 +336,10 @@ std::size_t draw_scatter(Svg& svg, const Chart& chart, const ChartView& view,
     const std::vector<Places> places = apart(view, frame);
     LabelPlaces free(frame.box);
     keep_marks_free(free, view, frame, places);
+    draw_band(svg, chart, frame, free);
+    draw_guides(svg, chart, frame, free);
     for (std::size_t i = 0; i < view.series.size(); ++i) {
-        SvgPath whiskers;
+        SvgPath whiskers = x_whiskers(view, i, frame, free);
         for (std::size_t k = 0; k < places[i].size(); ++k) {
             append_whisker(whiskers, frame, view.series[i][k], places[i][k]);
         }

@@ -164,8 +164,13 @@ void find_ranges(const Chart& chart, ChartView& view) {
             for (const auto& v : {p.low, std::optional(p.y), p.high}) {
                 if (v && drawable(*v, chart.log_y)) view.y_range.include(*v);
             }
+            for (const auto& v : {p.source->x_low, p.source->x_high}) {
+                if (v && drawable(*v, chart.log_x)) view.x_range.include(*v);
+            }
         }
     }
+    constexpr double below_band = 0.8;  // of its end, so that it is seen
+    if (chart.band) view.y_range.include(below_band * *chart.band);
     if (chart.kind == ChartKind::cdf) {
         view.y_range.include(0);
         view.y_range.include(1);
