@@ -40,14 +40,13 @@ Chart error_chart(const Advice& advice, const std::string& title, const std::str
         .x_label = x_label,
         .y_label = "error of " + advice.metric,
         .note = fmt::format(
-            "errors to {}, with {:.4g} % intervals; tolerance {:.4g} {}",
+            "errors to {}, with {:.4g} % intervals; band: within the tolerance, {:.4g} {}",
             c.name_of(c.reference_path_loss(), c.reference_reception()),
             100 * (1 - advice.rule.alpha), advice.rule.tolerance,
             advice.rule.criterion == ErrorCriterion::mean ? "of the mean" : "of a single run"),
         .log_x = true,
         .y_limits = {.low = 0}};
     chart.band = advice.rule.tolerance;
-    chart.band_label = "within the tolerance";
     chart.series = {ChartSeries{.name = "of the mean"}, ChartSeries{.name = "of a single run"}};
     return chart;
 }
