@@ -61,6 +61,12 @@ Table propagation_with(const Scenario& scenario, const std::string& model) {
     return table;
 }
 
+/// Takes a model's own shadowing off where the scenario has one for all models.
+void leave_shadowing_to(const Scenario& scenario, Table& propagation) {
+    const bool for_all = scenario.shadowing.model != ShadowingModel::none;
+    if (for_all && propagation.find("sigma")) propagation.set("sigma", "0 dB");
+}
+
 /// Lays the keys of a form over a table, those that it has.
 void lay_over(Table& table, const ModelForm& form) {
     const Value keys = parse_toml(form.toml, std::string(form.model));
@@ -167,7 +173,8 @@ std::vector<CandidateModel> path_losses_for(const Scenario& scenario,
                 ? model == of_reference || is_usual(model, of_reference, scenario.walls != nullptr)
                 : std::find(asked.begin(), asked.end(), model) != asked.end();
         if (!wanted) continue;
-        const Table table = propagation_with(scenario, model);
+        Table table = propagation_with(scenario, model);
+        leave_shadowing_to(scenario, table);
         if (model != of_reference) out.push_back({model, model, table, "", ""});
         for (const ModelForm& form : cheaper_forms) {
             if (form.model != model || !is_cheaper(form, reference)) continue;
@@ -218,6 +225,7 @@ bool take_fit(CandidateModel& candidate, const CalibratedModel& fitted, const Sc
     if (!fitted.failure.empty() || fitted.parameters.empty() || !propagation) return false;
     Table table = candidate.table;
     for (const Entry& entry : propagation->table()->entries) table.set(entry.key, entry.value);
+    leave_shadowing_to(scenario, table);
     if (!can_be_had(table, scenario)) return false;
     candidate.table = std::move(table);
     candidate.fitted = fitted_text(*propagation->table());

@@ -212,6 +212,14 @@ TEST_CASE("advise: mistakes about the reference and the candidates are told at t
               .starts_with("--models fris: unknown propagation model \"fris\""));
 }
 
+TEST_CASE("advise: a candidate leaves shadowing to that of the scenario") {
+    const AdviceCandidates c =
+        candidates_of(open_field + "[shadowing]\nmodel = \"link\"\nsigma = \"6 dB\"\n",
+                      {.models = {"log_distance"}, .reference = {}, .as_given = false});
+    REQUIRE(c.path_losses.front().name == "log_distance");
+    CHECK(plain_text(*c.path_losses.front().table.find("sigma")) == "0 dB");
+}
+
 TEST_CASE("advise: fitted to a model whose form it can take, a candidate is that model") {
     CandidateQuestion question{
         .models = {"friis", "multi_wall"},
