@@ -200,7 +200,10 @@ Calibration calibrate_to_levels(const Scenario& scenario, const std::string& pat
 
 Repeatability check(Calibration& calibration, const Scenario& scenario, const std::string& path,
                     std::optional<Dbm> floor) {
-    const KnownLinks others = read_levels(path, scenario, floor);
+    return check(calibration, scenario, read_levels(path, scenario, floor));
+}
+
+Repeatability check(Calibration& calibration, const Scenario& scenario, const KnownLinks& others) {
     for (CalibratedModel& model : calibration.models) {
         if (!model.failure.empty()) continue;
         std::map<std::string, double> values;
