@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "models/propagation/list.hpp"
+#include "study/calibration.hpp"
+#include "study/free_parameters.hpp"
+#include "study/validation/measured_levels.hpp"
+#include "study/validation/validation_charts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rovernet {
+namespace {
+
+constexpr const char *with_defaults = "as given", *with_fit = "fitted";
+
+/// Mean of losses less those of a model [dB]: the constant that every model may have.
+double constant_of(const KnownLinks& known, const Propagation& model) {
+    double sum = 0;
+    for (const KnownLink& link : known.links) sum += link.loss - known.loss_by(model, link);
+    return sum / static_cast<double>(known.links.size());
+}
+
+/// Errors on `judged` of a model whose constant is that of `own`.
+PredictionErrors errors_with_constant(const KnownLinks& own, const KnownLinks& judged,
+                                      const Propagation& model) {
+    const double constant = constant_of(own, model);
+    Predictions predictions(judged, Propagation::anything);
+    for (std::size_t i = 0; i < judged.links.size(); ++i) {
+        predictions.add(i, judged.loss_by(model, judged.links[i]) + constant);
+    }
+    return predictions.errors();
+}
+
+KnownLinks only(const KnownLinks& known, const std::function<bool(const KnownLink&)>& takes) {
+    KnownLinks out = known;
+    std::erase_if(out.links, [&](const KnownLink& link) { return !takes(link); });
+    return out;
+}
+
+/// Calibrations of all models to the first set, checked on the second.
+std::map<std::string, CalibratedModel> checked_models(const KnownLinks& first,
+                                                      const KnownLinks& second,
+                                                      const Scenario& scenario) {
+    Calibration calibration;
+    calibration.known = first;
+    calibration.models = calibrate(first, scenario, "", Propagation::anything);
+    check(calibration, scenario, second);
+    std::map<std::string, CalibratedModel> out;
+    for (CalibratedModel& model : calibration.models) {
+        if (model.failure.empty() && model.checked && model.checked->losses > 0)
+            out.emplace(model.model, std::move(model));
+    }
+    return out;
+}
+
+/// Root mean square errors [dB] where each receiver is predicted without its own levels.
+std::map<std::string, double> without_receiver(const MeasuredBuilding& building) {
+    std::set<std::uint32_t> groups;
+    for (const KnownLink& link : building.second.links) groups.insert(link.group);
+    std::map<std::string, double> squares;
+    for (const std::uint32_t group : groups) {
+        const auto of_group = [=](const KnownLink& link) { return link.group == group; };
+        const KnownLinks left = only(building.second, of_group);
+        for (const auto& [name, model] :
+             checked_models(only(building.first, std::not_fn(of_group)), left, building.scenario)) {
+            squares[name] +=
+                model.checked->rmse * model.checked->rmse * static_cast<double>(left.links.size());
+        }
+    }
+    for (auto& [name, sum] : squares)
+        sum = std::sqrt(sum / static_cast<double>(building.second.links.size()));
+    return squares;
+}
+
+/// Fitted model, with its parameters in it.
+Propagation fitted_model(const Scenario& scenario, const CalibratedModel& model) {
+    std::map<std::string, double> values;
+    for (const FittedParameter& p : model.parameters) {
+        if (p.determined && p.key != "power") values[p.key] = p.value;
+    }
+    return model_with(scenario, model.model, values);
+}
+
+/// Points of the models of a building, and the models themselves, for their costs.
+struct JudgedModels {
+    std::vector<ValidationPoint> points;
+    std::vector<Propagation> models;
+
+    void add(const Propagation& model, const char* series, const PredictionErrors& errors) {
+        points.push_back({.label = std::string(model.name()),
+                          .series = series,
+                          .error = errors.rmse,
+                          .details = {{"wrong side of -65 dBm [%]", 100 * errors.wrong()}}});
+        models.push_back(model);
+    }
+};
+
+JudgedModels judged_models(const MeasuredBuilding& building) {
+    JudgedModels out;
+    const auto models = checked_models(building.first, building.second, building.scenario);
+    const auto left_out = without_receiver(building);
+    for_each_model([&]<class Model>() {
+        const auto at = models.find(std::string(Model::name));
+        if (at == models.end()) return;
+        const Propagation given = model_with(building.scenario, Model::name, {});
+        out.add(given, with_defaults, errors_with_constant(building.first, building.second, given));
+        const auto& parameters = at->second.parameters;
+        const bool only_constant =
+            std::all_of(parameters.begin(), parameters.end(),
+                        [](const FittedParameter& p) { return p.key == "power"; });
+        if (!only_constant) {
+            out.add(fitted_model(building.scenario, at->second), with_fit, *at->second.checked);
+        }
+        ValidationPoint& point = out.points.back();
+        const double other = left_out.at(at->first);
+        point.error_low = std::min(point.error, other);
+        point.error_high = std::max(point.error, other);
+    });
+    return out;
+}
+
+ValidationPanel building_panel(const MeasuredBuilding& building, const ValidationSize& size) {
+    const JudgedModels judged = judged_models(building);
+    ValidationPanel panel{.title = building.name,
+                          .error_label = "error on the other drive or day, rms [dB]",
+                          .joined = true,
+                          .unknowable = repeatability(building.first, building.second).rms,
+                          .points = judged.points};
+    panel.unknowable_label =
+        fmt::format("measured twice: {:.2f} dB; nobody can be right here", *panel.unknowable);
+    std::vector<TimedMethod> timed;
+    for (const Propagation& model : judged.models) {
+        timed.push_back({[&] {
+                             double sum = 0;
+                             for (const KnownLink& link : building.second.links)
+                                 sum += building.second.loss_by(model, link);
+                             return sum;
+                         },
+                         static_cast<double>(building.second.links.size())});
+    }
+    set_costs(panel, timed, size.turns());
+    return panel;
+}
+
+std::string best_sentence(const ValidationPanel& panel) {
+    const auto best =
+        std::min_element(panel.points.begin(), panel.points.end(),
+                         [](const auto& a, const auto& b) { return a.error < b.error; });
+    return fmt::format(
+        "{}: the best is {} ({}), {:.2f} dB off; the same places measured again differ by {:.2f} "
+        "dB. friis is {:.2f} dB off.",
+        panel.title, best->label, best->series, best->error, *panel.unknowable,
+        point_of(panel, "friis", with_defaults).error);
+}
+
+/// Whether rays are worth their cost, where they are listed.
+std::string rays_sentence(const ValidationPanel& panel) {
+    const ValidationPoint* rays = nullptr;
+    for (const ValidationPoint& p : panel.points) {
+        if (p.label == "rays" && (!rays || p.error < rays->error)) rays = &p;
+    }
+    if (!rays) return "";
+    const ValidationPoint& walls = point_of(panel, "multi_wall", with_fit);
+    return fmt::format(
+        "{}: rays ({}) are {:.2f} dB {} than the fitted multi_wall, at {:.2g} times "
+        "its cost.",
+        panel.title, rays->series, std::abs(rays->error - walls.error),
+        rays->error <= walls.error ? "better" : "worse", rays->cost.median / walls.cost.median);
+}
+
+/// Errors that an independent analysis of the same measurements has published [dB].
+void check_anchors(const ValidationPanel& panel, Promises& promises) {
+    constexpr double allowed = 0.2;  // [dB] for walls as the map draws them
+    const auto add = [&](const char* model, const char* series, double published) {
+        const double excess = point_of(panel, model, series).error - published;
+        promises.push_back({fmt::format("rms error of {} ({}) in the {}, beyond the {} dB of an "
+                                        "independent analysis",
+                                        model, series, panel.title, published),
+                            "dB", allowed, std::max(0.0, excess), 1});
+    };
+    const bool flat = panel.title == "flat";
+    add("friis", with_defaults, flat ? 5.39 : 4.90);
+    if (flat) add("multi_wall", with_fit, 4.29);
+    if (!flat) add("log_distance", with_fit, 4.75);
+}
+
+}  // namespace
+
+ValidationChart measured_chart(const std::string& folder, const ValidationSize& size,
+                               Promises& promises) {
+    ValidationChart chart{
+        .name = "measured",
+        .title = "How wrong are models of measured buildings?",
+        .truth =
+            "Local means of levels in a furnished flat (a robot's drive; Kolakowski, Sensors "
+            "21, 2021, CC BY 4.0) and medians in an open laboratory (Danis et al., Pervasive "
+            "and Mobile Computing 81, 2022, CC0), fitted on one drive or day and judged on "
+            "another. As given: the defaults, and the one constant that nobody knows (power "
+            "and gains) fitted. Bars: each receiver predicted without its own levels."};
+    for (const auto& building : {measured_flat(folder), measured_lab(folder)}) {
+        const ValidationPanel panel = building_panel(building, size);
+        check_anchors(panel, promises);
+        chart.sentences.push_back(best_sentence(panel));
+        chart.sentences.push_back(rays_sentence(panel));
+        chart.panels.push_back(panel);
+    }
+    std::erase(chart.sentences, "");
+    return chart;
+}
+
+}  // namespace rovernet

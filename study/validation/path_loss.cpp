@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "models/propagation/list.hpp"
+#include "study/calibration.hpp"
+#include "study/free_parameters.hpp"
+#include "study/known_links.hpp"
+#include "study/medium_cost.hpp"
+#include "study/validation/validation_charts.hpp"
+#include "study/validation/validation_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+namespace {
+
+constexpr const char *as_given = "as given", *after_fit = "fitted", *reference_series = "reference";
+
+/// Model whose losses are taken as true where there are walls: the most detailed that is listed.
+std::string most_detailed_with_walls() {
+    std::string out = "multi_wall";
+    for_each_model([&]<class Model>() {
+        if (Model::name == "rays") out = "rays";
+    });
+    return out;
+}
+
+Table model_table(const std::string& model) {
+    Table propagation, settings;
+    propagation.set("model", model);
+    settings.set("propagation", std::move(propagation));
+    return settings;
+}
+
+/// Variant, and the share of links that it decides wrongly.
+struct JudgedModel {
+    Variant variant;
+    double wrong_links = 0;
+};
+
+/// Models fitted to the reference on links of the scene, as by `rovernet fit`; quickly: on fewer.
+std::vector<CalibratedModel> calibrated(const Scenario& scenario, const std::string& reference,
+                                        const ValidationSize& size) {
+    if (!size.quick) return calibrate_to_model(scenario, reference, {}).models;
+    const KnownLinks known = sample_links(scenario, model_with(scenario, reference, {}),
+                                          {.replications = 4, .times = 10, .links = 400});
+    return calibrate(known, scenario, reference, Propagation::anything);
+}
+
+/// Models of a scene, the reference first.
+std::vector<JudgedModel> models_of(const ValidationScene& scene, const std::string& reference,
+                                   const ValidationSize& size) {
+    std::vector<JudgedModel> out{{{reference, reference_series, model_table(reference)}, 0}};
+    for (const CalibratedModel& model :
+         calibrated(scene.scenario(model_table(reference)), reference, size)) {
+        if (!model.failure.empty()) continue;
+        if (model.as_given && model.model != "disc") {
+            out.push_back(
+                {{model.model, as_given, model_table(model.model)}, model.as_given->wrong()});
+        }
+        if (model.parameters.empty()) continue;
+        const PredictionErrors& errors = model.left_out ? *model.left_out : model.fitted;
+        out.push_back({{model.model, after_fit, model.settings}, errors.wrong()});
+    }
+    return out;
+}
+
+std::vector<TurnCost> medium_costs(const ValidationScene& scene,
+                                   const std::vector<Variant>& variants,
+                                   const ValidationSize& size) {
+    std::vector<Scenario> scenarios;
+    for (const Variant& variant : variants) scenarios.push_back(scene.scenario(variant.settings));
+    const auto never_stopped = [] { return false; };
+    const CostTurns turns{
+        .turns = size.quick ? 1 : 5,
+        .total_s = (size.quick ? 0.05 : 1.0) * static_cast<double>(variants.size())};
+    const MediumCosts costs = measure_medium(record_medium(scenarios.front(), never_stopped),
+                                             scenarios, turns, never_stopped);
+    std::vector<TurnCost> out;
+    for (const MediumCost& cost : costs.models) {
+        out.push_back({1e9 * cost.median_s, 1e9 * cost.low_s, 1e9 * cost.high_s});
+    }
+    out.resize(variants.size());
+    return out;
+}
+
+/// The two panels of a scene.
+struct ScenePanels {
+    ValidationPanel delivery, links;
+};
+
+ScenePanels panels_of(const ValidationScene& scene, const std::string& reference,
+                      std::size_t replications, const ValidationSize& size) {
+    const std::vector<JudgedModel> models = models_of(scene, reference, size);
+    std::vector<Variant> variants;
+    for (const JudgedModel& model : models) variants.push_back(model.variant);
+    const std::vector<VariantRuns> runs = paired_runs(scene, variants, replications);
+    const std::vector<TurnCost> costs = medium_costs(scene, variants, size);
+    ValidationPanel delivery{.title = scene.name,
+                             .cost_label = "CPU of the medium per transmission [ns]",
+                             .error_label = "error of a run's delivery ratio [-]",
+                             .log_error = false,
+                             .joined = true};
+    ValidationPanel links = delivery;
+    links.error_label = "links decided wrongly [%]";
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const RunErrors errors = run_errors(runs[i], runs.front());
+        ValidationPoint point{.label = variants[i].label,
+                              .series = variants[i].series,
+                              .cost = costs[i],
+                              .error = 100 * models[i].wrong_links};
+        links.points.push_back(point);
+        point.error = errors.mean;
+        if (errors.likely) {
+            point.error_low = errors.likely->low;
+            point.error_high = errors.likely->high;
+        }
+        point.details = {{"bias [-]", errors.bias},
+                         {"replications", static_cast<double>(replications)}};
+        delivery.points.push_back(std::move(point));
+    }
+    return {delivery, links};
+}
+
+/// The best fitted model, and what fitting did to it.
+std::string fit_sentence(const ValidationPanel& panel) {
+    const ValidationPoint* best = nullptr;
+    std::map<std::string, double> given;
+    for (const ValidationPoint& p : panel.points) {
+        if (p.series == as_given) given[p.label] = p.error;
+        if (p.series != reference_series && (!best || p.error < best->error)) best = &p;
+    }
+    if (!best) return "";
+    std::string out =
+        fmt::format("In the {}, {} {} comes nearest to {}: {:.2g} off, at {:.2g} of its cost.",
+                    panel.title, best->label, best->series, panel.points.front().label, best->error,
+                    best->cost.median / panel.points.front().cost.median);
+    if (best->series == after_fit && given.contains(best->label)) {
+        out += fmt::format(" Without the fit it is {:.2g} off.", given[best->label]);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<ValidationChart> path_loss_charts(const ValidationSize& size) {
+    const std::string walls = most_detailed_with_walls();
+    const std::size_t replications = size.of(40, 2);
+    std::vector<ScenePanels> panels;
+    panels.push_back(panels_of(open_field_scene(), "two_ray", replications, size));
+    panels.push_back(panels_of(office_scene(), walls, replications, size));
+    panels.push_back(panels_of(cave_scene(), walls, replications, size));
+    const std::string truth = fmt::format(
+        "Robots on the move flood a message every two seconds, {} replications of each scene. True "
+        "is the exact sum of two rays on the open field, and {} in the office and in the cave. "
+        "Fitted: to losses of the true model on other replications (`rovernet fit`).",
+        replications, walls);
+    ValidationChart delivery{
+        .name = "path_loss", .title = "Which path loss model, and is it fitted?", .truth = truth};
+    ValidationChart links{.name = "wrong_links",
+                          .title = "How many links does a path loss model decide wrongly?",
+                          .truth = truth};
+    for (ScenePanels& scene : panels) {
+        delivery.sentences.push_back(fit_sentence(scene.delivery));
+        links.sentences.push_back(fit_sentence(scene.links));
+        delivery.panels.push_back(std::move(scene.delivery));
+        links.panels.push_back(std::move(scene.links));
+    }
+    return {delivery, links};
+}
+
+}  // namespace rovernet

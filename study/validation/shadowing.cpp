@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "models/variation/shadowing.hpp"
+
+#include "sim/math.hpp"
+#include "sim/random.hpp"
+#include "study/validation/validation_charts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+namespace {
+
+constexpr double decorrelation = 10;  // [m]
+constexpr double walk = 50;           // [m] that a robot goes, at 1 m/s
+constexpr Vec3 peer{30, 5, 1};        // [m] where its peer stands
+
+/// Walk of a robot away from the place of its peer, with a look each `step`.
+struct Walk {
+    std::uint64_t seed;
+    double step;  // [m], or [s]
+
+    std::uint64_t looks() const { return static_cast<std::uint64_t>(walk / step); }
+    Vec3 at(std::uint64_t look) const { return {step * static_cast<double>(look), 0, 1}; }
+};
+
+std::uint64_t draw_bits(const Walk& w, std::uint64_t look) {
+    return PairDraws(w.seed, 0, Purpose::link_shadowing).bits(1, 2 + look);
+}
+
+/// A way to shadow a link as its robot walks. @return changes of its state, at a margin of 0 dB
+struct ShadowingMethod {
+    std::string label;
+    std::function<std::uint64_t(const Walk&)> flips;
+};
+
+/// Changes of the sign of a value from look to look.
+template <class ValueAt>
+std::uint64_t sign_changes(const Walk& w, ValueAt value_at) {
+    std::uint64_t flips = 0;
+    bool up = value_at(0) > 0;
+    for (std::uint64_t look = 1; look <= w.looks(); ++look) {
+        const bool now = value_at(look) > 0;
+        flips += now != up;
+        up = now;
+    }
+    return flips;
+}
+
+std::vector<ShadowingMethod> shadowing_methods() {
+    return {
+        {"redrawn at each look",
+         [](const Walk& w) {
+             return sign_changes(
+                 w, [&](std::uint64_t look) { return PairDraws::normal_of(draw_bits(w, look)); });
+         }},
+        {"state of each link (Gudmundson)",
+         [](const Walk& w) {
+             const double rho = math::exp(-w.step / decorrelation);
+             double x = PairDraws::normal_of(draw_bits(w, 0));
+             return sign_changes(w, [&](std::uint64_t look) {
+                 if (look == 0) return x;
+                 x = rho * x + std::sqrt(1 - rho * rho) * PairDraws::normal_of(draw_bits(w, look));
+                 return x;
+             });
+         }},
+        {"[shadowing] link",
+         [](const Walk& w) {
+             const double x = PairDraws::normal_of(draw_bits(w, 0));
+             return sign_changes(w, [&](std::uint64_t) { return x; });
+         }},
+        {"[shadowing] field", [](const Walk& w) {
+             const ShadowingField field(Meters{decorrelation}, w.seed, 0);
+             return sign_changes(w, [&](std::uint64_t look) { return field(w.at(look), peer); });
+         }}};
+}
+
+/// Flips per second of the process whose correlation is e^(-D / d_cor), looked at each `step`:
+/// arccos(e^(-step / d_cor)) / (pi step).
+double true_rate(double step) {
+    const double rho = math::exp(-step / decorrelation);
+    return math::atan2(std::sqrt(1 - rho * rho), rho) / (std::numbers::pi * step);
+}
+
+ValidationPanel flips_panel(double step, std::uint64_t seeds, const ValidationSize& size) {
+    ValidationPanel panel{.title = fmt::format("a look each {:g} s", step),
+                          .cost_label = "CPU per look [ns]",
+                          .error_label = "error of the flips per second [%]"};
+    const std::vector<ShadowingMethod> methods = shadowing_methods();
+    const double truth = true_rate(step);
+    const auto all_flips = [=](const ShadowingMethod& method) {
+        std::uint64_t flips = 0;
+        for (std::uint64_t seed = 1; seed <= seeds; ++seed) flips += method.flips({seed, step});
+        return static_cast<double>(flips);
+    };
+    std::vector<TimedMethod> timed;
+    for (const ShadowingMethod& method : methods) {
+        const double rate = all_flips(method) / (walk * static_cast<double>(seeds));
+        panel.points.push_back({.label = method.label,
+                                .error = 100 * std::abs(rate - truth) / truth,
+                                .details = {{"flips per second", rate}, {"true", truth}}});
+        timed.push_back({[&all_flips, &method] { return all_flips(method); },
+                         static_cast<double>(seeds) * walk / step});
+    }
+    set_costs(panel, timed, size.turns());
+    return panel;
+}
+
+}  // namespace
+
+ValidationChart shadowing_chart(const ValidationSize& size) {
+    const std::uint64_t seeds = size.of(1000, 30);
+    ValidationChart chart{
+        .name = "shadowing",
+        .title = "How often does shadowing flip a link?",
+        .truth = fmt::format("{} walks of {:g} m at 1 m/s, the peer at rest, at a margin of 0 dB. "
+                             "True is the rate of a normal process whose correlation is "
+                             "exp(-D / {:g} m).",
+                             seeds, walk, decorrelation),
+        .panels = {flips_panel(1, seeds, size), flips_panel(0.1, seeds, size)}};
+    for (const ValidationPanel& panel : chart.panels) {
+        const ValidationPoint &redrawn = panel.points.front(), &field = panel.points.back();
+        chart.sentences.push_back(fmt::format(
+            "With {} shadowing that is redrawn flips a link {:.2g} times a second instead of "
+            "{:.2g}; as a field of both places it flips {:.2g} times, for {:.3g} ns a look and "
+            "without any state.",
+            panel.title, detail_of(redrawn, "flips per second"), detail_of(redrawn, "true"),
+            detail_of(field, "flips per second"), field.cost.median));
+    }
+    return chart;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "study/validation/turns.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+// Charts of error against cost, as plain data: what each validation makes, and the report shows.
+
+namespace rovernet {
+
+/// Further number of a point, for the tables: its name with its unit, and the number.
+using Detail = std::pair<std::string, double>;
+
+/// Method in a chart: what it costs, and how wrong it is.
+struct ValidationPoint {
+    std::string label;        ///< name of the method
+    std::string series = {};  ///< methods that belong together, such as "fitted"
+    TurnCost cost = {};       ///< [ns] in what the panel's axis says
+    double error = 0;         ///< in the panel's unit, >= 0
+    std::optional<double> error_low = {}, error_high = {};  ///< interval around the error
+    std::vector<Detail> details = {};  ///< details, with the same names in all points of a panel
+};
+
+/// Methods that answer one question on one scene.
+struct ValidationPanel {
+    std::string title = {};
+    std::string cost_label = "CPU per link [ns]";
+    std::string error_label = {};  ///< error and its unit
+    bool log_error = true;         ///< logarithmic axis; an error of 0 stands at its lower edge
+    bool joined = false;           ///< a line joins points of one label: before and after a fit
+    /// Error below which the truth itself is not known, and why.
+    std::optional<double> unknowable = {};
+    std::string unknowable_label = {};
+    std::vector<ValidationPoint> points = {};
+};
+
+/// Chart: one question, with what its errors are measured against.
+struct ValidationChart {
+    std::string name;   ///< name of its files
+    std::string title;  ///< question or subject
+    std::string truth;  ///< sentence: what is taken as true, and what was asked how often
+    std::vector<ValidationPanel> panels = {};
+    std::vector<std::string> sentences = {};  ///< what a user may do with it, from the numbers
+};
+
+/// Promise of the code about its errors, and the worst that this run has seen.
+struct Promise {
+    std::string what;   ///< "loss of friis against its closed form"
+    std::string unit;   ///< of both numbers; empty: a count
+    double limit = 0;   ///< greatest error that is promised
+    double worst = 0;   ///< greatest error of this run
+    std::size_t n = 0;  ///< cases that were looked at
+
+    bool kept() const { return worst <= limit; }
+};
+
+/// Measures methods in turns, and gives their costs to the points of a panel, one for each.
+void set_costs(ValidationPanel& panel, std::span<const TimedMethod> methods, const Turns& turns);
+
+/// Points that no other point of the panel beats in both, cost (median) and error; in the order of
+/// their costs.
+std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points);
+
+/// Point of that label and series. @throws std::out_of_range if there is none
+const ValidationPoint& point_of(const ValidationPanel& panel, const std::string& label,
+                                const std::string& series = "");
+
+/// Detail of that name. @throws std::out_of_range if there is none
+double detail_of(const ValidationPoint& point, const std::string& name);
+
+}  // namespace rovernet
