@@ -210,6 +210,13 @@ struct ExplainArguments {
 };
 void explain(const ExplainArguments& arguments);
 
+struct ValidateArguments {
+    std::string out;
+    std::optional<std::string> field;  ///< folder of measurements
+    bool quick = false;
+};
+void validate(const ValidateArguments& arguments);
+
 struct TraceArguments {
     std::string file;
     bool json = false;

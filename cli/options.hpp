@@ -68,7 +68,7 @@ void add_run_commands(CLI::App& app, const std::string& typed);
 void add_scene_commands(CLI::App& app);
 /// Adds results, plot, explain.
 void add_result_commands(CLI::App& app);
-/// Adds models, loss, material, trace, bench, version, completion.
+/// Adds models, loss, material, validate, trace, bench, version, completion.
 void add_tool_commands(CLI::App& app);
 
 }  // namespace rovernet::cli

@@ -74,6 +74,19 @@ void add_material(CLI::App& app) {
     add_json(material, a.json);
 }
 
+void add_validate(CLI::App& app) {
+    const auto [validate, a] =
+        add_command(app, "validate", "Measure errors and costs of this build's methods and models",
+                    cli::validate);
+    add_examples(validate, {"rovernet validate --quick -o report",
+                            "rovernet validate --field measurements -o report"});
+    validate.add_option("-o,--output", a.out, "folder for report.html, and for each chart's files")
+        ->required();
+    validate.add_option("--field", a.field,
+                        "folder of measured levels, with flat/ and lab/, to hold models against");
+    validate.add_flag("--quick", a.quick, "few samples: seconds instead of minutes");
+}
+
 void add_trace(CLI::App& app) {
     CLI::App* trace = app.add_subcommand("trace", "Work with trace files");
     trace->require_subcommand(1);
@@ -112,6 +125,7 @@ void add_tool_commands(CLI::App& app) {
     add_models(app);
     add_loss(app);
     add_material(app);
+    add_validate(app);
     add_trace(app);
     add_bench(app);
     add_version(app);
