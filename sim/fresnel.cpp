@@ -54,8 +54,8 @@ constexpr std::array<double, 25> far_g{
 // x modulo 4, exact.
 double modulo_4(double x) { return x - 4 * std::floor(x / 4); }
 
-// x^2 modulo 4 for x >= 0: the halves of x have at most 27 bits, so that their products are exact but
-// for a last bit of lo * lo.
+// x^2 modulo 4 for x >= 0: the halves of x have at most 27 bits, so that their products are exact
+// but for a last bit of lo * lo.
 double square_modulo_4(double x) {
     const auto upper_bits = ~std::uint64_t{0x7ffffff};
     const double hi = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & upper_bits);
