@@ -18,6 +18,7 @@ namespace {
 struct RunCosts {
     std::vector<std::vector<double>> cpu_s, transmissions;  // by point and replication
     std::uint32_t replications = 0;
+    double spent_s = 0;  // CPU time
 };
 
 double transmissions_of(const Measurement& measurement) {
@@ -35,14 +36,13 @@ RunCosts costs_of_runs(const std::vector<std::uint32_t>& points, Study& study,
     RunCosts out{.cpu_s = std::vector<std::vector<double>>(points.size()),
                  .transmissions = std::vector<std::vector<double>>(points.size())};
     KeptPlanners kept;
-    double spent_s = 0;
-    for (; out.replications < most && spent_s < enough_s && !stopped(); ++out.replications) {
-        spent_s += measure(study.scenario(points.front(), out.replications), kept).cpu_s;
+    for (; out.replications < most && out.spent_s < enough_s && !stopped(); ++out.replications) {
+        out.spent_s += measure(study.scenario(points.front(), out.replications), kept).cpu_s;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const auto run = measure(study.scenario(points[i], out.replications), kept);
             out.cpu_s[i].push_back(run.cpu_s);
             out.transmissions[i].push_back(transmissions_of(run));
-            spent_s += run.cpu_s;
+            out.spent_s += run.cpu_s;
         }
     }
     return out;
@@ -55,14 +55,15 @@ double middle_of(std::vector<double> values) {
 }
 
 /// Costs of the medium by path loss, with the reception that each is judged with.
-MediumCosts costs_of_media(const AdviceCandidates& candidates, Study& study,
+MediumCosts costs_of_media(const AdviceCandidates& candidates, Study& study, double spent_s,
                            const std::function<bool()>& stopped) {
     std::vector<Scenario> scenarios;
     for (std::size_t p = 0; p < candidates.path_losses.size(); ++p) {
         scenarios.push_back(study.scenario(*candidates.points[p][candidates.reception_of(p)], 0));
     }
     const MediumRecord record = record_medium(scenarios.back(), stopped);
-    return measure_medium(record, scenarios, CostTurns{}, stopped);
+    const CostTurns turns{.total_s = std::min(CostTurns{}.total_s, spent_s)};
+    return measure_medium(record, scenarios, turns, stopped);
 }
 
 CandidateCost cost_of(double run_s, double transmissions, const MediumCosts& costs,
@@ -122,8 +123,8 @@ void add_costs(Advice& advice, Study& study, const std::function<bool()>& stoppe
     for (const JudgedCandidate& each : advice.judged) {
         points.push_back(*candidates.points[each.path_loss][each.reception]);
     }
-    const MediumCosts costs = costs_of_media(candidates, study, stopped);
     const RunCosts runs = costs_of_runs(points, study, stopped);
+    const MediumCosts costs = costs_of_media(candidates, study, runs.spent_s, stopped);
     if (stopped()) return;
     const auto cost = [&](std::size_t i, std::size_t path_loss) {
         return cost_of(middle_of(runs.cpu_s[i]), middle_of(runs.transmissions[i]), costs,
