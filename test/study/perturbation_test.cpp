@@ -193,9 +193,12 @@ TEST_CASE("displaced: each antenna is off by its distance, the same way in every
     for (std::uint64_t key = 0; key < 100; ++key) {
         CHECK(near(distance(Vec3{}, model.displacement(key)), 0.01, 1e-15));
     }
-    const double there = loss(model, Scene{}, {}, at, 5, 6);
-    CHECK(there == loss(Friis{}, Scene{}, model.displacement(5), at + model.displacement(6)));
-    CHECK(there == loss(model, Scene{}, at, {}, 6, 5));
+    for (std::uint64_t key = 0; key < 20; ++key) {
+        const Vec3 from = model.displacement(key), to = at + model.displacement(key + 1);
+        const double there = loss(model, Scene{}, {}, at, key, key + 1);
+        CHECK(there == loss(Friis{}, Scene{}, from, to));
+        CHECK(there == loss(model, Scene{}, at, {}, key + 1, key));
+    }
 }
 
 TEST_CASE("displaced: keys use all four ways about equally") {

@@ -3,6 +3,7 @@
 
 #include "models/phy/error_rate.hpp"
 #include "models/phy/wifi.hpp"
+#include "sim/math.hpp"
 
 #include <doctest/doctest.h>
 
@@ -163,6 +164,21 @@ TEST_CASE("sinr: a draw decides where bits may fail, and none where they cannot"
               (lucky ? Fate::waiting : Fate::garbled));
         const Time later = begin + Duration{500'000}, until = later + Duration{100'000};
         CHECK(r.judge(r.hear(NodeId{1}, later, until, -40)) == Fate::waiting);
+    }
+}
+
+TEST_CASE("sinr: interference adds to the noise: as strong as that, it costs 3 dB") {
+    constexpr double noise = -94, above = 8.5, bits = 1100;
+    const double sinr = math::exp10(above / 10) / 2;
+    const double probability = math::exp(bits * log_success(Modulation::cck_11, sinr));
+    REQUIRE(probability > 0.01);
+    REQUIRE(probability < 0.99);
+    for (const bool lucky : {true, false}) {
+        Receiver r;
+        r.draw = probability * (lucky ? 1 - 1e-9 : 1 + 1e-9);
+        const auto frame = r.hear(NodeId{1}, at(0), at(100), noise + above);
+        r.hear(NodeId{2}, at(0), at(100), noise, false);
+        CHECK(r.judge(frame) == (lucky ? Fate::waiting : Fate::collided));
     }
 }
 
