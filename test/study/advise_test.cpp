@@ -325,7 +325,8 @@ TEST_CASE("advise: what is undecided at the end counts as insufficient, and is t
                                    "+ all") != std::string::npos);
 }
 
-TEST_CASE("advise: a candidate stops with its verdict, and what is more detailed than the choice stops") {
+TEST_CASE(
+    "advise: a candidate stops with its verdict, and what is more detailed than the choice stops") {
     // `a` is the reference at once; `b` is noisy, and never decided.
     MadeUp study([](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 1 ? (r % 2 == 0 ? 1.0 : 0.0) : 0.5;
