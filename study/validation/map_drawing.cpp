@@ -135,10 +135,9 @@ std::string cell_sentence(const ValidationPanel& panel) {
                           &coarse = point_of(panel, "20 cm", "filled"),
                           &outline = point_of(panel, "5 cm outline", "outline");
     return fmt::format(
-        "{}: cells of 5 cm are {:.2g} dB off, those of 20 cm, wider than a wall, {:.2g} dB; the 5 "
-        "cm "
-        "map drawn as outlines is {:.2g} dB off.",
-        panel.title, fine.error, coarse.error, outline.error);
+        "{}: cells of 5 cm are {:.2g} dB off ({:+.2g} dB on average), those of 20 cm, wider than a "
+        "wall, {:.2g} dB; the 5 cm map drawn as outlines is {:.2g} dB off.",
+        panel.title, fine.error, detail_of(fine, "bias [dB]"), coarse.error, outline.error);
 }
 
 }  // namespace
