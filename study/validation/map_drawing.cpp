@@ -148,7 +148,7 @@ ValidationChart map_drawing_chart(const ValidationSize& size) {
                                    [&](Vec3 p) { return office.is_wall(p); });
     grid.yaw = askew;
     const Scene exact(grid);
-    const std::vector<Link> links = links_of(office, size.of(1000, 60));
+    const std::vector<Link> links = links_of(office, size.of(300, 60));
     std::vector<Drawing> drawings;
     for (const int cm : {2, 5, 10, 20, 50}) {
         if (size.quick && cm < 5) continue;
