@@ -144,9 +144,10 @@ ValidationChart corridor_chart(const ValidationSize& size) {
                               &one = point_of(panel, "rays, order 1"),
                               &three = point_of(panel, "rays, order 3");
         chart.sentences.push_back(fmt::format(
-            "{}: order 0 is {:.2g} dB off, order 1 {:.2g} dB and order 3 {:.2g} dB, at {:.2g} "
+            "{}: order 0 is {:.2g} dB off, order 1 {:.2g} dB and order 3 {:.2g} dB, at {} "
             "times the cost of order 1.",
-            panel.title, none.error, one.error, three.error, three.cost.median / one.cost.median));
+            panel.title, none.error, one.error, three.error,
+            two_digits(three.cost.median / one.cost.median)));
     }
     return chart;
 }

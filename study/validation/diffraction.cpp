@@ -150,9 +150,9 @@ ValidationChart diffraction_chart(const ValidationSize& size, Promises& promises
         const ValidationPoint &edge = point_of(panel, "knife edge, P.526"),
                               &utd = point_of(panel, "UTD");
         chart.sentences.push_back(fmt::format(
-            "Behind a {} UTD is {:.2g} dB off, at {:.2g} times the cost of the knife edge of "
+            "Behind a {} UTD is {:.2g} dB off, at {} times the cost of the knife edge of "
             "P.526, which is {:.2g} dB off; to take the shadow as lit is {:.2g} dB off.",
-            panel.title, utd.error, utd.cost.median / edge.cost.median, edge.error,
+            panel.title, utd.error, two_digits(utd.cost.median / edge.cost.median), edge.error,
             panel.points.front().error));
     }
     return chart;

@@ -195,14 +195,14 @@ std::string rays_sentence(const ValidationPanel& panel) {
         if (p.label == "rays" && p.error < rays->error) rays = &p;
     }
     const double excess = rays->error - walls.error;
-    std::string out = fmt::format(
-        "{}: rays are {:.2f} dB {} than the fitted multi_wall, at {:.2g} times its cost.",
-        panel.title, std::abs(excess), excess <= 0 ? "better" : "worse",
-        rays->cost.median / walls.cost.median);
+    std::string out =
+        fmt::format("{}: rays are {:.2f} dB {} than the fitted multi_wall, at {} times its cost.",
+                    panel.title, std::abs(excess), excess <= 0 ? "better" : "worse",
+                    two_digits(rays->cost.median / walls.cost.median));
     if (rays != &given) {
         out += fmt::format(
             " With their walls of concrete they are {:.2f} dB off, with the best "
-            "of five other materials {:.2f} dB: a fit finds what a wall takes, "
+            "of the other materials {:.2f} dB: a fit finds what a wall takes, "
             "rays have to be told.",
             given.error, rays->error);
     } else {

@@ -135,9 +135,9 @@ std::string fit_sentence(const ValidationPanel& panel) {
     }
     if (!best) return "";
     std::string out =
-        fmt::format("In the {}, {} {} comes nearest to {}: {:.2g} off, at {:.2g} of its cost.",
+        fmt::format("In the {}, {} {} comes nearest to {}: {:.2g} off, at {} of its cost.",
                     panel.title, best->label, best->series, panel.points.front().label, best->error,
-                    best->cost.median / panel.points.front().cost.median);
+                    two_digits(best->cost.median / panel.points.front().cost.median));
     if (best->series == after_fit && given.contains(best->label)) {
         out += fmt::format(" Without the fit it is {:.2g} off.", given[best->label]);
     }

@@ -36,6 +36,10 @@ const ValidationPoint& point_of(const ValidationPanel& panel, const std::string&
     throw std::out_of_range(fmt::format("no point {} {} in {}", label, series, panel.title));
 }
 
+std::string two_digits(double value) {
+    return fmt::format("{}", std::stod(fmt::format("{:.1e}", value)));
+}
+
 double detail_of(const ValidationPoint& point, const std::string& name) {
     for (const auto& [key, value] : point.details) {
         if (key == name) return value;

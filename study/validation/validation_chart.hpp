@@ -71,6 +71,9 @@ std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points
 const ValidationPoint& point_of(const ValidationPanel& panel, const std::string& label,
                                 const std::string& series = "");
 
+/// Two digits of a cost or a ratio of costs, without an exponent: "1400000", "0.0043".
+std::string two_digits(double value);
+
 /// Detail of that name. @throws std::out_of_range if there is none
 double detail_of(const ValidationPoint& point, const std::string& name);
 

@@ -109,7 +109,7 @@ std::vector<std::vector<std::string>> rows_of(const ValidationPanel& panel) {
         if (has_series) row.push_back(p.series);
         row.push_back(fmt::format("{:.3g}", p.error));
         for (const Detail& detail : p.details) row.push_back(fmt::format("{:.3g}", detail.second));
-        row.push_back(fmt::format("{:.2g}", p.cost.median));
+        row.push_back(two_digits(p.cost.median));
         rows.push_back(std::move(row));
     }
     return rows;
