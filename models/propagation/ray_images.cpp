@@ -6,23 +6,55 @@
 
 namespace rovernet {
 
-RayImages::RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest)
-    : faces_(faces) {
+RayImages::RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest,
+                     std::optional<Vec3> only)
+    : faces_(faces), only_(only) {
     for (std::size_t i = 0; i < faces.size(); ++i)
         if (faces[i].length >= shortest && faces[i].length > 0)
             mirrors_.push_back(static_cast<std::uint32_t>(i));
     if (order == 0) return;
-    add_images_of(from, root);
+    if (only) look_from(*only);
+    add_images_of(from, root, order == 1);
     std::size_t begin = 0;
     for (int level = 2; level <= order; ++level) {
         const std::size_t end = images_.size();
         for (std::size_t i = begin; i < end; ++i)
-            add_images_of({images_[i].x, images_[i].y}, static_cast<std::uint32_t>(i));
+            add_images_of({images_[i].x, images_[i].y}, static_cast<std::uint32_t>(i),
+                          level == order);
         begin = end;
     }
 }
 
-void RayImages::add_images_of(Vec3 at, std::uint32_t parent) {
+/// Faces that may reflect to the receiver.
+void RayImages::look_from(Vec3 receiver) {
+    for (const std::uint32_t number : mirrors_) {
+        const Face& face = faces_[number];
+        if (!(face.in_front(receiver) > 0)) continue;
+        const auto line = [&](Vec3 unit) {
+            return Line{unit.x, unit.y, -(unit.x * face.from.x + unit.y * face.from.y)};
+        };
+        const Line front = line(face.normal), along = line({-face.normal.y, face.normal.x, 0});
+        sights_.push_back({front, along, face.length, front.at(receiver.x, receiver.y),
+                           along.at(receiver.x, receiver.y), number});
+    }
+}
+
+/// Adds the images of the highest order in faces that reflect to the only receiver.
+void RayImages::add_seen_images_of(Vec3 at, std::uint32_t parent) {
+    for (const Sight& sight : sights_) {
+        const double front = sight.front.at(at.x, at.y);
+        if (!(front > slack)) continue;
+        // The point of reflection divides the way along the face as the distances in front of it.
+        const double whole = front + sight.receiver_front;
+        const double point =
+            sight.along.at(at.x, at.y) * sight.receiver_front + sight.receiver_along * front;
+        if (point < -slack * whole || point > (sight.length + slack) * whole) continue;
+        add_image(at, parent, sight.face);
+    }
+}
+
+void RayImages::add_images_of(Vec3 at, std::uint32_t parent, bool last) {
+    if (last && only_) return add_seen_images_of(at, parent);
     for (const std::uint32_t face : mirrors_)
         if (faces_[face].in_front(at) > slack) add_image(at, parent, face);
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,7 +27,10 @@ class RayImages {
     /// @param faces  outlives the images
     /// @param order  most reflections, >= 0
     /// @param shortest  faces shorter than this [m] reflect nothing
-    RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest);
+    /// @param only  if given, images of the highest order that this receiver does not see are left
+    ///              out: they are most of the images, and take most of the time
+    RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest,
+              std::optional<Vec3> only = std::nullopt);
 
     /// Calls visit(chain) for each image in whose beam a point lies, beams being a tenth of a
     /// micrometre wider than they are; chain: the image's faces, the last reflection first.
@@ -53,12 +57,23 @@ class RayImages {
         double x, y;               // [m]
         std::uint32_t face, parent;
     };
-    void add_images_of(Vec3 at, std::uint32_t parent);
+    /// Face with the only receiver in front of it.
+    struct Sight {
+        Line front, along;  // distance [m] in front of the face, and along it from its beginning
+        double length;      // of the face [m]
+        double receiver_front, receiver_along;  // [m]
+        std::uint32_t face;
+    };
+    void add_images_of(Vec3 at, std::uint32_t parent, bool last);
+    void add_seen_images_of(Vec3 at, std::uint32_t parent);
+    void look_from(Vec3 receiver);
     void add_image(Vec3 at, std::uint32_t parent, std::uint32_t face);
     std::span<const std::uint32_t> chain_of(const Image& image);
 
     std::span<const Face> faces_;
     std::vector<std::uint32_t> mirrors_;  // faces that reflect
+    std::optional<Vec3> only_;
+    std::vector<Sight> sights_;  // of the only receiver
     std::vector<Image> images_;
     std::vector<std::uint32_t> chain_;
 };

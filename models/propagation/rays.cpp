@@ -115,7 +115,8 @@ void Rays::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) co
         if (out_db[i] > give_up.value) continue;
         if (!tracer)
             tracer.emplace(*links.scene, links.from, order, wavelength,
-                           diffraction != RayDiffraction::none);
+                           diffraction != RayDiffraction::none,
+                           out_db.size() == 1 ? std::optional(links.to[i]) : std::nullopt);
         tracer->trace(links.to[i], &limit, paths);
         out_db[i] = sum_of(paths, tracer->losses());
     }
