@@ -43,7 +43,8 @@ Waiting::Waiting(std::string what)
 void Waiting::tell(double share) {
     if (!on_terminal_) return;
     const auto now = Clock::now();
-    if (!told_) told_ = now;
+    if (!told_ || share < told_share_) told_ = now;
+    told_share_ = share;
     if (now < next_) return;
     next_ = now + between_looks;
     alarm(0);  // the bar says more

@@ -18,7 +18,8 @@ class Waiting {
     Waiting(const Waiting&) = delete;
     Waiting& operator=(const Waiting&) = delete;
 
-    /// Tells the share that is done, 0 ... 1: cheap, to be called often.
+    /// Tells the share that is done, 0 ... 1: cheap, to be called often. A share below the last one
+    /// is that of a next part, whose time is its own.
     void tell(double share);
 
   private:
@@ -30,6 +31,7 @@ class Waiting {
     Clock::time_point next_;                // look of the line
     std::optional<Clock::time_point> told_  // first: what came before tells nothing of the rest
         = std::nullopt;
+    double told_share_ = 0;
 };
 
 /// "[====      ]  42 %, 26 s to go"; without the time while nothing is done.

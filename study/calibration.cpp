@@ -172,12 +172,14 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
         reference.empty() ? std::string(scenario.propagation.make().name()) : reference;
     const Propagation truth = model_with(scenario, model, {});
     out.reference = model;
-    for (SampleSize size;; size.replications *= 2) {
-        out.known = sample_links(scenario, truth, size, tell);
+    const SampleSize first;
+    LinkSample sample(scenario, truth, first);
+    for (std::uint32_t replications = first.replications;; replications *= 2) {
+        out.known = sample.grow(replications, tell);
         out.loss_error = loss_error_at_budget(out.known, scenario);
-        const bool alike = out.known.groups < size.replications;  // more would be the same again
+        const bool alike = out.known.groups < replications;  // more would be the same again
         if (out.loss_error <= Calibration::enough || alike ||
-            size.replications >= most_replications_sampled) {
+            replications >= most_replications_sampled) {
             break;
         }
     }

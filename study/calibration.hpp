@@ -55,9 +55,9 @@ struct Calibration {
 };
 
 /// Calibrates to a reference model on links of the scenario's own robots: those of 20 replications,
-/// and of twice as many as long as they are not enough, up to 320.
+/// and of twice as many as long as they are not enough, up to 320; see LinkSample.
 /// @param reference  listed model, with the scenario's parameters; empty: the scenario's own
-/// @param tell       told the share that is done, 0 ... 1; may be empty
+/// @param tell       told the share that is done, 0 ... 1, again for each sample; may be empty
 /// @throws InputError, RunError
 Calibration calibrate_to_model(const Scenario& scenario, const std::string& reference,
                                const std::function<void(double)>& tell);

@@ -47,7 +47,7 @@ class Thinned {
         kept_.resize(n);
         stride_ *= 2;
     }
-    std::vector<RobotPair> take() { return std::move(kept_); }
+    const std::vector<RobotPair>& kept() const { return kept_; }
 
   private:
     std::size_t most_, seen_ = 0, stride_ = 1;
@@ -90,6 +90,25 @@ void add_pairs(const Network& network, std::uint32_t replication, const Propagat
     }
 }
 
+/// Losses that a model was asked for: of equal links it is asked once.
+class AskedLosses {
+  public:
+    double of(const KnownLinks& all, const Propagation& model, const KnownLink& link) {
+        const bool random = model.is_random();
+        const Key key{
+            {link.from.x, link.from.y, link.from.z, link.to.x, link.to.y, link.to.z,
+             link.frequency.value},
+            {random ? link.from_key : 0, random ? link.to_key : 0, random ? link.replication : 0}};
+        const auto [at, is_new] = losses_.try_emplace(key, 0.0);
+        if (is_new) at->second = all.loss_by(model, link);
+        return at->second;
+    }
+
+  private:
+    using Key = std::pair<std::array<double, 7>, std::array<std::uint64_t, 3>>;
+    std::map<Key, double> losses_;
+};
+
 /// Drops what is the same link again. Groups are senders if only one replication is left.
 void group(KnownLinks& all) {
     std::set<std::array<double, 7>> seen;
@@ -129,53 +148,88 @@ double KnownLinks::loss_by(const Propagation& model, const KnownLink& link) cons
     return loss;
 }
 
-KnownLinks sample_links(const Scenario& scenario, const Propagation& reference,
-                        const SampleSize& size, const std::function<void(double)>& tell) {
-    Scenario played = without_idle_traffic(scenario);
-    KnownLinks out;
-    out.seed = scenario.scenario.seed;
-    Thinned thinned(size.links);
-    std::unique_ptr<Network> network;
-    for (std::uint32_t r = 0; r < size.replications; ++r) {
-        if (tell) tell(static_cast<double>(r) / size.replications);
-        played.scenario.replication = size.first_replication + r;
-        network = std::make_unique<Network>(network_settings(played));
-        populate(*network, played);
-        for (const Time at : sample_times(played, size.times)) {
-            network->run_until(at);
-            add_pairs(*network, r, reference, thinned);
-        }
+struct LinkSample::State {
+    Scenario played;
+    Propagation reference;
+    SampleSize size;  // with the replications that were run
+    Thinned pairs{size.links};
+    AskedLosses losses;
+    std::unique_ptr<Network> network;  // of the last replication
+
+    void run(std::uint32_t replication);
+    KnownLink link(const RobotPair& pair) const;
+};
+
+void LinkSample::State::run(std::uint32_t replication) {
+    played.scenario.replication = size.first_replication + replication;
+    network = std::make_unique<Network>(network_settings(played));
+    populate(*network, played);
+    for (const Time at : sample_times(played, size.times)) {
+        network->run_until(at);
+        add_pairs(*network, replication, reference, pairs);
     }
-    const std::vector<RobotPair> pairs = thinned.take();
+}
+
+/// Link of a pair, without its loss.
+KnownLink LinkSample::State::link(const RobotPair& pair) const {
+    const Medium& medium = network->medium();
+    const auto replication = size.first_replication + pair.replication;
+    return {
+        .name = fmt::format(
+            "{} - {} at {:.6g} s{}", network->name(pair.a), network->name(pair.b), seconds(pair.at),
+            size.replications > 1 ? fmt::format(", replication {}", replication) : ""),
+        .from = pair.from,
+        .to = pair.to,
+        .frequency = medium.radio(pair.a).frequency,
+        .from_key = medium.key(pair.a),
+        .to_key = medium.key(pair.b),
+        .replication = replication,
+        .group = pair.replication,
+        .budget = link_budget(medium.radio(pair.a), medium.radio(pair.b)).value};
+}
+
+LinkSample::LinkSample(const Scenario& scenario, Propagation reference, const SampleSize& size)
+    : state_(new State{.played = without_idle_traffic(scenario),
+                       .reference = std::move(reference),
+                       .size = size,
+                       .losses = {},
+                       .network = {}}) {
+    state_->size.replications = 0;
+}
+
+LinkSample::~LinkSample() = default;
+
+KnownLinks LinkSample::grow(std::uint32_t replications, const std::function<void(double)>& tell) {
+    State& s = *state_;
+    for (std::uint32_t& r = s.size.replications; r < replications; ++r) {
+        if (tell) tell(static_cast<double>(r) / replications);
+        s.run(r);
+    }
+    const std::vector<RobotPair>& pairs = s.pairs.kept();
     if (pairs.empty()) {
         throw InputError(
-            {scenario.file, 0, 0},
+            {s.played.file, 0, 0},
             fmt::format("no two robots come within reach of {}; there are no links to look at",
-                        reference.name()));
+                        s.reference.name()));
     }
-    const auto& scene = network->settings().scene;
+    KnownLinks out;
+    out.seed = s.played.scenario.seed;
+    const auto& scene = s.network->settings().scene;
     out.scene = scene ? scene : std::make_shared<Scene>();
-    out.floor_height = network->settings().floor_height;
-    const Medium& medium = network->medium();
-    for (const RobotPair& c : pairs) {
-        const auto replication = size.first_replication + c.replication;
-        KnownLink link{
-            .name = fmt::format(
-                "{} - {} at {:.6g} s{}", network->name(c.a), network->name(c.b), seconds(c.at),
-                size.replications > 1 ? fmt::format(", replication {}", replication) : ""),
-            .from = c.from,
-            .to = c.to,
-            .frequency = medium.radio(c.a).frequency,
-            .from_key = medium.key(c.a),
-            .to_key = medium.key(c.b),
-            .replication = replication,
-            .group = c.replication,
-            .budget = link_budget(medium.radio(c.a), medium.radio(c.b)).value};
-        link.loss = out.loss_by(reference, link);
+    out.floor_height = s.network->settings().floor_height;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (tell) tell(static_cast<double>(i) / static_cast<double>(pairs.size()));
+        KnownLink link = s.link(pairs[i]);
+        link.loss = s.losses.of(out, s.reference, link);
         out.links.push_back(std::move(link));
     }
     group(out);
     return out;
+}
+
+KnownLinks sample_links(const Scenario& scenario, const Propagation& reference,
+                        const SampleSize& size, const std::function<void(double)>& tell) {
+    return LinkSample(scenario, reference, size).grow(size.replications, tell);
 }
 
 }  // namespace rovernet

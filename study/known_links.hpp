@@ -71,10 +71,30 @@ struct SampleSize {
 /// chosen by their loss, they would bias every fit. Of too many every k-th is taken.
 ///
 /// Groups are replications; senders if all replications are alike.
-/// @param tell  told the share that is done, 0 ... 1; may be empty
+/// @param tell  told the share that is done, 0 ... 1: first of the runs, then of the losses; may be
+///              empty
 /// @throws InputError, RunError as a run; InputError if there are no two robots within reach
 KnownLinks sample_links(const Scenario& scenario, const Propagation& reference,
                         const SampleSize& size, const std::function<void(double)>& tell = {});
+
+/// Sample of links that grows: each size has the links and losses of sample_links(), but what was
+/// sampled for a smaller size is kept. The reference is asked once for each link; once for links of
+/// all times and replications with equal ends if it draws nothing.
+class LinkSample {
+  public:
+    /// @param size  at most so many links, of so many times a replication; see grow()
+    LinkSample(const Scenario& scenario, Propagation reference, const SampleSize& size);
+    ~LinkSample();
+    LinkSample(const LinkSample&) = delete;
+    LinkSample& operator=(const LinkSample&) = delete;
+
+    /// Links of so many replications, no fewer than before; else as sample_links().
+    KnownLinks grow(std::uint32_t replications, const std::function<void(double)>& tell = {});
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// Measured levels as links of a scenario: a file of comma-separated values whose first line names
 /// the columns; lines that begin with # are comments.

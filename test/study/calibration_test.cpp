@@ -4,6 +4,8 @@
 // folder that ROVERNET_FIELD names.
 #include "study/calibration.hpp"
 
+#include "models/propagation/friis.hpp"
+#include "models/propagation/log_distance.hpp"
 #include "scenario/toml.hpp"
 #include "test/models/vectors.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -15,7 +17,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 
 using namespace rovernet;
 using test::near;
@@ -62,6 +67,18 @@ std::string error_of(const std::string& levels, std::optional<Dbm> floor = {}) {
     }
     return "no error";
 }
+
+/// Free space that counts how often it is asked.
+struct CountedFriis {
+    static constexpr std::string_view name = "counted";
+    int* asked;
+
+    Meters reach(Db loss, Hertz f) const { return Friis{}.reach(loss, f); }
+    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+        ++*asked;
+        Friis{}.loss(links, give_up, out_db);
+    }
+};
 
 /// Levels of a law with exponent 3 and 50 dB at 1 m, in a file; those below -95 dBm are empty.
 std::string levels_of_a_law(double floor) {
@@ -134,6 +151,38 @@ at = ["0 m", "90 m"]
     CHECK(known.links.size() == 3);
     CHECK(known.groups == 2);
     CHECK(std::string(known.group_name) == "sender");
+}
+
+TEST_CASE("calibration: a sample that grew is that of its size, and no link is asked for twice") {
+    const Scenario scenario = scenario_from(wanderers + "[[robot]]\nname = \"still\"\ncount = 2\n" +
+                                            "at = [\"9 m\", \"9 m\"]\n");
+    int asked = 0;
+    const SampleSize size{.replications = 8, .times = 5, .links = 200};
+    LinkSample sample(scenario, CountedFriis{&asked}, size);
+    sample.grow(2);
+    sample.grow(4);
+    const KnownLinks grown = sample.grow(8);
+    const int asked_growing = std::exchange(asked, 0);
+    const KnownLinks at_once = sample_links(scenario, CountedFriis{&asked}, size);
+    REQUIRE(grown.links.size() == at_once.links.size());
+    CHECK(grown.groups == at_once.groups);
+    std::size_t unequal = 0;
+    for (std::size_t i = 0; i < grown.links.size(); ++i) {
+        const KnownLink &a = grown.links[i], &b = at_once.links[i];
+        unequal += a.name != b.name || a.loss != b.loss || a.group != b.group;
+    }
+    CHECK(unequal == 0);
+    CHECK(asked == static_cast<int>(at_once.links.size()));  // two that stand are one link
+    CHECK(asked_growing <= 2 * asked);
+}
+
+TEST_CASE("calibration: a model that draws is asked for equal links of each replication") {
+    const Scenario scenario = scenario_from(
+        "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n"
+        "[[robot]]\nname = \"b\"\nat = [\"9 m\", \"0 m\"]\n");
+    const SampleSize size{.replications = 3, .times = 2};
+    CHECK(sample_links(scenario, LogDistance{.sigma = Db{4}}, size).links.size() == 3);
+    CHECK(sample_links(scenario, LogDistance{.sigma = Db{0}}, size).links.size() == 1);
 }
 
 TEST_CASE("calibration: levels that were not seen count by the Tobit model") {
