@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise_candidates.hpp"
 
+#include "models/propagation/ray_path.hpp"
 #include "scenario/read_value.hpp"
 #include "scenario/toml.hpp"
 #include "study/calibration.hpp"
@@ -9,9 +10,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 namespace rovernet {
 namespace {
@@ -21,19 +25,21 @@ using namespace std::string_view_literals;
 /// Form of a model: keys of its table.
 struct ModelForm {
     std::string_view model, name, toml;
-    int order = 0;  // of detail among the forms of a model
 };
 
 /// The most detailed forms, which references have.
 constexpr std::array most_detailed_forms{
-    ModelForm{"rays", "rays", "order = 3\ndiffraction = \"utd\"", 3},
-    ModelForm{"two_ray", "two_ray", "form = \"exact\"", 1}};
+    ModelForm{"rays", "rays", "order = 3\ndiffraction = \"utd\""},
+    ModelForm{"two_ray", "two_ray", "form = \"exact\""}};
 
 /// Cheaper forms of models that may be the reference.
 constexpr std::array cheaper_forms{
-    ModelForm{"two_ray", "two_ray form=ns2", "form = \"ns2\"", 0},
-    ModelForm{"rays", "rays order=1", "order = 1\ndiffraction = \"none\"", 1},
-    ModelForm{"rays", "rays order=2", "order = 2\ndiffraction = \"utd\"", 2}};
+    ModelForm{"two_ray", "two_ray form=ns2", "form = \"ns2\""},
+    ModelForm{"rays", "rays order=1", "order = 1\ndiffraction = \"none\""},
+    ModelForm{"rays", "rays order=2 knife_edge", "order = 2\ndiffraction = \"knife_edge\""},
+    ModelForm{"rays", "rays order=2", "order = 2\ndiffraction = \"utd\""}};
+
+constexpr Db beyond_radio{20};  // over the budget: no radio overcomes it
 
 constexpr std::array open_field_models{"disc"sv, "friis"sv, "two_ray"sv, "log_distance"sv};
 
@@ -136,13 +142,25 @@ Reference reference_for(const Scenario& scenario, const CandidateQuestion& quest
     return out;
 }
 
+/// Detail of a table of `rays`: its order, and the place of its diffraction in their list. Nothing
+/// if it has no such values.
+std::optional<std::array<std::int64_t, 2>> detail_of_rays(const Table& table) {
+    const Value *order = table.find("order"), *diffraction = table.find("diffraction");
+    const auto* number = order ? std::get_if<std::int64_t>(&order->data) : nullptr;
+    if (!number || !diffraction || !diffraction->string()) return std::nullopt;
+    const auto& words = EnumNames<RayDiffraction>::values;
+    const auto at = std::find(words.begin(), words.end(), *diffraction->string());
+    return std::array{*number, static_cast<std::int64_t>(at - words.begin())};
+}
+
 /// Whether a form is cheaper than the reference of the same model.
 bool is_cheaper(const ModelForm& form, const Table& reference) {
     if (word_at(reference, "model") != form.model) return false;
     if (form.model == "two_ray") return word_at(reference, "form") == "exact";
-    const Value* order = reference.find("order");
-    const auto* number = order ? std::get_if<std::int64_t>(&order->data) : nullptr;
-    return number && form.order < *number;
+    Table cheaper = reference;
+    lay_over(cheaper, form);
+    const auto less = detail_of_rays(cheaper), most = detail_of_rays(reference);
+    return less && most && *less != *most && (*less)[0] <= (*most)[0] && (*less)[1] <= (*most)[1];
 }
 
 /// Whether a model is a candidate where the question names none.
@@ -194,17 +212,12 @@ std::string fitted_text(const Table& propagation) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// Links of which only that is kept of a loss far beyond the budget: that it is. No radio overcomes
-/// it, and a fit to its decibels would miss those that matter.
-KnownLinks within_radio(KnownLinks known) {
-    constexpr double beyond = 20;  // [dB]
-    for (KnownLink& link : known.links) {
-        link.unseen = link.loss > link.budget + beyond;
-        if (link.unseen) link.loss = link.budget + beyond;
-        link.group = 0;  // parameters alone are wanted, no errors of groups left out
-    }
-    known.groups = 1;
-    return known;
+/// Links that radio tells of, for a fit of which parameters alone are wanted: one group.
+KnownLinks within_radio(const KnownLinks& known) {
+    KnownLinks out = censored(known, beyond_radio);
+    for (KnownLink& link : out.links) link.group = 0;
+    out.groups = 1;
+    return out;
 }
 
 /// Whether [propagation] can be had: a fit may end outside of a parameter's range.
@@ -234,12 +247,12 @@ bool take_fit(CandidateModel& candidate, const CalibratedModel& fitted, const Sc
 
 void fit_candidates(std::vector<CandidateModel>& candidates, const Scenario& reference,
                     const std::function<void(double)>& tell) {
-    const Calibration plain = calibrate_to_model(reference, "", tell);
-    const auto censored =
+    const Calibration plain = calibrate_to_model(reference, "", tell, beyond_radio);
+    const auto by_radio =
         calibrate(within_radio(plain.known), reference, plain.reference, Propagation::anything);
     for (CandidateModel& candidate : candidates) {
         if (candidate.model == plain.reference) continue;
-        for (const auto* fits : {&censored, &plain.models}) {
+        for (const auto* fits : {&by_radio, &plain.models}) {
             const auto fitted = std::find_if(
                 fits->begin(), fits->end(),
                 [&](const CalibratedModel& each) { return each.model == candidate.model; });

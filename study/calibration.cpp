@@ -164,8 +164,17 @@ double loss_error_at_budget(const KnownLinks& known, const Scenario& scenario) {
     return fitted(crossing).coefficients[1]->se_by_group;
 }
 
+KnownLinks censored(KnownLinks known, Db beyond) {
+    for (KnownLink& link : known.links) {
+        if (link.loss <= link.budget + beyond.value) continue;
+        link.unseen = true;
+        link.loss = link.budget + beyond.value;
+    }
+    return known;
+}
+
 Calibration calibrate_to_model(const Scenario& scenario, const std::string& reference,
-                               const std::function<void(double)>& tell) {
+                               const std::function<void(double)>& tell, Db beyond) {
     constexpr std::uint32_t most_replications_sampled = 320;
     Calibration out;
     const std::string model =
@@ -176,7 +185,7 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
     LinkSample sample(scenario, truth, first);
     for (std::uint32_t replications = first.replications;; replications *= 2) {
         out.known = sample.grow(replications, tell);
-        out.loss_error = loss_error_at_budget(out.known, scenario);
+        out.loss_error = loss_error_at_budget(censored(out.known, beyond), scenario);
         const bool alike = out.known.groups < replications;  // more would be the same again
         if (out.loss_error <= Calibration::enough || alike ||
             replications >= most_replications_sampled) {

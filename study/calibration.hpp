@@ -7,6 +7,7 @@
 #include "study/prediction_errors.hpp"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,13 +55,20 @@ struct Calibration {
     static constexpr double enough = 0.5;
 };
 
+/// Links of which only that is kept of a loss more than `beyond` over the budget: that it is. No
+/// radio overcomes it, and a fit to its decibels would miss those that matter.
+KnownLinks censored(KnownLinks known, Db beyond);
+
 /// Calibrates to a reference model on links of the scenario's own robots: those of 20 replications,
 /// and of twice as many as long as they are not enough, up to 320; see LinkSample.
 /// @param reference  listed model, with the scenario's parameters; empty: the scenario's own
 /// @param tell       told the share that is done, 0 ... 1, again for each sample; may be empty
+/// @param beyond     whether links are enough is told by those that lose no more than this over
+///                   their budget; all are fitted to
 /// @throws InputError, RunError
 Calibration calibrate_to_model(const Scenario& scenario, const std::string& reference,
-                               const std::function<void(double)>& tell);
+                               const std::function<void(double)>& tell,
+                               Db beyond = Db{std::numeric_limits<double>::infinity()});
 
 /// Calibrates to measured levels, see read_levels().
 Calibration calibrate_to_levels(const Scenario& scenario, const std::string& path,

@@ -180,6 +180,24 @@ TEST_CASE(
     CHECK(c.path_losses.size() > 5);
 }
 
+TEST_CASE("advise: forms of rays that are no more detailed in either respect are cheaper") {
+    const auto forms_below = [](const std::string& order, const std::string& diffraction) {
+        const AdviceCandidates c =
+            candidates_for(std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml", {},
+                           {.models = {"rays"},
+                            .reference = {"propagation.model=rays", "propagation.order=" + order,
+                                          "propagation.diffraction=" + diffraction},
+                            .as_given = true});
+        return names_of(c.path_losses);
+    };
+    using Names = std::vector<std::string>;
+    CHECK(forms_below("3", "utd") ==
+          Names{"rays order=1", "rays order=2 knife_edge", "rays order=2", "rays"});
+    CHECK(forms_below("2", "utd") == Names{"rays order=1", "rays order=2 knife_edge", "rays"});
+    CHECK(forms_below("2", "knife_edge") == Names{"rays order=1", "rays"});
+    CHECK(forms_below("1", "none") == Names{"rays"});
+}
+
 TEST_CASE("advise: the reference and the candidates are what the options say") {
     CandidateQuestion question = as_given;
     question.models = {"friis", "multi_wall"};

@@ -176,6 +176,21 @@ TEST_CASE("calibration: a sample that grew is that of its size, and no link is a
     CHECK(asked_growing <= 2 * asked);
 }
 
+TEST_CASE("calibration: of a loss far beyond the budget only that is kept") {
+    KnownLinks known;
+    for (const double loss : {99.0, 120.0, 120.5}) {
+        KnownLink& link = known.links.emplace_back();
+        link.loss = loss;
+        link.budget = 100;
+    }
+    const KnownLinks kept = censored(known, Db{20});
+    CHECK(kept.links[0].loss == 99);
+    CHECK(kept.links[1].loss == 120);
+    CHECK(!kept.links[1].unseen);
+    CHECK(kept.links[2].loss == 120);
+    CHECK(kept.links[2].unseen);
+}
+
 TEST_CASE("calibration: a model that draws is asked for equal links of each replication") {
     const Scenario scenario = scenario_from(
         "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n"
