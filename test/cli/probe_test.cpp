@@ -69,7 +69,7 @@ TEST_CASE("probe: the text names the cliff, the flip and the message that is los
     CHECK(ended.out.starts_with("1 links at 20 times, losses by disc; 4 receptions of messages"));
     CHECK(ended.out.find("up -> down") != std::string::npos);
     CHECK(ended.out.find("2 cliffs") != std::string::npos);
-    CHECK(ended.out.find("1 um west of the sender") != std::string::npos);
+    CHECK(ended.out.find("1 um north of the sender") != std::string::npos);
 }
 
 TEST_CASE(
