@@ -77,7 +77,7 @@ Calibration calibrate_to_levels(const Scenario& scenario, const std::string& pat
 /// @return how well the levels of both files repeat
 Repeatability check(Calibration& calibration, const Scenario& scenario, const std::string& path,
                     std::optional<Dbm> floor);
-/// The same on levels that were read already.
+/// Judges the fits on levels that were read already, as check() above does on those of a file.
 Repeatability check(Calibration& calibration, const Scenario& scenario, const KnownLinks& others);
 
 }  // namespace rovernet

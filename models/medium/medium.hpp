@@ -141,7 +141,8 @@ class Medium {
         const double d2 = squared_distance(frame.origin, at);
         return d2 > frame.squared_reach ? std::nullopt : arrival_from(frame, d2, to, at);
     }
-    /// The same where some antenna is directional, with the headings of both ends as it begins.
+    /// Frame as it arrives at `to` where some antenna is directional.
+    /// @param headings  of both ends when the frame begins
     std::optional<Arrival> arrival(const Emission& frame, NodeId to, Vec3 at,
                                    const Headings& headings) {
         at.z += kinds_.height(kind(to));

@@ -18,7 +18,7 @@ Vec3 direction(const Face& f) { return {-f.normal.y, f.normal.x, 0}; }
 
 /// Angle from one direction to another [rad], counter-clockwise, -pi to pi.
 double turn(Vec3 from, Vec3 to) { return math::atan2(cross(from, to), dot(from, to)); }
-/// The same, 0 to 2 pi.
+/// Turn counter-clockwise, 0 to 2 pi.
 double angle(Vec3 from, Vec3 to) {
     const double a = turn(from, to);
     return a < 0 ? a + 2 * pi : a;

@@ -99,7 +99,7 @@ class RayTracer {
     double wavelength_;
     RayImages images_;
     RayEdges edges_;
-    // Of the link that is traced:
+    // Ends of the link that is traced, the first by its coordinates first; then its state:
     Vec3 a_, b_;
     double length_ = 0;  // of the path that is planned [m]
     double best_ = 0;    // loss of the strongest path so far [dB]

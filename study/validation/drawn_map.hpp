@@ -44,8 +44,8 @@ inline constexpr double cave_width = 60, cave_depth = 40;  // [m]
 OccupancyGrid drawn_map(double width, double depth, double cell,
                         const std::function<bool(Vec3)>& is_wall);
 
-/// The same map with only those walls left that touch a cell that is free, also by a corner: how
-/// programs draw outlines.
+/// Outlines of a map, as programs draw them: of its walls only those cells are left that touch a
+/// free one, also by a corner.
 OccupancyGrid outlined(const OccupancyGrid& map);
 
 }  // namespace rovernet

@@ -109,7 +109,7 @@ Changes looked_for(const Pass& pass, Duration step) {
     return out;
 }
 
-/// The same, each change then halved down to a nanosecond.
+/// Changes as looked_for() finds them, each then halved down to a nanosecond.
 Changes halved(const Pass& pass, Duration step) {
     Changes out = looked_for(pass, step);
     for (Time& change : out) {

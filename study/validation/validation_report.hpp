@@ -21,8 +21,8 @@ std::string validation_csv(const ValidationChart& chart);
 /// Everything as one page that needs no other file and no network: sentences, pictures, tables.
 std::string validation_html(const Validation& validation);
 
-/// The same as a page of the documentation, without pictures: docs/accuracy.md. Costs are rounded
-/// and relative to the last point of each panel's front.
+/// Page of the documentation, docs/accuracy.md: sentences and tables, with links to the pictures.
+/// Costs have two digits.
 std::string validation_page(const Validation& validation);
 
 }  // namespace rovernet

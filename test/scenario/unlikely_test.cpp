@@ -120,7 +120,7 @@ TEST_CASE("unlikely: walls that are in the map and in N, too, are a notice") {
     CHECK(notices_of(on_map + robot + rays + "coefficient = 22\n").empty());
     CHECK(notices_of(robot + rays).empty());  // an open field
     CHECK(notices_of(on_map + robot + "[propagation]\nmodel = \"itu_indoor\"\n").empty());
-    // Nobody sends by [propagation] where all robots have their own.
+    // [propagation] rules nobody where all robots have a model of their own.
     CHECK(notices_of(on_map + robot + "propagation = { model = \"friis\" }\n" + rays).empty());
 }
 

@@ -221,7 +221,7 @@ TEST_CASE("ladder: the choice is the cheapest candidate within the tolerance") {
     CHECK(ladder[0].verdict() == Equivalence::outside);
     CHECK(ladder.choice() == 1U);
     CHECK(ladder.decided());
-    // Those behind it stopped with it, undecided or not.
+    // Candidates behind the sufficient one stopped with it, undecided or not.
     CHECK(ladder[2].n() <= ladder[1].n());
     CHECK_FALSE(ladder.wants(3));
 }

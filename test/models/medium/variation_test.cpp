@@ -68,8 +68,8 @@ Radio radio_of(test::Draw& draw, bool directional) {
     return radio;
 }
 
-/// The same robots in two media: one looks at every pair and keeps nothing. Some robots rest, some
-/// drive, some turn in place.
+/// Two media with the same robots: one looks at every pair and keeps nothing. Some robots rest,
+/// some drive, some turn in place.
 struct Twins {
     test::Draw draw;
     Scene scene{test::random_map(draw, 40, 40, 10)};
