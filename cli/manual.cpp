@@ -13,41 +13,35 @@
 namespace rovernet::cli {
 namespace {
 
-constexpr std::string_view examples_title = "Examples:\n";
-
 /// Visits a command and those below it, with its words: "", "run", "move convert".
-using Visit = std::function<void(const CLI::App& command, const std::string& words)>;
-void for_each_command(const CLI::App& command, const std::string& words, const Visit& visit) {
+using Visit = std::function<void(const Command::Text& command, const std::string& words)>;
+void for_each_command(const Command::Text& command, const std::string& words, const Visit& visit) {
     visit(command, words);
-    for (const CLI::App* sub : command.get_subcommands(nullptr)) {
-        if (sub->get_group().empty()) continue;  // hidden
-        for_each_command(*sub, words.empty() ? sub->get_name() : words + " " + sub->get_name(),
-                         visit);
+    for (const Command::Text& sub : command.commands) {
+        for_each_command(sub, words.empty() ? sub.name : words + " " + sub.name, visit);
     }
 }
 
-std::vector<std::string> names_of(const CLI::Option& option) {
+std::vector<std::string> names_of(const Command::OptionText& option) {
     std::vector<std::string> names;
-    for (const auto& name : option.get_snames()) names.push_back("-" + name);
-    for (const auto& name : option.get_lnames()) names.push_back("--" + name);
+    for (const auto& name : option.short_names) names.push_back("-" + name);
+    for (const auto& name : option.long_names) names.push_back("--" + name);
     return names;
 }
 
 /// The words that may follow a command: those of its own, and its options.
-std::vector<std::string> words_after(const CLI::App& command) {
+std::vector<std::string> words_after(const Command::Text& command) {
     std::vector<std::string> words;
-    for (const CLI::App* sub : command.get_subcommands(nullptr)) {
-        if (!sub->get_group().empty()) words.push_back(sub->get_name());
-    }
-    for (const CLI::Option* option : command.get_options()) {
-        for (std::string& name : names_of(*option)) words.push_back(std::move(name));
+    for (const Command::Text& sub : command.commands) words.push_back(sub.name);
+    for (const Command::OptionText& option : command.options) {
+        for (std::string& name : names_of(option)) words.push_back(std::move(name));
     }
     return words;
 }
 
-std::string bash_script(const CLI::App& app) {
+std::string bash_script(const Command::Text& program) {
     std::string commands, cases;
-    for_each_command(app, "", [&](const CLI::App& command, const std::string& words) {
+    for_each_command(program, "", [&](const Command::Text& command, const std::string& words) {
         if (!words.empty())
             commands += fmt::format("{}\"{}\"", commands.empty() ? "" : " | ", words);
         cases += fmt::format("        \"{}\") words=\"{}\" ;;\n", words,
@@ -81,25 +75,24 @@ std::string fish_quoted(const std::string& text) {
     return quoted + "'";
 }
 
-std::string fish_script(const CLI::App& app) {
+std::string fish_script(const Command::Text& program) {
     std::string script = "# Completion of rovernet, by rovernet completion.\n";
-    for_each_command(app, "", [&](const CLI::App& command, const std::string& words) {
+    for_each_command(program, "", [&](const Command::Text& command, const std::string& words) {
         std::string when = "__fish_use_subcommand";
         if (!words.empty()) {
             const std::string last = words.substr(words.rfind(' ') + 1);
             when = "__fish_seen_subcommand_from " + last;
         }
-        for (const CLI::App* sub : command.get_subcommands(nullptr)) {
-            if (sub->get_group().empty()) continue;
-            script += fmt::format("complete -c rovernet -n '{}' -a {} -d {}\n", when,
-                                  sub->get_name(), fish_quoted(sub->get_description()));
+        for (const Command::Text& sub : command.commands) {
+            script += fmt::format("complete -c rovernet -n '{}' -a {} -d {}\n", when, sub.name,
+                                  fish_quoted(sub.what));
         }
-        for (const CLI::Option* option : command.get_options()) {
-            if (option->get_positional()) continue;
+        for (const Command::OptionText& option : command.options) {
+            if (!option.argument.empty()) continue;
             script += fmt::format("complete -c rovernet -n '{}'", when);
-            for (const auto& name : option->get_snames()) script += " -s " + name;
-            for (const auto& name : option->get_lnames()) script += " -l " + name;
-            script += fmt::format(" -d {}\n", fish_quoted(option->get_description()));
+            for (const auto& name : option.short_names) script += " -s " + name;
+            for (const auto& name : option.long_names) script += " -l " + name;
+            script += fmt::format(" -d {}\n", fish_quoted(option.what));
         }
     });
     return script;
@@ -122,50 +115,42 @@ std::string roff(const std::string& text) {
     return page;
 }
 
-std::string roff_option(const CLI::Option& option) {
-    const bool positional = option.get_positional();
-    std::string name =
-        positional ? option.get_name(true) : fmt::format("{}", fmt::join(names_of(option), ", "));
-    if (!positional && option.get_items_expected_max() > 0) name += " " + option.get_type_name();
-    std::string what = option.get_description();
-    const std::string usual = option.get_default_str();
-    if (!usual.empty()) what += fmt::format(" (default: {})", usual);
+std::string roff_option(const Command::OptionText& option) {
+    std::string name = option.argument;
+    if (name.empty()) {
+        name = fmt::format("{}", fmt::join(names_of(option), ", "));
+        if (!option.type.empty()) name += " " + option.type;
+    }
+    std::string what = option.what;
+    if (!option.usual.empty()) what += fmt::format(" (default: {})", option.usual);
     return fmt::format(".TP\n.B {}\n{}\n", roff(name), roff(what));
 }
 
 }  // namespace
 
-void add_examples(CLI::App& command, std::initializer_list<const char*> lines) {
-    std::string text{examples_title};
-    for (const char* line : lines) text += fmt::format("  {}\n", line);
-    command.footer(text);
-}
-
-std::string completion_script(const CLI::App& app, const std::string& shell) {
-    if (shell == "bash") return bash_script(app);
+std::string completion_script(const Command::Text& program, const std::string& shell) {
+    if (shell == "bash") return bash_script(program);
     if (shell == "zsh") {
         return "#compdef rovernet\nautoload -U +X bashcompinit && bashcompinit\n" +
-               bash_script(app);
+               bash_script(program);
     }
-    if (shell == "fish") return fish_script(app);
+    if (shell == "fish") return fish_script(program);
     throw std::invalid_argument(
         fmt::format("SHELL: unknown \"{}\"; expected one of bash, zsh, fish", shell));
 }
 
-std::string man_page(const CLI::App& app) {
+std::string man_page(const Command::Text& program) {
     std::string page = fmt::format(
         ".TH ROVERNET 1 \"\" \"rovernet {}\"\n.SH NAME\nrovernet \\- wireless networks of moving "
         "robots, event by event\n.SH SYNOPSIS\n.B rovernet\n.I COMMAND\n[OPTIONS]\n"
         ".SH COMMANDS\n",
         roff(std::string(version())));
-    for_each_command(app, "", [&](const CLI::App& command, const std::string& words) {
-        if (words.empty() || !command.get_subcommands(nullptr).empty()) return;
-        page += fmt::format(".SS rovernet {}\n{}.\n", words, roff(command.get_description()));
-        for (const CLI::Option* option : command.get_options()) page += roff_option(*option);
-        const std::string footer = command.get_footer();
-        if (!footer.starts_with(examples_title)) return;
-        page += fmt::format(".PP\nExamples:\n.PP\n.nf\n{}.fi\n",
-                            roff(footer.substr(examples_title.size())));
+    for_each_command(program, "", [&](const Command::Text& command, const std::string& words) {
+        if (words.empty() || !command.commands.empty()) return;
+        page += fmt::format(".SS rovernet {}\n{}.\n", words, roff(command.what));
+        for (const Command::OptionText& option : command.options) page += roff_option(option);
+        if (command.examples.empty()) return;
+        page += fmt::format(".PP\nExamples:\n.PP\n.nf\n{}.fi\n", roff(command.examples));
     });
     return page + R"(.SH EXIT STATUS
 0: done. 1: failed. 2: the command line is wrong. 3: an input file is wrong. 4: some runs of a

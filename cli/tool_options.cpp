@@ -4,124 +4,122 @@
 namespace rovernet::cli {
 namespace {
 
-void add_models(CLI::App& app) {
+void add_models(Command app) {
     const auto [models, a] =
         add_command(app, "models", "List the propagation models and their parameters", cli::models);
-    add_examples(models, {"rovernet models"});
+    models.add_examples({"rovernet models"});
     add_json(models, a.json);
 }
 
-void add_loss(CLI::App& app) {
+void add_loss(Command app) {
     const auto [loss, a] =
         add_command(app, "loss", "Median path loss of a model over distance", cli::loss);
-    add_examples(loss, {"rovernet loss friis --distance 1,10,100",
-                        "rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5",
-                        "rovernet loss two_ray form=exact --distance 36 --heights 1.5,1.5"});
-    loss.add_option("MODEL", a.model, "its name; see rovernet models")->required();
+    loss.add_examples({"rovernet loss friis --distance 1,10,100",
+                       "rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5",
+                       "rovernet loss two_ray form=exact --distance 36 --heights 1.5,1.5"});
+    loss.add_option("MODEL", a.model, "its name; see rovernet models").required();
     loss.add_option("PARAMETERS", a.parameters, "param=value ...");
-    loss.add_option("--frequency", a.frequency, "such as \"2450 MHz\"")->capture_default_str();
+    loss.add_option("--frequency", a.frequency, "such as \"2450 MHz\"").shows_default();
     loss.add_option("--distance", a.distances, "such as 1,10,100 or \"1 km\"")
-        ->delimiter(',')
-        ->required();
+        .delimiter(',')
+        .required();
     loss.add_option("--heights", a.heights,
                     "antennas above the ground, such as 1.5 or, unlike each other, 1.5,0.3; 1 m if "
                     "not given")
-        ->delimiter(',');
+        .delimiter(',');
     loss.add_option("--wall", a.wall, "length of wall on the way, such as 0.5");
     add_json(loss, a.json);
 }
 
-void add_bench(CLI::App& app) {
-    CLI::App* bench = app.add_subcommand("bench", "Measure the speed of this build here");
-    bench->require_subcommand(1);
+void add_bench(Command app) {
+    Command bench = app.add_command("bench", "Measure the speed of this build here");
+    bench.needs_command();
     const auto [flood, a] =
-        add_command(*bench, "flood", "CPU time of floods, per reception", cli::bench_flood);
-    add_examples(flood, {"rovernet bench flood --nodes 1000 --cpu 0.1"});
+        add_command(bench, "flood", "CPU time of floods, per reception", cli::bench_flood);
+    flood.add_examples({"rovernet bench flood --nodes 1000 --cpu 0.1"});
     flood.add_option("--nodes", a.bench.nodes, "sizes of network, such as 1000,10000")
-        ->delimiter(',')
-        ->check(CLI::Range(2, 10'000'000))
-        ->capture_default_str();
-    flood.add_option("--reception", a.reception, "threshold, collision or sinr")
-        ->capture_default_str();
-    flood.add_option("--access", a.access, "none, aloha or csma")->capture_default_str();
-    flood.add_option("--mobility", a.mobility, "static or random_waypoint")->capture_default_str();
+        .delimiter(',')
+        .range(2, 10'000'000)
+        .shows_default();
+    flood.add_option("--reception", a.reception, "threshold, collision or sinr").shows_default();
+    flood.add_option("--access", a.access, "none, aloha or csma").shows_default();
+    flood.add_option("--mobility", a.mobility, "static or random_waypoint").shows_default();
     flood.add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")
-        ->check(not_negative())
-        ->capture_default_str();
+        .check(not_negative())
+        .shows_default();
     flood.add_flag("--recorded", a.bench.recorded,
                    "keep metrics, fingerprint and timeline, as `rovernet run` does");
     flood.add_option("--cpu", a.bench.cpu_s, "seconds of CPU for each size, at least")
-        ->check(above_zero())
-        ->capture_default_str();
-    flood.add_option("--seed", a.bench.seed, "of every random draw")->capture_default_str();
+        .check(above_zero())
+        .shows_default();
+    flood.add_option("--seed", a.bench.seed, "of every random draw").shows_default();
     add_json(flood, a.json);
 }
 
-void add_material(CLI::App& app) {
+void add_material(Command app) {
     const auto [material, a] = add_command(
         app, "material", "Print the losses of a slab of a building material", cli::material);
-    add_examples(
-        material,
+    material.add_examples(
         {"rovernet material concrete --thickness 0.2",
          "rovernet material concrete --thickness 0.2 --frequency \"2.4 GHz\" --angle 30 --json",
          "rovernet material glass --thickness \"6 mm\" --frequency \"5.2 GHz\" --angle 30"});
-    material.add_option("MATERIAL", a.material, "concrete, brick, glass, metal, ...")->required();
-    material.add_option("--thickness", a.thickness, "such as 0.2 or \"13 mm\"")->required();
-    material.add_option("--frequency", a.frequency, "such as \"2450 MHz\"")->capture_default_str();
+    material.add_option("MATERIAL", a.material, "concrete, brick, glass, metal, ...").required();
+    material.add_option("--thickness", a.thickness, "such as 0.2 or \"13 mm\"").required();
+    material.add_option("--frequency", a.frequency, "such as \"2450 MHz\"").shows_default();
     material.add_option("--angle", a.angle, "of the wave's way to the normal [degrees]")
-        ->check(below_90_degrees())
-        ->capture_default_str();
+        .check(below_90_degrees())
+        .shows_default();
     add_json(material, a.json);
 }
 
-void add_validate(CLI::App& app) {
+void add_validate(Command app) {
     const auto [validate, a] =
         add_command(app, "validate", "Measure errors and costs of this build's methods and models",
                     cli::validate);
-    add_examples(validate, {"rovernet validate --quick -o report",
-                            "rovernet validate --field measurements -o report"});
+    validate.add_examples({"rovernet validate --quick -o report",
+                           "rovernet validate --field measurements -o report"});
     validate.add_option("-o,--output", a.out, "folder for report.html, and for each chart's files")
-        ->required();
+        .required();
     validate.add_option("--field", a.field,
                         "folder of measured levels, with flat/ and lab/, to hold models against");
     validate.add_flag("--quick", a.quick, "few samples: seconds instead of minutes");
 }
 
-void add_trace(CLI::App& app) {
-    CLI::App* trace = app.add_subcommand("trace", "Work with trace files");
-    trace->require_subcommand(1);
+void add_trace(Command app) {
+    Command trace = app.add_command("trace", "Work with trace files");
+    trace.needs_command();
     const auto [stats, a] = add_command(
-        *trace, "stats", "The metrics of an ns-2 trace written by rovernet", cli::trace_stats);
-    add_examples(stats, {"rovernet trace stats runs/patrol-s3/trace.tr"});
-    stats.add_option("FILE", a.file, "trace file (.tr)")->required();
+        trace, "stats", "The metrics of an ns-2 trace written by rovernet", cli::trace_stats);
+    stats.add_examples({"rovernet trace stats runs/patrol-s3/trace.tr"});
+    stats.add_option("FILE", a.file, "trace file (.tr)").required();
     add_json(stats, a.json);
 }
 
-void add_version(CLI::App& app) {
+void add_version(Command app) {
     const auto [version, a] =
         add_command(app, "version", "Print the version and how it was built", cli::print_version);
-    add_examples(version, {"rovernet version --json"});
+    version.add_examples({"rovernet version --json"});
     add_json(version, a.json);
 }
 
 /// Scripts and pages that are made from the commands themselves.
-void add_completion(CLI::App& app) {
+void add_completion(Command app) {
     const auto [completion, a] =
         add_command(app, "completion", "Print a shell's completion script", cli::print_completion);
-    completion.add_option("SHELL", a.shell, "bash, zsh or fish")->required();
-    add_examples(completion,
-                 {"source <(rovernet completion bash)",
-                  "rovernet completion fish > ~/.config/fish/completions/rovernet.fish"});
-    a.app = &app;
+    completion.add_option("SHELL", a.shell, "bash, zsh or fish").required();
+    completion.add_examples(
+        {"source <(rovernet completion bash)",
+         "rovernet completion fish > ~/.config/fish/completions/rovernet.fish"});
+    a.program = app;
     const auto [man, m] =
         add_command(app, "man", "Print the page rovernet(1)", cli::print_man_page);
-    man.group("");
-    m.app = &app;
+    man.hide();
+    m.program = app;
 }
 
 }  // namespace
 
-void add_tool_commands(CLI::App& app) {
+void add_tool_commands(Command app) {
     add_models(app);
     add_loss(app);
     add_material(app);

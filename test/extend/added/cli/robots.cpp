@@ -43,10 +43,10 @@ void robots(const RobotsArguments& arguments) {
 
 }  // namespace
 
-void add_robots(CLI::App& app) {
+void add_robots(Command app) {
     const auto [command, a] =
         add_command(app, "robots", "Who is in a scenario, and where everybody starts", robots);
-    add_examples(command, {"rovernet robots examples/rescue/rescue.toml"});
+    command.add_examples({"rovernet robots examples/rescue/rescue.toml"});
     add_file(command, a, any_file);
     add_json(command, a.json);
 }
