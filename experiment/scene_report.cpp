@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/scene_report.hpp"
 
+#include "experiment/link_graph.hpp"
 #include "experiment/link_table.hpp"
 #include "models/medium/medium.hpp"
 
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/biconnected_components.hpp>
-#include <boost/graph/connected_components.hpp>
-#include <boost/range/iterator_range.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <cstdint>
+#include <utility>
 
 namespace rovernet {
 namespace {
-
-using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
 
 Table point(Vec3 p) {
     Table table;
@@ -56,10 +51,10 @@ double free_area(const Scene& scene) {
 
 /// The links that work both ways, and how many work one way only.
 struct Links {
-    Graph graph;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> both_ways;
     std::uint64_t one_way = 0;
 
-    explicit Links(const Network& network) : graph(network.size()) {
+    explicit Links(const Network& network) {
         const auto hears = [&](std::uint32_t to, std::uint32_t from) {
             return network.medium().link_up(NodeId{from}, NodeId{to}, network.now(),
                                             network.legs());
@@ -67,49 +62,12 @@ struct Links {
         for (std::uint32_t i = 0; i < network.size(); ++i) {
             for (std::uint32_t j = 0; j < i; ++j) {
                 const bool there = hears(i, j), back = hears(j, i);
-                if (there && back) boost::add_edge(i, j, graph);
+                if (there && back) both_ways.emplace_back(i, j);
                 if (there != back) ++one_way;
             }
         }
     }
 };
-
-/// The part of each robot: robots of a part are joined.
-std::vector<std::size_t> parts_of(const Graph& graph) {
-    std::vector<std::size_t> part(boost::num_vertices(graph));
-    boost::connected_components(graph, part.data());
-    return part;
-}
-
-/// How many hops the farthest robot of a part with so many robots is away. The search ends once it
-/// has found them all: where most are linked, it looks at the links of a few robots only.
-int eccentricity(const Graph& graph, std::size_t from, std::size_t robots) {
-    std::vector<int> hops(boost::num_vertices(graph), -1);
-    std::vector<std::size_t> found{from};
-    found.reserve(robots);
-    hops[from] = 0;
-    for (std::size_t next = 0; found.size() < robots; ++next) {
-        const std::size_t at = found[next];
-        for (const std::size_t to :
-             boost::make_iterator_range(boost::adjacent_vertices(at, graph))) {
-            if (hops[to] >= 0) continue;
-            hops[to] = hops[at] + 1;
-            found.push_back(to);
-        }
-    }
-    return hops[found.back()];
-}
-
-/// The longest of the shortest ways between robots that are joined, in hops.
-int diameter(const Graph& graph, const std::vector<std::size_t>& parts) {
-    std::vector<std::size_t> robots(parts.size());
-    for (const std::size_t part : parts) ++robots[part];
-    int longest = 0;
-    for (std::size_t from = 0; from < parts.size(); ++from) {
-        longest = std::max(longest, eccentricity(graph, from, robots[parts[from]]));
-    }
-    return longest;
-}
 
 Array part_names(const std::vector<std::size_t>& parts, const Network& network) {
     std::vector<Array> names;
@@ -122,12 +80,9 @@ Array part_names(const std::vector<std::size_t>& parts, const Network& network) 
     return all;
 }
 
-Array cut_robots(const Graph& graph, const Network& network) {
-    std::vector<std::size_t> cut;
-    boost::articulation_points(graph, std::back_inserter(cut));
-    std::sort(cut.begin(), cut.end());
+Array robot_names(const std::vector<std::size_t>& robots, const Network& network) {
     Array names;
-    for (const std::size_t i : cut) {
+    for (const std::size_t i : robots) {
         names.emplace_back(network.name(NodeId{static_cast<std::uint32_t>(i)}));
     }
     return names;
@@ -185,13 +140,13 @@ void append_robots(Table& report, const Network& network) {
     report.set("robots", std::move(robots));
     if (network.size() == 0) return;
     const Links links(network);
-    const std::vector<std::size_t> parts = parts_of(links.graph);
+    const LinkGraph graph = link_graph(network.size(), links.both_ways);
     Table connectivity;
-    connectivity.set("links", static_cast<std::uint64_t>(boost::num_edges(links.graph)));
+    connectivity.set("links", static_cast<std::uint64_t>(links.both_ways.size()));
     connectivity.set("one_way_links", links.one_way);
-    connectivity.set("components", part_names(parts, network));
-    connectivity.set("articulation_robots", cut_robots(links.graph, network));
-    connectivity.set("diameter_hops", diameter(links.graph, parts));
+    connectivity.set("components", part_names(graph.parts, network));
+    connectivity.set("articulation_robots", robot_names(graph.cut, network));
+    connectivity.set("diameter_hops", graph.diameter);
     report.set("connectivity", std::move(connectivity));
 }
 
