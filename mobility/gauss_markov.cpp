@@ -14,8 +14,8 @@ constexpr double half_turn = 3.141592653589793;  // [rad]
 
 /// `angle` or a whole number of turns more or less: what is nearest to `other` [rad].
 double nearest_turn(double angle, double other) {
-    const double turn = 2 * half_turn;
-    return angle + turn * std::floor((other - angle) / turn + 0.5);
+    const double whole_turn = 2 * half_turn;
+    return angle + whole_turn * std::floor((other - angle) / whole_turn + 0.5);
 }
 
 double to_middle(const Area& field, Vec3 p) {

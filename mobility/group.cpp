@@ -11,8 +11,8 @@ namespace {
 
 /// The way to a place that is drawn in the disc around `centre`; none leads nowhere.
 Way way_into_disc(Mover& mover, Vec3 centre, Meters radius, Draws& draws) {
-    constexpr int most_draws = 16;
-    for (int i = 0; i < most_draws; ++i) {
+    constexpr int most_tries = 16;
+    for (int i = 0; i < most_tries; ++i) {
         const double r = radius.value * std::sqrt(draws.uniform(mover));
         if (auto way = Way::plan(mover, centre + r * any_direction(mover, draws))) return *way;
     }

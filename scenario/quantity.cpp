@@ -19,7 +19,7 @@ struct Unit {
 };
 
 // The first unit is the one that a suggestion uses; those before `others` print, largest first.
-struct Kind {
+struct QuantityKind {
     std::string_view what;  // with its article
     std::string_view example;
     std::span<const Unit> units;
@@ -27,45 +27,47 @@ struct Kind {
     std::string_view largest_text;
 };
 
-constexpr Unit powers[] = {{"dBm", 1}, {"mW", 0, 1}, {"W", 0, 1e3}, {"uW", 0, 1e-3}};
-constexpr Unit gains[] = {{"dB", 1}, {"dBi", 1}};
-constexpr Unit frequencies[] = {{"MHz", 1e6}, {"GHz", 1e9}, {"kHz", 1e3}, {"Hz", 1}};
-constexpr Unit lengths[] = {{"m", 1}, {"km", 1e3}, {"cm", 0.01}, {"mm", 0.001}};
-constexpr Unit speeds[] = {{"m/s", 1}, {"km/h", 1 / 3.6}};
-constexpr Unit times[] = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6},
-                          {"ns", 1e-9}, {"min", 60},  {"h", 3600}};
-constexpr Unit rates[] = {{"Mb/s", 1e6}, {"kb/s", 1e3},   {"Gb/s", 1e9},  {"b/s", 1},
-                          {"bit/s", 1},  {"kbit/s", 1e3}, {"Mbit/s", 1e6}};
-constexpr Unit sizes[] = {{"B", 1},
-                          {"kB", 1e3},
-                          {"KiB", 1024},
-                          {"MB", 1e6},
-                          {"MiB", 1 << 20},
-                          {"GB", 1e9},
-                          {"GiB", 1024.0 * (1 << 20)}};
+constexpr Unit power_units[] = {{"dBm", 1}, {"mW", 0, 1}, {"W", 0, 1e3}, {"uW", 0, 1e-3}};
+constexpr Unit gain_units[] = {{"dB", 1}, {"dBi", 1}};
+constexpr Unit frequency_units[] = {{"MHz", 1e6}, {"GHz", 1e9}, {"kHz", 1e3}, {"Hz", 1}};
+constexpr Unit length_units[] = {{"m", 1}, {"km", 1e3}, {"cm", 0.01}, {"mm", 0.001}};
+constexpr Unit speed_units[] = {{"m/s", 1}, {"km/h", 1 / 3.6}};
+constexpr Unit time_units[] = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6},
+                               {"ns", 1e-9}, {"min", 60},  {"h", 3600}};
+constexpr Unit rate_units[] = {{"Mb/s", 1e6}, {"kb/s", 1e3},   {"Gb/s", 1e9},  {"b/s", 1},
+                               {"bit/s", 1},  {"kbit/s", 1e3}, {"Mbit/s", 1e6}};
+constexpr Unit size_units[] = {{"B", 1},
+                               {"kB", 1e3},
+                               {"KiB", 1024},
+                               {"MB", 1e6},
+                               {"MiB", 1 << 20},
+                               {"GB", 1e9},
+                               {"GiB", 1024.0 * (1 << 20)}};
 
 constexpr double degree = 3.14159265358979323846 / 180;
-constexpr Unit angles[] = {{"deg", degree}, {"rad", 1}};
+constexpr Unit angle_units[] = {{"deg", degree}, {"rad", 1}};
 constexpr Unit turn_rate_units[] = {{"deg/s", degree}, {"rad/s", 1}};
-constexpr Unit attenuations[] = {{"dB/m", 1}, {"dB/cm", 100}};
+constexpr Unit attenuation_units[] = {{"dB/m", 1}, {"dB/cm", 100}};
 
-constexpr Kind kinds[] = {
-    {"a power", "15 dBm", powers, 1e4, "10000 dBm"},
-    {"a ratio", "2 dB", gains, 1e4, "10000 dB"},
-    {"a frequency", "2450 MHz", frequencies, 1e15, "1e6 GHz"},
-    {"a length", "5 m", lengths, 1e9, "1e6 km"},
-    {"a speed", "0.5 m/s", speeds, 1e9, "1e9 m/s"},
-    {"a time", "10 s", times, 1e9, "1e9 s (31 years)"},
-    {"a bit rate", "11 Mb/s", rates, 1e15, "1e6 Gb/s"},
-    {"a size", "64 B", sizes, 1e15, "1e6 GB"},
-    {"an angle", "90 deg", angles, 1e6, "1e6 rad"},
+constexpr QuantityKind quantity_kinds[] = {
+    {"a power", "15 dBm", power_units, 1e4, "10000 dBm"},
+    {"a ratio", "2 dB", gain_units, 1e4, "10000 dB"},
+    {"a frequency", "2450 MHz", frequency_units, 1e15, "1e6 GHz"},
+    {"a length", "5 m", length_units, 1e9, "1e6 km"},
+    {"a speed", "0.5 m/s", speed_units, 1e9, "1e9 m/s"},
+    {"a time", "10 s", time_units, 1e9, "1e9 s (31 years)"},
+    {"a bit rate", "11 Mb/s", rate_units, 1e15, "1e6 Gb/s"},
+    {"a size", "64 B", size_units, 1e15, "1e6 GB"},
+    {"an angle", "90 deg", angle_units, 1e6, "1e6 rad"},
     {"a turn rate", "45 deg/s", turn_rate_units, 1e9, "1e9 rad/s"},
-    {"an attenuation", "75 dB/m", attenuations, 1e6, "1e6 dB/m"},
+    {"an attenuation", "75 dB/m", attenuation_units, 1e6, "1e6 dB/m"},
 };
 
-const Kind& kind(Dimension dimension) { return kinds[static_cast<std::size_t>(dimension)]; }
+const QuantityKind& kind(Dimension dimension) {
+    return quantity_kinds[static_cast<std::size_t>(dimension)];
+}
 
-std::string unit_names(const Kind& kind) {
+std::string unit_names(const QuantityKind& kind) {
     std::string names;
     for (const auto& unit : kind.units) {
         names += names.empty() ? "" : ", ";
@@ -74,7 +76,7 @@ std::string unit_names(const Kind& kind) {
     return names;
 }
 
-[[noreturn]] void reject(const Value& value, std::string_view key, const Kind& kind,
+[[noreturn]] void reject(const Value& value, std::string_view key, const QuantityKind& kind,
                          const std::string& found, const std::string& suggestion) {
     throw InputError(value.where, fmt::format("{}: {}; expected {} with a unit ({}); {}", key,
                                               found, kind.what, unit_names(kind), suggestion));
@@ -97,7 +99,7 @@ std::string_view usual_unit(std::string_view name) {
 }
 
 /// Suggestion "did you mean ...?" for a unit that is misspelt, first of all in its capitals.
-std::string nearest_unit(const Kind& kind, std::string_view name) {
+std::string nearest_unit(const QuantityKind& kind, std::string_view name) {
     const auto same_letter = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
     std::vector<std::string> names;
     for (const auto& unit : kind.units) {
@@ -117,14 +119,14 @@ std::string_view trimmed(std::string_view text) {
 }
 
 /// The quantity [base unit], unless it is not finite or too large to compute with.
-double within(const Value& value, std::string_view key, const Kind& kind, double number) {
+double within(const Value& value, std::string_view key, const QuantityKind& kind, double number) {
     if (std::abs(number) <= kind.largest) return number;
     throw InputError(value.where, fmt::format("{}: found {}; expected {} of at most {}", key,
                                               value.description(), kind.what, kind.largest_text));
 }
 
-double in_base_unit(const Value& value, std::string_view key, const Kind& kind, double number,
-                    const Unit& unit) {
+double in_base_unit(const Value& value, std::string_view key, const QuantityKind& kind,
+                    double number, const Unit& unit) {
     if (unit.factor != 0) return within(value, key, kind, number * unit.factor);
     if (!(number > 0)) {
         reject(value, key, kind, fmt::format("found {} {}, which has no level", number, unit.name),
@@ -135,9 +137,9 @@ double in_base_unit(const Value& value, std::string_view key, const Kind& kind, 
 
 /// A number without a unit: fine on the command line only, where it is in SI units.
 double bare(const Value& value, std::string_view key, Dimension dimension, double number) {
-    const Kind& k = kind(dimension);
+    const QuantityKind& k = kind(dimension);
     if (value.where.is_option) {
-        constexpr Unit watts = powers[2];
+        constexpr Unit watts = power_units[2];
         return dimension == Dimension::power ? in_base_unit(value, key, k, number, watts)
                                              : within(value, key, k, number);
     }
@@ -151,7 +153,7 @@ double bare(const Value& value, std::string_view key, Dimension dimension, doubl
 }  // namespace
 
 double read_quantity(const Value& value, std::string_view key, Dimension dimension) {
-    const Kind& k = kind(dimension);
+    const QuantityKind& k = kind(dimension);
     if (const auto* number = std::get_if<double>(&value.data)) {
         return bare(value, key, dimension, *number);
     }
@@ -187,7 +189,7 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
 }
 
 std::string quantity_text(double value, Dimension dimension) {
-    const Kind& k = kind(dimension);
+    const QuantityKind& k = kind(dimension);
     for (const auto& unit : k.units) {
         if (unit.factor == 0) continue;
         const double number = value / unit.factor;
@@ -209,7 +211,7 @@ std::string_view base_unit(Dimension dimension) {
 }
 
 std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts) {
-    for (std::size_t i = 0; i < std::size(kinds); ++i) {
+    for (std::size_t i = 0; i < std::size(quantity_kinds); ++i) {
         const auto dimension = static_cast<Dimension>(i);
         try {
             for (const std::string& text : texts) read_quantity(Value(text), "", dimension);

@@ -138,9 +138,10 @@ void check_csma(const AccessTable& access, const Table& table) {
                                                  "> 0, and at most 1e9 s in all",
                                                  slot.description(), timing.cw_max));
     }
-    const auto& rates = access.basic_rates;
+    const auto& given_rates = access.basic_rates;
     const auto is_none = [](BitRate rate) { return !(rate > BitRate{0}); };
-    if (rates && (rates->empty() || std::any_of(rates->begin(), rates->end(), is_none))) {
+    if (given_rates &&
+        (given_rates->empty() || std::any_of(given_rates->begin(), given_rates->end(), is_none))) {
         const Value& given = *table.find("basic_rates");
         throw InputError(given.where, fmt::format("basic_rates: found {}; expected at least one "
                                                   "bit rate, all of them > 0",

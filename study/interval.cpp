@@ -20,11 +20,11 @@ std::optional<MeanInterval> student_interval(std::span<const double> values, con
     const auto summary = summary_of(values);
     const auto half = half_width(*summary, confidence);
     if (!half || !(*half > 0)) return std::nullopt;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double unbounded = std::numeric_limits<double>::infinity();
     // A bound that the values break is none.
     const Bounds kept = bounds.hold(values) ? bounds : Bounds{};
-    return MeanInterval{.low = std::max(summary->mean - *half, kept.low.value_or(-infinity)),
-                        .high = std::min(summary->mean + *half, kept.high.value_or(infinity)),
+    return MeanInterval{.low = std::max(summary->mean - *half, kept.low.value_or(-unbounded)),
+                        .high = std::min(summary->mean + *half, kept.high.value_or(unbounded)),
                         .method = IntervalMethod::t,
                         .skewed = too_skewed_for_t(values)};
 }

@@ -87,14 +87,14 @@ std::vector<std::vector<double>> inverse_gram(const std::vector<std::vector<doub
     return V;
 }
 
-void check(const Observations& all, const std::vector<bool>& non_negative) {
+void check(const Observations& all, const std::vector<bool>& not_below_0) {
     const auto finite = [](double v) { return std::isfinite(v); };
     if (all.rows() == 0 || all.columns == 0) {
         throw std::invalid_argument("least_squares: needs a row and a column");
     }
     if (all.x.size() != all.rows() * all.columns ||
         (!all.group.empty() && all.group.size() != all.rows()) ||
-        (!non_negative.empty() && non_negative.size() != all.columns)) {
+        (!not_below_0.empty() && not_below_0.size() != all.columns)) {
         throw std::invalid_argument("least_squares: sizes differ");
     }
     if (!std::all_of(all.x.begin(), all.x.end(), finite) ||
@@ -163,18 +163,18 @@ double LinearFit::predict(std::span<const double> row) const {
     return sum;
 }
 
-LinearFit least_squares(const Observations& observations, const std::vector<bool>& non_negative) {
-    check(observations, non_negative);
+LinearFit least_squares(const Observations& observations, const std::vector<bool>& not_below_0) {
+    check(observations, not_below_0);
     std::vector<std::size_t> used(observations.columns);
     std::iota(used.begin(), used.end(), std::size_t{0});
     std::vector<std::size_t> held;
     for (;;) {
         LinearFit fit = fit_columns(observations, used);
         auto worst = used.end();
-        for (auto j = used.begin(); j != used.end() && !non_negative.empty(); ++j) {
+        for (auto j = used.begin(); j != used.end() && !not_below_0.empty(); ++j) {
             const auto value = [&](auto at) {
                 const auto& c = fit.coefficients[*at];
-                return c && non_negative[*at] ? c->value : 0;
+                return c && not_below_0[*at] ? c->value : 0;
             };
             if (value(j) < (worst == used.end() ? 0 : value(worst))) worst = j;
         }
@@ -191,7 +191,7 @@ LinearFit least_squares(const Observations& observations, const std::vector<bool
 }
 
 std::optional<double> left_out_rmse(const Observations& observations,
-                                    const std::vector<bool>& non_negative) {
+                                    const std::vector<bool>& not_below_0) {
     std::map<std::uint32_t, std::pair<Observations, Observations>> parts;  // others, the group
     for (std::size_t i = 0; i < observations.rows(); ++i) parts[group_of(observations, i)];
     if (parts.size() < 2) return std::nullopt;
@@ -203,7 +203,7 @@ std::optional<double> left_out_rmse(const Observations& observations,
             const bool is_own = group_of(observations, i) == group;
             (is_own ? own : others).add(observations.row(i), observations.y[i]);
         }
-        const LinearFit fit = least_squares(others, non_negative);
+        const LinearFit fit = least_squares(others, not_below_0);
         for (std::size_t i = 0; i < own.rows(); ++i) {
             const double error = own.y[i] - fit.predict(own.row(i));
             sse += error * error;

@@ -54,14 +54,14 @@ struct LinearFit {
 /// times G / (G - 1) (N - 1) / (N - p) with G groups.
 /// Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 5.4; A. C. Cameron,
 /// D. L. Miller, A Practitioner's Guide to Cluster-Robust Inference, JHR 50(2), 2015.
-/// @param non_negative  by column; empty: all are free
+/// @param not_below_0  by column; empty: all are free
 /// @throws std::invalid_argument without a row, or if sizes differ or a number is not finite
 LinearFit least_squares(const Observations& observations,
-                        const std::vector<bool>& non_negative = {});
+                        const std::vector<bool>& not_below_0 = {});
 
 /// Root mean square error of predicting each group by the fit of the others, in units of y; nothing
 /// with fewer than two groups.
 std::optional<double> left_out_rmse(const Observations& observations,
-                                    const std::vector<bool>& non_negative = {});
+                                    const std::vector<bool>& not_below_0 = {});
 
 }  // namespace rovernet

@@ -116,7 +116,7 @@ struct Played {
 };
 
 /// Runs a scenario until `end`, or until it has served about so many events.
-Played play(const Perturbation& p, Time end, std::uint64_t most_events,
+Played play(const Perturbation& p, Time end, std::uint64_t limit,
             const std::function<void(double)>& tell) {
     Network network(p.settings());
     populate(network, p.scenario);
@@ -125,7 +125,7 @@ Played play(const Perturbation& p, Time end, std::uint64_t most_events,
     constexpr std::uint64_t events_a_slice = 256;
     while (!network.advance(end, events_a_slice)) {
         tell(seconds(network.now()) / seconds(end));
-        if (network.events() < most_events) continue;
+        if (network.events() < limit) continue;
         network.run_until(network.now());
         break;
     }

@@ -22,9 +22,9 @@ std::vector<const DrawnPoint*> row_of(const ChartView& view, std::size_t row) {
 }
 
 void draw_value(Svg& svg, const Box& cell, const std::string& text, bool dark) {
-    constexpr double margin = 4;  // [px]
-    if (text_width(text, chart_text_size) > cell.right - cell.left - margin) return;
-    if (chart_text_size + margin > cell.bottom - cell.top) return;
+    constexpr double text_margin = 4;  // [px]
+    if (text_width(text, chart_text_size) > cell.right - cell.left - text_margin) return;
+    if (chart_text_size + text_margin > cell.bottom - cell.top) return;
     svg.text((cell.left + cell.right) / 2, (cell.top + cell.bottom) / 2 + text_drop, text,
              {.size = chart_text_size,
               .anchor = TextAnchor::middle,

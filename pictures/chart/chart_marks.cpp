@@ -21,7 +21,7 @@ constexpr double whisker_width = 1.3;      // [px]
 constexpr double cap = 3;                  // [px] half the width of a whisker's ends
 constexpr double beside = 9;               // [px] between points that would hide one another
 constexpr std::size_t most_tips = 1000;    // of a chart, so that large ones stay small files
-constexpr Color dark{0x22, 0x22, 0x22};
+constexpr Color whisker_color{0x22, 0x22, 0x22};
 
 /// Text that a viewer shows for a point: its series, place, interval and count.
 std::string tip_of(const Chart& chart, const ChartView& view, std::size_t series,
@@ -321,7 +321,8 @@ void draw_bars(Svg& svg, const Chart& chart, const ChartView& view, const ChartF
             const PicturePoint right = frame.at(p.x + offset + half, p.y);
             draw_bar(svg, left.x, right.x, left.y, right.y, i, tip_of(chart, view, i, p));
         }
-        add_path(svg, "whisker", whiskers, view.dots ? chart_style(i).color : dark, whisker_width);
+        add_path(svg, "whisker", whiskers, view.dots ? chart_style(i).color : whisker_color,
+                 whisker_width);
         if (!view.dots) continue;
         Places places;
         for (const auto& p : view.series[i]) places.push_back(frame.at(p.x + offset, p.y).x);

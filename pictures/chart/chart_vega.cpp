@@ -244,12 +244,13 @@ class Specification {
         out.push_back(mark_layer(object({{"type", "rect"}, {"tooltip", tooltip()}}),
                                  object({{"color", color}})));
         if (view_.points > most_texts) return out;
-        const std::string dark = fmt::format("datum.y >= {}", dark_text_from(y_));
+        const std::string is_dark = fmt::format("datum.y >= {}", dark_text_from(y_));
         out.push_back(mark_layer(
             object({{"type", "text"}}),
-            object({{"text", object({{"field", "y"}, {"type", "quantitative"}, {"format", ".3g"}})},
-                    {"color", object({{"condition", object({{"test", dark}, {"value", "#111111"}})},
-                                      {"value", "#ffffff"}})}})));
+            object(
+                {{"text", object({{"field", "y"}, {"type", "quantitative"}, {"format", ".3g"}})},
+                 {"color", object({{"condition", object({{"test", is_dark}, {"value", "#111111"}})},
+                                   {"value", "#ffffff"}})}})));
         return out;
     }
 

@@ -31,10 +31,10 @@ void draw_heading(Svg& svg, const RobotMark& robot) {
     SvgPath path;
     path.move(robot.at.x, robot.at.y);
     path.line(robot.at.x + length * cos, robot.at.y - length * sin);
-    for (const bool seam : {true, false}) {
+    for (const bool outer : {true, false}) {
         svg.add("path", {{"d", path.text()},
-                         {"stroke", seam ? Color{0xff, 0xff, 0xff} : ink},
-                         {"stroke-width", seam ? 4.2 : 2.0},
+                         {"stroke", outer ? Color{0xff, 0xff, 0xff} : ink},
+                         {"stroke-width", outer ? 4.2 : 2.0},
                          {"stroke-linecap", "round"}});
     }
 }

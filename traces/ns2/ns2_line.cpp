@@ -103,7 +103,7 @@ Time Tokens::time(Token token) const {
     constexpr auto expected = "a time in seconds with at most 9 decimals"sv;
     constexpr std::size_t decimals = 9;
     constexpr std::uint64_t longest_s = 9'200'000'000;
-    constexpr std::uint64_t ns_per_s = 1'000'000'000;
+    constexpr std::uint64_t second_in_ns = 1'000'000'000;
     const std::size_t dot = std::min(token.text.find('.'), token.text.size());
     const Token whole{token.text.substr(0, dot), token.column};
     const auto fraction = token.text.substr(std::min(dot + 1, token.text.size()));
@@ -114,7 +114,7 @@ Time Tokens::time(Token token) const {
         if (digit < '0' || digit > '9') fail(token, expected);
         ns = 10 * ns + static_cast<std::uint64_t>(digit - '0');
     }
-    ns += integer<std::uint64_t>(whole, expected, longest_s) * ns_per_s;
+    ns += integer<std::uint64_t>(whole, expected, longest_s) * second_in_ns;
     return Time{Duration{static_cast<std::int64_t>(ns)}};
 }
 
