@@ -108,15 +108,18 @@ std::optional<std::vector<double>> newton_step(std::vector<std::vector<double>> 
     return v;
 }
 
-}  // namespace
-
-TobitFit tobit(const Observations& observations, const std::vector<bool>& unseen) {
+void check_rows(const Observations& observations, const std::vector<bool>& unseen) {
     if (unseen.size() != observations.rows()) {
         throw std::invalid_argument("tobit: sizes differ");
     }
     for (const double y : observations.y) {
         if (!std::isfinite(y)) throw std::invalid_argument("tobit: numbers must be finite");
     }
+}
+
+/// Point of least squares over the rows that are seen.
+std::vector<double> starting_point(const Observations& observations,
+                                   const std::vector<bool>& unseen) {
     Observations seen{.columns = observations.columns};
     for (std::size_t i = 0; i < observations.rows(); ++i) {
         if (!unseen[i]) seen.add(observations.row(i), observations.y[i]);
@@ -129,8 +132,18 @@ TobitFit tobit(const Observations& observations, const std::vector<bool>& unseen
     std::vector<double> point;
     for (const auto& c : start.coefficients) point.push_back(c ? c->value * g : 0);
     point.push_back(g);
+    return point;
+}
 
-    const Likelihood likelihood(observations, unseen);
+std::vector<double> stepped(std::vector<double> point, const std::vector<double>& way,
+                            double share) {
+    for (std::size_t j = 0; j < point.size(); ++j) point[j] += share * way[j];
+    return point;
+}
+
+/// Moves a point to the maximum by Newton's steps, each halved until it leads up.
+/// @return value there
+double climb(const Likelihood& likelihood, std::vector<double>& point) {
     Surface here = likelihood.at(point);
     constexpr int most_steps = 200;
     for (int step = 0; step < most_steps; ++step) {
@@ -140,23 +153,27 @@ TobitFit tobit(const Observations& observations, const std::vector<bool>& unseen
         for (std::size_t j = 0; j < way->size(); ++j) gain += (*way)[j] * here.slope[j];
         if (gain < 1e-18 * (1 + std::abs(here.value))) break;
         double share = 1;
-        const auto moved = [&] {
-            std::vector<double> there = point;
-            for (std::size_t j = 0; j < there.size(); ++j) there[j] += share * (*way)[j];
-            return there;
-        };
-        std::vector<double> next = moved();
+        std::vector<double> next = stepped(point, *way, share);
         Surface there = likelihood.at(next);
         for (; !(there.value > here.value) && share > 1e-6; share /= 2) {
-            next = moved();
+            next = stepped(point, *way, share);
             there = likelihood.at(next);
         }
         if (!(there.value > here.value)) break;
         point = std::move(next);
         here = std::move(there);
     }
+    return here.value;
+}
+
+}  // namespace
+
+TobitFit tobit(const Observations& observations, const std::vector<bool>& unseen) {
+    check_rows(observations, unseen);
+    std::vector<double> point = starting_point(observations, unseen);
+    const double highest = climb(Likelihood(observations, unseen), point);
     TobitFit fit{
-        .coefficients = {}, .sigma = 1 / point.back(), .negative_log_likelihood = -here.value};
+        .coefficients = {}, .sigma = 1 / point.back(), .negative_log_likelihood = -highest};
     for (std::size_t j = 0; j + 1 < point.size(); ++j) {
         fit.coefficients.push_back(point[j] / point.back());
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -22,6 +23,34 @@ double turn(Vec3 from, Vec3 to) { return math::atan2(cross(from, to), dot(from, 
 double angle(Vec3 from, Vec3 to) {
     const double a = turn(from, to);
     return a < 0 ? a + 2 * pi : a;
+}
+
+/// Corners of an edge that the ends of a way around it see: of both, the one nearer to the way.
+/// Nothing if an end sees none.
+std::optional<std::pair<std::size_t, std::size_t>> corners_seen(const WallEdge& edge,
+                                                                const Face& before,
+                                                                const Face& behind, Vec3 a,
+                                                                Vec3 b) {
+    const Vec3 across = edge.corners[1] - edge.corners[0];
+    // Past the line through both corners, away from the wall, both can be seen.
+    const auto sees_both = [&](Vec3 p) { return cross(across, flat(p) - edge.corners[0]) < 0; };
+    const auto corner_of = [&](Vec3 p) -> std::optional<std::size_t> {
+        if (before.in_front(p) > 0) return 0;
+        if (behind.in_front(p) > 0) return 1;
+        return std::nullopt;
+    };
+    const bool free_a = sees_both(a), free_b = sees_both(b);
+    auto at_a = corner_of(a), at_b = corner_of(b);
+    if (free_a && free_b) {
+        const auto by = [&](Vec3 c) { return distance(flat(a), c) + distance(c, flat(b)); };
+        at_a = at_b = by(edge.corners[0]) <= by(edge.corners[1]) ? 0 : 1;
+    } else if (free_a) {
+        at_a = at_b;
+    } else if (free_b) {
+        at_b = at_a;
+    }
+    if (!at_a || !at_b) return std::nullopt;
+    return std::pair{*at_a, *at_b};
 }
 
 }  // namespace
@@ -65,26 +94,10 @@ void RayEdges::add_outline(std::span<const Face> outline, std::size_t first, dou
 
 std::optional<WayAround> RayEdges::around(const WallEdge& edge, Vec3 a, Vec3 b) const {
     const Face &before = faces_[edge.before], &behind = faces_[edge.behind];
-    const Vec3 across = edge.corners[1] - edge.corners[0];
-    // Past the line through both corners, away from the wall, both can be seen.
-    const auto sees_both = [&](Vec3 p) { return cross(across, flat(p) - edge.corners[0]) < 0; };
-    const auto corner_of = [&](Vec3 p) -> std::optional<std::size_t> {
-        if (before.in_front(p) > 0) return 0;
-        if (behind.in_front(p) > 0) return 1;
-        return std::nullopt;
-    };
-    const bool free_a = sees_both(a), free_b = sees_both(b);
-    auto at_a = corner_of(a), at_b = corner_of(b);
-    if (free_a && free_b) {
-        const auto by = [&](Vec3 c) { return distance(flat(a), c) + distance(c, flat(b)); };
-        at_a = at_b = by(edge.corners[0]) <= by(edge.corners[1]) ? 0 : 1;
-    } else if (free_a) {
-        at_a = at_b;
-    } else if (free_b) {
-        at_b = at_a;
-    }
-    if (!at_a || !at_b) return std::nullopt;
-    WayAround way{{edge.corners[*at_a], edge.corners[*at_b]}, {}, 0, 0};
+    const auto corners = corners_seen(edge, before, behind, a, b);
+    if (!corners) return std::nullopt;
+    const auto [at_a, at_b] = *corners;
+    WayAround way{{edge.corners[at_a], edge.corners[at_b]}, {}, 0, 0};
     const double to_edge = distance(flat(a), way.corners[0]);
     const double along = distance(way.corners[0], way.corners[1]);
     const double from_edge = distance(way.corners[1], flat(b));
@@ -106,8 +119,8 @@ std::optional<WayAround> RayEdges::around(const WallEdge& edge, Vec3 a, Vec3 b) 
         return corner == 0 ? angle(edge.back, from_corner)
                            : edge.n * pi - angle(from_corner, direction(behind));
     };
-    e.phi_before = direction_of(a, *at_a);
-    e.phi_after = direction_of(b, *at_b);
+    e.phi_before = direction_of(a, at_a);
+    e.phi_after = direction_of(b, at_b);
     const auto open = [&](double phi) { return phi >= 0 && phi <= edge.n * pi; };
     if (!open(e.phi_before) || !open(e.phi_after)) return std::nullopt;
     e.detour = way.detour;
