@@ -70,6 +70,9 @@ struct SampleSize {
 /// apart than the reference reaches with a budget of 20 dB more. They are chosen by distance alone:
 /// chosen by their loss, they would bias every fit. Of too many every k-th is taken.
 ///
+/// Runs whose robots react to messages are those of the scenario, but that multi_wall takes the
+/// place of rays in them: only where robots drive depends on it.
+///
 /// Groups are replications; senders if all replications are alike.
 /// @param tell  told the share that is done, 0 ... 1: first of the runs, then of the losses; may be
 ///              empty

@@ -6,27 +6,34 @@
 
 namespace rovernet {
 
-RayImages::RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest,
-                     std::optional<Vec3> only)
-    : faces_(faces), only_(only) {
+RayImages::RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest, bool few)
+    : faces_(faces), from_(from), few_(few && order > 0) {
     for (std::size_t i = 0; i < faces.size(); ++i)
         if (faces[i].length >= shortest && faces[i].length > 0)
             mirrors_.push_back(static_cast<std::uint32_t>(i));
-    if (order == 0) return;
-    if (only) look_from(*only);
-    add_images_of(from, root, order == 1);
-    std::size_t begin = 0;
-    for (int level = 2; level <= order; ++level) {
+    for (int level = 1; level <= order - few_; ++level) {
         const std::size_t end = images_.size();
-        for (std::size_t i = begin; i < end; ++i)
-            add_images_of({images_[i].x, images_[i].y}, static_cast<std::uint32_t>(i),
-                          level == order);
-        begin = end;
+        if (level == 1) add_images_of(from, root);
+        for (std::size_t i = parents_; i < end; ++i)
+            add_images_of({images_[i].x, images_[i].y}, static_cast<std::uint32_t>(i));
+        parents_ = end;
     }
+    shared_ = images_.size();
+}
+
+/// Adds the images of the highest order that a receiver sees, in place of another receiver's.
+void RayImages::add_seen_images(Vec3 receiver) {
+    images_.resize(shared_);
+    look_from(receiver);
+    if (shared_ == 0) add_seen_images_of(from_, root);
+    for (std::size_t i = parents_; i < shared_; ++i)
+        add_seen_images_of({images_[i].x, images_[i].y}, static_cast<std::uint32_t>(i));
 }
 
 /// Faces that may reflect to the receiver.
 void RayImages::look_from(Vec3 receiver) {
+    sights_.clear();
+    bunches_.clear();
     for (const std::uint32_t number : mirrors_) {
         const Face& face = faces_[number];
         if (!(face.in_front(receiver) > 0)) continue;
@@ -34,14 +41,54 @@ void RayImages::look_from(Vec3 receiver) {
             return Line{unit.x, unit.y, -(unit.x * face.from.x + unit.y * face.from.y)};
         };
         const Line front = line(face.normal), along = line({-face.normal.y, face.normal.x, 0});
-        sights_.push_back({front, along, face.length, front.at(receiver.x, receiver.y),
-                           along.at(receiver.x, receiver.y), number});
+        const double off = front.at(receiver.x, receiver.y);
+        sights_.push_back({front, along, face.length, off, along.at(receiver.x, receiver.y),
+                           receiver - 2 * off * face.normal, number});
+    }
+    bunch(0, sights_.size());
+}
+
+/// Parts sights until those of a bunch are few, at the middle of their longer side.
+void RayImages::bunch(std::size_t begin, std::size_t end) {
+    if (begin == end) return;
+    Vec3 low = sights_[begin].mirrored, high = low;
+    for (std::size_t i = begin; i < end; ++i) {
+        const Vec3 p = sights_[i].mirrored;
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    constexpr std::size_t few = 8;
+    if (end - begin <= few) {
+        bunches_.push_back({begin, end, 0.5 * (low + high), distance(low, high) / 2});
+        return;
+    }
+    const bool wide = high.x - low.x > high.y - low.y;
+    const auto at = [&](std::size_t i) { return sights_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::nth_element(at(begin), at(middle), at(end), [&](const Sight& p, const Sight& q) {
+        return wide ? p.mirrored.x < q.mirrored.x : p.mirrored.y < q.mirrored.y;
+    });
+    bunch(begin, middle);
+    bunch(middle, end);
+}
+
+/// Adds the images of the highest order in faces that reflect to the receiver.
+void RayImages::add_seen_images_of(Vec3 at, std::uint32_t parent) {
+    for (const Bunch& bunch : bunches_) {
+        // What the face reflects to the receiver comes straight towards the mirrored receiver.
+        const auto misses = [&](const Line& line) {
+            return line.at(bunch.centre.x, bunch.centre.y) < -(bunch.radius + 2 * slack);
+        };
+        if (parent != root &&
+            std::any_of(images_[parent].beam.begin(), images_[parent].beam.end(), misses))
+            continue;
+        add_seen_images_of(at, parent,
+                           std::span(sights_).subspan(bunch.begin, bunch.end - bunch.begin));
     }
 }
 
-/// Adds the images of the highest order in faces that reflect to the only receiver.
-void RayImages::add_seen_images_of(Vec3 at, std::uint32_t parent) {
-    for (const Sight& sight : sights_) {
+void RayImages::add_seen_images_of(Vec3 at, std::uint32_t parent, std::span<const Sight> sights) {
+    for (const Sight& sight : sights) {
         const double front = sight.front.at(at.x, at.y);
         if (!(front > slack)) continue;
         // The point of reflection divides the way along the face as the distances in front of it.
@@ -53,8 +100,7 @@ void RayImages::add_seen_images_of(Vec3 at, std::uint32_t parent) {
     }
 }
 
-void RayImages::add_images_of(Vec3 at, std::uint32_t parent, bool last) {
-    if (last && only_) return add_seen_images_of(at, parent);
+void RayImages::add_images_of(Vec3 at, std::uint32_t parent) {
     for (const std::uint32_t face : mirrors_)
         if (faces_[face].in_front(at) > slack) add_image(at, parent, face);
 }

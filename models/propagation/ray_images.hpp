@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,22 +26,22 @@ class RayImages {
     /// @param faces  outlives the images
     /// @param order  most reflections, >= 0
     /// @param shortest  faces shorter than this [m] reflect nothing
-    /// @param only  if given, images of the highest order that this receiver does not see are left
-    ///              out: they are most of the images, and take most of the time
-    RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest,
-              std::optional<Vec3> only = std::nullopt);
+    /// @param few  images of the highest order are made anew for each point that is asked for, only
+    ///             those that it sees. They are most of the images: this takes less time for a few
+    ///             points, and more for many.
+    RayImages(std::span<const Face> faces, Vec3 from, int order, double shortest, bool few = false);
 
     /// Calls visit(chain) for each image in whose beam a point lies, beams being a tenth of a
     /// micrometre wider than they are; chain: the image's faces, the last reflection first.
     template <class Visit>
     void seen_from(Vec3 p, Visit visit) {
+        if (few_) add_seen_images(p);
         for (const Image& image : images_) {
             bool inside = true;
             for (const Line& line : image.beam) inside = inside && line.at(p.x, p.y) >= -slack;
             if (inside) visit(chain_of(image));
         }
     }
-    std::size_t size() const { return images_.size(); }
 
   private:
     static constexpr double slack = 1e-7;                                  // [m]
@@ -57,24 +56,38 @@ class RayImages {
         double x, y;               // [m]
         std::uint32_t face, parent;
     };
-    /// Face with the only receiver in front of it.
+    /// Face with the receiver in front of it.
     struct Sight {
         Line front, along;  // distance [m] in front of the face, and along it from its beginning
         double length;      // of the face [m]
         double receiver_front, receiver_along;  // [m]
+        Vec3 mirrored;                          // the receiver's image in the face
         std::uint32_t face;
     };
-    void add_images_of(Vec3 at, std::uint32_t parent, bool last);
+    /// Sights whose mirrored receivers lie in one circle.
+    struct Bunch {
+        std::size_t begin, end;  // of sights_
+        Vec3 centre;
+        double radius;  // [m]
+    };
+    void add_images_of(Vec3 at, std::uint32_t parent);
+    void add_seen_images(Vec3 receiver);
     void add_seen_images_of(Vec3 at, std::uint32_t parent);
+    void add_seen_images_of(Vec3 at, std::uint32_t parent, std::span<const Sight> sights);
     void look_from(Vec3 receiver);
+    void bunch(std::size_t begin, std::size_t end);
     void add_image(Vec3 at, std::uint32_t parent, std::uint32_t face);
     std::span<const std::uint32_t> chain_of(const Image& image);
 
     std::span<const Face> faces_;
     std::vector<std::uint32_t> mirrors_;  // faces that reflect
-    std::optional<Vec3> only_;
-    std::vector<Sight> sights_;  // of the only receiver
+    Vec3 from_{};
+    bool few_ = false;
+    std::vector<Sight> sights_;   // of the last receiver
+    std::vector<Bunch> bunches_;  // of them
     std::vector<Image> images_;
+    std::size_t shared_ = 0;   // images of all receivers
+    std::size_t parents_ = 0;  // the first of those with images of the highest order
     std::vector<std::uint32_t> chain_;
 };
 

@@ -38,11 +38,11 @@ double among_steps(const Face& face, Vec3 p, Vec3 q) {
 }  // namespace
 
 RayTracer::RayTracer(const Scene& scene, Vec3 from, int order, double wavelength, bool edges,
-                     std::optional<Vec3> only)
+                     bool few)
     : scene_(scene), from_(from), wavelength_(wavelength) {
     if (!scene.faces()) return;
     faces_ = scene.faces()->all();
-    images_ = RayImages(faces_, from, order, wavelength, only);
+    images_ = RayImages(faces_, from, order, wavelength, few);
     if (!edges) return;
     edges_ = RayEdges(faces_, wavelength);
     stands_.assign(faces_.size(), false);

@@ -52,9 +52,9 @@ class RayTracer {
     /// @param order  most reflections
     /// @param wavelength  [m]; shorter faces do not reflect
     /// @param edges  paths go around edges, too
-    /// @param only  if given, the only receiver that will be asked for: it takes less time
+    /// @param few  few receivers will be asked for: it takes less time
     RayTracer(const Scene& scene, Vec3 from, int order, double wavelength, bool edges = false,
-              std::optional<Vec3> only = std::nullopt);
+              bool few = false);
 
     /// Fills `out` with the paths to a receiver.
     /// @param limit  null: all paths; else the strongest and those that are within the limit

@@ -16,6 +16,7 @@
 namespace rovernet {
 namespace {
 
+constexpr std::size_t few_receivers = 8;
 constexpr double faintest_path = 30;   // [dB] below the strongest
 constexpr double deepest_null = 1e-4;  // of the sum of powers
 
@@ -116,7 +117,7 @@ void Rays::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) co
         if (!tracer)
             tracer.emplace(*links.scene, links.from, order, wavelength,
                            diffraction != RayDiffraction::none,
-                           out_db.size() == 1 ? std::optional(links.to[i]) : std::nullopt);
+                           order > 1 && out_db.size() <= few_receivers);
         tracer->trace(links.to[i], &limit, paths);
         out_db[i] = sum_of(paths, tracer->losses());
     }
