@@ -3,8 +3,8 @@
 
 namespace rovernet {
 
-void Candidates::compute_losses(const Propagation& model, LinkBatch link, NodeId from,
-                                PairCache& cache, Db beyond) {
+Db Candidates::compute_losses(const Propagation& model, LinkBatch link, NodeId from,
+                              PairCache& cache, Db beyond) {
     asked_.clear();
     const Db most = give_up_ + beyond;
     const Db give_up = at_rest_ > 0 ? cache.open(from, most) : most;
@@ -18,12 +18,13 @@ void Candidates::compute_losses(const Propagation& model, LinkBatch link, NodeId
             asked_.push_back(i);
         }
     }
-    if (asked_.empty()) return;
+    if (asked_.empty()) return give_up;
     ask(model, link, give_up);
-    if (known == at_rest_ || !cache.renew(at_rest_)) return;
+    if (known == at_rest_ || !cache.renew(at_rest_)) return give_up;
     for (const Candidate& c : all_) {
         if (c.rests) cache.keep(c.node, c.loss_db);
     }
+    return give_up;
 }
 
 void Candidates::ask(const Propagation& model, LinkBatch link, Db give_up) {

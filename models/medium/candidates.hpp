@@ -66,8 +66,9 @@ class Candidates {
     /// @param link    links of the transmitter; its receivers are not looked at
     /// @param cache   opened for the transmitter once one of the candidates rests
     /// @param beyond  ratio [dB] by which losses above a candidate's budget are still of interest
-    void compute_losses(const Propagation& model, LinkBatch link, NodeId from, PairCache& cache,
-                        Db beyond = Db{0});
+    /// @return loss [dB] above which a candidate's loss says no more than that
+    Db compute_losses(const Propagation& model, LinkBatch link, NodeId from, PairCache& cache,
+                      Db beyond = Db{0});
 
   private:
     // Asks the model for the losses of the candidates in asked_.

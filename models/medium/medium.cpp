@@ -142,15 +142,15 @@ Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
 /// Path loss [dB] from `from` here to `to` there.
 double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
                     Db give_up) const {
+    const Db most = fades_ ? give_up + fades_->most() : give_up;
+    if (const auto known = recent_.find({from, to, here, there}, most)) {
+        return faded(*known, from, to, here, there, frame);
+    }
     LinkBatch link = batch(from, here, t, frame);
     link.to = {&there, 1};
     link.to_keys = {&keys_[to.index()], 1};
     double db = 0;
-    if (!fades_) {
-        model(from).loss(link, give_up, {&db, 1});
-        return db;
-    }
-    model(from).loss(link, give_up + fades_->most(), {&db, 1});
+    model(from).loss(link, most, {&db, 1});
     return faded(db, from, to, here, there, frame);
 }
 

@@ -8,6 +8,7 @@
 #include "models/medium/neighbour_index.hpp"
 #include "models/medium/pair_cache.hpp"
 #include "models/medium/radio_kinds.hpp"
+#include "models/medium/recent_losses.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
 #include "models/variation/fading.hpp"
@@ -264,6 +265,10 @@ class Medium {
     // Loss [dB] that a frame sees where the link's is `loss_db`; that one if frames do not fade.
     double faded(double loss_db, NodeId from, NodeId to, Vec3 here, Vec3 there,
                  std::uint64_t frame) const;
+    // Whether losses are kept for who judges the frames.
+    bool keeps_recent_losses() const {
+        return settings_.interference_cut && settings_.keep_losses && !settings_.all_pairs;
+    }
     // Key of the frame that a node sends at `t`, see LinkBatch: there is but one.
     std::uint64_t frame_key(NodeId from, Time t) const {
         return combine(key(from), static_cast<std::uint64_t>((t - start_of_run).count()));
@@ -294,6 +299,8 @@ class Medium {
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
     PairCache pairs_;
+    // Losses of the last searches, if frames are judged that interfere.
+    RecentLosses recent_;
     // Whether the index knows how wide its cells are.
     bool cells_chosen_ = false;
     // Nodes whose heights the kinds know, if heights matter.

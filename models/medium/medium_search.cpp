@@ -185,9 +185,11 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
                                .squared_distance = d2,
                                .budget_db = budget.value});
           });
-    candidates_.compute_losses(model(from), batch(from, origin_, t, frame), from, pairs_,
-                               fades_ ? fades_->most() : Db{0});
+    const Db told = candidates_.compute_losses(model(from), batch(from, origin_, t, frame), from,
+                                               pairs_, fades_ ? fades_->most() : Db{0});
     for (const Candidate& c : candidates_.all()) {
+        if (keeps_recent_losses())
+            recent_.keep({from, c.node, origin_, c.antenna}, told, c.loss_db);
         const double loss_db = faded(c.loss_db, from, c.node, origin_, c.antenna, frame);
         if (loss_db > c.budget_db) continue;
         const auto budget = [&] {

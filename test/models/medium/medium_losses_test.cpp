@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "models/medium/medium.hpp"
+#include "models/medium/recent_losses.hpp"
 #include "models/propagation/raytrace_2007.hpp"
 #include "models/propagation/two_ray.hpp"
 #include "test/scene/drawn_map.hpp"
@@ -170,4 +171,46 @@ TEST_CASE("medium: resting robots trace each ray once, moving ones each time") {
         }
         CHECK(*counted.rays == robots * (robots - 1) * (moving ? rounds : 1));
     }
+}
+
+TEST_CASE("medium: who judges a frame gets the losses that its receivers were found with") {
+    const CountedRays counted;
+    Twins twins(6);
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        twins.add(counted, Radio{});
+        twins.put(NodeId{i}, twins.trip(NodeId{i}));
+    }
+    twins.now += 100ms;
+    Medium::Receivers heard;
+    twins.keeping.find_receivers(NodeId{0}, twins.now, twins.now + 1ms, twins.legs, heard);
+    const Emission frame{.begin = twins.now,
+                         .end = twins.now + 1ms,
+                         .origin = twins.keeping.origin(),
+                         .from = NodeId{0},
+                         .squared_reach = twins.keeping.squared_reach(NodeId{0})};
+    REQUIRE(heard.all().size() > 3);
+    for (const Reception& reception : heard.all()) {
+        const Vec3 there = twins.legs.position(reception.node, frame.begin);
+        const std::size_t before = *counted.rays;
+        const auto kept = twins.keeping.arrival(frame, reception.node, there);
+        CHECK(*counted.rays == before);
+        const auto computed = twins.plain.arrival(frame, reception.node, there);
+        REQUIRE((kept && computed));
+        CHECK(kept->level_dbm == computed->level_dbm);
+        twins.keeping.arrival(frame, reception.node, there + Vec3{0.01, 0, 0});
+        CHECK(*counted.rays == before + 2);
+    }
+}
+
+TEST_CASE("recent losses: a loss above its limit tells no more than that") {
+    RecentLosses losses;
+    const RecentLosses::Link link{NodeId{1}, NodeId{2}, {0, 0, 1}, {5, 0, 1}};
+    CHECK(!losses.find(link, 90_dB));
+    losses.keep(link, 90_dB, 95);
+    CHECK(losses.find(link, 90_dB) == 95);
+    CHECK(!losses.find(link, 91_dB));
+    losses.keep(link, 90_dB, 85);
+    CHECK(losses.find(link, 200_dB) == 85);
+    CHECK(!losses.find({NodeId{2}, NodeId{1}, link.here, link.there}, 90_dB));
+    CHECK(!losses.find({link.from, link.to, link.here, {5, 0, 1.5}}, 90_dB));
 }
