@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ struct Fit {
 Fit fit_of(const FitArguments& a, const Scenario& scenario) {
     if (!a.links) {
         Waiting waiting("sampling links of " + a.file);
-        return {calibrate_to_model(scenario, a.to, [&](double share) { waiting.tell(share); }),
+        return {calibrate_to_model(
+                    scenario, a.to, [&](double share) { waiting.tell(share); }, beyond_radio),
                 std::nullopt};
     }
     std::optional<Dbm> floor;
@@ -161,6 +163,13 @@ void print_known(const Fit& fit) {
     fmt::print("{} links, {:.3g} to {:.3g} m long, in {} groups (by {}); {}\n", known.links.size(),
                least, most, known.groups, known.group_name,
                c.reference.empty() ? "losses as measured" : "losses by " + c.reference);
+    const auto far = std::count_if(known.links.begin(), known.links.end(),
+                                   [](const KnownLink& link) { return link.unseen; });
+    if (!known.measured && far > 0) {
+        fmt::print(
+            "{} of them lose over {} dB more than their budget, and count as \"more than that\"\n",
+            far, beyond_radio.value);
+    }
     if (fit.repeatability && fit.repeatability->levels > 0) {
         fmt::print(
             "repeatability {:.2f} dB: {} levels were measured again, and differ by so much\n",

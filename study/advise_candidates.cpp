@@ -39,8 +39,6 @@ constexpr std::array cheaper_forms{
     ModelForm{"rays", "rays order=2 knife_edge", "order = 2\ndiffraction = \"knife_edge\""},
     ModelForm{"rays", "rays order=2", "order = 2\ndiffraction = \"utd\""}};
 
-constexpr Db beyond_radio{20};  // over the budget: no radio overcomes it
-
 constexpr std::array open_field_models{"disc"sv, "friis"sv, "two_ray"sv, "log_distance"sv};
 
 std::vector<std::string> listed_models() {
@@ -212,14 +210,6 @@ std::string fitted_text(const Table& propagation) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// Links that radio tells of, for a fit of which parameters alone are wanted: one group.
-KnownLinks within_radio(const KnownLinks& known) {
-    KnownLinks out = censored(known, beyond_radio);
-    for (KnownLink& link : out.links) link.group = 0;
-    out.groups = 1;
-    return out;
-}
-
 /// Whether [propagation] can be had: a fit may end outside of a parameter's range.
 bool can_be_had(const Table& propagation, const Scenario& scenario) {
     PropagationTable out = scenario.propagation;
@@ -232,32 +222,26 @@ bool can_be_had(const Table& propagation, const Scenario& scenario) {
 }
 
 /// Takes a fit's parameters if there are some, and they can be had.
-bool take_fit(CandidateModel& candidate, const CalibratedModel& fitted, const Scenario& scenario) {
+void take_fit(CandidateModel& candidate, const CalibratedModel& fitted, const Scenario& scenario) {
     candidate.note = fitted.failure;
     const Value* propagation = fitted.settings.find("propagation");
-    if (!fitted.failure.empty() || fitted.parameters.empty() || !propagation) return false;
+    if (!fitted.failure.empty() || fitted.parameters.empty() || !propagation) return;
     Table table = candidate.table;
     for (const Entry& entry : propagation->table()->entries) table.set(entry.key, entry.value);
     leave_shadowing_to(scenario, table);
-    if (!can_be_had(table, scenario)) return false;
+    if (!can_be_had(table, scenario)) return;
     candidate.table = std::move(table);
     candidate.fitted = fitted_text(*propagation->table());
-    return true;
 }
 
 void fit_candidates(std::vector<CandidateModel>& candidates, const Scenario& reference,
                     const std::function<void(double)>& tell) {
-    const Calibration plain = calibrate_to_model(reference, "", tell, beyond_radio);
-    const auto by_radio =
-        calibrate(within_radio(plain.known), reference, plain.reference, Propagation::anything);
+    const Calibration fits = calibrate_to_model(reference, "", tell, beyond_radio);
     for (CandidateModel& candidate : candidates) {
-        if (candidate.model == plain.reference) continue;
-        for (const auto* fits : {&by_radio, &plain.models}) {
-            const auto fitted = std::find_if(
-                fits->begin(), fits->end(),
-                [&](const CalibratedModel& each) { return each.model == candidate.model; });
-            if (fitted != fits->end() && take_fit(candidate, *fitted, reference)) break;
-        }
+        const auto fitted = std::find_if(
+            fits.models.begin(), fits.models.end(),
+            [&](const CalibratedModel& each) { return each.model == candidate.model; });
+        if (fitted != fits.models.end()) take_fit(candidate, *fitted, reference);
     }
 }
 

@@ -27,26 +27,50 @@ std::set<std::uint32_t> groups_of(const KnownLinks& known) {
     return groups;
 }
 
+/// Gives a fit without standard errors those of a jackknife over the groups:
+///   se^2 = (G - 1) / G sum over the groups g of (b_g - mean)^2,  b_g fitted to the other groups.
+void jackknife(LinearCalibration::Solution& fit,
+               const std::vector<LinearCalibration::Solution>& without_a_group) {
+    const auto groups = static_cast<double>(without_a_group.size());
+    for (std::size_t k = 0; k < fit.coefficients.size(); ++k) {
+        if (std::isfinite(fit.coefficients[k].se_by_group)) continue;
+        double mean = 0, squares = 0;
+        for (const auto& each : without_a_group) mean += each.coefficients[k].value / groups;
+        for (const auto& each : without_a_group) {
+            const double off = each.coefficients[k].value - mean;
+            squares += off * off;
+        }
+        fit.coefficients[k].se_by_group = std::sqrt((groups - 1) / groups * squares);
+    }
+}
+
 void calibrate_linear(const KnownLinks& known, const Scenario& scenario, Meters decided_within,
                       CalibratedModel& out) {
     const LinearCalibration linear(known, scenario, out.model);
-    const auto all = linear.fit([](const KnownLink&) { return true; });
-    FittedSettings settings = linear.settings(all);
-    out.parameters = std::move(settings.parameters);
-    out.settings = std::move(settings.tables);
+    auto all = linear.fit([](const KnownLink&) { return true; });
+    const auto take_parameters = [&] {
+        FittedSettings settings = linear.settings(all);
+        out.parameters = std::move(settings.parameters);
+        out.settings = std::move(settings.tables);
+    };
+    take_parameters();
     Predictions fitted(known, decided_within), left_out(known, decided_within);
     for (std::size_t i = 0; i < known.links.size(); ++i) fitted.add(i, linear.predict(all, i));
     out.fitted = fitted.errors();
     out.worst = fitted.worst();
     const auto groups = groups_of(known);
     if (groups.size() < 2) return;
+    std::vector<LinearCalibration::Solution> without_a_group;
     for (const std::uint32_t group : groups) {
-        const auto others = linear.fit([&](const KnownLink& l) { return l.group != group; });
+        const auto& others = without_a_group.emplace_back(
+            linear.fit([&](const KnownLink& l) { return l.group != group; }));
         for (std::size_t i = 0; i < known.links.size(); ++i) {
             if (known.links[i].group == group) left_out.add(i, linear.predict(others, i));
         }
     }
     out.left_out = left_out.errors();
+    jackknife(all, without_a_group);
+    take_parameters();
 }
 
 /// The disc that decides best the links of which `takes(link)` is true.
@@ -184,8 +208,8 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
     const SampleSize first;
     LinkSample sample(scenario, truth, first);
     for (std::uint32_t replications = first.replications;; replications *= 2) {
-        out.known = sample.grow(replications, tell);
-        out.loss_error = loss_error_at_budget(censored(out.known, beyond), scenario);
+        out.known = censored(sample.grow(replications, tell), beyond);
+        out.loss_error = loss_error_at_budget(out.known, scenario);
         const bool alike = out.known.groups < replications;  // more would be the same again
         if (out.loss_error <= Calibration::enough || alike ||
             replications >= most_replications_sampled) {

@@ -32,7 +32,8 @@ struct CalibratedModel {
 };
 
 /// Fits all listed models but `except` to the known links, in the order of the list: by least
-/// squares in dB; by the Tobit model if some levels were below the floor; a disc by its decisions.
+/// squares in dB; by the Tobit model if some levels were below the floor, with standard errors by a
+/// jackknife over the groups; a disc by its decisions.
 /// Losses of walls are >= 0. With measured levels one constant is free in each model, as powers and
 /// gains are only roughly known: `excess` where a model has it, else the radios' power.
 /// Decisions are counted on links no longer than `decided_within`.
@@ -55,6 +56,9 @@ struct Calibration {
     static constexpr double enough = 0.5;
 };
 
+/// Loss over the budget that no radio overcomes.
+inline constexpr Db beyond_radio{20};
+
 /// Links of which only that is kept of a loss more than `beyond` over the budget: that it is. No
 /// radio overcomes it, and a fit to its decibels would miss those that matter.
 KnownLinks censored(KnownLinks known, Db beyond);
@@ -63,8 +67,7 @@ KnownLinks censored(KnownLinks known, Db beyond);
 /// and of twice as many as long as they are not enough, up to 320; see LinkSample.
 /// @param reference  listed model, with the scenario's parameters; empty: the scenario's own
 /// @param tell       told the share that is done, 0 ... 1, again for each sample; may be empty
-/// @param beyond     whether links are enough is told by those that lose no more than this over
-///                   their budget; all are fitted to
+/// @param beyond     of losses more than this over the budget only that is kept, see censored()
 /// @throws InputError, RunError
 Calibration calibrate_to_model(const Scenario& scenario, const std::string& reference,
                                const std::function<void(double)>& tell,

@@ -8,10 +8,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace rovernet {
+namespace {
+
+/// Observations without the columns that are held at 0.
+Observations without(const Observations& all, const std::vector<bool>& held) {
+    Observations out{.columns =
+                         static_cast<std::size_t>(std::count(held.begin(), held.end(), false))};
+    for (std::size_t i = 0; i < all.rows(); ++i) {
+        std::vector<double> row;
+        for (std::size_t k = 0; k < all.columns; ++k)
+            if (!held[k]) row.push_back(all.row(i)[k]);
+        out.add(row, all.y[i], all.group[i]);
+    }
+    return out;
+}
+
+}  // namespace
 
 LinearCalibration::LinearCalibration(const KnownLinks& known, const Scenario& scenario,
                                      std::string_view model)
@@ -67,14 +84,22 @@ LinearCalibration::Solution LinearCalibration::by_least_squares(const Observatio
 LinearCalibration::Solution LinearCalibration::by_tobit(const Observations& data,
                                                         const std::vector<bool>& unseen) const {
     constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-    const TobitFit fit = tobit(data, unseen);
-    Solution out{
-        .coefficients = {}, .at_bound = std::vector<bool>(used_.size()), .sigma = fit.sigma};
-    for (const double value : fit.coefficients) {
-        out.coefficients.push_back(
-            {.value = value, .se_plain = no_number, .se_by_group = no_number});
+    Solution out{.coefficients = {}, .at_bound = std::vector<bool>(used_.size()), .sigma = 0};
+    out.coefficients.assign(used_.size(), {.se_plain = no_number, .se_by_group = no_number});
+    // What would be negative, and must not be, is held at 0: one after the other, the worst first.
+    for (;;) {
+        const TobitFit fit = tobit(without(data, out.at_bound), unseen);
+        out.sigma = fit.sigma;
+        std::optional<std::size_t> worst;
+        for (std::size_t k = 0, column = 0; k < used_.size(); ++k) {
+            Coefficient& c = out.coefficients[k];
+            c.value = out.at_bound[k] ? 0 : fit.coefficients[column++];
+            const bool wrong = free_[used_[k]].non_negative && c.value < 0;
+            if (wrong && (!worst || c.value < out.coefficients[*worst].value)) worst = k;
+        }
+        if (!worst) return out;
+        out.at_bound[*worst] = true;
     }
-    return out;
 }
 
 double LinearCalibration::predict(const Solution& solution, std::size_t i) const {
