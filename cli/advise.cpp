@@ -7,6 +7,7 @@
 #include "cli/passing_store.hpp"
 #include "cli/picture_output.hpp"
 #include "cli/stop.hpp"
+#include "cli/study_display.hpp"
 #include "cli/study_run.hpp"
 #include "cli/waiting.hpp"
 #include "study/advise_chart.hpp"
@@ -15,7 +16,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace rovernet::cli {
 namespace {
@@ -75,6 +80,28 @@ void make_block(const AdviseArguments& a, Study& study, Store& store,
                     run_command(store, store.points().at(run.point), run.replication)));
 }
 
+/// Makes the first run of the reference, which is needed anyway, and says what all may take.
+void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std::uint64_t most,
+               Study& study, Store& store) {
+    const std::size_t top = candidates.reference_path_loss();
+    const auto& with_it = candidates.points[top];
+    std::vector<std::uint32_t> one(candidates.family() + 1);
+    one[*with_it[candidates.reference_reception()]] = 1;
+    const auto begin = std::chrono::steady_clock::now();
+    make_block(a, study, store, one);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    const auto receptions = std::count_if(with_it.begin(), with_it.end(),
+                                          [](const auto& point) { return point.has_value(); });
+    const double all = taken.count() * static_cast<double>(most) * static_cast<double>(receptions);
+    constexpr double long_time = 60;  // [s]
+    if (all < long_time) return;
+    notice(fmt::format(
+        "a run with the reference, {}, takes about {:.2g} s; up to {} runs with each of {} "
+        "receptions may take {} on one worker. --max-replications, a larger --tolerance or a "
+        "cheaper --reference take less",
+        candidates.path_losses[top].name, taken.count(), most, receptions, duration_text(all)));
+}
+
 }  // namespace
 
 void advise(const AdviseArguments& a) {
@@ -94,8 +121,10 @@ void advise(const AdviseArguments& a) {
     const HeldStop until_gone;
     const PassingStore passing;
     Store store = open_store(a.store.value_or(passing.file()), study);
+    const DecisionRule rule = rule_for(a, scenario.study, candidates.family());
+    tell_time(a, candidates, rule.most, study, store);
     Advice advice = rovernet::advise(
-        candidates, store, a.metric, rule_for(a, scenario.study, candidates.family()),
+        candidates, store, a.metric, rule,
         [&](const auto& replications) { make_block(a, study, store, replications); });
     if (!a.no_cost) {
         add_costs(advice, study, [] { return stops_asked() > 0; });
