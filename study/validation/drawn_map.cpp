@@ -99,24 +99,4 @@ OccupancyGrid drawn_map(double width, double depth, double cell,
     return map;
 }
 
-OccupancyGrid outlined(const OccupancyGrid& map) {
-    OccupancyGrid out = map;
-    const auto touches_free = [&](int column, int row) {
-        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, map.rows - 1); ++y) {
-            for (int x = std::max(column - 1, 0); x <= std::min(column + 1, map.columns - 1); ++x) {
-                if (map.at(x, y) != Cell::occupied) return true;
-            }
-        }
-        return false;
-    };
-    std::size_t i = 0;
-    for (int row = 0; row < map.rows; ++row) {
-        for (int column = 0; column < map.columns; ++column, ++i) {
-            if (map.cells[i] == Cell::occupied && !touches_free(column, row))
-                out.cells[i] = Cell::free;
-        }
-    }
-    return out;
-}
-
 }  // namespace rovernet

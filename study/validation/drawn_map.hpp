@@ -44,8 +44,4 @@ inline constexpr double cave_width = 60, cave_depth = 40;  // [m]
 OccupancyGrid drawn_map(double width, double depth, double cell,
                         const std::function<bool(Vec3)>& is_wall);
 
-/// Outlines of a map, as programs draw them: of its walls only those cells are left that touch a
-/// free one, also by a corner.
-OccupancyGrid outlined(const OccupancyGrid& map);
-
 }  // namespace rovernet

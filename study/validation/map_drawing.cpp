@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/list.hpp"
 #include "models/propagation/propagation.hpp"
+#include "scene/redrawing.hpp"
 #include "scene/scene.hpp"
 #include "sim/math.hpp"
 #include "study/validation/drawn_map.hpp"
@@ -155,8 +156,8 @@ ValidationChart map_drawing_chart(const ValidationSize& size) {
         const OccupancyGrid filled = redrawn(office, exact, cm / 100.0);
         drawings.push_back({fmt::format("{} cm", cm), std::make_shared<const Scene>(filled)});
         if (cm > 10) continue;
-        drawings.push_back(
-            {fmt::format("{} cm outline", cm), std::make_shared<const Scene>(outlined(filled))});
+        drawings.push_back({fmt::format("{} cm outline", cm),
+                            std::make_shared<const Scene>(outline_walls(filled))});
     }
     ValidationChart chart{
         .name = "map_drawing",

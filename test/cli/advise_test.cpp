@@ -2,6 +2,7 @@
 #include "study/store.hpp"
 #include "test/cli/process.hpp"
 #include "test/scene/temporary_folder.hpp"
+#include "test/study/small_scenarios.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,28 +16,6 @@ using namespace rovernet;
 using namespace rovernet::test;
 
 namespace {
-
-/// Robots on an open field that talk: a run takes a millisecond or two.
-const std::string talkers = R"([scenario]
-name = "talkers"
-duration = "4 s"
-[radio]
-power = "-20 dBm"
-sensitivity = "-85 dBm"
-antenna_height = "1 m"
-[[robot]]
-name = "r"
-count = 8
-place = { model = "uniform", area = [["0 m", "0 m"], ["60 m", "60 m"]] }
-[routing]
-protocol = "flood"
-ttl = 2
-jitter = "10 ms"
-[[traffic]]
-from = "random"
-size = "64 B"
-every = "500 ms"
-)";
 
 struct Advised {
     TemporaryFolder folder;

@@ -3,6 +3,7 @@
 #include "test/cli/process.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
+#include "test/study/small_scenarios.hpp"
 
 #include <doctest/doctest.h>
 
@@ -12,27 +13,8 @@ using namespace rovernet::test;
 
 namespace {
 
-/// A says something to B each second, at the rim of a disc.
-const std::string rim = R"([scenario]
-duration = "5 s"
-[propagation]
-model = "disc"
-range = "10 m"
-[[robot]]
-name = "A"
-at = ["0 m", "0 m"]
-[[robot]]
-name = "B"
-at = ["10 m", "0 m"]
-[routing]
-protocol = "flood"
-[[traffic]]
-kind = "broadcast"
-from = "A"
-payload = "x"
-start = "1 s"
-every = "1 s"
-)";
+/// B at the rim of a disc.
+const std::string rim = two_robots(10, disc);
 
 /// 16 x 8 cells with a wall of three columns, in the scenario's folder.
 std::string with_map(const TemporaryFolder& folder) {

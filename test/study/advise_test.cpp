@@ -7,6 +7,7 @@
 #include "study/advise_cost.hpp"
 #include "study/sweep.hpp"
 #include "test/scene/temporary_folder.hpp"
+#include "test/study/small_scenarios.hpp"
 
 #include <doctest/doctest.h>
 
@@ -21,26 +22,6 @@ using namespace rovernet;
 using namespace rovernet::test;
 
 namespace {
-
-const std::string open_field = R"([scenario]
-duration = "4 s"
-[radio]
-power = "-20 dBm"
-sensitivity = "-85 dBm"
-antenna_height = "1 m"
-[[robot]]
-name = "r"
-count = 8
-place = { model = "uniform", area = [["0 m", "0 m"], ["60 m", "60 m"]] }
-[routing]
-protocol = "flood"
-ttl = 2
-jitter = "10 ms"
-[[traffic]]
-from = "random"
-size = "64 B"
-every = "500 ms"
-)";
 
 AdviceCandidates candidates_of(const std::string& text, const CandidateQuestion& question) {
     const TemporaryFolder folder;
@@ -57,7 +38,7 @@ std::vector<std::string> names_of(const std::vector<CandidateModel>& models) {
 
 std::string error_of(const CandidateQuestion& question) {
     try {
-        candidates_of(open_field, question);
+        candidates_of(talkers, question);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -136,7 +117,7 @@ const JudgedCandidate& judged(const Advice& advice, const std::string& name) {
 }  // namespace
 
 TEST_CASE("advise: on an open field the reference is the exact two_ray with sinr") {
-    const AdviceCandidates c = candidates_of(open_field, as_given);
+    const AdviceCandidates c = candidates_of(talkers, as_given);
     CHECK_FALSE(c.on_map);
     const CandidateModel& reference = c.path_losses.back();
     CHECK(reference.model == "two_ray");
@@ -153,7 +134,7 @@ TEST_CASE("advise: on an open field the reference is the exact two_ray with sinr
 
 TEST_CASE("advise: a disc is judged with the most detailed reception that takes it") {
     const AdviceCandidates c =
-        candidates_of(open_field + "[propagation]\nrange = \"20 m\"\n", as_given);
+        candidates_of(talkers + "[propagation]\nrange = \"20 m\"\n", as_given);
     REQUIRE(c.path_losses.front().name == "disc");
     CHECK(c.receptions[c.reception_of(0)].name == "collision");
     CHECK(c.receptions[c.reception_of(1)].name == "sinr");
@@ -203,7 +184,7 @@ TEST_CASE("advise: the reference and the candidates are what the options say") {
     question.models = {"friis", "multi_wall"};
     question.reference = {"propagation.model=log_distance", "propagation.exponent=3",
                           "reception.model=collision"};
-    const AdviceCandidates c = candidates_of(open_field, question);
+    const AdviceCandidates c = candidates_of(talkers, question);
     CHECK(names_of(c.path_losses) ==
           std::vector<std::string>{"friis", "multi_wall", "log_distance"});
     CHECK(plain_text(*c.path_losses.back().table.find("exponent")) == "3");
@@ -232,7 +213,7 @@ TEST_CASE("advise: mistakes about the reference and the candidates are told at t
 
 TEST_CASE("advise: a candidate leaves shadowing to that of the scenario") {
     const AdviceCandidates c =
-        candidates_of(open_field + "[shadowing]\nmodel = \"link\"\nsigma = \"6 dB\"\n",
+        candidates_of(talkers + "[shadowing]\nmodel = \"link\"\nsigma = \"6 dB\"\n",
                       {.models = {"log_distance"}, .reference = {}, .as_given = false});
     REQUIRE(c.path_losses.front().name == "log_distance");
     CHECK(plain_text(*c.path_losses.front().table.find("sigma")) == "0 dB");
@@ -244,7 +225,7 @@ TEST_CASE("advise: fitted to a model whose form it can take, a candidate is that
         .reference = {"propagation.model=log_distance", "propagation.exponent=3",
                       "propagation.sigma=0 dB", "propagation.excess=2 dB"},
         .as_given = false};
-    const AdviceCandidates c = candidates_of(open_field, question);
+    const AdviceCandidates c = candidates_of(talkers, question);
     const CandidateModel& fitted = c.path_losses[1];
     CAPTURE(fitted.note);
     CHECK(fitted.fitted == "exponent 3.0, excess 2 dB");
@@ -253,7 +234,7 @@ TEST_CASE("advise: fitted to a model whose form it can take, a candidate is that
 
 TEST_CASE("advise: a simulated study finds the model that equals the reference, and no other") {
     const TemporaryFolder folder;
-    const std::string file = folder.write("s.toml", open_field);
+    const std::string file = folder.write("s.toml", talkers);
     const AdviceCandidates c =
         candidates_for(file, {},
                        {.models = {"friis", "multi_wall"},

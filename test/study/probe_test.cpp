@@ -7,6 +7,7 @@
 #include "test/models/vectors.hpp"
 #include "test/scene/drawn_map.hpp"
 #include "test/scene/temporary_folder.hpp"
+#include "test/study/small_scenarios.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -17,37 +18,16 @@
 #include <vector>
 
 using namespace rovernet;
+using test::disc;
 using test::drawn_map;
 using test::near;
+using test::two_robots;
 
 namespace {
 
 Scenario scenario_from(const std::string& text) {
     const test::TemporaryFolder folder;
     return load_scenario(folder.write("s.toml", text), {});
-}
-
-/// A at the origin, and B on the x axis; A says something each second.
-std::string two_robots(double x, const std::string& more) {
-    return fmt::format(R"([scenario]
-duration = "5 s"
-{}
-[[robot]]
-name = "A"
-at = ["0 m", "0 m"]
-[[robot]]
-name = "B"
-at = ["{} m", "0 m"]
-[routing]
-protocol = "flood"
-[[traffic]]
-kind = "broadcast"
-from = "A"
-payload = "x"
-start = "1 s"
-every = "1 s"
-)",
-                       more, x);
 }
 
 const PerturbationEffect& named(const Probe& probe, const std::string& name) {
@@ -57,10 +37,6 @@ const PerturbationEffect& named(const Probe& probe, const std::string& name) {
     return *found;
 }
 
-const std::string disc = R"([propagation]
-model = "disc"
-range = "10 m"
-)";
 const std::string walls = R"([propagation]
 model = "raytrace_2007"
 wall_factor = 0.5
