@@ -86,6 +86,16 @@ std::string text_of(const Value& value) {
     return text.substr(0, text.size() - 1);
 }
 
+/// The keys of a model of list_models(), a line each.
+void print_parameters(const Table& model) {
+    for (const Value& parameter : *model.find("parameters")->array()) {
+        const Table& p = *parameter.table();
+        fmt::print("    {:<20} {:<10} {:<6} {}\n", text_of(*p.find("name")),
+                   text_of(*p.find("default")), text_of(*p.find("range")),
+                   text_of(*p.find("meaning")));
+    }
+}
+
 }  // namespace
 
 void loss(const LossArguments& a) {
@@ -142,21 +152,22 @@ void link(const LinkArguments& a) {
 }
 
 void models(const PrintArguments& a) {
-    const Array list = list_models();
+    const Array list = list_models(), variations = list_variations();
     if (a.json) {
         Table table;
         table.set("models", list);
+        table.set("variations", variations);
         fmt::print("{}", to_json(table));
         return;
     }
-    for (const auto& model : list) {
+    for (const Value& model : list) {
         fmt::print("{}\n", text_of(*model.table()->find("name")));
-        for (const auto& parameter : *model.table()->find("parameters")->array()) {
-            const Table& p = *parameter.table();
-            fmt::print("    {:<20} {:<10} {:<6} {}\n", text_of(*p.find("name")),
-                       text_of(*p.find("default")), text_of(*p.find("range")),
-                       text_of(*p.find("meaning")));
-        }
+        print_parameters(*model.table());
+    }
+    for (const Value& variation : variations) {
+        const std::string name = text_of(*variation.table()->find("name"));
+        fmt::print("{}, over any model: [{}]\n", name, name);
+        print_parameters(*variation.table());
     }
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/loss_table.hpp"
 
+#include "models/variation/fading.hpp"
+#include "models/variation/shadowing.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/toml.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
+#include <string_view>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -38,6 +42,24 @@ Value default_of(const M& model, const auto& f) {
         const auto number = number_in(member);
         return number && *number != *number ? Value() : to_value(member);
     }
+}
+
+/// Name of a choice, and what it takes: its keys with their defaults.
+template <class M>
+Table described_choice(std::string_view name) {
+    Table table;
+    table.set("name", name);
+    Array parameters;
+    for_each_field<M>([&](const auto& f) {
+        Table parameter;
+        parameter.set("name", f.name);
+        parameter.set("default", default_of(M{}, f));
+        parameter.set("range", f.range.text == any.text ? "" : f.range.text);
+        parameter.set("meaning", f.meaning);
+        parameters.emplace_back(std::move(parameter));
+    });
+    table.set("parameters", std::move(parameters));
+    return table;
 }
 
 }  // namespace
@@ -110,22 +132,13 @@ std::vector<LossRow> loss_table(const std::string& model,
 
 Array list_models() {
     Array models;
-    for_each_model([&]<class M>() {
-        Table table;
-        table.set("name", M::name);
-        Array parameters;
-        for_each_field<M>([&](const auto& f) {
-            Table parameter;
-            parameter.set("name", f.name);
-            parameter.set("default", default_of(M{}, f));
-            parameter.set("range", f.range.text == any.text ? "" : f.range.text);
-            parameter.set("meaning", f.meaning);
-            parameters.emplace_back(std::move(parameter));
-        });
-        table.set("parameters", std::move(parameters));
-        models.emplace_back(std::move(table));
-    });
+    for_each_model([&]<class M>() { models.emplace_back(described_choice<M>(M::name)); });
     return models;
+}
+
+Array list_variations() {
+    return {Value(described_choice<Shadowing>("shadowing")),
+            Value(described_choice<Fading>("fading"))};
 }
 
 }  // namespace rovernet

@@ -38,5 +38,7 @@ Duration option_time(const std::string& option, const std::string& text);
 
 /// List of the models: name, and per parameter its name, default, range and meaning.
 Array list_models();
+/// List of what varies the loss of any model: shadowing and fading, as list_models().
+Array list_variations();
 
 }  // namespace rovernet

@@ -308,10 +308,13 @@ radio = { sensitivity = "0 dBm" }
           "the received power is below the receiver's sensitivity");
 }
 
-TEST_CASE("models --json lists every model with its parameters") {
+TEST_CASE("models --json lists every model, shadowing and fading with their parameters") {
     const TemporaryFolder folder;
-    const Json models = json_of(folder, {"models"})["models"];
+    const Json listed = json_of(folder, {"models"});
+    Json models = listed["models"];
     CHECK(models.size() >= 5);
+    CHECK(listed["variations"].size() == 2);  // shadowing and fading
+    for (const auto& variation : listed["variations"]) models.push_back(variation);
     for (const auto& model : models) {
         CHECK(model["name"].is_string());
         for (const auto& parameter : model["parameters"]) {
