@@ -187,9 +187,9 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
           });
     const Db told = candidates_.compute_losses(model(from), batch(from, origin_, t, frame), from,
                                                pairs_, fades_ ? fades_->most() : Db{0});
+    const bool keeps = keeps_recent_losses();
     for (const Candidate& c : candidates_.all()) {
-        if (keeps_recent_losses())
-            recent_.keep({from, c.node, origin_, c.antenna}, told, c.loss_db);
+        if (keeps) recent_.keep({from, c.node, origin_, c.antenna}, told, c.loss_db);
         const double loss_db = faded(c.loss_db, from, c.node, origin_, c.antenna, frame);
         if (loss_db > c.budget_db) continue;
         const auto budget = [&] {
