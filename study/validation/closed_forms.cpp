@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "models/phy/error_rate.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/itu_indoor.hpp"
 #include "models/propagation/itu_site_general.hpp"
@@ -7,8 +8,10 @@
 #include "models/propagation/propagation.hpp"
 #include "models/propagation/raytrace_2007.hpp"
 #include "models/propagation/two_ray.hpp"
+#include "models/variation/fading.hpp"
 #include "scene/p2040.hpp"
 #include "scene/scene.hpp"
+#include "sim/math.hpp"
 #include "study/validation/validation_charts.hpp"
 
 #include <algorithm>
@@ -18,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-// Losses whose digits were computed elsewhere, with more digits than a double has.
+// Numbers whose digits were computed elsewhere, with more digits than a double has.
 
 namespace rovernet {
 namespace {
@@ -49,10 +52,10 @@ double loss_over(const Propagation& model, const GroundLink& link, const Scene& 
 /// Computed values and the true ones.
 using Pairs = std::vector<std::pair<double, double>>;
 
-Promise promise_of(std::string what, double limit, const Pairs& pairs) {
+Promise promise_of(std::string what, double limit, const Pairs& pairs, std::string unit = "dB") {
     double worst = 0;
     for (const auto& [computed, truth] : pairs) worst = std::max(worst, std::abs(computed - truth));
-    return {std::move(what), "dB", limit, worst, pairs.size()};
+    return {std::move(what), std::move(unit), limit, worst, pairs.size()};
 }
 
 /// A wall of cells of 10 cm across a link along x. @param thickness  [m], from x = 2
@@ -127,6 +130,35 @@ Pairs slabs() {
     return out;
 }
 
+/// Quantiles of the power of fading over its mean, over the true ones.
+Pairs fading_quantiles() {
+    const Fading rayleigh{.model = FadingModel::rayleigh};
+    const Fading rician{.model = FadingModel::rician, .k_factor = Db{0}};
+    const Fading nakagami{.model = FadingModel::nakagami, .m = 0.5};
+    Pairs out;
+    for (const double p : {0.001, 0.01, 0.1, 0.5, 0.9, 0.99})
+        out.emplace_back(rayleigh.quantile(p) / -math::log(1 - p), 1);
+    for (const auto& [p, power] : {std::pair{0.001, 0.00135914175037052},
+                                   {0.1, 0.136691698835160},
+                                   {0.99, 3.89828501550124}})
+        out.emplace_back(rician.quantile(p) / power, 1);
+    for (const auto& [p, power] : {std::pair{0.001, 1.57079714926249e-6},
+                                   {0.1, 0.0157907740934312},
+                                   {0.99, 6.63489660102122}})
+        out.emplace_back(nakagami.quantile(p) / power, 1);
+    return out;
+}
+
+/// Bit error rates of 1 Mb/s, over the true ones.
+Pairs error_rates() {
+    Pairs out;
+    for (const auto& [sinr, rate] : {std::pair{0.1, 0.0554015791811669},
+                                     {math::exp10(-0.95), 0.0423584317866261},
+                                     {math::exp10(-0.85), 0.0223544520983215}})
+        out.emplace_back(bit_error_rate(Modulation::dsss_1, sinr) / rate, 1);
+    return out;
+}
+
 }  // namespace
 
 void check_closed_forms(Promises& promises) {
@@ -136,6 +168,10 @@ void check_closed_forms(Promises& promises) {
         promise_of("models with walls, against their closed forms", closed_form, walled_models()));
     promises.push_back(promise_of("two_ray, against its closed forms", closed_form, two_rays()));
     promises.push_back(promise_of("slabs of building materials, at angles", 1e-8, slabs()));
+    promises.push_back(
+        promise_of("quantiles of fading, relative error", 1e-9, fading_quantiles(), ""));
+    promises.push_back(
+        promise_of("bit error rates of 1 Mb/s, relative error", 1e-10, error_rates(), ""));
 }
 
 }  // namespace rovernet
