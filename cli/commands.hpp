@@ -217,11 +217,12 @@ struct ValidateArguments {
 };
 void validate(const ValidateArguments& arguments);
 
-struct TraceArguments {
+struct TraceStatsArguments {
     std::string file;
-    bool json = false;
+    std::string by;  ///< robot, flow or second; empty: the totals alone
+    bool strict = false, csv = false, json = false;
 };
-void trace_stats(const TraceArguments& arguments);
+void trace_stats(const TraceStatsArguments& arguments);
 
 /// Arguments of a command whose only option is --json.
 struct PrintArguments {

@@ -63,6 +63,8 @@ void add_run_commands(Command app, const std::string& typed);
 void add_scene_commands(Command app);
 /// Adds results, plot, explain.
 void add_result_commands(Command app);
+/// Adds trace and what is below it.
+void add_trace(Command app);
 /// Adds models, loss, material, validate, trace, bench, version, completion.
 void add_tool_commands(Command app);
 

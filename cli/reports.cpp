@@ -6,7 +6,6 @@
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
 #include "scenario/json.hpp"
-#include "traces/ns2/ns2_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -168,28 +167,6 @@ void models(const PrintArguments& a) {
         const std::string name = text_of(*variation.table()->find("name"));
         fmt::print("{}, over any model: [{}]\n", name, name);
         print_parameters(*variation.table());
-    }
-}
-
-void trace_stats(const TraceArguments& a) {
-    const MetricValues metrics = trace_metrics(a.file);
-    if (metrics.messages == 0) {
-        notice(a.file + ": no message was sent in this trace");
-    }
-    Table table;
-    append_metrics(table, metrics);
-    if (a.json) {
-        fmt::print("{}", to_json(table));
-        return;
-    }
-    for (const auto& entry : table.entries) {
-        if (const Table* drops = entry.value.table()) {
-            for (const auto& drop : drops->entries) {
-                fmt::print("{:<20} {}\n", "dropped " + drop.key, text_of(drop.value));
-            }
-        } else {
-            fmt::print("{:<20} {}\n", entry.key, text_of(entry.value));
-        }
     }
 }
 

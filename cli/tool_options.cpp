@@ -85,16 +85,6 @@ void add_validate(Command app) {
     validate.add_flag("--quick", a.quick, "few samples: seconds instead of minutes");
 }
 
-void add_trace(Command app) {
-    Command trace = app.add_command("trace", "Work with trace files");
-    trace.needs_command();
-    const auto [stats, a] = add_command(
-        trace, "stats", "The metrics of an ns-2 trace written by rovernet", cli::trace_stats);
-    stats.add_examples({"rovernet trace stats runs/patrol-s3/trace.tr"});
-    stats.add_option("FILE", a.file, "trace file (.tr)").required();
-    add_json(stats, a.json);
-}
-
 void add_version(Command app) {
     const auto [version, a] =
         add_command(app, "version", "Print the version and how it was built", cli::print_version);

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <zstd.h>
 
 namespace rovernet {
 namespace {
@@ -19,17 +21,74 @@ constexpr unsigned packed_portion = 16 * 1024;
 
 void TextSource::Close::operator()(gzFile_s* file) const { gzclose(file); }
 
-TextSource::TextSource(const std::string& path) : name_(path), buffer_(portion) {
+void TextSource::Close::operator()(ZSTD_DCtx_s* context) const { ZSTD_freeDCtx(context); }
+
+TextSource::TextSource(const std::string& path, Reads reads) : name_(path), buffer_(portion) {
     std::error_code ignored;
     const auto status = std::filesystem::status(path, ignored);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    const bool is_there = std::filesystem::exists(status);
+    if (is_there && reads == Reads::once && std::filesystem::is_directory(status)) {
+        fail("cannot read the file: it is a folder");
+    }
+    if (is_there && reads == Reads::twice && !std::filesystem::is_regular_file(status)) {
         fail("is not a file; a movement file is read twice, so it has to be one");
     }
     errno = 0;
     file_.reset(gzopen(path.c_str(), "rb"));
     if (!file_) fail(fmt::format("cannot open the file: {}", std::strerror(errno)));
     gzbuffer(file_.get(), packed_portion);
+    detect_zstd();
     skip_mark();
+}
+
+/// What zlib passes on unchanged begins with zstd's magic number (RFC 8878, 3.1.1).
+void TextSource::detect_zstd() {
+    constexpr std::string_view magic = "\x28\xb5\x2f\xfd";
+    ensure(magic.size());
+    if (!window().starts_with(magic)) return;
+    Packed& packed = zstd_.emplace();
+    packed.context.reset(ZSTD_createDCtx());
+    packed.bytes.assign(window().begin(), window().end());
+    packed.end = packed.bytes.size();
+    packed.bytes.resize(std::max(packed.bytes.size(), portion));
+    begin_ = end_ = 0;
+    before_buffer_ = 0;
+    at_end_ = false;
+}
+
+std::size_t TextSource::read_file(char* out, std::size_t most) {
+    const int n = gzread(file_.get(), out, static_cast<unsigned>(most));
+    if (n < static_cast<int>(most)) {
+        int error = Z_OK;
+        const char* reason = gzerror(file_.get(), &error);
+        if (error == Z_ERRNO) reason = std::strerror(errno);
+        if (error != Z_OK) fail(fmt::format("cannot read the file: {}", reason));
+    }
+    return n > 0 ? static_cast<std::size_t>(n) : 0;
+}
+
+std::size_t TextSource::unpack(char* out, std::size_t most) {
+    Packed& packed = *zstd_;
+    ZSTD_outBuffer unpacked{out, most, 0};
+    while (unpacked.pos == 0) {
+        if (packed.begin == packed.end) {
+            packed.begin = 0;
+            packed.end = read_file(packed.bytes.data(), packed.bytes.size());
+        }
+        const bool at_end = packed.end == 0;
+        if (at_end && !packed.in_frame) return 0;
+        ZSTD_inBuffer input{packed.bytes.data(), packed.end, packed.begin};
+        const std::size_t left = ZSTD_decompressStream(packed.context.get(), &unpacked, &input);
+        packed.begin = input.pos;
+        packed.in_frame = left != 0;
+        if (ZSTD_isError(left)) {
+            fail(fmt::format("cannot read the file: {}", ZSTD_getErrorName(left)));
+        }
+        if (at_end && unpacked.pos == 0) {
+            fail("cannot read the file: it ends in the middle of its zstd data");
+        }
+    }
+    return unpacked.pos;
 }
 
 bool TextSource::more() {
@@ -40,15 +99,10 @@ bool TextSource::more() {
     begin_ = 0;
     end_ = rest;
     if (buffer_.size() < rest + portion) buffer_.resize(rest + portion);
-    const int n = gzread(file_.get(), buffer_.data() + rest, static_cast<unsigned>(portion));
-    if (n < static_cast<int>(portion)) {
-        int error = Z_OK;
-        const char* reason = gzerror(file_.get(), &error);
-        if (error == Z_ERRNO) reason = std::strerror(errno);
-        if (error != Z_OK) fail(fmt::format("cannot read the file: {}", reason));
-    }
-    at_end_ = n <= 0;
-    end_ += n > 0 ? static_cast<std::size_t>(n) : 0;
+    char* out = buffer_.data() + rest;
+    const std::size_t n = zstd_ ? unpack(out, portion) : read_file(out, portion);
+    at_end_ = n == 0;
+    end_ += n;
     return !at_end_;
 }
 
@@ -57,6 +111,8 @@ void TextSource::rewind() {
     begin_ = end_ = 0;
     before_buffer_ = 0;
     at_end_ = false;
+    zstd_.reset();
+    detect_zstd();
     skip_mark();
 }
 

@@ -12,15 +12,19 @@
 #include <vector>
 
 struct gzFile_s;
+struct ZSTD_DCtx_s;
 
 namespace rovernet {
 
-/// The bytes of a file, unpacked if it is a gzip file, in portions: memory does not grow with it.
-/// A byte order mark of UTF-8 is not among them.
+/// The bytes of a file, unpacked if it is a gzip or a zstd file, in portions: memory does not grow
+/// with it. A byte order mark of UTF-8 is not among them.
 class TextSource {
   public:
+    /// How often the source is read: one that is read once may be a pipe.
+    enum class Reads { once, twice };
+
     /// @throws InputError if `path` is no file that can be read; later calls too, if it is damaged
-    explicit TextSource(const std::string& path);
+    explicit TextSource(const std::string& path, Reads reads = Reads::twice);
 
     /// Bytes that have been read and not yet taken; valid until the next call of more().
     std::string_view window() const { return {buffer_.data() + begin_, end_ - begin_}; }
@@ -41,13 +45,26 @@ class TextSource {
 
   private:
     void skip_mark();
+    std::size_t read_file(char* out, std::size_t most);
+    std::size_t unpack(char* out, std::size_t most);
+    void detect_zstd();
     [[noreturn]] void fail(const std::string& message) const;
 
     struct Close {
         void operator()(gzFile_s* file) const;
+        void operator()(ZSTD_DCtx_s* context) const;
+    };
+    /// Bytes of a zstd file that have been read and not yet unpacked.
+    struct Packed {
+        std::unique_ptr<ZSTD_DCtx_s, Close> context;
+        std::vector<char> bytes;
+        std::size_t begin = 0;
+        std::size_t end = 0;
+        bool in_frame = false;  ///< the file must not end here
     };
     std::string name_;
     std::unique_ptr<gzFile_s, Close> file_;
+    std::optional<Packed> zstd_;  ///< if it is a zstd file
     std::vector<char> buffer_;
     std::size_t begin_ = 0;
     std::size_t end_ = 0;

@@ -161,12 +161,18 @@ TEST_CASE("trace stats: the metrics of the summary to the last digit, in both fo
                          "trace.ns2=" + format, "--set", "trace.mac=true"});
         const Json summary = Json::parse(content(out + "/summary.json"));
         const Json stats = json_of(folder, {"trace", "stats", out + "/trace.tr"});
-        CHECK(stats.size() >= 13);
+        int compared = 0;
         for (const auto& metric : stats.items()) {
             const std::string key = metric.key();
             CAPTURE(key);
+            if (!summary.contains(key)) continue;
             CHECK(summary[key].dump() == metric.value().dump());
+            ++compared;
         }
+        CHECK(compared == 15);
+        CHECK(stats["format"] == format);
+        CHECK(stats["refused"] == 0);
+        CHECK(stats["lines"] == stats["event_lines"]);
     }
 }
 
@@ -431,4 +437,16 @@ TEST_CASE("results that cannot be written end a run with 1, and the message name
     CHECK(ended.exit == 1);
     CHECK(ended.out.empty());
     CHECK(ended.err.find(file + "/out") != std::string::npos);
+}
+
+TEST_CASE("trace stats: a line that is none is counted and shown, and ends a strict reading") {
+    const TemporaryFolder folder;
+    const std::string trace = folder.write(
+        "x.tr", "s 1.0 _0_ AGT  --- 0 cbr 5 [0 0 0 0] ------- [0:0 1:0 32 0] \nhello\n");
+    const Ended read = command(folder, {"trace", "stats", trace, "--json"});
+    CHECK(read.exit == 0);
+    CHECK(Json::parse(read.out)["refused"] == 1);
+    CHECK(Json::parse(read.out)["refused_lines"][0]["line"] == 2);
+    CHECK(read.err.find("x.tr:2:1: found \"hello\"") != std::string::npos);
+    CHECK(command(folder, {"trace", "stats", trace, "--strict"}).exit == 3);
 }

@@ -12,9 +12,11 @@
 #include <iterator>
 #include <optional>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace rovernet::testing {
@@ -147,15 +149,19 @@ class RandomRecords {
     }
     Frame any_frame() {
         const std::uint32_t i = below(sent_.size());
-        const unsigned hops = 1 + below(std::max<unsigned>(ttls_[i], 1));
-        return frame(sent_[i], robot(), ttls_[i] + 1U - hops, hops);
+        unsigned hops = 1 + below(std::max<unsigned>(ttls_[i], 1));
+        const NodeId sender = robot();
+        if (sender == stream_.messages[sent_[i]].origin) hops = 1;
+        return frame(sent_[i], sender, ttls_[i] + 1U - hops, hops);
     }
-    Reception reception() {
+    Reception reception(MessageId message) {
         const Fate fates[] = {Fate::waiting, Fate::ttl,      Fate::duplicate, Fate::off,
                               Fate::garbled, Fate::collided, Fate::busy};
         const NodeId node = robot();
         Reception rx{now_ + Duration{below(1000)}, node, fates[below(7)], false};
-        rx.delivered = (rx.fate == Fate::waiting || rx.fate == Fate::ttl) && below(2) == 0;
+        const bool may_be = (rx.fate == Fate::waiting || rx.fate == Fate::ttl) && below(2) == 0;
+        rx.delivered = may_be && node != stream_.messages[message].origin &&
+                       got_.insert({message.index(), node.index()}).second;
         return rx;
     }
     void step() {
@@ -179,7 +185,7 @@ class RandomRecords {
             return stream_.transmit(now_, f, f.hops > 1 ? std::optional(robot()) : std::nullopt);
         }
         std::vector<Reception> receptions(below(5));
-        for (auto& rx : receptions) rx = reception();
+        for (auto& rx : receptions) rx = reception(f.message);
         stream_.receive(f, receptions);
     }
 
@@ -188,6 +194,7 @@ class RandomRecords {
     Time now_{};
     std::vector<MessageId> sent_;
     std::vector<std::uint8_t> ttls_;
+    std::set<std::pair<std::size_t, std::size_t>> got_;  ///< message and robot of deliveries
 };
 
 }  // namespace rovernet::testing

@@ -1,348 +1,384 @@
 // SPDX-License-Identifier: MIT
 #include "traces/ns2/ns2_line.hpp"
 
-#include <fmt/format.h>
+#include "traces/ns2/ns2_words.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <limits>
-#include <string>
+#include <iterator>
+#include <utility>
 
 namespace rovernet {
+
 namespace {
 
-using namespace std::string_view_literals;
-using Event = Ns2Packet::Event;
+using Words = Ns2Words;
 
-struct Token {
-    std::string_view text;  ///< empty at the end of the line
-    int column = 0;
-};
-
-/// A broken token, fit to be shown.
-std::string quoted(std::string_view text) {
-    constexpr std::size_t longest = 40;
-    std::string shown(text.substr(0, longest));
-    for (char& c : shown) {
-        if (c < ' ' || c > '~') c = '?';
-    }
-    return '"' + shown + (text.size() > longest ? "...\"" : "\"");
-}
-
-/// The blank-separated tokens of one line, and what they are expected to be.
-class Tokens {
-  public:
-    Tokens(std::string_view line, const Location& where) : line_(line), where_(where) {}
-
-    Token next() {
-        while (at_ < line_.size() && line_[at_] == ' ') ++at_;
-        const std::size_t begin = at_;
-        while (at_ < line_.size() && line_[at_] != ' ') ++at_;
-        return {line_.substr(begin, at_ - begin), static_cast<int>(begin) + 1};
-    }
-
-    [[noreturn]] void fail(Token token, std::string_view expected) const {
-        Location here = where_;
-        here.column = token.column;
-        const auto found =
-            token.text.empty() ? "the line ends" : fmt::format("found {}", quoted(token.text));
-        throw InputError(here, fmt::format("{}, expected {}", found, expected));
-    }
-
-    void expect(std::string_view text) {
-        const Token token = next();
-        if (token.text != text) fail(token, fmt::format("\"{}\"", text));
-    }
-    /// The value of the key that must come next.
-    Token value(std::string_view key) {
-        expect(key);
-        return next();
-    }
-    /// Takes `before` and `after` off the token's ends.
-    Token within(Token token, std::string_view before, std::string_view after,
-                 std::string_view expected) const {
-        const auto text = token.text;
-        if (text.size() < before.size() + after.size() || !text.starts_with(before) ||
-            !text.ends_with(after)) {
-            fail(token, expected);
-        }
-        return {text.substr(before.size(), text.size() - before.size() - after.size()),
-                token.column + static_cast<int>(before.size())};
-    }
-
-    template <class Integer>
-    Integer integer(Token token, std::string_view expected, std::uint64_t most,
-                    int base = 10) const {
-        std::uint64_t n = 0;
-        const char* end = token.text.data() + token.text.size();
-        const auto [stop, error] = std::from_chars(token.text.data(), end, n, base);
-        if (error != std::errc{} || stop != end || n > most) fail(token, expected);
-        return static_cast<Integer>(n);
-    }
-    NodeId robot(Token token, int base = 10) const {
-        static const auto expected = fmt::format("a robot's number below {}", most_robots);
-        return {integer<std::uint32_t>(token, expected, most_robots - 1, base)};
-    }
-    double number(Token token, std::string_view expected) const {
-        double x = 0;
-        const char* end = token.text.data() + token.text.size();
-        const auto [stop, error] = std::from_chars(token.text.data(), end, x);
-        if (error != std::errc{} || stop != end || !std::isfinite(x)) fail(token, expected);
-        return x;
-    }
-    Time time(Token token) const;
-
-  private:
-    std::string_view line_;
-    const Location& where_;
-    std::size_t at_ = 0;
-};
-
-Time Tokens::time(Token token) const {
-    constexpr auto expected = "a time in seconds with at most 9 decimals"sv;
-    constexpr std::size_t decimals = 9;
-    constexpr std::uint64_t longest_s = 9'200'000'000;
-    constexpr std::uint64_t second_in_ns = 1'000'000'000;
-    const std::size_t dot = std::min(token.text.find('.'), token.text.size());
-    const Token whole{token.text.substr(0, dot), token.column};
-    const auto fraction = token.text.substr(std::min(dot + 1, token.text.size()));
-    if (whole.text.empty() || fraction.size() > decimals) fail(token, expected);
-    std::uint64_t ns = 0;
-    for (std::size_t i = 0; i < decimals; ++i) {
-        const char digit = i < fraction.size() ? fraction[i] : '0';
-        if (digit < '0' || digit > '9') fail(token, expected);
-        ns = 10 * ns + static_cast<std::uint64_t>(digit - '0');
-    }
-    ns += integer<std::uint64_t>(whole, expected, longest_s) * second_in_ns;
-    return Time{Duration{static_cast<std::int64_t>(ns)}};
-}
-
-/// The reasons of ns-2.35 (cmu-trace.h), and none.
-bool is_reason(std::string_view text) {
-    constexpr std::string_view reasons[] = {"---",  "END", "COL", "DUP",  "ERR",  "RET", "STA",
-                                            "BSY",  "DST", "SLP", "NRTE", "LOOP", "TTL", "IFQ",
-                                            "TOUT", "CBK", "SAL", "ARP",  "FIL",  "OUT", "XXX"};
+/// Reasons of ns-2.35 (cmu-trace.h), and none.
+bool is_ns2_reason(std::string_view text) {
+    constexpr std::string_view reasons[] = {"---",  "COL", "DUP", "TTL",  "SLP", "END", "ERR",
+                                            "BSY",  "RET", "IFQ", "NRTE", "ARP", "CBK", "TOUT",
+                                            "LOOP", "STA", "DST", "SAL",  "FIL", "OUT", "XXX"};
     return std::find(std::begin(reasons), std::end(reasons), text) != std::end(reasons);
 }
 
-/// Fate of a frame that a MAC received in vain; a repeated unicast is dropped there, too.
-std::optional<Fate> loss_of(std::string_view reason) {
-    if (reason == "DUP") return Fate::duplicate;
-    std::optional<Fate> found;
-    for_each_reason([&](auto each) {
-        if constexpr (std::is_same_v<decltype(each), Fate>) {
-            if (reason_of(each) == LossReason{reason, "MAC"}) found = each;
-        }
-    });
-    return found;
+bool is_ns2_layer(std::string_view text) {
+    constexpr std::string_view layers[] = {"MAC", "RTR", "AGT", "IFQ", "PHY", "TRP"};
+    return std::find(std::begin(layers), std::end(layers), text) != std::end(layers);
 }
 
-/// Reason for which a copy was dropped other than by the fate of its reception.
-std::optional<DropReason> drop_of(std::string_view reason, std::string_view layer) {
-    std::optional<DropReason> found;
-    for_each_reason([&](auto each) {
-        if constexpr (std::is_same_v<decltype(each), DropReason>) {
-            if (reason_of(each) == LossReason{reason, layer}) found = each;
-        }
-    });
-    return found;
+bool read_layer(Ns2Packet& p, Words& words, std::string_view word) {
+    p.layer = word;
+    return is_ns2_layer(word) || words.fail(word, "a layer (AGT, RTR, MAC, IFQ, PHY or TRP)");
 }
 
-/// Kind of the event, before it is known who the packet came from; nothing if it is not ours.
-std::optional<Event> event_of(char op, std::string_view layer, std::string_view reason) {
-    if (layer == "AGT") {
-        if (op == 's') return Event::sent;
-        if (op == 'r') return Event::delivered;
-    } else if (layer == "RTR") {
-        if (op == 's' || op == 'f') return Event::transmitted;
-        if (op == 'r') return Event::received;
-        if (reason == "TTL") return Event::ended_by_ttl;
-        if (reason == "DUP") return Event::suppressed;
+bool read_reason(Ns2Packet& p, Words& words, std::string_view word) {
+    p.reason = word;
+    return is_ns2_reason(word) || words.fail(word, "a reason of ns-2, or ---");
+}
+
+bool read_uid(Ns2Packet& p, Words& words, std::string_view word) {
+    p.uid_column = words.column(word);
+    return words.integer(word, p.uid, "a packet's number");
+}
+
+bool read_size(Ns2Packet& p, Words& words, std::string_view word) {
+    return words.integer(word, p.size.emplace(), "a size in bytes");
+}
+
+/// "address<separator>port"
+bool read_address(Words& words, std::string_view word, char separator, std::int64_t& address,
+                  std::int64_t& port) {
+    constexpr std::string_view expected = "an address and port";
+    const std::size_t at = word.rfind(separator);
+    if (at == word.npos) return words.fail(word, expected);
+    return words.integer(word.substr(0, at), address, expected) &&
+           words.integer(word.substr(at + 1), port, expected);
+}
+
+constexpr std::string_view a_ttl = "a ttl";
+constexpr std::string_view a_mac_field = "a field of the MAC in hexadecimal";
+
+/// `[dur to from type]` in hexadecimal; SMAC writes `[%.2f %d %d]`.
+bool read_old_mac(Ns2Packet& p, Words& words, std::string_view first) {
+    Ns2Mac& mac = p.mac.emplace();
+    if (!words.strip(first, "[", "", "\"[\" and the MAC's duration")) return false;
+    const bool is_smac = first.find('.') != first.npos;
+    std::string_view to = words.next(), from = words.next();
+    if (is_smac) {
+        double duration = 0;
+        return words.number(first, duration, "a duration") &&
+               words.integer(to, mac.to, "an address") && words.strip(from, "", "]", "\"]\"") &&
+               words.integer(from, mac.from, "an address");
     }
-    if (op != 'D') return std::nullopt;
-    if (drop_of(reason, layer)) return Event::dropped;
-    if (layer == "MAC" && loss_of(reason)) return Event::lost;
-    return std::nullopt;
+    std::string_view ethertype = words.next();
+    return words.integer(first, mac.duration_us, a_mac_field, 16) &&
+           words.integer(to, mac.to, a_mac_field, 16) &&
+           words.integer(from, mac.from, a_mac_field, 16) &&
+           words.strip(ethertype, "", "]", "an ethertype and \"]\"") &&
+           words.integer(ethertype, mac.ethertype, a_mac_field, 16);
 }
 
-/// False if the line is not about one of our packets.
-bool read_event(Ns2Packet& p, const Tokens& tokens, char op, Token layer, Token reason) {
-    constexpr std::string_view layers[] = {"AGT", "RTR", "MAC", "IFQ", "PHY", "TRP"};
-    if (std::find(std::begin(layers), std::end(layers), layer.text) == std::end(layers)) {
-        tokens.fail(layer, "a layer (AGT, RTR, MAC, IFQ, PHY or TRP)");
+/// `[energy E ei A es B et C er D]`, of which the first number is what is left.
+bool read_old_energy(Ns2Packet& p, Words& words) {
+    if (!words.number(words.next(), p.energy.emplace(), "an energy [J]")) return false;
+    std::string_view word = words.next();
+    while (!word.empty() && !word.ends_with(']')) word = words.next();
+    return !word.empty() || words.fail(word, "\"]\" after the energy");
+}
+
+/// `[from:port to:port ttl next]`, but for ARP.
+bool read_old_ip(Ns2Packet& p, Words& words) {
+    std::string_view source = words.peek();
+    if (source.starts_with("[RE") || p.type == "ARP") {
+        p.payload = words.rest();
+        return true;
     }
-    if (!is_reason(reason.text)) tokens.fail(reason, "a reason of ns-2, or ---");
-    const auto event = event_of(op, layer.text, reason.text);
-    p.event = event.value_or(p.event);
-    p.loss = loss_of(reason.text).value_or(p.loss);
-    p.drop = drop_of(reason.text, layer.text).value_or(p.drop);
-    return event.has_value();
-}
-
-void read_uid(Ns2Packet& p, const Tokens& tokens, Token token) {
-    p.uid = tokens.integer<std::uint64_t>(token, "a packet's number",
-                                          std::numeric_limits<std::uint64_t>::max());
-    p.uid_column = token.column;
-}
-
-void read_size(Ns2Packet& p, const Tokens& tokens, Token token) {
-    p.size = tokens.integer<std::uint32_t>(token, "a size in bytes",
-                                           std::numeric_limits<std::uint32_t>::max());
-}
-
-void read_ttl(Ns2Packet& p, const Tokens& tokens, Token token) {
-    p.ttl = tokens.integer<std::uint16_t>(token, "a ttl of at most 65535", 65535);
-    p.ttl_column = token.column;
-}
-
-/// "address<separator>port"; false if the port is that of a routing agent.
-bool read_origin(Ns2Packet& p, const Tokens& tokens, Token token, char separator) {
-    constexpr auto expected = "a source address and port"sv;
-    constexpr unsigned routing_port = 255;
-    const std::size_t at = token.text.rfind(separator);
-    if (at == token.text.npos) tokens.fail(token, expected);
-    const Token port{token.text.substr(at + 1), token.column + static_cast<int>(at) + 1};
-    p.origin = tokens.robot({token.text.substr(0, at), token.column});
-    return tokens.integer<std::uint32_t>(port, expected, 0xffffffff) != routing_port;
-}
-
-/// The MAC's transmitter, from its address and the ethertype (0: no MAC has seen the packet).
-void read_last_hop(Ns2Packet& p, const Tokens& tokens, Token transmitter, Token ethertype) {
-    constexpr auto expected = "an ethertype in hexadecimal"sv;
-    if (tokens.integer<std::uint32_t>(ethertype, expected, 0xffff, 16) != 0) {
-        p.heard_from = tokens.robot(transmitter, 16);
-    } else if (p.event == Event::received) {
-        p.event = Event::own;
+    words.next();
+    Ns2Ip& ip = p.ip.emplace();
+    if (!words.strip(source, "[", "", "\"[\" and a source address") ||
+        !read_address(words, source, ':', ip.from, ip.from_port) ||
+        !read_address(words, words.next(), ':', ip.to, ip.to_port) ||
+        !words.integer(words.next(), ip.ttl, a_ttl)) {
+        return false;
     }
-    if (!p.heard_from && p.event == Event::lost) {
-        tokens.fail(ethertype, "an ethertype, as a robot has received the packet");
+    std::string_view next_hop = words.next();
+    if (!words.strip(next_hop, "", "]", "a next hop and \"]\"") ||
+        !words.integer(next_hop, ip.next_hop, "a next hop")) {
+        return false;
     }
+    p.payload = words.rest();
+    return true;
 }
 
-/// Passes over what an energy model adds; the blank after the MAC's bracket stays.
-void expect_ip_mark(Tokens& tokens) {
-    Token token = tokens.next();
-    if (token.text == "[energy") {
-        while (!token.text.empty() && !token.text.ends_with(']')) token = tokens.next();
-        token = tokens.next();
+bool read_old(Ns2Packet& p, Words& words, std::string_view node) {
+    if (!words.strip(node, "_", "_", "a robot's number between underscores") ||
+        !words.robot(node, p.node) || !read_layer(p, words, words.next()) ||
+        !read_reason(p, words, words.next()) || !read_uid(p, words, words.next())) {
+        return false;
     }
-    if (token.text != "-------") tokens.fail(token, "\"-------\"");
+    p.type = words.next();
+    if (p.type.empty()) return words.fail(p.type, "a packet's type");
+    if (!read_size(p, words, words.next())) return false;
+    std::string_view word = words.next();
+    if (word.empty()) return p.layer == "PHY" || words.fail(word, "\"[\" and the MAC's duration");
+    if (!read_old_mac(p, words, word)) return false;
+    word = words.next();
+    if (word == "[energy") {
+        if (!read_old_energy(p, words)) return false;
+        word = words.next();
+    }
+    if (word.empty()) {
+        return p.layer == "MAC" || p.layer == "PHY" || words.fail(word, "\"-------\"");
+    }
+    if (word != "-------") return words.fail(word, "\"-------\"");
+    return read_old_ip(p, words);
 }
 
-Ns2Line parse_old_packet(char op, Token time, Tokens& tokens) {
-    Ns2Packet p;
-    p.time = tokens.time(time);
-    const Token node = tokens.next();
-    if (!node.text.empty() && node.text.find_first_not_of("0123456789") == node.text.npos) {
-        return {};  // a wired line
-    }
-    p.node = tokens.robot(tokens.within(node, "_", "_", "a robot's number between underscores"));
-    const Token layer = tokens.next();
-    if (!read_event(p, tokens, op, layer, tokens.next())) return {};
-    read_uid(p, tokens, tokens.next());
-    if (tokens.next().text != "message") return {};
-    read_size(p, tokens, tokens.next());
-    tokens.within(tokens.next(), "[", "", "\"[\" and the MAC's duration");
-    tokens.next();  // receiver
-    const Token transmitter = tokens.next();
-    read_last_hop(p, tokens, transmitter,
-                  tokens.within(tokens.next(), "", "]", "an ethertype and \"]\""));
-    expect_ip_mark(tokens);
-    const Token source = tokens.within(tokens.next(), "[", "", "\"[\" and a source address");
-    const bool application = read_origin(p, tokens, source, ':');
-    p.for_one = !tokens.next().text.starts_with('-');
-    read_ttl(p, tokens, tokens.next());
-    tokens.within(tokens.next(), "", "]", "a next hop and \"]\"");
-    if (!application) return {};
-    return p;
+bool read_new_start(Ns2Packet& p, Words& words, std::int64_t& next_hop) {
+    const auto value = [&](std::string_view key, auto&& read) {
+        return words.expect(key) && read(words.next());
+    };
+    const auto any = [](std::string_view) { return true; };
+    const auto hop = [&](std::string_view word) {
+        return words.integer(word, next_hop, "a next hop");
+    };
+    const auto meters = [&](double& x) {
+        return [&](std::string_view word) { return words.number(word, x, "a place [m]"); };
+    };
+    const auto hexadecimal = [&](std::uint32_t& x) {
+        return [&](std::string_view word) { return words.integer(word, x, a_mac_field, 16); };
+    };
+    Vec3& at = p.position.emplace();
+    Ns2Mac& mac = p.mac.emplace();
+    double energy = -1;
+    const bool read =
+        value("-Hs", any) && value("-Hd", hop) &&
+        value("-Ni", [&](std::string_view word) { return words.robot(word, p.node); }) &&
+        value("-Nx", meters(at.x)) && value("-Ny", meters(at.y)) && value("-Nz", meters(at.z)) &&
+        value("-Ne",
+              [&](std::string_view word) { return words.number(word, energy, "an energy [J]"); }) &&
+        value("-Nl", [&](std::string_view word) { return read_layer(p, words, word); }) &&
+        value("-Nw", [&](std::string_view word) { return read_reason(p, words, word); }) &&
+        value("-Ma", hexadecimal(mac.duration_us)) && value("-Md", hexadecimal(mac.to)) &&
+        value("-Ms", hexadecimal(mac.from)) && value("-Mt", hexadecimal(mac.ethertype));
+    if (energy >= 0) p.energy = energy;
+    return read;
 }
 
-Ns2Line parse_new_packet(char op, Token time_key, Tokens& tokens) {
-    Ns2Packet p;
-    if (time_key.text != "-t") tokens.fail(time_key, "\"-t\"");
-    p.time = tokens.time(tokens.next());
-    tokens.value("-Hs");
-    tokens.value("-Hd");
-    p.node = tokens.robot(tokens.value("-Ni"));
-    for (const auto key : {"-Nx"sv, "-Ny"sv, "-Nz"sv, "-Ne"sv}) tokens.value(key);
-    const Token layer = tokens.value("-Nl");
-    const char event = op == 'd' ? 'D' : op;
-    if (!read_event(p, tokens, event, layer, tokens.value("-Nw"))) return {};
-    tokens.value("-Ma");
-    tokens.value("-Md");
-    const Token transmitter = tokens.value("-Ms");
-    const Token ethertype = tokens.value("-Mt");
-    const Token ip = tokens.next();
-    if (ip.text == "-P" || (ip.text.empty() && layer.text == "MAC")) return {};  // ARP, RTS, ...
-    if (ip.text != "-Is") tokens.fail(ip, "\"-Is\"");
-    const Token source = tokens.next();
-    p.for_one = !tokens.value("-Id").text.starts_with('-');
-    if (tokens.value("-It").text != "message") return {};
-    const bool application = read_origin(p, tokens, source, '.');
-    read_last_hop(p, tokens, transmitter, ethertype);
-    read_size(p, tokens, tokens.value("-Il"));
-    tokens.value("-If");
-    read_uid(p, tokens, tokens.value("-Ii"));
-    read_ttl(p, tokens, tokens.value("-Iv"));
-    if (!application) return {};
-    return p;
+bool read_new(Ns2Packet& p, Words& words) {
+    std::int64_t next_hop = 0;
+    if (!read_new_start(p, words, next_hop)) return false;
+    const std::string_view word = words.peek();
+    if (word.empty()) {
+        return p.layer == "MAC" || p.layer == "PHY" || words.fail(word, "\"-Is\"");
+    }
+    if (word == "-P") {
+        p.payload = words.rest();
+        if (!p.payload.starts_with("-P arp")) return words.fail(word, "\"-Is\"");
+        p.type = "ARP";
+        return true;
+    }
+    Ns2Ip& ip = p.ip.emplace();
+    ip.next_hop = std::max<std::int64_t>(next_hop, 0);
+    if (!words.expect("-Is") || !read_address(words, words.next(), '.', ip.from, ip.from_port) ||
+        !words.expect("-Id") || !read_address(words, words.next(), '.', ip.to, ip.to_port) ||
+        !words.expect("-It")) {
+        return false;
+    }
+    p.type = words.next();
+    const bool read = words.expect("-Il") && read_size(p, words, words.next()) &&
+                      words.expect("-If") && words.integer(words.next(), p.flow, "a flow") &&
+                      words.expect("-Ii") && read_uid(p, words, words.next()) &&
+                      words.expect("-Iv") && words.integer(words.next(), ip.ttl, a_ttl);
+    p.payload = words.rest();
+    return read;
+}
+
+bool read_tagged_place(Ns2Packet& p, Words& words) {
+    constexpr std::string_view place = "a place [m] as in {x y z}";
+    Vec3& at = p.position.emplace();
+    std::string_view x = words.next(), y = words.next(), z = words.next();
+    double energy = -1;
+    const bool read = words.strip(x, "{", "", place) && words.number(x, at.x, place) &&
+                      words.number(y, at.y, place) && words.strip(z, "", "}", place) &&
+                      words.number(z, at.z, place) && words.expect("-N:en") &&
+                      words.number(words.next(), energy, "an energy [J]");
+    if (energy >= 0) p.energy = energy;
+    return read;
+}
+
+/// The IP header of a tagged line: its keys with numbers.
+bool read_tagged_ip(Ns2Packet& p, Words& words, std::int64_t next_hop) {
+    Ns2Ip& ip = p.ip.emplace();
+    ip.next_hop = std::max<std::int64_t>(next_hop, 0);
+    const auto integer = [&](std::string_view key, std::int64_t& value) {
+        return words.expect(key) && words.integer(words.next(), value, "a whole number");
+    };
+    if (!integer("-IP:s", ip.from) || !integer("-IP:sp", ip.from_port) ||
+        !integer("-IP:d", ip.to) || !integer("-IP:dp", ip.to_port) || !words.expect("-p")) {
+        return false;
+    }
+    p.type = words.next();
+    const bool read = words.expect("-e") && read_size(p, words, words.next()) &&
+                      integer("-c", p.flow) && words.expect("-i") &&
+                      read_uid(p, words, words.next()) && integer("-IP:ttl", ip.ttl);
+    p.payload = words.rest();
+    return read;
+}
+
+bool read_tagged(Ns2Packet& p, Words& words) {
+    const auto hexadecimal = [&](std::string_view key, std::uint32_t& value) {
+        return words.expect(key) && words.integer(words.next(), value, a_mac_field, 16);
+    };
+    std::int64_t next_hop = 0;
+    if (!words.robot(words.next(), p.node) || !words.expect("-d") ||
+        !words.integer(words.next(), next_hop, "a next hop") || !words.expect("-p")) {
+        return false;
+    }
+    p.type = words.next();
+    if (p.type == "MAC") p.type = {};
+    Ns2Mac& mac = p.mac.emplace();
+    // -M:s is the receiver and -M:d the transmitter: ns-2.35 has them the wrong way round.
+    const bool read = words.expect("-k") && read_layer(p, words, words.next()) &&
+                      words.expect("-i") && read_uid(p, words, words.next()) &&
+                      words.expect("-N:loc") && read_tagged_place(p, words) &&
+                      hexadecimal("-M:dur", mac.duration_us) && hexadecimal("-M:s", mac.to) &&
+                      hexadecimal("-M:d", mac.from) && hexadecimal("-M:t", mac.ethertype);
+    if (!read) return false;
+    if (words.peek() == "-IP:s") return read_tagged_ip(p, words, next_hop);
+    p.payload = words.rest();
+    return true;
 }
 
 /// M T NODE (X, Y, Z), (TO_X, TO_Y), SPEED
-Ns2Line parse_move(Tokens& tokens) {
-    constexpr auto place = "a coordinate [m] as in (x, y, z), (x, y), speed"sv;
+Ns2Line read_move(Words& words) {
+    constexpr std::string_view place = "a coordinate [m] as in (x, y, z), (x, y), speed";
     Ns2Move m;
-    m.time = tokens.time(tokens.next());
-    m.node = tokens.robot(tokens.next());
-    const auto coordinate = [&](std::string_view before, std::string_view after) {
-        return tokens.number(tokens.within(tokens.next(), before, after, place), place);
+    const auto coordinate = [&](std::string_view before, std::string_view after, double& value) {
+        std::string_view word = words.next();
+        return words.strip(word, before, after, place) && words.number(word, value, place);
     };
-    m.from.x = coordinate("(", ",");
-    m.from.y = coordinate("", ",");
-    m.from.z = coordinate("", "),");
-    m.to.x = coordinate("(", ",");
-    m.to.y = coordinate("", "),");
+    const bool read = words.time(words.next(), m.time) && words.robot(words.next(), m.node) &&
+                      coordinate("(", ",", m.from.x) && coordinate("", ",", m.from.y) &&
+                      coordinate("", "),", m.from.z) && coordinate("(", ",", m.to.x) &&
+                      coordinate("", "),", m.to.y) &&
+                      words.number(words.next(), m.speed, "a speed [m/s]");
+    if (!read) return words.refused;
     m.to.z = m.from.z;
-    m.speed = tokens.number(tokens.next(), "a speed [m/s]");
     return m;
 }
 
+/// N -t T -n NODE -e ENERGY
+Ns2Line read_energy(Words& words) {
+    Ns2Energy e;
+    const bool read = words.expect("-t") && words.time(words.next(), e.time) &&
+                      words.expect("-n") && words.robot(words.next(), e.node) &&
+                      words.expect("-e") && words.number(words.next(), e.energy, "an energy [J]");
+    if (!read) return words.refused;
+    return e;
+}
+
 /// v T eval {set sim_annotation {reachable UID N}}; any other annotation is somebody else's.
-Ns2Line parse_annotation(Tokens& tokens) {
-    tokens.next();  // the time is that of the `s AGT` line that follows
-    for (const auto word : {"eval"sv, "{set"sv, "sim_annotation"sv, "{reachable"sv}) {
-        if (tokens.next().text != word) return {};
+Ns2Line read_annotation(Words& words) {
+    const std::string_view when = words.next();
+    if (when == "-t") return Ns2Other::nam;
+    Ns2Reachable r;
+    if (!words.time(when, r.time)) return words.refused;
+    for (const std::string_view word : {"eval", "{set", "sim_annotation", "{reachable"}) {
+        if (words.next() != word) return Ns2Other::annotation;
     }
+    if (!words.integer(words.next(), r.uid, "a packet's number")) return words.refused;
+    std::string_view count = words.next();
+    constexpr std::string_view expected = "a number of robots below 1048576 and \"}}\"";
+    if (!words.strip(count, "", "}}", expected) || !words.integer(count, r.robots, expected) ||
+        (r.robots >= most_robots && !words.fail(count, expected))) {
+        return words.refused;
+    }
+    return r;
+}
+
+bool is_number(std::string_view word) {
+    return !word.empty() && word.find_first_not_of("0123456789.") == word.npos;
+}
+
+/// `T FROM TO TYPE SIZE FLAGS ...`, of which `third` is FROM.
+bool is_wired(Words& words, std::string_view third) {
+    return is_number(third) && is_number(words.next()) && !words.next().empty() &&
+           is_number(words.next()) && !words.next().empty();
+}
+
+/// A line of a packet, or of a wired link; `op` is its first word.
+Ns2Line read_packet(char op, Words& words) {
     Ns2Packet p;
-    read_uid(p, tokens, tokens.next());
-    constexpr auto expected = "a number of robots"sv;
-    const Token count = tokens.within(tokens.next(), "", "}}", "a number of robots and \"}}\"");
-    return Ns2Reachable{p.uid, tokens.integer<std::uint32_t>(count, expected, most_robots)};
+    p.op = op == 'd' ? 'D' : op == '+' ? 's' : op == 'h' ? 'f' : op;
+    const bool is_of_wireless = std::string_view("srDdfx").find(op) != std::string_view::npos;
+    const bool may_be_tagged = std::string_view("+rhd").find(op) != std::string_view::npos;
+    const std::string_view second = words.next();
+    if (second == "-t") {
+        p.dialect = Ns2Dialect::new_format;
+        const std::string_view time = words.next();
+        if (!is_of_wireless || words.peek() == "-s") return Ns2Other::nam;
+        if (words.time(time, p.time) && read_new(p, words)) return p;
+        return words.refused;
+    }
+    if (!words.time(second, p.time)) return words.refused;
+    const std::string_view third = words.next();
+    if (third == "-s" && may_be_tagged) {
+        p.dialect = Ns2Dialect::tagged;
+        p.reason = "---";
+        if (read_tagged(p, words)) return p;
+        return words.refused;
+    }
+    if (!third.starts_with('_') && is_wired(words, third)) return Ns2Other::wired;
+    if (is_of_wireless && read_old(p, words, third)) return p;
+    if (!is_of_wireless) words.fail(third, "the robots of a wired link");
+    return words.refused;
 }
 
-bool is_packet(std::string_view op) {
-    return op.size() == 1 && "srfDd"sv.find(op[0]) != std::string_view::npos;
+/// What ns, and the scripts that everybody copies, print while it runs.
+bool is_of_terminal(std::string_view line) {
+    constexpr std::string_view begins[] = {"INITIALIZE THE LIST",
+                                           "SORTING LISTS",
+                                           "channel.cc:",
+                                           "highestAntennaZ_",
+                                           "num_nodes is set",
+                                           "warning:",
+                                           "using backward compatible",
+                                           "Loading ",
+                                           "Starting Simulation",
+                                           "NS EXITING"};
+    return std::any_of(std::begin(begins), std::end(begins),
+                       [&](std::string_view begin) { return line.starts_with(begin); });
 }
 
-/// Energy, errors, wired links, statistics of DSR, and what ns prints beside its trace.
-bool is_foreign(std::string_view op) {
-    return (op.size() == 1 && "Nx+-he"sv.find(op[0]) != std::string_view::npos) ||
-           op.starts_with('S') || op.starts_with('#') || op == "INITIALIZE";
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// The word of a line that no packet has: an S and a name, such as SFf and S$hit.
+bool is_of_dsr(std::string_view op) {
+    return op.size() > 1 && op[0] == 'S' && (is_letter(op[1]) || op[1] == '$');
+}
+
+Ns2Line read_short(std::string_view op, Words& words) {
+    constexpr std::string_view of_packets = "srDdfx+h-e";
+    if (of_packets.find(op[0]) != of_packets.npos) return read_packet(op[0], words);
+    if (op == "M") return read_move(words);
+    if (op == "N") return read_energy(words);
+    if (op == "v") return read_annotation(words);
+    if (is_letter(op[0]) && words.peek() == "-t") return Ns2Other::nam;
+    return Ns2Refused{words.column(op), op, "a line of an ns-2 trace (s, r, f, D, d, M, ...)"};
 }
 
 }  // namespace
 
-Ns2Line parse_ns2_line(std::string_view line, const Location& where) {
-    Tokens tokens(line, where);
-    const Token op = tokens.next();
-    if (op.text.empty() || is_foreign(op.text)) return {};
-    if (op.text == "M") return parse_move(tokens);
-    if (op.text == "v") return parse_annotation(tokens);
-    if (!is_packet(op.text)) tokens.fail(op, "a line of an ns-2 trace (s, r, f, D, d, M, ...)");
-    const Token second = tokens.next();
-    if (second.text.starts_with('-')) return parse_new_packet(op.text[0], second, tokens);
-    return parse_old_packet(op.text[0], second, tokens);
+Ns2Line parse_ns2_line(std::string_view line) {
+    Words words(line);
+    const std::string_view op = words.next();
+    if (op.empty()) return Ns2Other::blank;
+    if (op[0] == '#') return Ns2Other::comment;
+    if (op.size() == 1) return read_short(op, words);
+    if (is_of_terminal(line)) return Ns2Other::message;
+    if (is_of_dsr(op)) return Ns2Other::dsr;
+    return Ns2Refused{words.column(op), op, "a line of an ns-2 trace (s, r, f, D, d, M, ...)"};
 }
 
 }  // namespace rovernet

@@ -1,154 +1,68 @@
 // SPDX-License-Identifier: MIT
 #include "traces/ns2/ns2_reader.hpp"
 
-#include "sim/error.hpp"
-#include "traces/ns2/ns2_line.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>  // order never observed
+#include <utility>
 #include <vector>
 
 namespace rovernet {
 namespace {
 
-using Event = Ns2Packet::Event;
-
-/// The lines of a file, read in portions.
-class Lines {
-  public:
-    explicit Lines(const std::string& path)
-        : where_{.source = path}, file_(std::fopen(path.c_str(), "rb")), buffer_(portion) {
-        if (!file_) fail(fmt::format("cannot open the trace: {}", std::strerror(errno)));
-        std::setvbuf(file_.get(), nullptr, _IONBF, 0);
-    }
-
-    /// The next line without its end; nothing after the last. Valid until the next call.
-    std::optional<std::string_view> next() {
-        std::size_t length = line_length();
-        while (length == none && !at_end_) {
-            fill();
-            length = line_length();
+/// Fate of a frame that a MAC received in vain; a repeated unicast is dropped there, too.
+std::optional<Fate> loss_of(std::string_view reason) {
+    if (reason == "DUP") return Fate::duplicate;
+    std::optional<Fate> found;
+    for_each_reason([&](auto each) {
+        if constexpr (std::is_same_v<decltype(each), Fate>) {
+            if (reason_of(each) == LossReason{reason, "MAC"}) found = each;
         }
-        if (length == none && begin_ == end_) return std::nullopt;
-        if (where_.line < std::numeric_limits<int>::max()) ++where_.line;
-        const std::size_t n = length == none ? end_ - begin_ : length;
-        if (n > longest) fail(fmt::format("a line is longer than {} bytes", longest));
-        std::string_view line(buffer_.data() + begin_, n);
-        begin_ += n + (length == none ? 0 : 1);
-        scanned_ = 0;
-        if (line.ends_with('\r')) line.remove_suffix(1);
-        return line;
-    }
-    const Location& where() const { return where_; }
-
-  private:
-    static constexpr std::size_t none = static_cast<std::size_t>(-1);
-    static constexpr std::size_t longest = 64 * 1024;
-    static constexpr std::size_t portion = 4 * longest;
-
-    std::size_t line_length() {
-        const char* begin = buffer_.data() + begin_;
-        const auto* found =
-            static_cast<const char*>(std::memchr(begin + scanned_, '\n', end_ - begin_ - scanned_));
-        scanned_ = end_ - begin_;
-        return found ? static_cast<std::size_t>(found - begin) : none;
-    }
-    void fill() {
-        const std::size_t rest = end_ - begin_;
-        if (rest > longest) {
-            ++where_.line;
-            fail(fmt::format("a line is longer than {} bytes", longest));
-        }
-        std::memmove(buffer_.data(), buffer_.data() + begin_, rest);
-        begin_ = 0;
-        const std::size_t n = std::fread(buffer_.data() + rest, 1, portion - rest, file_.get());
-        if (std::ferror(file_.get())) {
-            where_.line = 0;
-            fail(fmt::format("cannot read the trace: {}", std::strerror(errno)));
-        }
-        at_end_ = n == 0;
-        end_ = rest + n;
-    }
-    [[noreturn]] void fail(const std::string& message) {
-        if (where_.line > 0) where_.column = 1;
-        throw InputError(where_, message);
-    }
-
-    struct Close {
-        void operator()(std::FILE* f) const { std::fclose(f); }
-    };
-    Location where_;
-    std::unique_ptr<std::FILE, Close> file_;
-    std::vector<char> buffer_;
-    std::size_t begin_ = 0;    ///< of the current line
-    std::size_t end_ = 0;      ///< of what has been read
-    std::size_t scanned_ = 0;  ///< bytes from begin_ without an end of line
-    bool at_end_ = false;
-};
-
-/// Turns lines into records.
-class Replay {
-  public:
-    Replay(Sink sink, const Location& where)
-        : sink_(std::move(sink)), where_(where), context_{legs_, messages_} {}
-
-    void on(std::monostate) {}
-    void on(const Ns2Reachable& r) { reachable_ = r; }
-    void on(const Ns2Move&);
-    void on(const Ns2Packet&);
-    /// The last reception is complete.
-    void flush();
-
-  private:
-    struct Copy {
-        Frame frame;
-        Reception reception;
-        std::uint64_t uid;
-    };
-
-    void sent(const Ns2Packet&);
-    void continue_reception(const Ns2Packet&);
-    Frame frame_of(const Ns2Packet&);
-    void know(NodeId node);
-    template <class R>
-    void emit(const R& record) {
-        if (sink_.kinds() & kind_of<R>()) sink_.on(record, context_);
-    }
-    [[noreturn]] void fail(int column, const std::string& message) const {
-        Location here = where_;
-        here.column = column;
-        throw InputError(here, message);
-    }
-
-    Sink sink_;
-    const Location& where_;
-    Legs legs_;
-    MessageTable messages_;
-    RecordContext context_;
-    std::unordered_map<std::uint64_t, MessageId> by_uid_;
-    std::vector<Hops> initial_ttl_;          ///< by MessageId
-    std::vector<std::uint32_t> numbers_;     ///< by robot: its messages so far
-    std::vector<bool> placed_;               ///< by robot: it has had an M line
-    std::uint32_t robots_ = 0;               ///< robots that have
-    std::optional<Ns2Reachable> reachable_;  ///< the last annotation
-    std::optional<Copy> open_;               ///< a reception that the next lines may go on with
-};
-
-void Replay::know(NodeId node) {
-    while (legs_.size() <= node.index()) legs_.add(Leg{});
-    placed_.resize(legs_.size());
-    numbers_.resize(legs_.size());
+    });
+    return found;
 }
+
+/// Reason for which a copy was dropped other than by the fate of its reception.
+std::optional<DropReason> drop_of(std::string_view reason, std::string_view layer) {
+    std::optional<DropReason> found;
+    for_each_reason([&](auto each) {
+        if constexpr (std::is_same_v<decltype(each), DropReason>) {
+            if (reason_of(each) == LossReason{reason, layer}) found = each;
+        }
+    });
+    return found;
+}
+
+/// Robots that have got a message. Most messages are for one.
+class Getters {
+  public:
+    /// False if it has got the message before.
+    bool add(NodeId node) {
+        if (first_ == everyone)
+            first_ = node;
+        else if (first_ == node)
+            return false;
+        else
+            return add_other(node.index());
+        return true;
+    }
+
+  private:
+    bool add_other(std::size_t robot) {
+        if (others_.size() <= robot) others_.resize(robot + 1);
+        if (others_[robot]) return false;
+        return others_[robot] = true;
+    }
+    NodeId first_ = everyone;
+    std::vector<bool> others_;  ///< by robot
+};
 
 Leg leg_of(const Ns2Move& m) {
     Leg leg{.start = m.time, .end = never, .from = m.from, .velocity = {}, .to = m.from};
@@ -164,93 +78,217 @@ Leg leg_of(const Ns2Move& m) {
     return leg;
 }
 
+/// Turns events into records.
+class Replay {
+  public:
+    Replay(Sink sink, Ns2File& file, const OnNs2Packet& on_packet)
+        : sink_(std::move(sink)), file_(file), on_packet_(on_packet), context_{legs_, messages_} {}
+
+    void on(const Ns2Packet&);
+    void on(const Ns2Move&);
+    void on(const Ns2Reachable& r) { reachable_ = r; }
+    template <class Other>
+    void on(const Other&) {}
+    /// The last reception is complete.
+    void flush();
+
+  private:
+    struct Copy {
+        Frame frame;
+        Reception reception;
+    };
+    /// What the file has told of a message.
+    struct Known {
+        std::int64_t ttl = 0;    ///< as its first frame carries it
+        bool is_on_air = false;  ///< the origin has put it on air
+        Getters getters;
+    };
+    using Flow = std::tuple<std::string, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
+
+    /// True if the line begins a message.
+    bool sent(const Ns2Packet&);
+    void carried(const Ns2Packet&, MessageId);
+    void received(const Ns2Packet&, MessageId);
+    void delivered(const Ns2Packet&, MessageId);
+    void dropped(const Ns2Packet&, MessageId);
+    bool goes_on(const Ns2Packet&, MessageId) const;
+    std::optional<MessageId> message_of(const Ns2Packet&) const;
+    std::uint32_t flow_of(const Ns2Packet&);
+    std::optional<NodeId> heard_from(const Ns2Packet&) const;
+    Frame frame_of(const Ns2Packet&, MessageId) const;
+    Known& known(MessageId id) { return known_[id.index()]; }
+    void know(NodeId node);
+    template <class R>
+    void emit(const R& record) {
+        if (sink_.kinds() & kind_of<R>()) sink_.on(record, context_);
+    }
+
+    Sink sink_;
+    Ns2File& file_;
+    const OnNs2Packet& on_packet_;
+    Legs legs_;
+    MessageTable messages_;
+    RecordContext context_;
+    std::map<std::string, std::unordered_map<std::uint64_t, MessageId>, std::less<>> by_type_;
+    std::map<Flow, std::uint32_t> flows_;
+    std::vector<Known> known_;               ///< by MessageId
+    std::vector<std::uint32_t> numbers_;     ///< by robot: its messages so far
+    std::vector<bool> seen_;                 ///< by robot: the file has told of it
+    std::uint32_t robots_ = 0;               ///< robots that it has told of
+    std::optional<Ns2Reachable> reachable_;  ///< the last annotation
+    std::optional<Copy> open_;               ///< a reception that the next lines may go on with
+};
+
+void Replay::know(NodeId node) {
+    while (legs_.size() <= node.index()) legs_.add(Leg{});
+    seen_.resize(legs_.size());
+    numbers_.resize(legs_.size());
+    if (!seen_[node.index()]) ++robots_;
+    seen_[node.index()] = true;
+}
+
 void Replay::on(const Ns2Move& m) {
     flush();
     know(m.node);
-    if (!placed_[m.node.index()]) ++robots_;
-    placed_[m.node.index()] = true;
     legs_.replace(m.node, leg_of(m));
     emit(Moved{m.time, m.node, legs_.leg(m.node)});
 }
 
-void Replay::sent(const Ns2Packet& p) {
-    know(p.origin);
-    const auto [entry, is_new] = by_uid_.try_emplace(p.uid);
-    if (!is_new) fail(p.uid_column, fmt::format("message {} is sent a second time", p.uid));
-    const MessageId id = messages_.add({.origin = p.origin,
-                                        .uid = p.uid,
-                                        .number = numbers_[p.origin.index()]++,
-                                        .key = 0,
-                                        .size = p.size,
-                                        .created = p.time,
-                                        .payload = {}});
+std::optional<MessageId> Replay::message_of(const Ns2Packet& p) const {
+    if (!p.ip || p.ip->from_port == routing_port) return std::nullopt;
+    const auto of_type = by_type_.find(p.type);
+    if (of_type == by_type_.end()) return std::nullopt;
+    const auto found = of_type->second.find(p.uid);
+    if (found == of_type->second.end()) return std::nullopt;
+    return found->second;
+}
+
+std::uint32_t Replay::flow_of(const Ns2Packet& p) {
+    const auto next = static_cast<std::uint32_t>(flows_.size() + 1);
+    return flows_
+        .try_emplace({std::string(p.type), p.ip->from, p.ip->from_port, p.ip->to, p.ip->to_port},
+                     next)
+        .first->second;
+}
+
+bool Replay::sent(const Ns2Packet& p) {
+    flush();
+    if (!p.ip || p.ip->from_port == routing_port || p.type == "ack") return false;
+    const auto [entry, is_new] = by_type_[std::string(p.type)].try_emplace(p.uid);
+    if (!is_new) {
+        file_.refuse(p.uid_column,
+                     fmt::format("{} {} is sent a second time; expected a number of its own for "
+                                 "each message of a type",
+                                 p.type, p.uid));
+        return false;
+    }
+    const bool for_one = p.ip->to >= 0;
+    const NodeId to =
+        for_one && p.ip->to < most_robots ? NodeId{static_cast<std::uint32_t>(p.ip->to)} : everyone;
+    constexpr std::uint64_t largest = 0xffffffff;
+    const MessageId id =
+        messages_.add({.origin = p.node,
+                       .uid = p.uid,
+                       .number = numbers_[p.node.index()]++,
+                       .to = to,
+                       .key = 0,
+                       .size = static_cast<std::uint32_t>(std::min(p.size.value_or(0), largest)),
+                       .created = p.time,
+                       .payload = {},
+                       .flow = flow_of(p)});
     entry->second = id;
-    initial_ttl_.push_back(p.ttl);
-    const std::uint32_t robots = p.for_one ? 2 : std::max(robots_, 1U);
-    Sent record{p.time, p.node, id, p.ttl, robots, std::nullopt};
+    known_.push_back({.ttl = p.ip->ttl, .is_on_air = false, .getters = {}});
+    constexpr std::int64_t most_hops = 65535;
+    const auto ttl = static_cast<Hops>(std::clamp<std::int64_t>(p.ip->ttl, 0, most_hops));
+    Sent record{p.time, p.node, id, ttl, for_one ? 2 : std::max(robots_, 1U), std::nullopt};
     if (reachable_ && reachable_->uid == p.uid) record.reachable = reachable_->robots;
     reachable_.reset();
     emit(record);
+    return true;
 }
 
-/// The frame of a line that is not the first of its message.
-Frame Replay::frame_of(const Ns2Packet& p) {
-    const auto found = by_uid_.find(p.uid);
-    if (found == by_uid_.end()) {
-        fail(p.uid_column, fmt::format("found a copy of message {}, expected its \"s AGT\" line "
-                                       "before it",
-                                       p.uid));
-    }
-    const int hops = initial_ttl_[found->second.index()] - p.ttl + 1;
-    if (hops < 1 || hops > 65535) {
-        fail(p.ttl_column, fmt::format("found ttl {}, expected at most that of the message, {}",
-                                       p.ttl, initial_ttl_[found->second.index()]));
-    }
-    const NodeId sender = p.event == Event::transmitted ? p.node : p.heard_from.value_or(p.node);
-    know(sender);
-    return {.message = found->second,
-            .sender = sender,
+/// The robot that the packet came from, once a MAC has seen it. Some MACs write other numbers.
+std::optional<NodeId> Replay::heard_from(const Ns2Packet& p) const {
+    if (!p.mac || p.mac->ethertype == 0) return std::nullopt;
+    if (p.mac->from >= seen_.size() || !seen_[p.mac->from]) return std::nullopt;
+    return NodeId{p.mac->from};
+}
+
+Frame Replay::frame_of(const Ns2Packet& p, MessageId id) const {
+    constexpr std::int64_t most_hops = 65535;
+    const std::int64_t ttl = std::clamp<std::int64_t>(p.ip->ttl, 0, most_hops);
+    const std::int64_t first = std::clamp<std::int64_t>(known_[id.index()].ttl, 0, most_hops);
+    const bool is_sender = p.layer == "RTR" && (p.op == 's' || p.op == 'f');
+    return {.message = id,
+            .sender = is_sender ? p.node : heard_from(p).value_or(p.node),
             .path = 0,
-            .ttl = p.ttl,
-            .hops = static_cast<Hops>(hops)};
+            .ttl = static_cast<Hops>(ttl),
+            .hops = static_cast<Hops>(std::clamp<std::int64_t>(first - ttl + 1, 0, most_hops))};
 }
 
-/// A line that goes on with the reception of the line before.
-void Replay::continue_reception(const Ns2Packet& p) {
-    if (!open_ || open_->uid != p.uid || open_->reception.node != p.node ||
-        open_->reception.time != p.time || open_->reception.fate != Fate::waiting ||
-        (p.event == Event::delivered && open_->reception.delivered)) {
-        fail(1, fmt::format("found what became of a copy of message {} at robot {}, expected its "
-                            "\"r RTR\" line directly before it",
-                            p.uid, p.node.value));
+/// Whether the line goes on with the reception of the line before.
+bool Replay::goes_on(const Ns2Packet& p, MessageId id) const {
+    return open_ && open_->frame.message == id && open_->reception.node == p.node &&
+           open_->reception.time == p.time && open_->reception.fate == Fate::waiting;
+}
+
+void Replay::carried(const Ns2Packet& p, MessageId id) {
+    Known& message = known(id);
+    if (p.node == messages_[id].origin && !std::exchange(message.is_on_air, true)) {
+        message.ttl = p.ip->ttl;
     }
-    Reception& rx = open_->reception;
-    if (p.event == Event::delivered) rx.delivered = true;
-    if (p.event == Event::ended_by_ttl) rx.fate = Fate::ttl;
-    if (p.event == Event::suppressed) rx.fate = Fate::duplicate;
+    emit(Transmitted{p.time, frame_of(p, id), heard_from(p)});
+}
+
+void Replay::received(const Ns2Packet& p, MessageId id) {
+    const bool is_own_on_its_way_down = !p.mac || p.mac->ethertype == 0;
+    if (is_own_on_its_way_down) return;
+    open_ = Copy{frame_of(p, id), {p.time, p.node, Fate::waiting, false}};
+}
+
+void Replay::delivered(const Ns2Packet& p, MessageId id) {
+    const bool is_open = goes_on(p, id);
+    if (!is_open) flush();
+    if (p.node == messages_[id].origin || !known(id).getters.add(p.node)) return;
+    if (!is_open) open_ = Copy{frame_of(p, id), {p.time, p.node, Fate::waiting, false}};
+    open_->reception.delivered = true;
+}
+
+void Replay::dropped(const Ns2Packet& p, MessageId id) {
+    const bool by_router = p.layer == "RTR" && (p.reason == "TTL" || p.reason == "DUP");
+    if (by_router && goes_on(p, id)) {
+        open_->reception.fate = p.reason == "TTL" ? Fate::ttl : Fate::duplicate;
+        return;
+    }
+    flush();
+    if (const auto reason = drop_of(p.reason, p.layer)) {
+        emit(Dropped{p.time, p.node, frame_of(p, id), *reason});
+    } else if (const auto fate = loss_of(p.reason); fate && p.layer == "MAC") {
+        open_ = Copy{frame_of(p, id), {p.time, p.node, *fate, false}};
+    }
 }
 
 void Replay::on(const Ns2Packet& p) {
     know(p.node);
-    if (p.event == Event::delivered || p.event == Event::ended_by_ttl ||
-        p.event == Event::suppressed) {
-        return continue_reception(p);
+    if (p.layer == "AGT" && p.op == 's') {
+        if (sent(p) && on_packet_) on_packet_(p, &messages_[*message_of(p)]);
+        return;
     }
-    flush();
-    if (p.event == Event::own) return;
-    // MACs of others lose packets that we know nothing of.
-    const bool of_a_mac = p.event == Event::lost || p.event == Event::dropped;
-    if (of_a_mac && !by_uid_.contains(p.uid)) return;
-    if (p.event == Event::sent) return sent(p);
-    const Frame frame = frame_of(p);
-    if (p.event == Event::transmitted) {
-        emit(Transmitted{p.time, frame, p.heard_from});
-    } else if (p.event == Event::dropped) {
-        emit(Dropped{p.time, p.node, frame, p.drop});
-    } else {
-        const Fate fate = p.event == Event::lost ? p.loss : Fate::waiting;
-        open_ = Copy{frame, {p.time, p.node, fate, false}, p.uid};
+    const std::optional<MessageId> id = message_of(p);
+    const bool may_go_on = id && (p.op == 'D' || (p.op == 'r' && p.layer == "AGT"));
+    if (!may_go_on) flush();
+    if (id) {
+        if (p.op == 'D') {
+            dropped(p, *id);
+        } else if (p.op == 'r' && p.layer == "AGT") {
+            delivered(p, *id);
+        } else if (p.layer == "RTR" && p.op == 'r') {
+            received(p, *id);
+        } else if (p.layer == "RTR" && (p.op == 's' || p.op == 'f')) {
+            carried(p, *id);
+        }
     }
+    if (on_packet_) on_packet_(p, id ? &messages_[*id] : nullptr);
 }
 
 void Replay::flush() {
@@ -261,35 +299,22 @@ void Replay::flush() {
 
 }  // namespace
 
-std::optional<Location> read_ns2_trace(const std::string& path, Sink sink) {
-    Lines lines(path);
-    Replay replay(std::move(sink), lines.where());
-    std::optional<Location> skipped;
-    while (const auto text = lines.next()) {
-        const Ns2Line line = parse_ns2_line(*text, lines.where());
-        const std::size_t begin = text->find_first_not_of(" \t");
-        const bool says_something = begin != text->npos && (*text)[begin] != '#';
-        if (line.index() == 0 && says_something && !skipped) {
-            skipped = lines.where();
-            skipped->column = 1;
-        }
-        std::visit([&](const auto& l) { replay.on(l); }, line);
+Ns2Counts read_ns2_trace(const std::string& path, Sink sink, Ns2Strictness strictness,
+                         const OnNs2Packet& on_packet) {
+    Ns2File file(path, strictness);
+    Replay replay(std::move(sink), file, on_packet);
+    while (const Ns2Line* line = file.next()) {
+        std::visit([&](const auto& event) { replay.on(event); }, *line);
     }
     replay.flush();
-    return skipped;
+    file.expect_trace();
+    return file.counts();
 }
 
-MetricValues trace_metrics(const std::string& path) {
+MetricValues trace_metrics(const std::string& path, Ns2Strictness strictness) {
     const auto metrics = std::make_shared<Metrics>();
-    const std::optional<Location> skipped = read_ns2_trace(path, metrics);
-    MetricValues values = metrics->values();
-    if (skipped && values.messages == 0) {
-        throw InputError(*skipped,
-                         "found a line of another trace, and no message that a robot sends; "
-                         "expected a trace that rovernet writes: those of other programs, and of "
-                         "other traffic than messages, cannot be counted yet");
-    }
-    return values;
+    read_ns2_trace(path, metrics, strictness);
+    return metrics->values();
 }
 
 }  // namespace rovernet

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "traces/ns2/ns2_file.hpp"
+
+#include <string>
+
+namespace rovernet::cli {
+
+/// Says on standard error which lines of the trace are none of ns-2, if there are any.
+void tell_refused(const std::string& file, const Ns2Counts& counts);
+
+}  // namespace rovernet::cli

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ids.hpp"
+#include "sim/time.hpp"
+#include "traces/ns2/ns2_line.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <system_error>
+
+namespace rovernet {
+
+/// Words of one line, taken from left to right, and what they were expected to be. A word that is
+/// something else stops the reading: its function returns false, and `refused` has the place.
+class Ns2Words {
+  public:
+    explicit Ns2Words(std::string_view line) : line_(line) {}
+
+    Ns2Refused refused;
+
+    /// The next word; empty at the end of the line.
+    std::string_view next() {
+        while (at_ < line_.size() && is_blank(line_[at_])) ++at_;
+        const std::size_t begin = at_;
+        while (at_ < line_.size() && !is_blank(line_[at_])) ++at_;
+        return line_.substr(begin, at_ - begin);
+    }
+    /// The next word, which stays the next one.
+    std::string_view peek() {
+        const std::size_t here = at_;
+        const std::string_view word = next();
+        at_ = here;
+        return word;
+    }
+    /// All that is left, without blanks around it.
+    std::string_view rest() {
+        peek_blanks();
+        std::string_view all = line_.substr(at_);
+        while (!all.empty() && is_blank(all.back())) all.remove_suffix(1);
+        at_ = line_.size();
+        return all;
+    }
+    /// Column of a piece of the line, from 1.
+    int column(std::string_view word) const {
+        return static_cast<int>(word.data() - line_.data()) + 1;
+    }
+
+    bool fail(std::string_view word, std::string_view expected) {
+        refused = {column(word), word, expected};
+        return false;
+    }
+    bool expect(std::string_view text) {
+        const std::string_view word = next();
+        return word == text || fail(word, text);
+    }
+    /// Takes `before` and `after` off the word's ends.
+    bool strip(std::string_view& word, std::string_view before, std::string_view after,
+               std::string_view expected) {
+        if (word.size() < before.size() + after.size() || !word.starts_with(before) ||
+            !word.ends_with(after)) {
+            return fail(word, expected);
+        }
+        word = word.substr(before.size(), word.size() - before.size() - after.size());
+        return true;
+    }
+    template <class Integer>
+    bool integer(std::string_view word, Integer& value, std::string_view expected, int base = 10) {
+        const auto [stop, error] =
+            std::from_chars(word.data(), word.data() + word.size(), value, base);
+        return (error == std::errc{} && stop == word.data() + word.size()) || fail(word, expected);
+    }
+    bool robot(std::string_view word, NodeId& node) {
+        constexpr std::string_view expected = "a robot's number below 1048576";
+        return integer(word, node.value, expected) &&
+               (node.value < most_robots || fail(word, expected));
+    }
+    bool number(std::string_view word, double& value, std::string_view expected) {
+        const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        return (error == std::errc{} && stop == word.data() + word.size() &&
+                std::isfinite(value)) ||
+               fail(word, expected);
+    }
+    /// A time [s], rounded to 1 ns.
+    bool time(std::string_view word, Time& value);
+
+  private:
+    static constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
+    void peek_blanks() {
+        while (at_ < line_.size() && is_blank(line_[at_])) ++at_;
+    }
+
+    std::string_view line_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace rovernet
