@@ -224,6 +224,36 @@ struct TraceStatsArguments {
 };
 void trace_stats(const TraceStatsArguments& arguments);
 
+struct TraceConvertArguments {
+    std::string in, out, to;
+    bool strict = false;
+};
+void trace_convert(const TraceConvertArguments& arguments);
+
+struct TraceCutArguments {
+    std::string in, out;
+    std::optional<std::string> from, to;
+    std::optional<std::uint32_t> robot;
+    std::optional<std::uint64_t> message;
+    bool strict = false;
+};
+void trace_cut(const TraceCutArguments& arguments);
+
+struct TraceDiffArguments {
+    std::string a, b;
+    std::string time_tolerance = "0 s";
+    bool strict = false;
+};
+void trace_diff(const TraceDiffArguments& arguments);
+
+struct TraceFollowArguments {
+    std::string file;
+    std::uint64_t message = 0;
+    std::optional<std::string> robot;
+    bool strict = false;
+};
+void trace_follow(const TraceFollowArguments& arguments);
+
 /// Arguments of a command whose only option is --json.
 struct PrintArguments {
     bool json = false;

@@ -439,6 +439,33 @@ TEST_CASE("results that cannot be written end a run with 1, and the message name
     CHECK(ended.err.find(file + "/out") != std::string::npos);
 }
 
+TEST_CASE("trace: another form, a piece, a difference and a message's way, by their commands") {
+    const TemporaryFolder folder;
+    const std::string out = folder.path("out"), trace = out + "/trace.tr";
+    json_of(folder, {"run", folder.write("s.toml", relay), "--out", out, "--set", "trace.ns2=old",
+                     "--set", "trace.mac=true"});
+    const std::string as_new = folder.path("new.tr"), piece = folder.path("piece.tr");
+    CHECK(command(folder, {"trace", "convert", trace, as_new, "--to", "ns2-new"}).exit == 0);
+    CHECK(command(folder, {"trace", "diff", trace, as_new}).exit == 0);
+    CHECK(command(folder, {"trace", "cut", trace, piece, "--message", "0"}).exit == 0);
+    const Ended differ = command(folder, {"trace", "diff", trace, piece});
+    CHECK(differ.exit == 1);
+    CHECK(differ.out.find("the first difference: ") != std::string::npos);
+    const Ended way = command(folder, {"trace", "follow", trace, "--message", "0"});
+    CHECK(way.exit == 0);
+    CHECK(way.out.starts_with("message 0 of A for everybody, sent at "));
+    CHECK(command(folder, {"trace", "follow", trace, "--message", "0", "--robot", "B"})
+              .out.find("B  from A after ") != std::string::npos);
+    const Ended unknown =
+        command(folder, {"trace", "follow", trace, "--message", "0", "--robot", "Z"});
+    CHECK(unknown.exit == 2);
+    CHECK(unknown.err.find("no robot has this name") != std::string::npos);
+    CHECK(command(folder, {"trace", "follow", trace, "--message", "9999"}).exit == 3);
+    CHECK(command(folder, {"trace", "stats", folder.path("s.toml")}).exit == 3);
+    const Ended rows = command(folder, {"trace", "stats", trace, "--by", "robot", "--csv"});
+    CHECK(rows.out.starts_with("robot,messages,deliveries,"));
+}
+
 TEST_CASE("trace stats: a line that is none is counted and shown, and ends a strict reading") {
     const TemporaryFolder folder;
     const std::string trace = folder.write(
