@@ -23,26 +23,26 @@ void add_trace_stats(Command trace) {
     add_json(stats, a.json);
 }
 
-void add_trace_convert(CLI::App& trace) {
+void add_trace_convert(Command trace) {
     const auto [convert, a] =
         add_command(trace, "convert", "Write an ns-2 trace in another form", cli::trace_convert);
-    add_examples(convert, {"rovernet trace convert out.tr out.csv --to csv",
-                           "rovernet trace convert old.tr new.tr --to ns2-new"});
-    convert.add_option("IN", a.in, any_trace)->required();
-    convert.add_option("OUT", a.out, "file to write")->required();
+    convert.add_examples({"rovernet trace convert out.tr out.csv --to csv",
+                          "rovernet trace convert old.tr new.tr --to ns2-new"});
+    convert.add_option("IN", a.in, any_trace).required();
+    convert.add_option("OUT", a.out, "file to write").required();
     convert.add_option("--to", a.to, "csv, ns2-old or ns2-new")
-        ->check(CLI::IsMember({"csv", "ns2-old", "ns2-new"}))
-        ->required();
+        .one_of({"csv", "ns2-old", "ns2-new"})
+        .required();
     add_strict(convert, a.strict);
 }
 
-void add_trace_cut(CLI::App& trace) {
+void add_trace_cut(Command trace) {
     const auto [cut, a] =
         add_command(trace, "cut", "Write a piece of an ns-2 trace, line by line", cli::trace_cut);
-    add_examples(cut, {"rovernet trace cut out.tr piece.tr --from \"10 s\" --to \"20 s\"",
-                       "rovernet trace cut out.tr piece.tr --message 3"});
-    cut.add_option("IN", a.in, any_trace)->required();
-    cut.add_option("OUT", a.out, "file to write")->required();
+    cut.add_examples({"rovernet trace cut out.tr piece.tr --from \"10 s\" --to \"20 s\"",
+                      "rovernet trace cut out.tr piece.tr --message 3"});
+    cut.add_option("IN", a.in, any_trace).required();
+    cut.add_option("OUT", a.out, "file to write").required();
     cut.add_option("--from", a.from, "time of the first packet");
     cut.add_option("--to", a.to, "time of the end, which is left out");
     cut.add_option("--robot", a.robot, "number of a robot: its lines only");
@@ -50,25 +50,25 @@ void add_trace_cut(CLI::App& trace) {
     add_strict(cut, a.strict);
 }
 
-void add_trace_diff(CLI::App& trace) {
+void add_trace_diff(Command trace) {
     const auto [diff, a] = add_command(
         trace, "diff", "Show where two ns-2 traces part; exit code 1 if they do", cli::trace_diff);
-    add_examples(diff, {"rovernet trace diff a.tr b.tr",
-                        "rovernet trace diff old.tr new.tr --time-tolerance \"1 us\""});
-    diff.add_option("A", a.a, any_trace)->required();
-    diff.add_option("B", a.b, any_trace)->required();
+    diff.add_examples({"rovernet trace diff a.tr b.tr",
+                       "rovernet trace diff old.tr new.tr --time-tolerance \"1 us\""});
+    diff.add_option("A", a.a, any_trace).required();
+    diff.add_option("B", a.b, any_trace).required();
     diff.add_option("--time-tolerance", a.time_tolerance, "times differ if further apart")
-        ->capture_default_str();
+        .shows_default();
     add_strict(diff, a.strict);
 }
 
-void add_trace_follow(CLI::App& trace) {
+void add_trace_follow(Command trace) {
     const auto [follow, a] =
         add_command(trace, "follow", "Follow a message from robot to robot", cli::trace_follow);
-    add_examples(follow, {"rovernet trace follow runs/rescue-s1/trace.tr --message 3",
-                          "rovernet trace follow runs/rescue-s1/trace.tr --message 3 --robot E"});
-    follow.add_option("FILE", a.file, any_trace)->required();
-    follow.add_option("--message", a.message, "id of the message")->required();
+    follow.add_examples({"rovernet trace follow runs/rescue-s1/trace.tr --message 3",
+                         "rovernet trace follow runs/rescue-s1/trace.tr --message 3 --robot E"});
+    follow.add_option("FILE", a.file, any_trace).required();
+    follow.add_option("--message", a.message, "id of the message").required();
     follow.add_option("--robot", a.robot, "name or number of a robot: the way to it only");
     add_strict(follow, a.strict);
 }
@@ -78,11 +78,11 @@ void add_trace_follow(CLI::App& trace) {
 void add_trace(Command app) {
     Command trace = app.add_command("trace", "Work with trace files");
     trace.needs_command();
-    add_trace_stats(*trace);
-    add_trace_convert(*trace);
-    add_trace_cut(*trace);
-    add_trace_diff(*trace);
-    add_trace_follow(*trace);
+    add_trace_stats(trace);
+    add_trace_convert(trace);
+    add_trace_cut(trace);
+    add_trace_diff(trace);
+    add_trace_follow(trace);
 }
 
 }  // namespace rovernet::cli

@@ -50,7 +50,7 @@ bool is_part_of(std::string_view whole, std::string_view name) {
 
 }  // namespace
 
-PartFile::PartFile(std::string path) : path_(std::move(path)) {
+PartFile::PartFile(std::string path, Failed failed) : path_(std::move(path)), failed_(failed) {
     std::error_code ignored;
     const auto status = fs::status(path_, ignored);
     // A rename would replace a device by a file.
@@ -67,6 +67,7 @@ PartFile::PartFile(std::string path) : path_(std::move(path)) {
 
 PartFile::PartFile(PartFile&& other) noexcept
     : path_(std::move(other.path_)),
+      failed_(other.failed_),
       part_(std::exchange(other.part_, {})),
       file_(std::exchange(other.file_, -1)) {}
 
@@ -117,7 +118,10 @@ void PartFile::discard() {
 }
 
 void PartFile::fail(std::string_view why) {
-    const std::string message = fmt::format("{}: cannot be written: {}", path_, why);
+    std::string message = fmt::format("{}: cannot be written: {}", path_, why);
+    if (failed_ == Failed::is_kept && !part_.empty()) {
+        message += fmt::format("; what was written so far is {}", std::exchange(part_, {}));
+    }
     discard();
     throw RunError(message);
 }

@@ -14,13 +14,17 @@ namespace rovernet {
 /// removes it.
 class PartFile {
   public:
+    /// What becomes of the part when a write fails: it is removed, or kept for those who can read
+    /// a part. The error then says its name.
+    enum class Failed { is_removed, is_kept };
+
     /// @throws RunError if `path` cannot be written, or is there and no regular file
-    explicit PartFile(std::string path);
+    explicit PartFile(std::string path, Failed failed = Failed::is_removed);
     PartFile(PartFile&& other) noexcept;
     PartFile& operator=(PartFile&&) = delete;
     ~PartFile() { discard(); }
 
-    /// Adds bytes to the end. @throws RunError (disk full, say); the part is removed then
+    /// Adds bytes to the end. @throws RunError (disk full, say); see Failed
     void write(std::string_view bytes);
     /// Ends the writing; give_name() cannot fail for want of space then. @throws RunError as
     /// write()
@@ -34,7 +38,8 @@ class PartFile {
     [[noreturn]] void fail(std::string_view why);
 
     std::string path_;
-    std::string part_;  // empty: named, or removed
+    Failed failed_;
+    std::string part_;  // empty: named, removed, or kept
     int file_ = -1;     // open for as long as nobody may take the part for an orphan
 };
 

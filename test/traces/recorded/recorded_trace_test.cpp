@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "traces/recorded/recorded_trace.hpp"
+
+#include "sim/error.hpp"
+#include "test/traces/record_stream.hpp"
+#include "traces/fingerprint.hpp"
+#include "traces/metrics.hpp"
+#include "traces/ns2/ns2_trace.hpp"
+#include "traces/recorded/record_code.hpp"
+#include "traces/recorded/recorded_reader.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cstring>
+#include <memory>
+
+namespace rovernet {
+namespace {
+
+using namespace testing;
+
+/// Remembers the bytes of all records, messages by their uid.
+struct Everything {
+    std::vector<std::string> records;
+    KindMask kinds() const { return kind_all; }
+    void on(Record record, const RecordContext& context) {
+        const auto by_uid = [&](MessageId& id) {
+            id.value = static_cast<std::uint32_t>(context.messages[id].uid);
+        };
+        std::visit(
+            [&](auto& r) {
+                if constexpr (requires { r.message; }) by_uid(r.message);
+                if constexpr (requires { r.frame; }) by_uid(r.frame.message);
+                if constexpr (requires { r.air; }) {
+                    if (r.air.kind == AirFrame::data) by_uid(r.air.frame.message);
+                }
+            },
+            record);
+        ByteWriter bytes;
+        const Time time = time_of(record, start_of_run);
+        bytes.signed_varint(time.time_since_epoch().count());
+        bytes.fixed(static_cast<std::uint8_t>(record.index()));
+        encode(record, time, bytes);
+        records.emplace_back(bytes.view());
+    }
+};
+
+RunInfo info(std::size_t robots = 0) {
+    return {.scenario = [] { return std::string("[scenario]\nname = \"x\"\n"); },
+            .robots = robots,
+            .name = [](NodeId) -> std::string_view { return "r"; },
+            .seed = 42,
+            .replication = 3};
+}
+
+/// A recorded trace of records made at random, and what other sinks made of the same records.
+struct Recorded {
+    TempFolder folder;
+    std::shared_ptr<Everything> all = std::make_shared<Everything>();
+    std::shared_ptr<Fingerprint> fingerprint = std::make_shared<Fingerprint>();
+    std::string path = folder / "trace.mcap";
+
+    explicit Recorded(int records, unsigned seed = 1, bool links = false) {
+        Stream stream;
+        const auto trace = std::make_shared<RecordedTrace>(
+            path, RecordedTrace::Contents{.version = "1", .links = links, .chunk = 10'000});
+        const auto old_text =
+            std::make_shared<Ns2Trace>(folder / "old.tr", Ns2Format::old_format, MacTrace::on);
+        const auto new_text = std::make_shared<Ns2Trace>(folder / "new.tr");
+        trace->begin(info());
+        stream.sinks = {Sink(trace), Sink(all), Sink(fingerprint), Sink(old_text), Sink(new_text)};
+        RandomRecords(stream, seed).run(20, records);
+        for (const Sink& sink : stream.sinks) sink.finish();
+        trace->close();
+    }
+    /// The records of the file, and what a reader said of it.
+    std::vector<std::string> read_back(std::vector<std::string>* damage = nullptr) const {
+        const auto read = std::make_shared<Everything>();
+        RecordedReader reader(path);
+        reader.read(Sink(read));
+        if (damage) *damage = reader.damage();
+        return read->records;
+    }
+};
+
+void render(const std::string& trace, const std::string& to, Ns2Format format, MacTrace mac) {
+    const auto text = std::make_shared<Ns2Trace>(to, format, mac);
+    RecordedReader(trace).read(Sink(text));
+    text->close();
+}
+
+TEST_CASE("a recorded trace gives back the records of the run, in its order") {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        const Recorded recorded(2000, seed);
+        std::vector<std::string> damage;
+        CHECK(recorded.read_back(&damage) == recorded.all->records);
+        CHECK(damage.empty());
+    }
+}
+
+TEST_CASE("a recorded trace keeps what the run was") {
+    TempFolder folder;
+    RecordedTrace trace(folder / "t.mcap",
+                        {.version = "9.9 (abc)", .files = {{"map.yaml", "text/yaml", "image: x"}}});
+    trace.begin(info(2));
+    trace.finish();
+    CHECK_FALSE(folder.has("t.mcap"));
+    trace.close();
+    const RecordedReader reader(folder / "t.mcap");
+    const RecordedRun& run = reader.run();
+    CHECK(run.version == "9.9 (abc)");
+    CHECK(run.scenario == "[scenario]\nname = \"x\"\n");
+    CHECK(run.seed == 42);
+    CHECK(run.replication == 3);
+    CHECK(run.robots == std::vector<std::string>{"r", "r"});
+    REQUIRE(run.files.size() == 1);
+    CHECK(run.files[0].name == "map.yaml");
+    CHECK(run.files[0].content == "image: x");
+}
+
+TEST_CASE("the fingerprint of a recorded trace is that of the run") {
+    const Recorded recorded(3000);
+    const auto again = std::make_shared<Fingerprint>();
+    RecordedReader(recorded.path).read(Sink(again));
+    CHECK(again->text() == recorded.fingerprint->text());
+}
+
+TEST_CASE("ns-2 text from a recorded trace is that of the run, byte by byte") {
+    const Recorded recorded(3000);
+    render(recorded.path, recorded.folder / "old2.tr", Ns2Format::old_format, MacTrace::on);
+    render(recorded.path, recorded.folder / "new2.tr", Ns2Format::new_format, MacTrace::off);
+    CHECK(content(recorded.folder / "old2.tr") == content(recorded.folder / "old.tr"));
+    CHECK(content(recorded.folder / "new2.tr") == content(recorded.folder / "new.tr"));
+}
+
+TEST_CASE("the bytes of a recorded trace are the same each time") {
+    CHECK(content(Recorded(5000).path) == content(Recorded(5000).path));
+}
+
+TEST_CASE("links are recorded only if they are asked for") {
+    TempFolder folder;
+    const RecordedTrace without(folder / "a", {.version = "1"});
+    const RecordedTrace with(folder / "b", {.version = "1", .links = true});
+    CHECK((without.kinds() & kind_links) == 0);
+    CHECK((with.kinds() & kind_links) == kind_links);
+    CHECK((with.kinds() & (kind_reachable | kind_levels)) == 0);
+}
+
+TEST_CASE("a recorded trace without its end is read up to its last whole chunk") {
+    const Recorded recorded(5000);
+    const std::string whole = content(recorded.path);
+    std::vector<std::string> damage;
+    std::size_t before = recorded.all->records.size();
+    for (const std::size_t cut : {whole.size() - 30, whole.size() * 3 / 4, whole.size() / 3}) {
+        write_file(recorded.path, whole.substr(0, cut));
+        const auto records = recorded.read_back(&damage);
+        CHECK(records.size() <= before);
+        CHECK(std::equal(records.begin(), records.end(), recorded.all->records.begin()));
+        REQUIRE(damage.size() == 1);
+        CHECK(damage[0] == "the end is missing");
+        before = records.size();
+    }
+    CHECK(before > 0);
+    CHECK(before < recorded.all->records.size());
+}
+
+TEST_CASE("a broken chunk costs the records of that chunk only") {
+    const Recorded recorded(8000);
+    std::string bytes = content(recorded.path);
+    std::vector<std::uint64_t> chunks;
+    {
+        McapReader file(recorded.path);
+        while (const auto record = file.next()) {
+            if (record->opcode == McapOpcode::chunk) chunks.push_back(record->offset);
+        }
+    }
+    REQUIRE(chunks.size() >= 4);
+    SUBCASE("its content") { bytes[chunks[1] + 2000] ^= 4; }
+    SUBCASE("its length") { bytes[chunks[1] + 3] ^= 64; }
+    write_file(recorded.path, bytes);
+    std::vector<std::string> damage;
+    const auto records = recorded.read_back(&damage);
+    CHECK(damage.size() == 1);
+    const auto& all = recorded.all->records;
+    // What is left is the begin and the end of the whole.
+    CHECK(records.size() < all.size());
+    CHECK(records.size() > all.size() / 2);
+    const auto same = std::mismatch(records.begin(), records.end(), all.begin());
+    const auto rest = records.end() - same.first;
+    CHECK(rest > 0);
+    CHECK(std::equal(same.first, records.end(), all.end() - rest));
+}
+
+TEST_CASE("what is no recorded trace is refused with a word") {
+    TempFolder folder;
+    const auto refused = [&](const std::string& text) {
+        write_file(folder / "x", text);
+        try {
+            RecordedReader reader(folder / "x");
+        } catch (const InputError& error) {
+            return error.message();
+        }
+        return std::string("read");
+    };
+    CHECK(refused("") == "this is no recorded trace: expected a file that begins as MCAP does");
+    CHECK(refused("s 1.0 _0_ AGT") ==
+          "this is no recorded trace: expected a file that begins as MCAP does");
+    CHECK(refused(std::string(mcap_magic)) == "this MCAP file was not recorded by rovernet");
+    CHECK_THROWS_AS(RecordedReader("/nowhere/at/all"), InputError);
+    CHECK_THROWS_AS(RecordedReader("/tmp"), InputError);
+}
+
+}  // namespace
+}  // namespace rovernet

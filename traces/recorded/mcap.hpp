@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+// MCAP, the container of a recorded trace: a file is the magic, records, and the magic again. A
+// record is its opcode (1 byte), the length of its content (8 bytes) and the content.
+// Source: the MCAP format specification, https://mcap.dev/spec, version 0.
+
+namespace rovernet {
+
+/// First and last bytes of a file.
+inline constexpr std::string_view mcap_magic{"\x89MCAP0\r\n", 8};
+/// Opcode and length before the content of a record [bytes].
+inline constexpr std::size_t mcap_record_head = 9;
+
+/// Kinds of records of the container.
+enum class McapOpcode : std::uint8_t {
+    header = 0x01,
+    footer = 0x02,
+    schema = 0x03,
+    channel = 0x04,
+    message = 0x05,
+    chunk = 0x06,
+    chunk_index = 0x08,
+    attachment = 0x09,
+    attachment_index = 0x0a,
+    statistics = 0x0b,
+    metadata = 0x0c,
+    metadata_index = 0x0d,
+    summary_offset = 0x0e,
+    data_end = 0x0f,
+};
+
+/// File that travels inside the trace.
+struct AttachedFile {
+    std::string name;
+    /// Media type, such as text/plain.
+    std::string type;
+    std::string content;
+};
+
+/// CRC-32 of the container: that of zlib (ISO 3309).
+std::uint32_t mcap_crc(std::string_view bytes);
+
+}  // namespace rovernet

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "traces/recorded/mcap_reader.hpp"
+
+#include "sim/error.hpp"
+#include "traces/recorded/bytes.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zstd.h>
+
+namespace rovernet {
+namespace {
+
+// A chunk of ours has about 1 MB; what claims more than this is broken.
+constexpr std::uint64_t largest_chunk = 64 << 20;
+// Opcode and length of a chunk, times, size and CRC; then its compression.
+constexpr std::uint64_t before_compression = mcap_record_head + 8 + 8 + 8 + 4;
+constexpr std::string_view zstd_text{"\4\0\0\0zstd", 8};
+
+std::string_view mapped(const std::string& path) {
+    const auto fail = [&] {
+        throw InputError({.source = path},
+                         fmt::format("cannot open the trace: {}", std::strerror(errno)));
+    };
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) fail();
+    struct stat status {};
+    void* bytes = nullptr;
+    const bool is_there = fstat(file, &status) == 0;
+    const auto size = static_cast<std::size_t>(status.st_size);
+    if (is_there && size > 0) bytes = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
+    const int error = errno;
+    close(file);
+    errno = error;
+    if (!is_there || bytes == MAP_FAILED) fail();
+    return bytes ? std::string_view(static_cast<const char*>(bytes), size) : std::string_view();
+}
+
+}  // namespace
+
+McapReader::McapReader(const std::string& path) : file_(mapped(path)), at_(mcap_magic.size()) {
+    if (file_.starts_with(mcap_magic)) return;
+    unmap();
+    throw InputError({.source = path},
+                     "this is no recorded trace: expected a file that begins as MCAP does");
+}
+
+McapReader::~McapReader() { unmap(); }
+
+void McapReader::unmap() {
+    if (!file_.empty()) munmap(const_cast<char*>(file_.data()), file_.size());
+}
+
+/// Whether a whole record that can stand there begins at this place.
+bool McapReader::is_record_at(std::uint64_t at) const {
+    if (at > file_.size() || file_.size() - at < mcap_record_head) return false;
+    ByteReader head(file_.substr(at, mcap_record_head));
+    const auto opcode = head.fixed<std::uint8_t>();
+    const auto length = head.fixed<std::uint64_t>();
+    return opcode >= static_cast<std::uint8_t>(McapOpcode::header) &&
+           opcode <= static_cast<std::uint8_t>(McapOpcode::data_end) &&
+           length <= file_.size() - at - mcap_record_head;
+}
+
+/// Place of the next chunk behind `from`; the end of the file if there is none.
+std::uint64_t McapReader::next_chunk(std::uint64_t from) const {
+    for (std::size_t found = file_.find(zstd_text, from); found != std::string_view::npos;
+         found = file_.find(zstd_text, found + 1)) {
+        if (found < from + before_compression) continue;
+        const std::uint64_t at = found - before_compression;
+        if (file_[at] == static_cast<char>(McapOpcode::chunk) && is_record_at(at)) return at;
+    }
+    return file_.size();
+}
+
+std::optional<McapRecord> McapReader::next() {
+    if (at_ >= file_.size() || has_end_) {
+        if (!has_end_) tell("the end is missing");
+        has_end_ = true;
+        return std::nullopt;
+    }
+    if (!is_record_at(at_)) {
+        const std::uint64_t chunk = next_chunk(at_ + 1);
+        const bool is_last = chunk == file_.size();
+        // A chunk that was being written when the writer died is part of the missing end.
+        if (!is_last) tell(fmt::format("bytes {} to {} are broken", at_, chunk));
+        at_ = chunk;
+        return next();
+    }
+    ByteReader head(file_.substr(at_, mcap_record_head));
+    McapRecord record{.opcode = static_cast<McapOpcode>(head.fixed<std::uint8_t>()),
+                      .content = {},
+                      .offset = at_};
+    record.content = file_.substr(at_ + mcap_record_head, head.fixed<std::uint64_t>());
+    at_ += mcap_record_head + record.content.size();
+    if (record.opcode == McapOpcode::footer) has_end_ = true;
+    return record;
+}
+
+std::optional<McapMessages> McapReader::unpack(const McapRecord& chunk) {
+    ByteReader from(chunk.content);
+    McapMessages messages{
+        .first = from.fixed<std::uint64_t>(), .last = from.fixed<std::uint64_t>(), .records = {}};
+    const auto size = from.fixed<std::uint64_t>();
+    const auto crc = from.fixed<std::uint32_t>();
+    const std::string_view compression = from.text();
+    const std::string_view packed = from.take(from.fixed<std::uint64_t>());
+    const auto broken = [&](std::string_view why) {
+        tell(fmt::format("the chunk at byte {} ({:.6f} to {:.6f} s) is broken: {}", chunk.offset,
+                         static_cast<double>(messages.first) / 1e9,
+                         static_cast<double>(messages.last) / 1e9, why));
+        return std::nullopt;
+    };
+    if (!from.is_done()) return broken("its length is wrong");
+    if (compression != "zstd" && !compression.empty()) return broken("it is packed otherwise");
+    if (size > largest_chunk) return broken("its size is wrong");
+    if (compression.empty()) {
+        plain_ = packed;
+    } else {
+        plain_.resize(size);
+        const auto n = ZSTD_decompress(plain_.data(), size, packed.data(), packed.size());
+        if (ZSTD_isError(n) || n != size) return broken("it cannot be unpacked");
+    }
+    if (crc != 0 && mcap_crc(plain_) != crc) return broken("its checksum differs");
+    messages.records = plain_;
+    return messages;
+}
+
+}  // namespace rovernet

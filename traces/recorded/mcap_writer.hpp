@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "files/part_file.hpp"
+#include "traces/recorded/bytes.hpp"
+#include "traces/recorded/mcap.hpp"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+struct ZSTD_CCtx_s;  // zstd's
+
+namespace rovernet {
+
+/// Messages of a chunk, as they are collected before the chunk is packed.
+class McapChunk {
+  public:
+    /// Begins a message on a channel; its content goes to bytes() until end_message().
+    /// @param time  [ns]
+    void begin_message(std::uint16_t channel, std::uint64_t time);
+    void end_message();
+    ByteWriter& bytes() { return bytes_; }
+    void clear() { *this = McapChunk(std::move(bytes_)); }
+    McapChunk() = default;
+
+  private:
+    friend class McapWriter;
+    explicit McapChunk(ByteWriter bytes) : bytes_(std::move(bytes)) { bytes_.clear(); }
+
+    ByteWriter bytes_;
+    std::size_t begun_ = 0;                               // place of the current message's length
+    std::uint64_t first_ = ~std::uint64_t{0}, last_ = 0;  // [ns]
+    std::map<std::uint16_t, std::uint64_t> counts_;       // messages by channel
+};
+
+/// Writes an MCAP file: metadata, attachments, schemas and channels first, then chunks packed with
+/// zstd, then the summary with an index of the chunks. Chunks have no index of messages, which
+/// would take 16 bytes a message. Source: the MCAP format specification, https://mcap.dev/spec.
+class McapWriter {
+  public:
+    /// Begins the file. @throws RunError if it cannot be written, as all functions below do
+    McapWriter(const std::string& path, std::string_view profile, std::string_view library);
+
+    void metadata(std::string_view name, const std::map<std::string, std::string>& entries);
+    void attach(const AttachedFile& file);
+    /// Declares a schema and the channel of the same number whose messages it describes.
+    void declare(std::uint16_t number, std::string_view topic, std::string_view layout);
+    /// Packs the messages and writes them.
+    void write(const McapChunk& chunk);
+    /// Writes the summary, and ends the writing.
+    void finish();
+    /// Gives the file its name.
+    void give_name() { file_.give_name(); }
+
+  private:
+    struct Free {
+        void operator()(ZSTD_CCtx_s* packer) const;
+    };
+
+    void write_record(McapOpcode opcode, std::string_view content);
+    void write_bytes(std::string_view bytes);
+    /// Writes records that were collected, with an offset record for them in the summary.
+    void write_group(McapOpcode opcode, ByteWriter& records, ByteWriter& offsets);
+    std::string statistics() const;
+
+    PartFile file_;
+    std::uint64_t written_ = 0;      // [bytes]
+    std::uint32_t summary_crc_ = 0;  // of what was written since it was set to 0
+    std::unique_ptr<ZSTD_CCtx_s, Free> packer_;
+    std::string packed_;
+    ByteWriter schemas_, channels_, chunk_index_, attachment_index_, metadata_index_;
+    std::uint32_t chunks_ = 0, attachments_ = 0, metadata_ = 0;
+    std::uint16_t declared_ = 0;
+    std::map<std::uint16_t, std::uint64_t> counts_;
+    std::uint64_t first_ = ~std::uint64_t{0}, last_ = 0;
+};
+
+}  // namespace rovernet
