@@ -56,6 +56,7 @@ struct RunArguments : FileArguments {
     std::optional<double> speed;
     bool json = false;
     bool print_scenario = false;
+    bool record = false;
 };
 void run(const RunArguments& arguments);
 
@@ -253,6 +254,13 @@ struct TraceFollowArguments {
     bool strict = false;
 };
 void trace_follow(const TraceFollowArguments& arguments);
+
+struct ReplayArguments {
+    std::string file;
+    bool verify = false;
+    bool json = false;
+};
+void replay(const ReplayArguments& arguments);
 
 /// Arguments of a command whose only option is --json.
 struct PrintArguments {

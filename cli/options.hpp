@@ -65,7 +65,9 @@ void add_scene_commands(Command app);
 void add_result_commands(Command app);
 /// Adds trace and what is below it.
 void add_trace(Command app);
-/// Adds models, loss, material, validate, trace, bench, version, completion.
+/// Adds replay.
+void add_replay(Command app);
+/// Adds models, loss, material, validate, trace, replay, bench, version, completion.
 void add_tool_commands(Command app);
 
 }  // namespace rovernet::cli

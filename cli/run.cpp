@@ -111,7 +111,9 @@ Scenario scenario_of(const FileArguments& a) {
 }
 
 void run(const RunArguments& a) {
-    const Scenario scenario = scenario_of(a);
+    FileArguments given = a;
+    if (a.record) given.options.set.push_back("trace.record=true");
+    const Scenario scenario = scenario_of(given);
     if (a.print_scenario) {
         fmt::print("{}", to_toml(to_document(scenario)));
         return;

@@ -18,6 +18,7 @@ void add_run(Command app) {
         .transform(
             [](const std::string& text) { return text.starts_with('x') ? text.substr(1) : text; })
         .check(above_zero());
+    run.add_flag("--record", a.record, "write trace.mcap, too: all records, to replay");
     add_json(run, a.json);
     run.add_flag("--print-scenario", a.print_scenario,
                  "print the scenario with every default, and do not run it");

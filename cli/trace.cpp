@@ -3,9 +3,11 @@
 #include "cli/diagnostics.hpp"
 #include "cli/text_table.hpp"
 #include "cli/trace_notices.hpp"
+#include "experiment/replay.hpp"
 #include "experiment/run.hpp"
 #include "scenario/json.hpp"
 #include "traces/ns2/ns2_stats.hpp"
+#include "traces/recorded/recorded_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -147,15 +149,19 @@ void print_stats_csv(const TraceStats& stats, const std::string& by) {
     for (const TraceRow& row : stats.rows) fmt::print("{}", csv_line(stats_table(row, by), false));
 }
 
-void print_stats(const TraceStats& stats, const std::string& by) {
-    Table flat;
-    flatten(stats_table(stats, by), "", flat);
+void print_flat(const Table& flat) {
     for (const Entry& entry : flat.entries) {
         const bool is_drop = entry.key.starts_with("drops.");
         const std::string name = is_drop ? "dropped " + entry.key.substr(6) : entry.key;
         const std::string cell = cell_of(entry.value);
         fmt::print("{:<20} {}\n", name, cell.empty() ? "-" : cell);
     }
+}
+
+void print_stats(const TraceStats& stats, const std::string& by) {
+    Table flat;
+    flatten(stats_table(stats, by), "", flat);
+    print_flat(flat);
     if (by.empty()) return;
     std::vector<std::string> head;
     for (const Entry& entry : stats_table(TraceRow{}, by).entries) head.push_back(entry.key);
@@ -175,9 +181,30 @@ TraceRows rows_by(const std::string& by) {
     return by == "second" ? TraceRows::second : TraceRows::none;
 }
 
+/// The metrics of a recorded trace.
+void print_recorded_stats(const TraceStatsArguments& a) {
+    std::vector<std::string> damage;
+    const MetricValues metrics = recorded_metrics(a.file, damage);
+    for (const std::string& text : damage) notice(a.file + ": " + text);
+    Table table, flat;
+    append_metrics(table, metrics);
+    table.set("format", "recorded");
+    if (a.json) {
+        fmt::print("{}", to_json(table));
+        return;
+    }
+    flatten(table, "", flat);
+    if (a.csv) {
+        fmt::print("{}{}", csv_line(flat, true), csv_line(flat, false));
+    } else {
+        print_flat(flat);
+    }
+}
+
 }  // namespace
 
 void trace_stats(const TraceStatsArguments& a) {
+    if (is_recorded_trace(a.file)) return print_recorded_stats(a);
     const auto strictness = a.strict ? Ns2Strictness::strict : Ns2Strictness::tolerant;
     const TraceStats stats = ns2_stats(a.file, strictness, rows_by(a.by));
     tell_refused(a.file, stats.counts);

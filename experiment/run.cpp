@@ -18,7 +18,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <unistd.h>
 
 namespace rovernet {
@@ -42,20 +41,6 @@ std::string host_name() {
 }
 
 namespace {
-
-/// The scenario as a document that can be run from `folder`: its files are named from there.
-Table document_in(const std::string& folder, Scenario scenario) {
-    namespace fs = std::filesystem;
-    const auto rename = [&](std::string& path) {
-        path = fs::proximate(fs::path(scenario.file).parent_path() / path, folder).string();
-    };
-    auto& scene = scenario.scene;
-    for (auto* path : {&scene.map, &scene.world, &scenario.movement.file}) {
-        if (*path) rename(**path);
-    }
-    if (scene.world_path) std::for_each(scene.world_path->begin(), scene.world_path->end(), rename);
-    return to_document(scenario);
-}
 
 Table provenance(const RunResult& result) {
     Table table = build_provenance();

@@ -33,7 +33,7 @@ class Interrupted : public std::exception {
 
 struct RunResult {
     std::string folder;
-    std::optional<std::string> trace;  ///< path of the ns-2 trace
+    std::optional<std::string> trace;  ///< path of the ns-2 trace, or else of the recorded one
     MetricValues metrics;
     std::string fingerprint;
     Table parts;  ///< see append_parts()

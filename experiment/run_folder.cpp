@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <map>
 #include <string_view>
 
@@ -76,6 +77,19 @@ std::string run_folder(const Scenario& scenario, const std::vector<std::string>&
     const auto& s = scenario.scenario;
     const std::string replication = s.replication == 0 ? "" : fmt::format("-r{}", s.replication);
     return fmt::format("runs/{}-s{}{}{}", s.name, s.seed, replication, name_of(settings_of(set)));
+}
+
+Table document_in(const std::string& folder, Scenario scenario) {
+    namespace fs = std::filesystem;
+    const auto rename = [&](std::string& path) {
+        path = fs::proximate(fs::path(scenario.file).parent_path() / path, folder).string();
+    };
+    auto& scene = scenario.scene;
+    for (auto* path : {&scene.map, &scene.world, &scenario.movement.file}) {
+        if (*path) rename(**path);
+    }
+    if (scene.world_path) std::for_each(scene.world_path->begin(), scene.world_path->end(), rename);
+    return to_document(scenario);
 }
 
 }  // namespace rovernet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenario/scenario.hpp"
+#include "scenario/value.hpp"
 
 #include <string>
 #include <vector>
@@ -16,5 +17,8 @@ namespace rovernet {
 /// they, or more than 80 characters, make the folder's name end in a digest of the settings.
 /// @param set  as in ScenarioOptions
 std::string run_folder(const Scenario& scenario, const std::vector<std::string>& set);
+
+/// The scenario as a document that can be run from `folder`: its files are named from there.
+Table document_in(const std::string& folder, Scenario scenario);
 
 }  // namespace rovernet

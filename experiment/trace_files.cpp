@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/trace_files.hpp"
 
+#include "experiment/recorded_scenario.hpp"
+#include "experiment/version.hpp"
 #include "traces/ns2/ns2_trace.hpp"
+#include "traces/recorded/recorded_trace.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 namespace rovernet {
 namespace {
 
 constexpr const char* ns2_name = "/trace.tr";
+constexpr const char* recorded_name = "/trace.mcap";
 
 Ns2Trace ns2_trace(const TraceTable& table, const std::string& path) {
     const bool is_old = table.ns2 == Ns2Choice::old_format;
@@ -27,11 +32,21 @@ std::vector<TraceFile> trace_files(const Scenario& scenario, const std::string& 
         const auto trace = std::make_shared<Ns2Trace>(ns2_trace(scenario.trace, path));
         files.push_back({path, trace, [trace] { trace->close(); }});
     }
+    if (scenario.trace.record) {
+        const std::string path = folder + recorded_name;
+        auto [text, attached] = recorded_scenario(scenario, folder);
+        const auto trace = std::make_shared<RecordedTrace>(
+            path, RecordedTrace::Contents{.version = code_version(),
+                                          .scenario = std::move(text),
+                                          .files = std::move(attached),
+                                          .links = scenario.trace.links});
+        files.push_back({path, trace, [trace] { trace->close(); }});
+    }
     return files;
 }
 
 void remove_other_traces(const std::string& folder, const std::vector<TraceFile>& files) {
-    for (const char* name : {ns2_name}) {
+    for (const char* name : {ns2_name, recorded_name}) {
         const std::string path = folder + name;
         const bool is_written = std::any_of(files.begin(), files.end(),
                                             [&](const TraceFile& f) { return f.path == path; });

@@ -33,10 +33,16 @@ struct TraceTable {
     Ns2Choice ns2 = Ns2Choice::none;
     /// Lines of the MAC layer are in the ns-2 trace, too.
     bool mac = false;
+    /// All records go to a recorded trace (MCAP), too.
+    bool record = false;
+    /// Changes of links are in the recorded trace, too.
+    bool links = false;
 
     static constexpr auto fields() {
         return describe(field("ns2", &TraceTable::ns2, "wireless trace format of ns-2.35"),
-                        field("mac", &TraceTable::mac, "lines of the MAC layer in it, too"));
+                        field("mac", &TraceTable::mac, "lines of the MAC layer in it, too"),
+                        field("record", &TraceTable::record, "trace of all records, to replay"),
+                        field("links", &TraceTable::links, "changes of links in that, too"));
     }
 };
 

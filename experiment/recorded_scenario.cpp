@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/recorded_scenario.hpp"
+
+#include "experiment/run_folder.hpp"
+#include "scenario/toml.hpp"
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <stdlib.h>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t largest_attached = 64 << 20;  // [bytes]
+
+/// The name of the picture in a map of ROS, if it lies beside the map.
+std::optional<std::string> picture_of(const fs::path& map) {
+    std::ifstream file(map);
+    constexpr std::string_view key = "image:";
+    for (std::string line; std::getline(file, line);) {
+        if (!line.starts_with(key)) continue;
+        std::string name = line.substr(key.size());
+        name.erase(std::min(name.find('#'), name.size()));
+        const auto is_frame = [](char c) { return c == ' ' || c == '"' || c == '\'' || c == '\r'; };
+        while (!name.empty() && is_frame(name.back())) name.pop_back();
+        name.erase(name.begin(), std::find_if_not(name.begin(), name.end(), is_frame));
+        if (name.empty() || fs::path(name).has_parent_path()) return std::nullopt;
+        return name;
+    }
+    return std::nullopt;
+}
+
+/// Attaches files of one folder; none of them if one is missing or they are very large.
+bool attach(const std::vector<fs::path>& paths, const std::string& folder,
+            std::vector<AttachedFile>& files) {
+    std::uintmax_t size = 0;
+    std::error_code error;
+    for (const fs::path& path : paths) {
+        const auto bytes = fs::file_size(path, error);
+        if (error || (size += bytes) > largest_attached) return false;
+    }
+    for (const fs::path& path : paths) {
+        std::ifstream in(path, std::ios::binary);
+        std::ostringstream content;
+        content << in.rdbuf();
+        files.push_back({fmt::format("{}/{}", folder, path.filename().string()),
+                         "application/octet-stream", content.str()});
+    }
+    return true;
+}
+
+/// The key of a table in the document, if it is a text.
+const std::string* text_at(Table& document, std::string_view table, std::string_view key) {
+    Value* section = document.find(table);
+    const Value* value = section && section->table() ? section->table()->find(key) : nullptr;
+    return value ? value->string() : nullptr;
+}
+
+/// A folder for this process alone.
+std::string make_temporary_folder() {
+    std::string name = (fs::temp_directory_path() / "rovernet-replay-XXXXXX").string();
+    if (!mkdtemp(name.data())) {
+        throw RunError(fmt::format("{}: cannot be made: {}", name, std::strerror(errno)));
+    }
+    return name;
+}
+
+void put_file(const fs::path& path, const std::string& content) {
+    fs::create_directories(path.parent_path());
+    std::ofstream out(path, std::ios::binary);
+    out << content;
+    if (!out.flush()) throw RunError(path.string() + ": cannot be written");
+}
+
+/// Whether a file of this name goes into its own folder below, and nowhere else.
+bool is_inside(const std::string& name) {
+    const fs::path path(name);
+    return path.is_relative() && std::none_of(path.begin(), path.end(),
+                                              [](const fs::path& part) { return part == ".."; });
+}
+
+}  // namespace
+
+RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& folder) {
+    RecordedScenario recorded;
+    Table document = document_in(folder, scenario);
+    const fs::path here = fs::path(scenario.file).parent_path();
+    const auto take = [&](const char* table, const char* key, const std::string& name,
+                          std::vector<fs::path> paths) {
+        if (!attach(paths, key, recorded.files)) return;
+        const std::string attached = fmt::format("{}/{}", key, fs::path(name).filename().string());
+        document.find(table)->table()->set(key, attached);
+    };
+    if (const auto& map = scenario.scene.map) {
+        std::vector<fs::path> paths{here / *map};
+        const std::string ending = paths[0].extension().string();
+        const bool names_picture = ending == ".yaml" || ending == ".yml";
+        const auto picture = names_picture ? picture_of(paths[0]) : std::nullopt;
+        if (picture) paths.push_back(paths[0].parent_path() / *picture);
+        if (picture || !names_picture) take("scene", "map", *map, std::move(paths));
+    }
+    if (const auto& file = scenario.movement.file) take("movement", "file", *file, {here / *file});
+    recorded.text = to_toml(document);
+    return recorded;
+}
+
+ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& path) {
+    if (run.scenario.empty()) {
+        throw InputError({.source = path},
+                         "there is no scenario in this trace: its network was made in code");
+    }
+    Value parsed = parse_toml(run.scenario, path);
+    Table& document = *parsed.table();
+    folder_ = make_temporary_folder();
+    for (const AttachedFile& file : run.files) {
+        if (is_inside(file.name)) put_file(fs::path(folder_) / file.name, file.content);
+    }
+    const fs::path home = fs::absolute(path).parent_path();
+    const auto find_file = [&](const std::string& name) {
+        const bool is_attached = std::any_of(run.files.begin(), run.files.end(),
+                                             [&](const auto& file) { return file.name == name; });
+        return is_attached ? name : (home / name).string();
+    };
+    constexpr std::pair<const char*, const char*> keys[] = {
+        {"scene", "map"}, {"scene", "world"}, {"movement", "file"}};
+    for (const auto& [table, key] : keys) {
+        const std::string* name = text_at(document, table, key);
+        if (name) document.find(table)->table()->set(key, find_file(*name));
+    }
+    Value* scene = document.find("scene");
+    Value* places = scene && scene->table() ? scene->table()->find("world_path") : nullptr;
+    if (places && places->array()) {
+        for (Value& each : *places->array()) {
+            if (each.string()) each = (home / *each.string()).string();
+        }
+    }
+    file_ = folder_ + "/scenario.toml";
+    put_file(file_, to_toml(document));
+}
+
+ReplayedScenario::~ReplayedScenario() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+}
+
+Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
+    return load_scenario(file_, {.set = set});
+}
+
+}  // namespace rovernet

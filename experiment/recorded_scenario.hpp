@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenario/scenario.hpp"
+#include "traces/recorded/recorded_reader.hpp"
+
+#include <string>
+#include <vector>
+
+// The scenario inside a recorded trace: on its way in, and out again.
+
+namespace rovernet {
+
+/// Scenario as it goes into a recorded trace.
+struct RecordedScenario {
+    /// TOML with every default. Attached files are named as they are attached, such as
+    /// map/office.yaml; others as from the folder of the trace.
+    std::string text;
+    /// Its map with the picture, and its movement file, unless they are larger than 64 MB. The
+    /// files of a Stage world are not among them.
+    std::vector<AttachedFile> files;
+};
+/// @param folder  of the trace
+RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& folder);
+
+/// Scenario that was recorded, in a temporary folder with the files that were attached. It has to
+/// live as long as what is run of it.
+class ReplayedScenario {
+  public:
+    /// @param path  of the trace, for errors, and for files that were not attached
+    /// @throws InputError if there is none, or it is no TOML
+    ReplayedScenario(const RecordedRun& run, const std::string& path);
+    ReplayedScenario(const ReplayedScenario&) = delete;
+    ~ReplayedScenario();
+
+    /// Scenario with its map loaded, and these assignments "path=value" over it, see set_option().
+    /// @throws InputError for what is wrong with it
+    Scenario with(const std::vector<std::string>& set) const;
+
+  private:
+    std::string folder_;  // of the attached files ...
+    std::string file_;    // ... and of the scenario
+};
+
+}  // namespace rovernet

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/replay.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/recorded_scenario.hpp"
+#include "experiment/run.hpp"
+#include "experiment/session.hpp"
+#include "experiment/version.hpp"
+#include "experiment/warmup.hpp"
+#include "traces/recorded/record_text.hpp"
+#include "traces/recorded/recorded_reader.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+
+namespace rovernet {
+namespace {
+
+std::string_view first_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return line;
+}
+
+/// The first lines in which two texts that differ do.
+Verification::Difference difference_of(std::string_view recorded, std::string_view now) {
+    for (;;) {
+        const std::string_view a = first_line(recorded), b = first_line(now);
+        if (a != b) return {std::string(a), std::string(b)};
+    }
+}
+
+/// Compares the records of a run with those of a trace, until they differ.
+class Comparison {
+  public:
+    Comparison(RecordedReader& trace, bool links, Verification& result)
+        : trace_(trace), links_(links), result_(result) {}
+
+    KindMask kinds() const { return links_ ? kind_all : kind_all & ~kind_links; }
+    void on(const Record& record, const RecordContext& context) {
+        if (result_.difference) return;
+        now_.clear();
+        append_text(record, context, now_);
+        compare(trace_.next());
+    }
+    void finish() {
+        if (result_.difference) return;
+        now_.clear();
+        const Record* more = trace_.next();
+        if (more) compare(more);
+    }
+
+  private:
+    void compare(const Record* record) {
+        recorded_.clear();
+        if (record) append_text(*record, trace_.context(), recorded_);
+        if (record && recorded_ == now_) {
+            ++result_.records;
+        } else {
+            result_.difference = difference_of(recorded_, now_);
+        }
+    }
+
+    RecordedReader& trace_;
+    bool links_;
+    Verification& result_;
+    std::string recorded_, now_;
+};
+
+}  // namespace
+
+Verification verify_replay(const std::string& path, const std::function<bool(double)>& progress) {
+    RecordedReader trace(path);
+    const ReplayedScenario replayed(trace.run(), path);
+    const Scenario scenario = replayed.with({});
+    Verification result;
+    result.recorded_by = trace.run().version;
+    result.version = code_version();
+    Session session(scenario);
+    const auto comparison = std::make_shared<Comparison>(trace, scenario.trace.links, result);
+    session.network().add_sink(comparison);
+    const bool is_done = session.run(
+        {}, [&](double share) { return !result.difference && (!progress || progress(share)); });
+    if (!is_done && !result.difference) throw Interrupted();
+    if (is_done) session.network().finish();
+    result.damage = trace.damage();
+    return result;
+}
+
+MetricValues recorded_metrics(const std::string& path, std::vector<std::string>& damage) {
+    RecordedReader trace(path);
+    auto metrics = std::make_shared<Metrics>();
+    if (!trace.run().scenario.empty()) {
+        const ReplayedScenario replayed(trace.run(), path);
+        const Scenario scenario = replayed.with({});
+        const NetworkSettings settings = network_settings(scenario);
+        metrics = std::make_shared<Metrics>(start_of_run + warmup_of(scenario, settings),
+                                            settings.metric_parts);
+    }
+    trace.read(Sink(metrics));
+    damage = trace.damage();
+    return metrics->values();
+}
+
+}  // namespace rovernet
