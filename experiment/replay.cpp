@@ -40,13 +40,13 @@ class Comparison {
 
     KindMask kinds() const { return links_ ? kind_all : kind_all & ~kind_links; }
     void on(const Record& record, const RecordContext& context) {
-        if (result_.difference) return;
+        if (result_.difference || has_ended_) return;
         now_.clear();
         append_text(record, context, now_);
         compare(trace_.next());
     }
     void finish() {
-        if (result_.difference) return;
+        if (result_.difference || has_ended_) return;
         now_.clear();
         const Record* more = trace_.next();
         if (more) compare(more);
@@ -54,6 +54,9 @@ class Comparison {
 
   private:
     void compare(const Record* record) {
+        // A part is compared as far as it goes.
+        has_ended_ = !record && !trace_.damage().empty();
+        if (has_ended_) return;
         recorded_.clear();
         if (record) append_text(*record, trace_.context(), recorded_);
         if (record && recorded_ == now_) {
@@ -66,6 +69,7 @@ class Comparison {
     RecordedReader& trace_;
     bool links_;
     Verification& result_;
+    bool has_ended_ = false;
     std::string recorded_, now_;
 };
 

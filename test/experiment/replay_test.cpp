@@ -131,6 +131,16 @@ TEST_CASE("a trace that the scenario does not make any more differs, with both l
     CHECK(again.difference->recorded != again.difference->now);
 }
 
+TEST_CASE(
+    "a trace without its end is compared as far as it goes, and its end is said to be missing") {
+    const RecordedRunOf run(examples + "/patrol/patrol.toml", {});
+    const std::string bytes = content(run.trace);
+    testing::write_file(run.trace, bytes.substr(0, bytes.size() - 40));
+    const Verification again = verify_replay(run.trace, {});
+    CHECK_FALSE(again.difference);
+    CHECK(again.damage == std::vector<std::string>{"the end is missing"});
+}
+
 TEST_CASE("a recorded trace is repeated without the files of its scenario") {
     TempFolder folder;
     for (const char* name : {"rescue.toml", "map.yaml", "office.png"}) {
