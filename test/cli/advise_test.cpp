@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+namespace advise_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -134,3 +135,5 @@ TEST_CASE("advise: mistakes in options are told with what is expected") {
     CHECK(error({"--reference", "radio.power=1"}).exit == 2);
     CHECK(error({"-o", "advice.txt"}).err.find("ends in .svg") != std::string::npos);
 }
+
+}  // namespace advise_test

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+namespace cli_test {
 using namespace rovernet::test;
 namespace fs = std::filesystem;
 
@@ -477,3 +478,5 @@ TEST_CASE("trace stats: a line that is none is counted and shown, and ends a str
     CHECK(read.err.find("x.tr:2:1: found \"hello\"") != std::string::npos);
     CHECK(command(folder, {"trace", "stats", trace, "--strict"}).exit == 3);
 }
+
+}  // namespace cli_test

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+namespace input_test {
 using namespace rovernet;
 using test::command;
 using test::Ended;
@@ -127,3 +128,5 @@ TEST_CASE("input: compare says which robots keep a model of their own") {
     CHECK(contains(ended.err,
                    "keep a propagation model of their own, whatever [propagation] says: \"C\""));
 }
+
+}  // namespace input_test

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+namespace manual_test {
 using namespace rovernet::test;
 namespace fs = std::filesystem;
 
@@ -119,3 +120,5 @@ TEST_CASE("--quiet silences notices, --verbose says what takes how long") {
     CHECK(said("-v").find("reading " + file) != std::string::npos);
     CHECK(command(folder, {"run", folder.path("none.toml"), "--quiet"}).err.size() > 0);
 }
+
+}  // namespace manual_test

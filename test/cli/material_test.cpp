@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+namespace material_test {
 using namespace rovernet;
 using test::command;
 using test::Ended;
@@ -81,3 +82,5 @@ TEST_CASE("material: what is wrong is said with what was found and expected") {
     }
     CHECK(error({"brick"}) == "rovernet: --thickness is required; run with --help for more\n");
 }
+
+}  // namespace material_test

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+namespace output_test {
 using namespace rovernet::test;
 
 namespace {
@@ -68,3 +69,5 @@ TEST_CASE("messages that cannot be written fail nothing") {
     const std::string out = " --out '" + folder.path("out") + "'";
     CHECK(shell(folder, quoted + "run " + file + out + " 2> /dev/full").exit == 0);
 }
+
+}  // namespace output_test

@@ -9,6 +9,7 @@
 
 #include <string>
 
+namespace probe_test {
 using namespace rovernet::test;
 
 namespace {
@@ -80,3 +81,5 @@ TEST_CASE("probe: robots out of reach and counts that are none are errors in wor
     CHECK(alone.err.find("no two robots come within reach of disc") != std::string::npos);
     CHECK(command(folder, {"probe", file, "--links", "0"}).exit == 2);
 }
+
+}  // namespace probe_test

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+namespace scenes_test {
 using namespace rovernet::test;
 
 namespace {
@@ -354,3 +355,5 @@ TEST_CASE("draw: writes a whole picture or nothing, the same bytes each time") {
               .exit == 2);
     CHECK_FALSE(std::filesystem::exists(folder.path("d.svg")));
 }
+
+}  // namespace scenes_test

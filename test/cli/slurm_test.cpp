@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+namespace slurm_test {
 using namespace rovernet;
 using namespace rovernet::test;
 namespace fs = std::filesystem;
@@ -267,3 +268,5 @@ TEST_CASE("sweep --fresh: shards that are not merged are thrown away too, if tha
     CHECK(cluster.sweep({"--fresh", "--yes"}).exit == 0);
     CHECK_FALSE(fs::exists(cluster.shards()));
 }
+
+}  // namespace slurm_test

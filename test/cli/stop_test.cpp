@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+namespace stop_test {
 using namespace rovernet::test;
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -161,3 +162,5 @@ ns2 = "new"
     const std::string seed = "seed = " + summary["seed"].dump();
     CHECK(content(out + "/scenario.toml").find(seed) != std::string::npos);
 }
+
+}  // namespace stop_test

@@ -12,6 +12,7 @@
 #include <random>
 #include <sstream>
 
+namespace sweep_test {
 using namespace rovernet;
 using namespace rovernet::test;
 namespace fs = std::filesystem;
@@ -415,3 +416,5 @@ TEST_CASE("compare: with failed runs it compares what is there, and ends with 4"
           std::string::npos);
     CHECK(ended.err.find("compare.db") == std::string::npos);  // it is gone
 }
+
+}  // namespace sweep_test

@@ -5,6 +5,7 @@
 
 #include <string>
 
+namespace validate_test {
 using namespace rovernet;
 using test::Ended;
 using test::TemporaryFolder;
@@ -32,3 +33,5 @@ TEST_CASE("validate: the folder of the report must be given") {
     CHECK(run.exit == 2);
     CHECK(holds(run.err, "--output"));
 }
+
+}  // namespace validate_test

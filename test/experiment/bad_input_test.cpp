@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <vector>
 
+namespace bad_input_test {
 using namespace rovernet;
 using rovernet::test::TemporaryFolder;
 
@@ -554,3 +555,5 @@ TEST_CASE("bad input: whatever a hand slips to, a scenario reads or says what is
     CHECK(failed > 1000);
     CHECK(failed < 2000);
 }
+
+}  // namespace bad_input_test

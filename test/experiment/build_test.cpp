@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+namespace build_test {
 using namespace rovernet;
 
 namespace {
@@ -70,3 +71,5 @@ TEST_CASE("build: a choice is one of its points") {
         "\"2 m\"], [\"3 m\", \"4 m\"]] }\n");
     CHECK((built.at("A") == Vec3{1, 2, 0} || built.at("A") == Vec3{3, 4, 0}));
 }
+
+}  // namespace build_test

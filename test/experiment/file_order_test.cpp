@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+namespace file_order_test {
 using namespace rovernet;
 
 namespace {
@@ -231,3 +232,5 @@ TEST_CASE("a robot far away changes nothing") {
         CHECK(story_of(small) == story);
     }
 }
+
+}  // namespace file_order_test

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+namespace flow_metrics_test {
 using namespace rovernet;
 using test::TemporaryFolder;
 
@@ -145,3 +146,5 @@ move = { model = "waypoints", path = [["20 m", "0 m"]], speed = "2 m/s" }
     CHECK(number(table, {"topology", "components_mean"}) >= 1 + 10.0 / 21 - tolerance);
     CHECK(number(table, {"topology", "components_mean"}) <= 1 + 12.0 / 21 + tolerance);
 }
+
+}  // namespace flow_metrics_test

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+namespace link_graph_test {
 using namespace rovernet;
 
 TEST_CASE("the graph of links knows parts, cut robots and the longest shortest way") {
@@ -13,3 +14,5 @@ TEST_CASE("the graph of links knows parts, cut robots and the longest shortest w
     CHECK(graph.diameter == 3);
     CHECK(link_graph(2, {}).diameter == 0);
 }
+
+}  // namespace link_graph_test

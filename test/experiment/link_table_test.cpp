@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+namespace link_table_test {
 using namespace rovernet;
 
 TEST_CASE("links: each table is told before the next is made") {
@@ -49,3 +50,5 @@ at = ["5 m", "0 m"]
         {});
     CHECK(without_idle_traffic(moved).traffic.size() == 1);
 }
+
+}  // namespace link_table_test

@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+namespace mac_trace_test {
 using namespace rovernet;
 using rovernet::testing::content;
 using rovernet::testing::TempFolder;
@@ -324,3 +325,5 @@ TEST_CASE("MAC trace: a scenario has it if it asks for it") {
     const auto printed = content(folder / "out/scenario.toml");
     CHECK(read_scenario(parse_toml(printed, "s.toml"), "s.toml").trace.mac);
 }
+
+}  // namespace mac_trace_test

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+namespace many_robots_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -131,3 +132,5 @@ TEST_CASE("a flood bench counts the same, recorded or not, also frames that are 
         CHECK((a.attempts > a.receptions) == (reception == ReceptionChoice::collision));
     }
 }
+
+}  // namespace many_robots_test

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace mser5_test {
 using namespace rovernet;
 
 namespace {
@@ -163,3 +164,5 @@ TEST_CASE("MSER-5: a value that is not finite is refused") {
     CHECK_THROWS_WITH_AS(mser5(series), "mser5: values must be finite, got nan",
                          std::invalid_argument);
 }
+
+}  // namespace mser5_test

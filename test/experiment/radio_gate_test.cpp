@@ -11,6 +11,7 @@
 #include <cmath>
 #include <string>
 
+namespace radio_gate_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -103,3 +104,5 @@ TEST_CASE("addresses: those that are made pass over those that were given") {
     CHECK(all[2].ip == "10.0.0.3");
     CHECK(all[0].ip != all[2].ip);
 }
+
+}  // namespace radio_gate_test

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace reactions_test {
 using namespace rovernet;
 using test::TemporaryFolder;
 
@@ -182,3 +183,5 @@ TEST_CASE("reactions: traffic that begins on arrival sends nothing once its stop
     CHECK(said(line_of_three(moving, arrives + "stop = \"3 s\"\n")) == Words{});
     CHECK(said(line_of_three(moving, arrives + "stop = \"30 s\"\n")) == Words{"b: here"});
 }
+
+}  // namespace reactions_test

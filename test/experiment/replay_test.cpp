@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <memory>
 
+namespace replay_test {
 namespace rovernet {
 namespace {
 
@@ -176,3 +177,5 @@ TEST_CASE("a reader in Python, written from docs/trace-format.md, reads the same
 
 }  // namespace
 }  // namespace rovernet
+
+}  // namespace replay_test

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+namespace run_folder_test {
 using namespace rovernet;
 
 namespace {
@@ -70,3 +71,5 @@ TEST_CASE("run folder: other settings have another folder, whatever they are") {
         for (const char c : name) CHECK((c > ' ' && c < 0x7f));
     }
 }
+
+}  // namespace run_folder_test

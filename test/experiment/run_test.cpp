@@ -11,6 +11,7 @@
 
 #include <filesystem>
 
+namespace run_test {
 using namespace rovernet;
 using rovernet::test::TemporaryFolder;
 
@@ -110,3 +111,5 @@ TEST_CASE("link report: free space over 10 m, and the margin is power less loss 
           1e-12);
     CHECK(report.up);
 }
+
+}  // namespace run_test

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+namespace session_test {
 using namespace rovernet;
 using namespace rovernet::test;
 using namespace std::chrono_literals;
@@ -177,3 +178,5 @@ radius = "0.2 m"
     session.step(start_of_run + 20s);
     CHECK_FALSE(session.is_stalled({0}));  // the command has ended
 }
+
+}  // namespace session_test

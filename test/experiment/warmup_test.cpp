@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+namespace warmup_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -82,3 +83,5 @@ TEST_CASE("warm-up: it is what the study says, or what MSER-5 finds") {
     CHECK(warmup(deaf_until("20.5", "mser5")) == Duration{21s});
     CHECK(warmup(deaf_until("0.5", "mser5")) == Duration{0});
 }
+
+}  // namespace warmup_test

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+namespace whereabouts_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -84,3 +85,5 @@ TEST_CASE("network: a robot that is taken away is silent until it is switched on
     net.take_away(a, Presence::left);
     CHECK(net.robot(a).presence == Presence::left);
 }
+
+}  // namespace whereabouts_test

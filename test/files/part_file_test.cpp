@@ -17,6 +17,7 @@
 #include <unistd.h>
 #include <vector>
 
+namespace part_file_test {
 using namespace rovernet;
 using test::TemporaryFolder;
 
@@ -119,3 +120,5 @@ TEST_CASE("part file: a place that cannot be written is reported at once") {
                          "/dev/null: cannot be written: it exists and is no regular file",
                          RunError);
 }
+
+}  // namespace part_file_test

@@ -9,6 +9,7 @@
 #include <string>
 #include <zstd.h>
 
+namespace text_source_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
@@ -84,3 +85,5 @@ TEST_CASE("text source: a zstd file that is cut or damaged is an error, not a sh
     for (std::size_t i = 100; i < 200; ++i) damaged[i] = '\xff';
     CHECK(error_of(damaged).starts_with("cannot read the file: "));
 }
+
+}  // namespace text_source_test

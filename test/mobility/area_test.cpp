@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace area_test {
 using namespace rovernet;
 using test::LoneMover;
 
@@ -98,3 +99,5 @@ TEST_CASE("straight_stop: up to a micrometre before a wall, to the map's end, or
     const LoneMover wide(planners, 0, {3, 1}, {1.5});
     CHECK(straight_stop(wide.mover(nobody), {1, 1}) == Vec3{3, 1});
 }
+
+}  // namespace area_test

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+namespace cell_search_test {
 using namespace rovernet;
 using test::drawn_map;
 
@@ -196,3 +197,5 @@ TEST_CASE("cell search: there is no way from nowhere, to nowhere or through a wa
     CHECK(ground.way({{0, 1}, {}}, ground.end(4, 0)).empty());
     CHECK(ground.way(ground.end(0, 0), ground.end(0, 0)) == std::vector{0});
 }
+
+}  // namespace cell_search_test

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 
+namespace driven_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -134,3 +135,5 @@ TEST_CASE("driven: stops at a wall, turns there, and goes on when it may") {
     const auto& scene = *settings.scene;
     CHECK(scene.clearance(drive.net.position(drive.robot)) >= 0.2 - 1e-9);
 }
+
+}  // namespace driven_test

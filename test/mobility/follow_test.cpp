@@ -13,6 +13,7 @@
 #include <memory>
 #include <stdexcept>
 
+namespace follow_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::drawn_map;
@@ -131,3 +132,5 @@ TEST_CASE("follow: a leader that is not there, or a parameter out of range, is r
     refused({.speed = {0}});
     refused({.every = 0s});
 }
+
+}  // namespace follow_test

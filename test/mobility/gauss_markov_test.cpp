@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace gauss_markov_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::LoneMover;
@@ -211,3 +212,5 @@ TEST_CASE("gauss_markov: what makes no sense is refused, and without room it is 
         CHECK_FALSE(stuck.walk(no_room));
     }
 }
+
+}  // namespace gauss_markov_test

@@ -14,6 +14,7 @@
 #include <memory>
 #include <stdexcept>
 
+namespace group_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::Sample;
@@ -135,3 +136,5 @@ TEST_CASE("group: a leader that is not there, or a parameter out of range, is re
     refused({.radius = {-1}});
     refused({.every = 0s});
 }
+
+}  // namespace group_test

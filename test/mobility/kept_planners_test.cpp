@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+namespace kept_planners_test {
 using namespace rovernet;
 
 namespace {
@@ -55,3 +56,5 @@ TEST_CASE("kept planners: scenes not asked for lately are given up, that in use 
     CHECK(kept.of(large) == its_planners);
     CHECK(seen[4].expired());
 }
+
+}  // namespace kept_planners_test

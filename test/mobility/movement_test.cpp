@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <utility>
 
+namespace movement_test {
 using namespace rovernet;
 
 namespace {
@@ -75,3 +76,5 @@ TEST_CASE("movement: a leg that outlasts the clock keeps its speed") {
         CHECK(leg.end >= start_of_run + from_seconds(std::min(metres / slow.value, 9e9)));
     }
 }
+
+}  // namespace movement_test

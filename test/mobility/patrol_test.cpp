@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace patrol_test {
 using namespace rovernet;
 using test::LoneMover;
 
@@ -82,3 +83,5 @@ TEST_CASE("patrol: no places, or a speed that is not > 0, is refused") {
     Patrol off{.path = {{std::nan(""), 0}}};
     CHECK_THROWS_AS(robot.walk(off), std::invalid_argument);
 }
+
+}  // namespace patrol_test

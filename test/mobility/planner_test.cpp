@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace planner_test {
 using namespace rovernet;
 using test::drawn_map;
 
@@ -243,3 +244,5 @@ TEST_CASE("planner: an answer is the same when asked for again, and after many o
         if (path) CHECK(std::signbit(path->front().x) == std::signbit(zero));
     }
 }
+
+}  // namespace planner_test

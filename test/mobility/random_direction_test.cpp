@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace random_direction_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::LoneMover;
@@ -137,3 +138,5 @@ TEST_CASE("random_direction: outside its area, or without room, it cannot begin"
         CHECK_FALSE(stuck.walk(no_room));
     }
 }
+
+}  // namespace random_direction_test

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace random_walk_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::LoneMover;
@@ -130,3 +131,5 @@ TEST_CASE("random_walk: what makes no sense is refused, and without room it is b
         CHECK_FALSE(stuck.walk(no_room));
     }
 }
+
+}  // namespace random_walk_test

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+namespace random_waypoint_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::LoneMover;
@@ -383,3 +384,5 @@ TEST_CASE("random_waypoint: what makes no sense is refused") {
     const RandomWaypoint slow{.area = area, .min_speed = {0}, .start = StartState::uniform};
     CHECK_FALSE(refused(slow, ""));
 }
+
+}  // namespace random_waypoint_test

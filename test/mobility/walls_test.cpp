@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+namespace walls_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::LoneMover;
@@ -158,3 +159,5 @@ TEST_CASE("movement models: in the hospital no leg of 14,000 crosses a wall") {
 TEST_CASE("movement models: in the cave no leg of 14,000 crosses a wall") {
     if (const auto map = world("cave", {16}, {16})) check_models(map, {}, 2000);
 }
+
+}  // namespace walls_test

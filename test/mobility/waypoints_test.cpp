@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+namespace waypoints_test {
 using namespace rovernet;
 using test::drawn_map;
 
@@ -226,3 +227,5 @@ TEST_CASE("waypoints: a leg lasts at least a nanosecond, however fast") {
     CHECK(walk.at(1s) == Vec3{2e-6, 0, 0});
     for (const auto& move : walk.diary->moves) CHECK(move.leg.end > move.leg.start);
 }
+
+}  // namespace waypoints_test

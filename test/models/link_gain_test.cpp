@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+namespace link_gain_test {
 using namespace rovernet;
 using test::near;
 
@@ -150,3 +151,5 @@ TEST_CASE("antennas: a table without points, above 0 dB or out of order is refus
     CHECK_THROWS_AS(check({{0, 0}, {0, -1}}), std::invalid_argument);
     CHECK_THROWS_AS(check({{0, 0}, {360, -1}}), std::invalid_argument);
 }
+
+}  // namespace link_gain_test

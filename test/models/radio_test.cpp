@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+namespace radio_test {
 using namespace rovernet;
 using test::near;
 
@@ -35,3 +36,5 @@ TEST_CASE("radio: the noise floors of the vectors, with the CODATA value of k") 
               noise_floor(bandwidth, figure));
     }
 }
+
+}  // namespace radio_test

@@ -19,6 +19,7 @@
 #include <map>
 #include <vector>
 
+namespace access_test {
 using namespace rovernet;
 
 namespace {
@@ -300,3 +301,5 @@ TEST_CASE("grid and one event per transmission give the records of all pairs and
         }
     }
 }
+
+}  // namespace access_test

@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+namespace air_test {
 using namespace rovernet;
 
 namespace {
@@ -415,3 +416,5 @@ TEST_CASE("air: at sinr bit errors are drawn anew for each frame of a sender") {
     CHECK(decoded > 20);
     CHECK(decoded < 80);
 }
+
+}  // namespace air_test

@@ -9,6 +9,7 @@
 
 #include <memory>
 
+namespace delivery_series_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -37,3 +38,5 @@ TEST_CASE("delivery series: a lone robot's message reaches nobody") {
     net.run_for(1s);
     CHECK(series->delivered() == std::vector<double>{0});
 }
+
+}  // namespace delivery_series_test

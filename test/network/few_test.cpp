@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+namespace few_test {
 using namespace rovernet;
 
 TEST_CASE("few: an empty list is as large as a pointer, and grows like any other") {
@@ -15,3 +16,5 @@ TEST_CASE("few: an empty list is as large as a pointer, and grows like any other
     REQUIRE(list.size() == 10);
     for (std::size_t i = 0; i < 10; ++i) CHECK(list[i] == static_cast<int>(i * i));
 }
+
+}  // namespace few_test

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+namespace flows_test {
 using namespace rovernet;
 
 namespace {
@@ -89,3 +90,5 @@ TEST_CASE("flows: at 11 Mb/s answers at the basic rates of the standard give wha
     CHECK(exposed.frames_per_second(Collision{}, slow) ==
           doctest::Approx(703.1).epsilon(0.01));  // ns-2
 }
+
+}  // namespace flows_test

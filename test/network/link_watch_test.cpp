@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+namespace link_watch_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -303,3 +304,5 @@ TEST_CASE("link watch: a directional antenna that turns in place changes links, 
     network.run_until(begin + 1001s);
     CHECK(network.take().size() == 2);
 }
+
+}  // namespace link_watch_test

@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+namespace load_test {
 using namespace rovernet;
 
 namespace {
@@ -450,3 +451,5 @@ TEST_CASE("load: robots that change all the time while nobody sends leave nothin
     }
     CHECK(allocated() < before + 100'000);
 }
+
+}  // namespace load_test

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace motion_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -230,3 +231,5 @@ TEST_CASE("links: nobody asks, nobody searches: the events are the same with and
     CHECK(events(false) == 1);  // the end of the leg
     CHECK(events(true) > 1);
 }
+
+}  // namespace motion_test

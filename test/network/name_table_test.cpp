@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+namespace name_table_test {
 using namespace rovernet;
 using namespace std::string_view_literals;
 
@@ -79,3 +80,5 @@ TEST_CASE("name table: any bytes make a name, none too") {
     CHECK(table[static_cast<std::uint32_t>(names.size())] == longest);
     CHECK_FALSE(table.find("ab"));
 }
+
+}  // namespace name_table_test

@@ -26,6 +26,7 @@
 #include <variant>
 #include <vector>
 
+namespace network_test {
 using namespace rovernet;
 
 namespace {
@@ -594,3 +595,5 @@ TEST_CASE("network: without metrics none are given") {
     Network net({.metrics = false});
     CHECK_THROWS_AS(net.metrics(), std::invalid_argument);
 }
+
+}  // namespace network_test

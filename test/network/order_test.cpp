@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+namespace order_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -168,3 +169,5 @@ TEST_CASE("order: receivers that are light seconds away are in order, too") {
     for (const auto& reception : log->receptions) order.push_back(std::get<NodeId>(reception));
     CHECK(order == std::vector{NodeId{4}, NodeId{2}, NodeId{3}, NodeId{1}});
 }
+
+}  // namespace order_test

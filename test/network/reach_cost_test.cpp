@@ -9,6 +9,7 @@
 
 #include <optional>
 
+namespace reach_cost_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -52,3 +53,5 @@ TEST_CASE("reach: given up where it would take most of the run, unless somebody 
     CHECK(asked.delivery_ratio == cheap.delivery_ratio);
     CHECK_FALSE(after_messages(100, false).reach);
 }
+
+}  // namespace reach_cost_test

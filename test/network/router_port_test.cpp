@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+namespace router_port_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -351,3 +352,5 @@ TEST_CASE("router port: a protocol that floods refuses a message for one robot")
                          std::invalid_argument);
     CHECK_THROWS_AS(row.net.send({0}, {0}, "x"), std::invalid_argument);
 }
+
+}  // namespace router_port_test

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <string_view>
 
+namespace run_end_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -118,3 +119,5 @@ TEST_CASE("flows: each is counted by itself, and what each robot gets") {
     CHECK(values.robots[2].messages == 3);
     CHECK(values.robots[2].deliveries == 2);
 }
+
+}  // namespace run_end_test

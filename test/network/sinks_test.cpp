@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+namespace sinks_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -136,3 +137,5 @@ TEST_CASE("callbacks: one that is ended is called no more, not even if it is due
     hears.end();                    // again: nothing happens
     Subscription().end();
 }
+
+}  // namespace sinks_test

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+namespace variation_test {
 using namespace rovernet;
 using namespace rovernet::test;
 using namespace std::chrono_literals;
@@ -130,3 +131,5 @@ TEST_CASE("variation: a level that is received is no weaker than the sensitivity
     }
     CHECK(strong > 100);
 }
+
+}  // namespace variation_test

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+namespace flood_test {
 using namespace rovernet;
 
 namespace {
@@ -436,3 +437,5 @@ TEST_CASE("flood: the books balance when robots go off and on in the middle of f
         CHECK(ledger->delivered > 1000);
     }
 }
+
+}  // namespace flood_test

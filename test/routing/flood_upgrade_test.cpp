@@ -7,6 +7,7 @@
 
 #include <array>
 
+namespace flood_upgrade_test {
 using namespace rovernet;
 
 namespace {
@@ -57,3 +58,5 @@ TEST_CASE("flood: a message that ended at its TTL goes on with a higher one, wit
         CHECK(node.link.sent.size() == (upgrade ? 1 : 0));
     }
 }
+
+}  // namespace flood_upgrade_test

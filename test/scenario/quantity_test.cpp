@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+namespace quantity_test {
 using namespace rovernet;
 
 namespace {
@@ -146,3 +147,5 @@ TEST_CASE("quantity: the text of a quantity reads back as the same number, to th
         }
     }
 }
+
+}  // namespace quantity_test

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <string>
 
+namespace scenario_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using rovernet::test::TemporaryFolder;
@@ -421,3 +422,5 @@ TEST_CASE("--set: a power without a unit is in watts") {
 TEST_CASE("--set: the last of two options for one key counts") {
     CHECK(with(robot_a, {"scenario.seed=2", "scenario.seed=3"}).scenario.seed == 3);
 }
+
+}  // namespace scenario_test

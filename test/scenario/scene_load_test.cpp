@@ -10,6 +10,7 @@
 #include <cmath>
 #include <string>
 
+namespace scene_load_test {
 using namespace rovernet;
 using test::PngPicture;
 using test::TemporaryFolder;
@@ -150,3 +151,5 @@ TEST_CASE("scene: a box of half a metre at wall factor 1 costs 50 dB both ways")
     const std::string material = "scene.materials.box={color=\"brown\", per_crossing=\"6 dB\"}";
     CHECK(near(cost(box, {.set = {material}}), 6));
 }
+
+}  // namespace scene_load_test

@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+namespace stage_world_test {
 using namespace rovernet;
 using test::TemporaryFolder;
 
@@ -527,3 +528,5 @@ TEST_CASE("stage world: levels of the worlds that came with Stage are the publis
         CHECK(std::abs(level(itu, row.from, row.to) - row.level) < level_tolerance);
     }
 }
+
+}  // namespace stage_world_test

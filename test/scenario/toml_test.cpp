@@ -8,6 +8,7 @@
 
 #include <string>
 
+namespace toml_test {
 using namespace rovernet;
 using rovernet::test::TemporaryFolder;
 
@@ -124,3 +125,5 @@ TEST_CASE("set_option: a mistake quotes the option") {
     CHECK(contains(error_of_option(text, "robot.Ana.radius=1"), "did you mean \"Anna\"?"));
     CHECK(contains(error_of_option(text, "a.b=1"), "which has no keys"));
 }
+
+}  // namespace toml_test

@@ -9,6 +9,7 @@
 
 #include <string>
 
+namespace traffic_file_test {
 using namespace rovernet;
 using test::TemporaryFolder;
 
@@ -115,3 +116,5 @@ TEST_CASE("traffic file: [traffic] plays it beside a movement file, [[traffic]] 
     CHECK_THROWS_AS(run("[traffic]\nfile = \"none.tcl\"\n"), InputError);
     CHECK_THROWS_AS(run("[traffic]\nfile = \"cbr.tcl\"\nsize = \"3 B\"\n"), InputError);
 }
+
+}  // namespace traffic_file_test

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+namespace unlikely_test {
 using namespace rovernet;
 using test::TemporaryFolder;
 
@@ -212,3 +213,5 @@ TEST_CASE("memory: more robots than the machine can hold are refused before any 
           "GB; expected fewer robots");
     CHECK(available_memory() > 100'000'000);
 }
+
+}  // namespace unlikely_test

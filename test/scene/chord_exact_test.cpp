@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+namespace chord_exact_test {
 using namespace rovernet;
 
 // chord_exact.csv: a segment a-b, a polygon, and the exact length of the segment inside it.
@@ -99,3 +100,5 @@ TEST_CASE("chord_exact: the length inside the polygon is the published one, in b
     }
     CHECK(checked == 22);
 }
+
+}  // namespace chord_exact_test

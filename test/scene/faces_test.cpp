@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+namespace faces_test {
 using namespace rovernet;
 
 namespace {
@@ -218,3 +219,5 @@ TEST_CASE("faces: they know how thick their wall is, at any angle and beside a j
     for (const Face& f : junction.faces()->all())
         if (f.length > 3) CHECK(f.thickness == 1);
 }
+
+}  // namespace faces_test

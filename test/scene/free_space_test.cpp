@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+namespace free_space_test {
 using namespace rovernet;
 
 namespace {
@@ -108,3 +109,5 @@ TEST_CASE("free space: a robot larger than the map, or than any map, fits nowher
         CHECK(space.part == std::vector<std::int32_t>(12, -1));
     }
 }
+
+}  // namespace free_space_test

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+namespace image_test {
 using namespace rovernet;
 using test::png_bytes;
 using test::PngPicture;
@@ -222,3 +223,5 @@ TEST_CASE("images: a missing file, a folder and other kinds of file are told apa
     CHECK(fails(folder.write("page.png", "<html></html>"), "neither a PNG nor a PGM"));
     CHECK(fails(folder.write("color.ppm", "P6 1 1 255\nabc"), "neither a PNG nor a PGM"));
 }
+
+}  // namespace image_test

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace layers_test {
 using namespace rovernet;
 using test::drawn_map;
 
@@ -154,3 +155,5 @@ TEST_CASE("layers: a material that is not there is refused") {
     grid.cell_materials = {0, 0};
     CHECK_THROWS_AS(Scene(grid, {Material{}, brick}), std::invalid_argument);
 }
+
+}  // namespace layers_test

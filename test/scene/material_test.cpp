@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+namespace material_test {
 using namespace rovernet;
 
 namespace {
@@ -43,3 +44,5 @@ TEST_CASE("material: a slab costs its loss at the signal's frequency for each cr
         CHECK(rate.per_metre == 0);
     }
 }
+
+}  // namespace material_test

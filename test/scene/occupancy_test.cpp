@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+namespace occupancy_test {
 using namespace rovernet;
 using test::png_bytes;
 using test::TemporaryFolder;
@@ -240,3 +241,5 @@ TEST_CASE("image map: a size that is not positive and finite is the caller's err
                     std::invalid_argument);
     CHECK_THROWS_AS(image_map(folder.path("absent.png"), 1_m, 1_m), InputError);
 }
+
+}  // namespace occupancy_test

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+namespace p2040_test {
 using namespace rovernet;
 using test::Vectors;
 
@@ -171,3 +172,5 @@ TEST_CASE("p2040: the ends of a law's range are in it, and beyond it the law goe
         CHECK(test::near(eps(end * (1 + 1e-9)), eps(end), 1e-8));
     }
 }
+
+}  // namespace p2040_test

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+namespace png_test {
 using namespace rovernet;
 
 TEST_CASE("png: what is written reads back, for every number of channels") {
@@ -36,3 +37,5 @@ TEST_CASE("png: samples that do not fit the sizes are the caller's fault") {
     CHECK_THROWS_AS(to_png({0, 0, 1, {}}), std::invalid_argument);
     CHECK_THROWS_AS(to_png({1, 1, 5, {0, 0, 0, 0, 0}}), std::invalid_argument);
 }
+
+}  // namespace png_test

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+namespace rectangles_test {
 using namespace rovernet;
 using test::drawn_map;
 
@@ -55,3 +56,5 @@ TEST_CASE("rectangles: unknown cells are obstacles but no walls") {
     CHECK(solid_rectangles(grid, Solid::walls) == std::vector<CellRectangle>{{1, 1, 2, 2}});
     CHECK(solid_rectangles(grid, Solid::obstacles) == std::vector<CellRectangle>{{0, 1, 3, 2}});
 }
+
+}  // namespace rectangles_test

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+namespace redrawing_test {
 using namespace rovernet;
 using test::Draw;
 using test::drawn_map;
@@ -157,3 +158,5 @@ TEST_CASE("scene: with the walls of another, radio sees these and robots keep to
     CHECK(own.plain_walls());
     CHECK_FALSE(both.plain_walls());
 }
+
+}  // namespace redrawing_test

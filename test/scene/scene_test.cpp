@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace scene_test {
 using namespace rovernet;
 using test::drawn_map;
 
@@ -370,3 +371,5 @@ TEST_CASE("scene: bounds, rectangles and counts are in metres") {
     CHECK(near(turned.lower_left().x, 9));
     CHECK(near(turned.upper_right().y, 21));
 }
+
+}  // namespace scene_test

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+namespace slab_test {
 using namespace rovernet;
 using test::near;
 
@@ -71,3 +72,5 @@ TEST_CASE("slab: without thickness it is not there; it gives no more power than 
         }
     }
 }
+
+}  // namespace slab_test

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+namespace wall_index_test {
 using namespace rovernet;
 
 namespace {
@@ -268,3 +269,5 @@ TEST_CASE("wall index: an outer row of free cells changes nothing but the coordi
     index_of(wide).crossings({0, 1.25}, {4, 2.75}, 1, outer);
     CHECK(inner == outer);
 }
+
+}  // namespace wall_index_test

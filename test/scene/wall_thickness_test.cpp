@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+namespace wall_thickness_test {
 using namespace rovernet;
 
 namespace {
@@ -73,3 +74,5 @@ TEST_CASE("wall thickness: threads that ask for the first time together get the 
     for (const double each : found) CHECK(each == found.front());
     CHECK(found.front() > 0);
 }
+
+}  // namespace wall_thickness_test

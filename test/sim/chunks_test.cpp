@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace chunks_test {
 using namespace rovernet;
 
 TEST_CASE("chunks: values come back by number and stay where they are") {
@@ -63,3 +64,5 @@ TEST_CASE("slots: a freed place is used again as it was left, and values stay wh
     CHECK(slots[70] == std::vector{70});
     CHECK(slots.take() == 200);
 }
+
+}  // namespace chunks_test

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 
+namespace complex_math_test {
 using namespace rovernet;
 using math::Complex;
 
@@ -56,3 +57,5 @@ TEST_CASE("complex: e^z turns by the imaginary part and grows by the real one") 
     // What has vanished has no phase: that of a metre of metal is beyond the sine's range.
     CHECK(math::exp(Complex{-1e12, 1e12}) == Complex{0});
 }
+
+}  // namespace complex_math_test

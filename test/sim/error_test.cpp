@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+namespace error_test {
 using namespace rovernet;
 
 namespace {
@@ -56,3 +57,5 @@ TEST_CASE("did you mean: nothing near, nothing said") {
     CHECK(did_you_mean("xa", {"ay"}).empty());  // no swap
     CHECK(did_you_mean("ax", {"ya"}).empty());
 }
+
+}  // namespace error_test

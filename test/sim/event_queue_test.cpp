@@ -13,6 +13,7 @@
 #include <set>
 #include <vector>
 
+namespace event_queue_test {
 using namespace rovernet;
 
 namespace {
@@ -368,3 +369,5 @@ TEST_CASE("event line: takes groups whose keys come in any order, and serves the
         }
     }
 }
+
+}  // namespace event_queue_test

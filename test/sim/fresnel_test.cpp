@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+namespace fresnel_test {
 using namespace rovernet;
 
 namespace {
@@ -106,3 +107,5 @@ TEST_CASE("fresnel: C and S stay near 1/2 far off, where a power series has 1e27
     CHECK(std::isnan(math::fresnel(std::nan("")).c));
     CHECK(near(math::fresnel(0).c, 0, 1e-15));
 }
+
+}  // namespace fresnel_test

@@ -12,6 +12,7 @@
 #include <malloc.h>
 #include <vector>
 
+namespace legs_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -139,3 +140,5 @@ TEST_CASE(
     for (int i = 1; i <= 1'000'000; ++i) last = legs.position(robot, start_of_run + i * 100ms);
     CHECK(last.x == 100'000);  // 0.1 m added a million times is 1.3 micrometres off
 }
+
+}  // namespace legs_test

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+namespace math_erf_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -63,3 +64,5 @@ TEST_CASE("erfc: the same bits from every compiler") {
     CHECK(fingerprint(math::erfc, -1, 1) == 0x6437ae6e5157df31);
     CHECK(fingerprint(math::erfc, 1, 28) == 0x54f0693c35006250);
 }
+
+}  // namespace math_erf_test

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string>
 
+namespace math_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -388,3 +389,5 @@ TEST_CASE("sine, cosine, angles, e^x, e^x - 1, log(1 + x): the same bits from ev
     CHECK(fingerprint(math::log1p, -1, 3) == 0xc424f5d5bf945d08);
     CHECK(fingerprint(math::expm1, -10, 10) == 0x272fb7dd612e0eb7);
 }
+
+}  // namespace math_test

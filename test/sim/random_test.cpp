@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+namespace random_test {
 using namespace rovernet;
 
 namespace {
@@ -376,3 +377,5 @@ TEST_CASE("pair draws: no two pairs share a draw, of any replication") {
     std::sort(all.begin(), all.end());
     CHECK(std::adjacent_find(all.begin(), all.end()) == all.end());
 }
+
+}  // namespace random_test

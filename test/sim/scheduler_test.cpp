@@ -17,6 +17,7 @@
 #include <tuple>
 #include <vector>
 
+namespace scheduler_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -428,3 +429,5 @@ TEST_CASE("scheduler: one event per frame serves in the order of one event per r
     CHECK(one_each.size() > 10'000);
     CHECK(one_per_frame == one_each);
 }
+
+}  // namespace scheduler_test

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <vector>
 
+namespace sieve_test {
 using namespace rovernet;
 
 TEST_CASE("sieve: what is to be kept is, in order, however much there is and however often") {
@@ -42,3 +43,5 @@ TEST_CASE("sieve: what is written into its room stays up to where it is told to"
         for (std::size_t i = 0; i < room; ++i) REQUIRE(kept[before + i] == static_cast<int>(i));
     }
 }
+
+}  // namespace sieve_test

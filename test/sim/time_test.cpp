@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+namespace time_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -62,3 +63,5 @@ TEST_CASE(
     "time: a tenth and two tenths of a second are three tenths, so that ties are ties (S34)") {
     CHECK(start_of_run + from_seconds(0.1) + from_seconds(0.2) == start_of_run + from_seconds(0.3));
 }
+
+}  // namespace time_test

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+namespace units_test {
 using namespace rovernet;
 
 namespace {
@@ -72,3 +73,5 @@ TEST_CASE("units: literals carry their scale") {
     CHECK((5.5_Mbps).value == 5.5e6);
     CHECK(3 * 2_m + 1.5_m - 0.5_m == 7_m);
 }
+
+}  // namespace units_test

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace advise_decision_test {
 using namespace rovernet;
 
 namespace {
@@ -251,3 +252,5 @@ TEST_CASE("decision: a tolerance out of range is refused") {
     CHECK_THROWS(CandidateDecision({.tolerance = 1, .bounds = share}));
     CHECK_NOTHROW(CandidateDecision({.tolerance = 10, .bounds = delay}));
 }
+
+}  // namespace advise_decision_test

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+namespace advise_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -363,3 +364,5 @@ TEST_CASE("advise: blocks grow by a quarter, from 10 to the most") {
     CHECK(next_block(3900, 4000) == 4000);
     CHECK(next_block(0, 3) == 3);
 }
+
+}  // namespace advise_test

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 
+namespace balance_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -184,3 +185,5 @@ TEST_CASE("balance: a combination that the study excludes from one row is a miss
     CHECK(cells.unbalanced() ==
           "  routing.ttl=8 lacks 4 of 8 cells: 4 not in the study at traffic.0.every=2");
 }
+
+}  // namespace balance_test

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace bounded_mean_test {
 using namespace rovernet;
 
 namespace {
@@ -154,3 +155,5 @@ TEST_CASE("bounded mean: arguments that make no sense are refused") {
                       "bounded_mean: a value is not from 0 to 1");
     CHECK_THROWS_AS(bounded_mean_replications(ones(2), share, 0, 0.95), std::invalid_argument);
 }
+
+}  // namespace bounded_mean_test

@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+namespace calibration_test {
 using namespace rovernet;
 using test::near;
 using test::Vectors;
@@ -405,3 +406,5 @@ TEST_CASE("calibration: a measured flat and a laboratory, by their maps") {
     CHECK(near(model(flat.models, "friis").checked->wrong(),
                expected.number(row("friis"), "decision_error_at_-65dbm"), 0.005));
 }
+
+}  // namespace calibration_test

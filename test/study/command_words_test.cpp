@@ -3,6 +3,7 @@
 
 #include "test/cli/process.hpp"
 
+namespace command_words_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -27,3 +28,5 @@ TEST_CASE("command words: the options of a scenario in the order of their kinds"
           "--set a=1 --set b=2 --world-path w --bitmap x=y --lenient");
     CHECK(option_words({}).empty());
 }
+
+}  // namespace command_words_test

@@ -9,6 +9,7 @@
 
 #include <string>
 
+namespace compare_cost_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -78,3 +79,5 @@ TEST_CASE("costs of models: where nobody sends there are none, and runs' CPU tim
     CHECK(c.comparison.cost_text.empty());
     CHECK(comparison_charts(c.comparison)[1].x_label == c.without);
 }
+
+}  // namespace compare_cost_test

@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+namespace compare_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -170,3 +171,5 @@ TEST_CASE("compare: with a margin, each model is within it, outside, or not deci
         "disc is within 0.05 of friis (95 % for all 3"));
     CHECK_FALSE(compare_models(store, "reach", "friis").models[0].equivalence);
 }
+
+}  // namespace compare_test

@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace comparison_test {
 using namespace rovernet;
 using test::is_close;
 
@@ -282,3 +283,5 @@ TEST_CASE("sentence: whether one is as good as another") {
           "not decided by 30 replications whether disc is within 0.05 of friis (95 % for all 4); "
           "about 800 would decide, if they are as these are");
 }
+
+}  // namespace comparison_test

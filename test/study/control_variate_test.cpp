@@ -10,6 +10,7 @@
 #include <map>
 #include <vector>
 
+namespace control_variate_test {
 using namespace rovernet;
 
 namespace {
@@ -104,3 +105,5 @@ TEST_CASE("control variate: a cheap model that costs too much or tells nothing s
     CHECK_FALSE(control_variate(std::vector{1.0}, other));
     CHECK_THROWS(control_variate(other, std::vector{1.0}));
 }
+
+}  // namespace control_variate_test

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+namespace coverage_test {
 using namespace rovernet;
 
 namespace {
@@ -178,3 +179,5 @@ TEST_CASE("coverage: the price of it, as widths beside Student's where that is r
         CHECK(std::abs(betting / student - ratio) <= last_digit);
     }
 }
+
+}  // namespace coverage_test

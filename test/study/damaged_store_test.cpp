@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+namespace damaged_store_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -243,3 +244,5 @@ TEST_CASE("damaged stores: a file that ends early, or with other bytes in it, is
         check(other);
     }
 }
+
+}  // namespace damaged_store_test

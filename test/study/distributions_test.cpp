@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+namespace distributions_test {
 using namespace rovernet;
 using test::is_close;
 
@@ -86,3 +87,5 @@ TEST_CASE("distributions: binomial probabilities are sums of their terms") {
         }
     }
 }
+
+}  // namespace distributions_test

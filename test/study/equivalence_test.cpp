@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace equivalence_test {
 using namespace rovernet;
 
 namespace {
@@ -190,3 +191,5 @@ TEST_CASE("equivalence: parameters out of range are refused") {
                       "equivalence: family must be > 0");
     CHECK_THROWS(equivalence_of(std::vector<double>{std::nan("")}, 0.1, share));
 }
+
+}  // namespace equivalence_test

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+namespace field_fit_test {
 using namespace rovernet;
 using test::near;
 using test::Vectors;
@@ -169,3 +170,5 @@ TEST_CASE("field: what five models say of a laboratory, fitted on one day and ch
                 "rmse_set2_db", "rmse_left_out_sensor_db");
     }
 }
+
+}  // namespace field_fit_test

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+namespace fit_test {
 using namespace rovernet;
 using test::near;
 using test::Vectors;
@@ -220,3 +221,5 @@ TEST_CASE("disc fit: all links up, or none") {
     CHECK_THROWS_AS(fit_disc({}), std::invalid_argument);
     CHECK_THROWS_AS(fit_disc({{0, true}}), std::invalid_argument);
 }
+
+}  // namespace fit_test

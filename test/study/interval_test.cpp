@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+namespace interval_test {
 using namespace rovernet;
 
 namespace {
@@ -92,3 +93,5 @@ TEST_CASE("interval: how many replications it needs is told by its own method") 
     CHECK(replications_for_width(values, share, 1) == 4U);
     CHECK(!replications_for_width(std::vector<double>(9, 0.5), delay, 0.05));
 }
+
+}  // namespace interval_test

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+namespace measurement_test {
 using namespace rovernet;
 
 namespace {
@@ -92,3 +93,5 @@ TEST_CASE("measurement: a map that has changed is read again") {
     folder.write("one.pgm", map_with_door(1));
     CHECK(fingerprint() == before);
 }
+
+}  // namespace measurement_test

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+namespace medium_cost_test {
 using namespace rovernet;
 
 namespace {
@@ -112,3 +113,5 @@ TEST_CASE("medium cost: where nobody sends, or the user stops it, there is none"
     const MediumRecord record = record_medium(talking, go_on);
     CHECK(measure_medium(record, {talking}, {}, [] { return true; }).models.empty());
 }
+
+}  // namespace medium_cost_test

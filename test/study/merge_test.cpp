@@ -8,6 +8,7 @@
 
 #include <filesystem>
 
+namespace merge_test {
 using namespace rovernet;
 using namespace rovernet::test;
 namespace fs = std::filesystem;
@@ -111,3 +112,5 @@ TEST_CASE("merge: what is no shard of this study is refused, and stays") {
     }
     CHECK(store.runs().size() == 2);
 }
+
+}  // namespace merge_test

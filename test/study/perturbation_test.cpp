@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+namespace perturbation_test {
 using namespace rovernet;
 using test::drawn_map;
 using test::near;
@@ -221,3 +222,5 @@ TEST_CASE("displaced: beyond its reach the loss is more") {
         CHECK(loss(model, Scene{}, {}, {reach * (1 + 1e-9), 0}, key, key + 1) > 70);
     }
 }
+
+}  // namespace perturbation_test

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+namespace precision_test {
 using namespace rovernet;
 
 namespace {
@@ -78,3 +79,5 @@ TEST_CASE("precision: the first metric of the study counts, or the delivery rati
     study.metrics = {"reach", "events"};
     CHECK(first_metric(study) == "reach");
 }
+
+}  // namespace precision_test

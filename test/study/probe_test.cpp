@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+namespace probe_test {
 using namespace rovernet;
 using test::disc;
 using test::drawn_map;
@@ -197,3 +198,5 @@ TEST_CASE("probe: it tells shares that grow to 1") {
     });
     CHECK(last == 1);
 }
+
+}  // namespace probe_test

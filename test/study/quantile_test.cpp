@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace quantile_test {
 using namespace rovernet;
 
 namespace {
@@ -156,3 +157,5 @@ TEST_CASE("quantile: numbers that are none are refused") {
     CHECK_THROWS_AS(quantile_of(std::array{1.0, not_a_number}, 0.5), std::invalid_argument);
     CHECK_THROWS_WITH(quantile_of(values, 50), "quantile: p must be above 0 and below 1, got 50");
 }
+
+}  // namespace quantile_test

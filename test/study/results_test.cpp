@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+namespace results_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -162,3 +163,5 @@ TEST_CASE("results: CSV obeys conditions, metrics and groups") {
     CHECK(std::count(text.begin(), text.end(), '\n') == 1 + 6);
     CHECK_THROWS_AS(csv({.metrics = {"reech"}}), std::invalid_argument);
 }
+
+}  // namespace results_test

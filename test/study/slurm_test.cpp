@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+namespace slurm_test {
 using namespace rovernet;
 using namespace rovernet::test;
 namespace fs = std::filesystem;
@@ -167,3 +168,5 @@ TEST_CASE("slurm: a script whose folder is gone runs nothing") {
         CHECK(ended.out.empty());
     }
 }
+
+}  // namespace slurm_test

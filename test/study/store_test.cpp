@@ -11,6 +11,7 @@
 #include <fstream>
 #include <sqlite3.h>
 
+namespace store_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -282,3 +283,5 @@ TEST_CASE("merge: runs of another version or study are refused") {
     }
     CHECK_THROWS_WITH_AS(merge(store, shard), doctest::Contains("another study"), InputError);
 }
+
+}  // namespace store_test

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+namespace study_chart_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -149,3 +150,5 @@ TEST_CASE("study chart: a question that it cannot answer is an error that says w
     CHECK_THROWS_WITH_AS(ask({.kind = ChartKind::cdf, .x = "a.count", .y = "reach"}),
                          doctest::Contains("-x"), Error);
 }
+
+}  // namespace study_chart_test

@@ -9,6 +9,7 @@
 
 #include <set>
 
+namespace study_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -234,3 +235,5 @@ TEST_CASE("study: a run's id depends on point, replication and version") {
     CHECK(run_id("0123456789abcdef", 4, "0.1.0") != id);
     CHECK(run_id("0123456789abcdef", 3, "0.1.1") != id);
 }
+
+}  // namespace study_test

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace summary_test {
 using namespace rovernet;
 using test::is_close;
 
@@ -205,3 +206,5 @@ TEST_CASE("replications needed: a wanted half-width that is not positive is refu
     CHECK_THROWS_WITH(replications_needed(ten(0, 1), 0),
                       "replications_needed: the half-width must be > 0, got 0");
 }
+
+}  // namespace summary_test

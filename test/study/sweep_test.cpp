@@ -13,6 +13,7 @@
 
 #include <map>
 
+namespace sweep_test {
 using namespace rovernet;
 using namespace rovernet::test;
 
@@ -322,3 +323,5 @@ TEST_CASE("explain: the command that makes a run again has the sweep's options a
     CHECK_THROWS_AS(find_run(store, "7/0"), std::invalid_argument);
     CHECK_THROWS_AS(find_run(store, ""), std::invalid_argument);
 }
+
+}  // namespace sweep_test

@@ -14,6 +14,7 @@
 #include <thread>
 #include <unistd.h>
 
+namespace workers_test {
 using namespace rovernet;
 
 namespace {
@@ -183,3 +184,5 @@ TEST_CASE("workers: they do not outlive the process that they work for") {
     }
     CHECK(gone);
 }
+
+}  // namespace workers_test

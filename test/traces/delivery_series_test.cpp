@@ -7,6 +7,7 @@
 
 #include <memory>
 
+namespace delivery_series_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
@@ -31,3 +32,5 @@ TEST_CASE("delivery series: packets that no application sent leave the series as
     CHECK(series->sent() == std::vector<Time>{at(1'000)});
     CHECK(series->delivered() == std::vector<double>{0.5});
 }
+
+}  // namespace delivery_series_test

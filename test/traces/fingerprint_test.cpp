@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 
+namespace fingerprint_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
@@ -134,3 +135,5 @@ TEST_CASE("fingerprint: positions without bound have one, too") {
     b.moved.leg.to.x = -1e300;
     CHECK(a.text() != b.text());
 }
+
+}  // namespace fingerprint_test

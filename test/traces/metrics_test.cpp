@@ -7,6 +7,7 @@
 
 #include <memory>
 
+namespace metrics_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
@@ -189,3 +190,5 @@ TEST_CASE("metrics: a packet that no application sent takes over nothing from th
     CHECK(v.reach == 0.0);                // the delivery is of no message that was sent
     CHECK(v.saved_rebroadcasts == -1.0);  // b relayed both
 }
+
+}  // namespace metrics_test

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace bonnmotion_test {
 using namespace rovernet;
 using test::movement_error;
 using test::Playback;
@@ -270,3 +271,5 @@ TEST_CASE("bonnmotion: a line without end is refused, zipped or not") {
     const std::string comment = "#" + zeros + "\n0 1 2\n";
     CHECK(movement_error(folder.write("scen.movements", comment)).find(words) != std::string::npos);
 }
+
+}  // namespace bonnmotion_test

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+namespace fcd_test {
 using namespace rovernet;
 using test::movement_error;
 using test::Playback;
@@ -316,3 +317,5 @@ TEST_CASE("fcd: SUMO's file, read line by line in another way, says the same") {
     CHECK(places > 1'000);
     CHECK(wrong == 0);
 }
+
+}  // namespace fcd_test

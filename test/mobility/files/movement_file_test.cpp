@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+namespace movement_file_test {
 using namespace rovernet;
 using test::movement_error;
 using test::Playback;
@@ -90,3 +91,5 @@ TEST_CASE("movement file: a file that changes under way is an input error, not a
         }(),
         InputError);
 }
+
+}  // namespace movement_file_test

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+namespace movement_writer_test {
 using namespace rovernet;
 using test::Playback;
 using test::TemporaryFolder;
@@ -239,3 +240,5 @@ TEST_CASE("writer: a jump is a jump in both kinds of file") {
         CHECK(distance(p.position("n0", 21), {5, 5, 7}) < setdest_tolerance);
     }
 }
+
+}  // namespace movement_writer_test

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+namespace setdest_test {
 using namespace rovernet;
 using test::movement_error;
 using test::Playback;
@@ -452,3 +453,5 @@ TEST_CASE("setdest: the scene that CMU's setdest wrote keeps its robots in its f
     }
     CHECK(outside == 0);
 }
+
+}  // namespace setdest_test

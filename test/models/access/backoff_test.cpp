@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+namespace backoff_test {
 using namespace rovernet;
 
 namespace {
@@ -213,3 +214,5 @@ TEST_CASE("backoff: two stations whose slots run out together both send, whateve
         CHECK(third.grant() == sends + 300us + timing.difs + timing.slot);
     }
 }
+
+}  // namespace backoff_test

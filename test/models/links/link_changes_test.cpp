@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+namespace link_changes_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::moving;
@@ -228,3 +229,5 @@ TEST_CASE("link changes: of a model of unknown shape those of the dwell time are
     endless.add(Rings{}, {.velocity = {1e-12, 0, 0}});
     CHECK(endless.changes(b, a, start_of_run, never).empty());
 }
+
+}  // namespace link_changes_test

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+namespace link_changes_walls_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::moving;
@@ -230,3 +231,5 @@ TEST_CASE("link changes: between equal radios both ways change at the same time"
     }
     CHECK(seen > 20);
 }
+
+}  // namespace link_changes_walls_test

@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+namespace range_crossing_test {
 using namespace rovernet;
 
 TEST_CASE("range crossing: enters and leaves at the times of the vectors") {
@@ -65,3 +66,5 @@ TEST_CASE("range crossing: nothing crosses at rest, without a range, or out of t
     CHECK_FALSE(range_crossing({1, 0, 0}, {1, nan, 0}, 10));
     CHECK_FALSE(range_crossing({1, 0, 0}, {infinity, 0, 0}, 10));
 }
+
+}  // namespace range_crossing_test

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+namespace wall_passages_test {
 using namespace rovernet;
 
 namespace {
@@ -91,3 +92,5 @@ TEST_CASE("wall passages: an end that rises passes the height of the wall's top"
     const StraightMotion level{{5, 0.5, 1}, {0.1, 0, 0}}, beside{{9, 0.5, 1}, {0, 0.1, 0}};
     CHECK_FALSE(passes_at(scene, level, beside, 4));
 }
+
+}  // namespace wall_passages_test

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+namespace loss_bounds_test {
 using namespace rovernet;
 
 TEST_CASE("loss bounds: a loss lies between them, and they are close together") {
@@ -49,3 +50,5 @@ TEST_CASE("loss bounds: nothing is known very near and very far") {
         CHECK(high == infinity);
     }
 }
+
+}  // namespace loss_bounds_test

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+namespace medium_losses_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -214,3 +215,5 @@ TEST_CASE("recent losses: a loss above its limit tells no more than that") {
     CHECK(!losses.find({NodeId{2}, NodeId{1}, link.here, link.there}, 90_dB));
     CHECK(!losses.find({link.from, link.to, link.here, {5, 0, 1.5}}, 90_dB));
 }
+
+}  // namespace medium_losses_test

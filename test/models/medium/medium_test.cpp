@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+namespace medium_test {
 using namespace rovernet;
 
 namespace {
@@ -436,3 +437,5 @@ TEST_CASE(
         }
     }
 }
+
+}  // namespace medium_test

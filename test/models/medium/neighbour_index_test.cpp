@@ -11,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+namespace neighbour_index_test {
 using namespace rovernet;
 
 namespace {
@@ -176,3 +177,5 @@ TEST_CASE("neighbour index: one node at 1e9 m, all in one place, a line, and no 
         }
     }
 }
+
+}  // namespace neighbour_index_test

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+namespace pair_cache_test {
 using namespace rovernet;
 
 namespace {
@@ -111,3 +112,5 @@ TEST_CASE("pair cache: memory is bounded, and given back when a node moves") {
     cache.moved(b);
     CHECK(cache.pairs() == 0);
 }
+
+}  // namespace pair_cache_test

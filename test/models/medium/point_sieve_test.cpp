@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+namespace point_sieve_test {
 using namespace rovernet;
 
 namespace {
@@ -85,3 +86,5 @@ TEST_CASE("point sieve: any part of any points keeps those within reach, in orde
         }
     }
 }
+
+}  // namespace point_sieve_test

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+namespace reachability_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -166,3 +167,5 @@ TEST_CASE("reachability: the number of a search from scratch, in random worlds o
         for (unsigned seed = 1; seed <= 8; ++seed) RandomWorld(world, seed).check();
     }
 }
+
+}  // namespace reachability_test

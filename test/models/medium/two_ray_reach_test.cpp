@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+namespace two_ray_reach_test {
 using namespace rovernet;
 
 namespace {
@@ -96,3 +97,5 @@ TEST_CASE("two-ray: over 4 km of flat ground only those nearby are looked at") {
     const double reach2 = medium.squared_reach(NodeId{20});
     CHECK(std::sqrt(reach2) == doctest::Approx(250).epsilon(1e-3));
 }
+
+}  // namespace two_ray_reach_test

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+namespace variation_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 
@@ -372,3 +373,5 @@ TEST_CASE("shadowing field: link changes are found within min_dwell, those of a 
         }
     }
 }
+
+}  // namespace variation_test

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+namespace error_rate_test {
 using namespace rovernet;
 
 namespace {
@@ -407,3 +408,5 @@ TEST_CASE(
         CHECK(success(bits * log_success(modulation, ratio(certain - 1))) < 1);
     }
 }
+
+}  // namespace error_rate_test

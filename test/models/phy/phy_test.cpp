@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+namespace phy_test {
 using namespace rovernet;
 
 namespace {
@@ -91,3 +92,5 @@ TEST_CASE("wifi: the airtime is rounded to the nearest nanosecond; no byte takes
     CHECK(Wifi{}.airtime(Duration{0}, 3_Mbps, 1) == Duration{2667});
     CHECK(Wifi{}.airtime(Duration{0}, 1_Mbps, 0xffffffff) == Duration{34'359'738'360'000});
 }
+
+}  // namespace phy_test

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+namespace conformance_test {
 using namespace rovernet;
 
 namespace {
@@ -304,3 +305,5 @@ TEST_CASE("every model: names are unique and plain") {
         CHECK(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789") == name.npos);
     }
 }
+
+}  // namespace conformance_test

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 
+namespace diffraction_test {
 using namespace rovernet;
 using math::Complex;
 using std::numbers::pi;
@@ -256,3 +257,5 @@ TEST_CASE("wedge: rays end where the angles say, the boundaries included") {
     CHECK(lit_by({2, {pi}, {0}}).direct);
     CHECK(lit_by({2, {pi / 2}, {pi / 2}}).face_0);
 }
+
+}  // namespace diffraction_test

@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+namespace disc_test {
 using namespace rovernet;
 using test::loss_at;
 
@@ -46,3 +47,5 @@ TEST_CASE("disc: its reach is its range, and unbounded for a budget of 1000 dB")
     CHECK(Disc{.range = 7_m}.reach(91_dB, 2450_MHz) == 7_m);
     CHECK(std::isinf(Disc{.range = 7_m}.reach(1000_dB, 2450_MHz).value));
 }
+
+}  // namespace disc_test

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+namespace friis_test {
 using namespace rovernet;
 using test::loss_at;
 using test::near;
@@ -48,3 +49,5 @@ TEST_CASE("friis: the reach is the distance at which the loss is met") {
     const double reach = Friis{}.reach(80_dB, 2450_MHz).value;
     CHECK(near(loss_at(Friis{}, reach), 80, tolerance));
 }
+
+}  // namespace friis_test

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+namespace itu_indoor_test {
 using namespace rovernet;
 using test::loss_at;
 using test::near;
@@ -155,3 +156,5 @@ TEST_CASE("itu_indoor: beyond the last tabulated floor its loss is held") {
     CHECK(near(rise(9), 24, tolerance));   // three floors
     CHECK(near(rise(30), 24, tolerance));  // ten
 }
+
+}  // namespace itu_indoor_test

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+namespace itu_site_general_test {
 using namespace rovernet;
 using test::near;
 
@@ -68,3 +69,5 @@ TEST_CASE("itu_site_general: frequencies outside of a site's range are refused, 
     CHECK_NOTHROW(
         ItuSiteGeneral{.site = Site::corridor, .los = LineOfSight::yes}.check_frequency(433_MHz));
 }
+
+}  // namespace itu_site_general_test

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+namespace log_distance_test {
 using namespace rovernet;
 using test::loss_at;
 using test::near;
@@ -144,3 +145,5 @@ TEST_CASE("log-distance: the excess is added at every distance, and shifts the r
     CHECK(near(more.reach(Db{90}, 2450_MHz).value,
                plain.reach(Db{90}, 2450_MHz).value * std::pow(10, -7.5 / 30), 1e-9));
 }
+
+}  // namespace log_distance_test

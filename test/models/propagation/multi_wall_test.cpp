@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+namespace multi_wall_test {
 using namespace rovernet;
 using test::near;
 
@@ -109,3 +110,5 @@ TEST_CASE("multi_wall: without walls and with exponent 2 it is free space beyond
     CHECK(near(test::loss_at(MultiWall{.exponent = 3, .excess = 4_dB}, 10),
                test::loss_at(Friis{}, 1) + 34, 1e-12));
 }
+
+}  // namespace multi_wall_test

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+namespace property_test {
 using namespace rovernet;
 
 namespace {
@@ -216,3 +217,5 @@ TEST_CASE("property: no model has a step where another equation begins, millimet
         CHECK(largest < 0.5);
     }
 }
+
+}  // namespace property_test

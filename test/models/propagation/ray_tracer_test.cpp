@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+namespace ray_tracer_test {
 using namespace rovernet;
 using test::near;
 
@@ -305,3 +306,5 @@ TEST_CASE("ray tracer: made for few receivers, it finds the paths that one for m
     }
     CHECK(reflected > 100);
 }
+
+}  // namespace ray_tracer_test

@@ -17,6 +17,7 @@
 #include <numbers>
 #include <vector>
 
+namespace rays_test {
 using namespace rovernet;
 using test::near;
 
@@ -271,3 +272,5 @@ TEST_CASE("rays: parameters out of their range are refused") {
     CHECK_THROWS_AS(Propagation{Rays{.reflection_loss = Db{-1}}}, std::invalid_argument);
     CHECK_THROWS_AS(Propagation{Rays{.max_paths = 0}}, std::invalid_argument);
 }
+
+}  // namespace rays_test

@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+namespace raytrace_2007_test {
 using namespace rovernet;
 using test::near;
 using test::OneLink;
@@ -87,3 +88,5 @@ TEST_CASE("raytrace_2007: giving up never changes who is within the budget") {
     CHECK(within > 1000);
     CHECK(beyond > 1000);
 }
+
+}  // namespace raytrace_2007_test

@@ -16,6 +16,7 @@
 #include <limits>
 #include <vector>
 
+namespace shadowed_range_test {
 using namespace rovernet;
 
 namespace {
@@ -359,3 +360,5 @@ TEST_CASE("shadowed range: a model that offers it is decided by it, and says so 
         }
     });
 }
+
+}  // namespace shadowed_range_test

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 
+namespace two_ray_test {
 using namespace rovernet;
 using test::near;
 
@@ -234,3 +235,5 @@ TEST_CASE("two-ray, exact: antennas straight above one another are a place like 
         }
     }
 }
+
+}  // namespace two_ray_test

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+namespace collision_test {
 using namespace rovernet;
 
 namespace {
@@ -113,3 +114,5 @@ TEST_CASE("collision: who is stronger is asked only where it decides") {
     CHECK(model.survives(f, during, is_stronger));
     CHECK(asked == 1);
 }
+
+}  // namespace collision_test

@@ -13,6 +13,7 @@
 #include <set>
 #include <vector>
 
+namespace on_air_test {
 using namespace rovernet;
 
 namespace {
@@ -211,3 +212,5 @@ TEST_CASE("on air: nobody is reached farther away than anybody is") {
     on_air.goes(leaving, Meters{0});  // for ever
     CHECK(on_air.reach() > 1e12);
 }
+
+}  // namespace on_air_test

@@ -13,6 +13,7 @@
 #include <limits>
 #include <vector>
 
+namespace sinr_test {
 using namespace rovernet;
 
 namespace {
@@ -225,3 +226,5 @@ TEST_CASE("sinr: without any signal to speak of a frame is lost, and nothing is 
     const auto nothing = r.hear(NodeId{1}, at(0), at(100), -10000);
     CHECK(r.judge(nothing) == Fate::garbled);
 }
+
+}  // namespace sinr_test

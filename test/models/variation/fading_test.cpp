@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace fading_test {
 using namespace rovernet;
 
 namespace {
@@ -234,3 +235,5 @@ TEST_CASE("fading: parameters out of their ranges are refused") {
     CHECK_THROWS_AS(make({.model = FadingModel::rician, .k_factor = Db{31}}),
                     std::invalid_argument);
 }
+
+}  // namespace fading_test

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+namespace shadowing_test {
 using namespace rovernet;
 
 namespace {
@@ -138,3 +139,5 @@ TEST_CASE("shadowing field: heights do not count") {
     const ShadowingField field(decorrelation, 7, 1);
     CHECK(field({1, 2, 0}, {30, 4, 9}) == field({1, 2, 5}, {30, 4, 0}));
 }
+
+}  // namespace shadowing_test

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+namespace chart_axis_test {
 using namespace rovernet;
 
 namespace {
@@ -211,3 +212,5 @@ TEST_CASE("chart axis: words stand in the middle of equal parts") {
     CHECK(texts(axis) == Texts{"a", "b", "c", "d"});
     CHECK(word_axis({}).low < word_axis({}).high);
 }
+
+}  // namespace chart_axis_test

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+namespace chart_gnuplot_test {
 using namespace rovernet;
 
 namespace {
@@ -121,3 +122,5 @@ TEST_CASE("gnuplot: it draws every kind without a complaint, and runs no text as
         CHECK(has(drawn(chart_gnuplot({.kind = kind})).svg, "no results"));
     }
 }
+
+}  // namespace chart_gnuplot_test

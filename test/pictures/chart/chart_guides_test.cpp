@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+namespace chart_guides_test {
 using namespace rovernet;
 using test::corners;
 using test::drawn;
@@ -67,3 +68,5 @@ TEST_CASE("chart: a band reaches from the lower edge to its end, and the axis sh
     for (const auto& each : svg) told = told || each.text == "nobody knows";
     CHECK(told);
 }
+
+}  // namespace chart_guides_test

@@ -18,6 +18,7 @@
 #include <tuple>
 #include <vector>
 
+namespace chart_marks_test {
 using namespace rovernet;
 using test::corners;
 using test::drawn;
@@ -417,3 +418,5 @@ TEST_CASE("chart: a mark tells its values to who points at it") {
     const std::string text = drawn(ramp(ChartKind::lines, 4));
     CHECK(has(text, "<title>s: 2, 0.2 (0.15 to 0.3), n = 7</title>"));
 }
+
+}  // namespace chart_marks_test

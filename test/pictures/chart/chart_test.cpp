@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+namespace chart_test {
 using namespace rovernet;
 using test::chart_kinds;
 using test::drawn;
@@ -210,3 +211,5 @@ TEST_CASE("chart: a layout out of its range is refused") {
         CHECK_THROWS_AS(chart_svg({&nothing, 1}, bad), std::invalid_argument);
     }
 }
+
+}  // namespace chart_test

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+namespace chart_vega_test {
 using namespace rovernet;
 
 namespace {
@@ -115,3 +116,5 @@ TEST_CASE("vega: any text is a JSON string, and an empty chart says so") {
         CHECK(specification({.kind = kind})["data"]["values"][0]["text"] == "no results");
     }
 }
+
+}  // namespace chart_vega_test

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+namespace chart_view_test {
 using namespace rovernet;
 
 namespace {
@@ -134,3 +135,5 @@ TEST_CASE("chart view: bars at a word stand side by side around it") {
     CHECK(std::abs(bar_offset(1, 2) - 0.2) < rounding);
     CHECK(std::abs(bar_offset(2, 4) - bar_offset(1, 4) - bars_at_word / 4) < rounding);
 }
+
+}  // namespace chart_view_test

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+namespace color_test {
 using namespace rovernet;
 
 namespace {
@@ -71,3 +72,5 @@ TEST_CASE("color: hex and blend") {
     CHECK(hex({30, 144, 255}) == "#1e90ff");
     CHECK(blend({200, 0, 10}, {100, 100, 10}, 0.25) == Color{125, 75, 10});
 }
+
+}  // namespace color_test

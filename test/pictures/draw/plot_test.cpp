@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+namespace plot_test {
 using namespace rovernet;
 
 namespace {
@@ -150,3 +151,5 @@ TEST_CASE("label: it keeps off the border, what is in the way, and lines where i
     CHECK(places.place({200, 50}, 5, 30, 12)->right < 200);
     CHECK_FALSE(LabelPlaces({0, 0, 20, 20}).place({10, 10}, 5, 30, 12));
 }
+
+}  // namespace plot_test

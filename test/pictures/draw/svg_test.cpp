@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+namespace svg_test {
 using namespace rovernet;
 
 TEST_CASE("svg: numbers have at most two decimals, no needless zeros and no minus before a zero") {
@@ -94,3 +95,5 @@ TEST_CASE("svg: the check for well-formed XML sees what is not") {
     CHECK(test::xml_fault("<a b=\"1\" b=\"2\"/>") != "");
     CHECK(test::xml_fault("<?xml version=\"1.0\"?>\n<a b=\"c\"><d/>&amp;</a>\n") == "");
 }
+
+}  // namespace svg_test

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
+namespace contour_test {
 using namespace rovernet;
 
 namespace {
@@ -159,3 +160,5 @@ TEST_CASE("contour: smoothing is more than nothing") {
     CHECK_THROWS_AS(contours(mask([](Vec3) { return true; }), sensitivity, {0}),
                     std::invalid_argument);
 }
+
+}  // namespace contour_test

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+namespace coverage_test {
 using namespace rovernet;
 
 namespace {
@@ -150,3 +151,5 @@ TEST_CASE("coverage: an empty rectangle and an absurd number of cells are the ca
     CHECK_THROWS_AS(coverage(t, {0, 0}, {1, 1}, 0), std::invalid_argument);
     CHECK_THROWS_AS(coverage(t, {0, 0}, {1, 1}, most_coverage_cells + 1), std::invalid_argument);
 }
+
+}  // namespace coverage_test

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+namespace picture_movement_test {
 using namespace rovernet;
 using namespace std::chrono_literals;
 using test::of_class;
@@ -156,3 +157,5 @@ TEST_CASE("picture: trails have their robots' colours, which tell them apart") {
     CHECK(trails == std::vector<std::string>{"#0072b2", "#d55e00", "#009e73"});
     CHECK(rims == trails);
 }
+
+}  // namespace picture_movement_test

@@ -28,6 +28,7 @@
 #include <utility>
 #include <vector>
 
+namespace picture_test {
 using namespace rovernet;
 
 namespace {
@@ -452,3 +453,5 @@ TEST_CASE("picture: a PNG has the picture's size, and needs rsvg-convert") {
     CHECK(image.height == std::lround(number(svg, "height")));
     CHECK_THROWS_WITH_AS(picture_bytes("<svg", path), doctest::Contains("failed"), RunError);
 }
+
+}  // namespace picture_test

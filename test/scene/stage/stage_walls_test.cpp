@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+namespace stage_walls_test {
 using namespace rovernet;
 using test::TemporaryFolder;
 
@@ -451,3 +452,5 @@ TEST_CASE("stage walls: wall lengths in the worlds that came with Stage are the 
         CHECK(scene.wall_length(row.b, row.a) == scene.wall_length(row.a, row.b));
     }
 }
+
+}  // namespace stage_walls_test

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace worldfile_test {
 using namespace rovernet;
 using test::TemporaryFolder;
 
@@ -439,3 +440,5 @@ TEST_CASE("worldfile: poses compose: turn, then move") {
     CHECK(direction(630).cosine == 0);
     CHECK(direction(-180).cosine == -1);
 }
+
+}  // namespace worldfile_test

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+namespace validation_report_test {
 using namespace rovernet;
 
 namespace {
@@ -108,3 +109,5 @@ TEST_CASE("validation: costs are those of the turns, the lowest first") {
     }
     CHECK(calls >= 6);  // a pass to warm up and one to measure, in each turn
 }
+
+}  // namespace validation_report_test

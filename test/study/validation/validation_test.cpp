@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+namespace validation_test {
 using namespace rovernet;
 
 namespace {
@@ -145,3 +146,5 @@ TEST_CASE("drawn maps: all rooms, and all chambers of the cave, hang together") 
         CHECK(static_cast<double>(open) > 0.2 * static_cast<double>(map.cells.size()));
     }
 }
+
+}  // namespace validation_test

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+namespace decimal_test {
 using namespace rovernet;
 
 namespace {
@@ -115,3 +116,5 @@ TEST_CASE("hexadecimal numbers are lower case and bare") {
     CHECK(written(write_hex, std::uint32_t{0xABC}) == "abc");
     CHECK(written(write_hex, std::uint32_t{0xffffffff}) == "ffffffff");
 }
+
+}  // namespace decimal_test

@@ -16,6 +16,7 @@
 #include <sstream>
 #include <string>
 
+namespace ns2_convert_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
@@ -313,3 +314,5 @@ TEST_CASE("trace follow: all messages together have the deliveries and drops of 
     CHECK(delivered == stats.metrics.deliveries);
     CHECK(lost == expected);
 }
+
+}  // namespace ns2_convert_test

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+namespace ns2_damage_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
@@ -122,3 +123,5 @@ TEST_CASE("damaged trace: a broken line costs that line only") {
         }
     }
 }
+
+}  // namespace ns2_damage_test

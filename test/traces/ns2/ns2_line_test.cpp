@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+namespace ns2_line_test {
 using namespace rovernet;
 
 namespace {
@@ -242,3 +243,5 @@ TEST_CASE("ns-2 line: what is none of ns-2 is refused") {
         CHECK(is_refused(line));
     }
 }
+
+}  // namespace ns2_line_test

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+namespace ns2_reader_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
@@ -371,3 +372,5 @@ TEST_CASE("reader: a file without any line of ns-2 is no trace") {
     CHECK(metrics_of(moves + "\n# by hand\n").messages == 0);
     CHECK(metrics_of("").messages == 0);
 }
+
+}  // namespace ns2_reader_test

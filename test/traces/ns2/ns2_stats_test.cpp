@@ -17,6 +17,7 @@
 #include <sstream>
 #include <string>
 
+namespace ns2_stats_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
@@ -241,3 +242,5 @@ TEST_CASE("trace stats: the files of one run of ns-2 are the same in each format
     CHECK(nam.counts.skipped_of(Ns2Other::nam) == nam.counts.lines);
     CHECK_THROWS_AS(ns2_stats(in + "ns3_aodv_wifi_ascii.tr"), InputError);
 }
+
+}  // namespace ns2_stats_test

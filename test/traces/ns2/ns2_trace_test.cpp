@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+namespace ns2_trace_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
@@ -296,3 +297,5 @@ TEST_CASE("ns-2 trace: a full disk is reported, not swallowed") {
     CHECK_THROWS_AS(trace.close(), RunError);
     CHECK(folder.names().empty());
 }
+
+}  // namespace ns2_trace_test

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <memory>
 
+namespace recorded_trace_test {
 namespace rovernet {
 namespace {
 
@@ -213,3 +214,5 @@ TEST_CASE("what is no recorded trace is refused with a word") {
 
 }  // namespace
 }  // namespace rovernet
+
+}  // namespace recorded_trace_test
