@@ -36,6 +36,11 @@ Table as_table(const LinkReport& report) {
     }
     table.set("walls", std::move(walls));
     table.set("wall_m", report.wall_m);
+    if (const auto& rays = report.rays) {
+        table.set("paths", static_cast<std::uint64_t>(rays->found));
+        table.set("paths_left_out", static_cast<std::uint64_t>(rays->left_out));
+        table.set("left_out_db", rays->too_high.value);
+    }
     table.set("path_loss_db", report.path_loss.value);
     if (report.shadowing) table.set("shadowing_db", report.shadowing->value);
     if (report.sender.is_directional()) table.set("sender_pattern_db", report.sender_pattern.value);
@@ -48,6 +53,15 @@ Table as_table(const LinkReport& report) {
     return table;
 }
 
+void print_paths(const Rays::Paths& paths) {
+    fmt::print("  {} paths", paths.found);
+    if (paths.left_out > 0) {
+        fmt::print("; max_paths leaves out the weakest {}: the loss is {:.3g} dB higher for it",
+                   paths.left_out, paths.too_high.value);
+    }
+    fmt::print("\n\n");
+}
+
 void print_budget(const LinkReport& r) {
     fmt::print("{} -> {} at {:.9g} s: {:.3f} m, model {}\n\n", r.from, r.to, seconds(r.at),
                r.distance_m, r.model);
@@ -58,9 +72,11 @@ void print_budget(const LinkReport& r) {
         fmt::print("\n");
     }
     if (!r.walls.empty()) {
+        const bool sees_walls = !r.wall_losses.empty() || r.rays;
         fmt::print("  {:.3f} m of wall in all{}\n\n", r.wall_m,
-                   r.wall_losses.empty() ? "; model " + r.model + " does not see walls" : "");
+                   sees_walls ? "" : "; model " + r.model + " does not see walls");
     }
+    if (r.rays) print_paths(*r.rays);
     const auto line = [](std::string_view what, double value, std::string_view unit) {
         fmt::print("  {:<28} {:+10.3f} {}\n", what, value, unit);
     };

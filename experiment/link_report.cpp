@@ -4,6 +4,7 @@
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
 #include "models/medium/shadowed.hpp"
+#include "models/propagation/rays.hpp"
 
 #include <fmt/format.h>
 
@@ -182,12 +183,20 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
                       .received = medium.level(a, b, at, network.legs()),
                       .margin = medium.margin(a, b, at, network.legs()),
                       .up = false,
-                      .why_down = {}};
+                      .why_down = {},
+                      .rays = {}};
     report.up = medium.link_up(a, b, at, network.legs());
     if (!report.up) report.why_down = why_down(network, a, b, report);
     if (shadowed) {
         report.shadowing =
             report.path_loss - Db{loss_by(model, network.scene(), network, a, b, pa, pb)};
+    }
+    if (const Rays* rays = model.as<Rays>()) {
+        report.rays = rays->paths({.frequency = medium.radio(a).frequency,
+                                   .from = pa,
+                                   .to = {&pb, 1},
+                                   .to_keys = {},
+                                   .scene = &network.scene()});
     }
     if (model.shape() == LossShape::by_walls) {
         report.wall_losses = wall_losses(network, a, b, report, pa, pb);

@@ -4,6 +4,7 @@
 #include "experiment/output.hpp"
 #include "experiment/playing.hpp"
 #include "experiment/timeline.hpp"
+#include "models/propagation/rays.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/value.hpp"
@@ -98,8 +99,9 @@ struct LinkReport {
     Db sender_pattern, receiver_pattern;  ///< gain of each antenna towards the other, <= 0
     Dbm received;
     Db margin;
-    bool up;               ///< the link is up, and both robots are on
-    std::string why_down;  ///< "B is off", say; empty if it is up
+    bool up;                          ///< the link is up, and both robots are on
+    std::string why_down;             ///< "B is off", say; empty if it is up
+    std::optional<Rays::Paths> rays;  ///< paths of the link, if its model is rays
 };
 
 /// Runs the scenario until `at`, then looks at one link. Only the two robots move and those that

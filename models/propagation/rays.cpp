@@ -123,4 +123,23 @@ void Rays::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) co
     }
 }
 
+Rays::Paths Rays::paths(const LinkBatch& link) const {
+    const RayMaterials materials(link.scene->materials(), link.frequency, wall, reflection_loss);
+    const RayLimit limit{materials, link.frequency, faintest_path, diffraction,
+                         sum == RaySum::coherent};
+    RayTracer tracer(*link.scene, link.from, order, speed_of_light / link.frequency.value,
+                     diffraction != RayDiffraction::none, order > 1);
+    RayPaths found;
+    tracer.trace(link.to[0], &limit, found);
+    std::vector<double> losses(tracer.losses().begin(), tracer.losses().end());
+    std::sort(losses.begin(), losses.end());
+    const std::size_t added = std::min(losses.size(), static_cast<std::size_t>(max_paths));
+    double kept = 0, all = 0;
+    for (std::size_t i = 0; i < losses.size(); ++i) {
+        all += math::exp10((losses[0] - losses[i]) / 10);
+        if (i < added) kept = all;
+    }
+    return {losses.size(), losses.size() - added, Db{10 * math::log10(all / kept)}};
+}
+
 }  // namespace rovernet

@@ -6,6 +6,7 @@
 #include "scene/p2040.hpp"
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace rovernet {
@@ -90,6 +91,14 @@ struct Rays {
     Meters reach(Db loss, Hertz f) const;
     /// Fills out_db[i] [dB] for the i-th receiver; walls come from the batch's scene.
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+
+    /// Paths of a link, as they are found, and of them those that `max_paths` leaves out.
+    struct Paths {
+        std::size_t found, left_out;
+        Db too_high;  ///< the loss is higher by this for what is left out, by power
+    };
+    /// @param link  batch of one receiver
+    Paths paths(const LinkBatch& link) const;
 };
 
 }  // namespace rovernet

@@ -8,7 +8,7 @@
 namespace rovernet {
 namespace {
 
-constexpr std::uint64_t ns_per_s = 1'000'000'000;
+constexpr std::uint64_t second_in_ns = 1'000'000'000;
 
 /// Exactly `digits` digits, with leading zeros.
 char* write_padded(char* out, std::uint64_t value, int digits) {
@@ -61,9 +61,9 @@ char* write_fixed2(char* out, double value) {
 
 char* write_seconds(char* out, Time time) {
     const std::uint64_t ns = magnitude(out, time);
-    out = write_integer(out, ns / ns_per_s);
+    out = write_integer(out, ns / second_in_ns);
     *out++ = '.';
-    return write_padded(out, ns % ns_per_s, 9);
+    return write_padded(out, ns % second_in_ns, 9);
 }
 
 char* write_seconds5(char* out, Time time) {

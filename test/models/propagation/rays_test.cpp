@@ -142,6 +142,23 @@ TEST_CASE("rays: max_paths keeps the strongest") {
     CHECK(near(loss(model, scene, from, to), free_space_db(distance(from, to), f), 1e-12));
 }
 
+TEST_CASE("rays: what max_paths leaves out is counted, and how much higher the loss is for it") {
+    const Scene scene = drawn(
+        12, 8, 0.5, [](double x, double y) { return std::abs(x) > 5.5 || std::abs(y) > 3.5; });
+    const Vec3 from{-3, 1}, to{2, -1.3};
+    Rays model{.order = 2, .diffraction = RayDiffraction::none, .max_paths = 5};
+    const LinkBatch link{
+        .frequency = f, .from = from, .to = {&to, 1}, .to_keys = {}, .scene = &scene};
+    const Rays::Paths paths = model.paths(link);
+    CHECK(paths.found == 13);
+    CHECK(paths.left_out == 8);
+    const double with_five = loss(model, scene, from, to);
+    model.max_paths = 13;
+    CHECK(near(paths.too_high.value, with_five - loss(model, scene, from, to), 1e-9));
+    CHECK(model.paths(link).left_out == 0);
+    CHECK(model.paths(link).too_high.value == 0);
+}
+
 TEST_CASE("rays: behind a screen they lose what a knife edge takes, on the way around it") {
     const Scene scene = drawn(84, 6, 0.05, bar(-40, 0, 0.05));
     for (const double x : {0.2, 0.5, 1.5}) {
