@@ -187,7 +187,10 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
           });
     const Db told = candidates_.compute_losses(model(from), batch(from, origin_, t, frame), from,
                                                pairs_, fades_ ? fades_->most() : Db{0});
-    const bool keeps = keeps_recent_losses();
+    // A loss without walls is computed as fast as it is found again.
+    const LossShape shape = model(from).shape();
+    const bool keeps =
+        keeps_recent_losses() && (shape == LossShape::by_walls || shape == LossShape::unknown);
     for (const Candidate& c : candidates_.all()) {
         if (keeps) recent_.keep({from, c.node, origin_, c.antenna}, told, c.loss_db);
         const double loss_db = faded(c.loss_db, from, c.node, origin_, c.antenna, frame);
