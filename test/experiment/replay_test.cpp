@@ -19,7 +19,7 @@
 #include <memory>
 
 namespace replay_test {
-namespace rovernet {
+using namespace rovernet;
 namespace {
 
 using namespace testing;
@@ -34,7 +34,8 @@ struct RecordedRunOf {
         for (const char* each : {"trace.record=true", "trace.ns2=old", "trace.mac=true"}) {
             set.emplace_back(each);
         }
-        result = run_scenario(load_scenario(path, {.set = set}), {.folder = folder / "."});
+        result =
+            run_scenario(load_scenario(path, {.set = set}), {.folder = folder / ".", .speed = {}});
     }
 };
 
@@ -176,6 +177,5 @@ TEST_CASE("a reader in Python, written from docs/trace-format.md, reads the same
 }
 
 }  // namespace
-}  // namespace rovernet
 
 }  // namespace replay_test

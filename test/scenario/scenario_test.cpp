@@ -181,6 +181,8 @@ robots = true
 topology = true
 
 [trace]
+record = true
+links = true
 ns2 = "old"
 mac = true
 

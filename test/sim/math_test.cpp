@@ -37,6 +37,8 @@ double worst_log_ulp(double from, double to) {
 long double long_exp2(long double x) { return std::exp2(x); }
 long double long_exp10(long double x) { return std::pow(10.0L, x); }
 
+// math::exp has an overload for complex numbers.
+double real_exp(double x) { return math::exp(x); }
 double sine(double x) { return math::sincos(x).sin; }
 double cosine(double x) { return math::sincos(x).cos; }
 double angle_of_line(double x) { return math::atan2(x, 1 - x); }
@@ -81,9 +83,9 @@ TEST_CASE("powers: below the stated ulps, in and out of the normal range") {
     CHECK(worst_ulp(math::exp2, long_exp2, -1022, 1024) < exp2_bound_ulp);
     CHECK(worst_ulp(math::exp2, long_exp2, -1075, -1022) < exp2_bound_ulp);
     const auto long_exp = [](long double x) { return std::exp(x); };
-    CHECK(worst_ulp(math::exp, long_exp, -1, 1) < exp_bound_ulp);
-    CHECK(worst_ulp(math::exp, long_exp, -708, 709.7) < exp_bound_ulp);
-    CHECK(worst_ulp(math::exp, long_exp, -745, -708) < exp_bound_ulp);
+    CHECK(worst_ulp(real_exp, long_exp, -1, 1) < exp_bound_ulp);
+    CHECK(worst_ulp(real_exp, long_exp, -708, 709.7) < exp_bound_ulp);
+    CHECK(worst_ulp(real_exp, long_exp, -745, -708) < exp_bound_ulp);
     CHECK(worst_ulp(math::exp10, long_exp10, -1, 1) < exp10_bound_ulp);
     CHECK(worst_ulp(math::exp10, long_exp10, -307, 308) < exp10_bound_ulp);
     CHECK(worst_ulp(math::exp10, long_exp10, -323, -307) < exp10_bound_ulp);
@@ -385,7 +387,7 @@ TEST_CASE("sine, cosine, angles, e^x, e^x - 1, log(1 + x): the same bits from ev
     CHECK(fingerprint(sine, -1e3, 1e3) == 0x8751fc7b1cc79e0a);
     CHECK(fingerprint(cosine, -1e3, 1e3) == 0x7979cc4a3222f19f);
     CHECK(fingerprint(angle_of_line, -3, 3) == 0x079ed690a4fd7668);
-    CHECK(fingerprint(math::exp, -10, 10) == 0x7a50720c97576064);
+    CHECK(fingerprint(real_exp, -10, 10) == 0x7a50720c97576064);
     CHECK(fingerprint(math::log1p, -1, 3) == 0xc424f5d5bf945d08);
     CHECK(fingerprint(math::expm1, -10, 10) == 0x272fb7dd612e0eb7);
 }

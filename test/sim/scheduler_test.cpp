@@ -18,8 +18,6 @@
 #include <vector>
 
 namespace scheduler_test {
-using namespace rovernet;
-using namespace std::chrono_literals;
 
 // Every allocation of the test program comes through here, so that a test can count them. Not
 // inlined: gcc would see malloc meet delete, and warn.
@@ -33,12 +31,14 @@ void* counted(void* memory) {
 }
 }  // namespace
 
+}  // namespace scheduler_test
+
 [[gnu::noinline]] void* operator new(std::size_t size) {
-    return counted(std::malloc(std::max(size, std::size_t{1})));
+    return scheduler_test::counted(std::malloc(std::max(size, std::size_t{1})));
 }
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
     const auto a = static_cast<std::size_t>(alignment);
-    return counted(std::aligned_alloc(a, (size + a - 1) / a * a));
+    return scheduler_test::counted(std::aligned_alloc(a, (size + a - 1) / a * a));
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
@@ -48,6 +48,10 @@ void* counted(void* memory) {
 [[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
     std::free(memory);
 }
+
+namespace scheduler_test {
+using namespace rovernet;
+using namespace std::chrono_literals;
 
 namespace {
 

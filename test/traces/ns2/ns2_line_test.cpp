@@ -84,7 +84,8 @@ TEST_CASE(
         " 1.0012345678 -s 2 -d 3 -p AODV -k MAC -i 9 -N:loc {500.00 400.00 1.00} -N:en -1.000000 "
         "-M:dur 13a -M:s ffffffff -M:d 2 -M:t 800 -IP:s 0 -IP:sp 255 -IP:d -1 -IP:dp 255 -p AODV "
         "-e 106 -c 0 -i 9 -IP:ttl 30 -aodv:t 2 -aodv:c REQUEST ";
-    const auto p = packet_of("+" + rest);
+    const std::string line = "+" + rest, forward = "h" + rest;
+    const auto p = packet_of(line);
     CHECK(p.dialect == Ns2Dialect::tagged);
     CHECK(p.op == 's');
     CHECK(ns(p.time) == 1'001'234'568);
@@ -97,7 +98,7 @@ TEST_CASE(
     CHECK(p.ip == Ns2Ip{0, 255, -1, 255, 30, 3});
     CHECK(p.position == Vec3{500, 400, 1});
     CHECK_FALSE(p.energy);
-    CHECK(packet_of("h" + rest).op == 'f');
+    CHECK(packet_of(forward).op == 'f');
     CHECK(packet_of("d" + rest).op == 'D');
     CHECK(packet_of("r" + rest).op == 'r');
     const auto rts = packet_of(
@@ -111,7 +112,8 @@ TEST_CASE(
 TEST_CASE(
     "ns-2 line: frames of the MAC's own have no network part, and an energy may stand behind") {
     for (const std::string energy : {"", "[energy 98.3 ei 1.3 es 0.0 et 0.1 er 0.2] "}) {
-        const auto p = packet_of("D 3.541349000 _2_ MAC  RET 0 RTS 44 [14ee 3 2 0] " + energy);
+        const std::string line = "D 3.541349000 _2_ MAC  RET 0 RTS 44 [14ee 3 2 0] " + energy;
+        const auto p = packet_of(line);
         CHECK(p.type == "RTS");
         CHECK(p.reason == "RET");
         CHECK(p.mac == Ns2Mac{0x14ee, 3, 2, 0});

@@ -16,7 +16,7 @@
 #include <memory>
 
 namespace recorded_trace_test {
-namespace rovernet {
+using namespace rovernet;
 namespace {
 
 using namespace testing;
@@ -213,6 +213,5 @@ TEST_CASE("what is no recorded trace is refused with a word") {
 }
 
 }  // namespace
-}  // namespace rovernet
 
 }  // namespace recorded_trace_test
