@@ -227,7 +227,7 @@ void trace_stats(const TraceStatsArguments& arguments);
 
 struct TraceConvertArguments {
     std::string in, out, to;
-    bool strict = false;
+    bool mac = false, strict = false;
 };
 void trace_convert(const TraceConvertArguments& arguments);
 
@@ -258,6 +258,8 @@ void trace_follow(const TraceFollowArguments& arguments);
 struct ReplayArguments {
     std::string file;
     bool verify = false;
+    std::vector<std::string> with;   ///< radios, each "path=value" or several of them after ";"
+    std::optional<std::string> map;  ///< map of these
     bool json = false;
 };
 void replay(const ReplayArguments& arguments);
