@@ -5,9 +5,9 @@
 #include "cli/trace_notices.hpp"
 #include "experiment/replay.hpp"
 #include "experiment/run.hpp"
+#include "experiment/trace_input.hpp"
 #include "scenario/json.hpp"
 #include "traces/ns2/ns2_stats.hpp"
-#include "traces/recorded/recorded_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -29,6 +29,10 @@ void tell_refused(const std::string& file, const Ns2Counts& counts) {
     for (const Ns2RefusedLine& line : counts.refused_lines) {
         notice(fmt::format("{}:{}:{}: {}: {}", file, line.line, line.column, line.why, line.text));
     }
+}
+
+void tell_damage(const std::string& file, const std::vector<std::string>& damage) {
+    for (const std::string& what : damage) notice(file + ": " + what);
 }
 
 namespace {
@@ -181,33 +185,27 @@ TraceRows rows_by(const std::string& by) {
     return by == "second" ? TraceRows::second : TraceRows::none;
 }
 
-/// The metrics of a recorded trace.
-void print_recorded_stats(const TraceStatsArguments& a) {
-    std::vector<std::string> damage;
-    const MetricValues metrics = recorded_metrics(a.file, damage);
-    for (const std::string& text : damage) notice(a.file + ": " + text);
-    Table table, flat;
-    append_metrics(table, metrics);
-    table.set("format", "recorded");
-    if (a.json) {
-        fmt::print("{}", to_json(table));
-        return;
+/// What is counted of a trace. A recorded one has the metrics of its run, without its warm-up.
+TraceStats stats_of(const TraceStatsArguments& a) {
+    const TraceInput trace(a.file, {.format = Ns2Format::old_format, .mac = MacTrace::on});
+    const auto strictness = a.strict ? Ns2Strictness::strict : Ns2Strictness::tolerant;
+    TraceStats stats = ns2_stats(trace.text(), strictness, rows_by(a.by));
+    tell_refused(a.file, stats.counts);
+    if (!trace.is_recorded()) return stats;
+    tell_damage(a.file, trace.damage());
+    std::vector<std::string> told;
+    stats.metrics = recorded_metrics(a.file, told);
+    stats.drops.clear();
+    for (const auto& drop : stats.metrics.drops) {
+        if (drop.count > 0) stats.drops.emplace_back(drop.reason, drop.count);
     }
-    flatten(table, "", flat);
-    if (a.csv) {
-        fmt::print("{}{}", csv_line(flat, true), csv_line(flat, false));
-    } else {
-        print_flat(flat);
-    }
+    return stats;
 }
 
 }  // namespace
 
 void trace_stats(const TraceStatsArguments& a) {
-    if (is_recorded_trace(a.file)) return print_recorded_stats(a);
-    const auto strictness = a.strict ? Ns2Strictness::strict : Ns2Strictness::tolerant;
-    const TraceStats stats = ns2_stats(a.file, strictness, rows_by(a.by));
-    tell_refused(a.file, stats.counts);
+    const TraceStats stats = stats_of(a);
     if (stats.metrics.messages == 0) notice(a.file + ": no message was sent in this trace");
     if (a.json) {
         fmt::print("{}", to_json(stats_table(stats, a.by)));

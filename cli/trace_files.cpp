@@ -3,8 +3,10 @@
 #include "cli/diagnostics.hpp"
 #include "cli/trace_notices.hpp"
 #include "experiment/loss_table.hpp"
+#include "experiment/trace_input.hpp"
 #include "traces/ns2/ns2_convert.hpp"
 #include "traces/ns2/ns2_diff.hpp"
+#include "traces/recorded/recorded_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -46,10 +48,18 @@ void print_kinds(const TraceDifference& d) {
 }  // namespace
 
 void trace_convert(const TraceConvertArguments& a) {
+    TraceInput::Lines lines;
+    if (a.to == "ns2-old") lines.format = Ns2Format::old_format;
+    if (a.mac) lines.mac = MacTrace::on;
+    const TraceInput trace(a.in, lines);
+    if (trace.is_recorded() && a.to != "csv") {
+        return tell_damage(a.in, render_recorded(a.in, a.out, lines));
+    }
     const TraceForm form = a.to == "csv"       ? TraceForm::csv
                            : a.to == "ns2-old" ? TraceForm::ns2_old
                                                : TraceForm::ns2_new;
-    tell_left_out(a.in, convert_ns2(a.in, a.out, form, strictness_of(a.strict)));
+    tell_left_out(a.in, convert_ns2(trace.text(), a.out, form, strictness_of(a.strict)));
+    tell_damage(a.in, trace.damage());
 }
 
 void trace_cut(const TraceCutArguments& a) {
@@ -58,16 +68,24 @@ void trace_cut(const TraceCutArguments& a) {
     if (a.to) cut.to = start_of_run + option_time("--to", *a.to);
     if (a.robot) cut.robot = NodeId{*a.robot};
     cut.message = a.message;
-    const Converted made = cut_ns2(a.in, a.out, cut, strictness_of(a.strict));
+    const TraceInput trace(a.in, {});
+    const Converted made = cut_ns2(trace.text(), a.out, cut, strictness_of(a.strict));
     tell_left_out(a.in, made);
+    tell_damage(a.in, trace.damage());
     if (made.written == 0) notice(a.out + ": no event of " + a.in + " is in this piece");
 }
 
 void trace_diff(const TraceDiffArguments& a) {
     const Duration tolerance = option_time("--time-tolerance", a.time_tolerance);
-    const TraceDifference d = diff_ns2(a.a, a.b, tolerance, strictness_of(a.strict));
+    TraceInput::Lines lines{.format = Ns2Format::old_format};
+    if (is_recorded_trace(a.a) && is_recorded_trace(a.b)) lines.mac = MacTrace::on;
+    const TraceInput left(a.a, lines), right(a.b, lines);
+    const TraceDifference d =
+        diff_ns2(left.text(), right.text(), tolerance, strictness_of(a.strict));
     tell_refused(a.a, d.counts_a);
     tell_refused(a.b, d.counts_b);
+    tell_damage(a.a, left.damage());
+    tell_damage(a.b, right.damage());
     if (d.is_equal) {
         fmt::print("equal: {} events\n", d.counts_a.events);
         return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.hpp"
 #include "cli/trace_notices.hpp"
+#include "experiment/trace_input.hpp"
 #include "scenario/scenario.hpp"
 #include "traces/ns2/ns2_follow.hpp"
 
@@ -16,10 +17,14 @@
 namespace rovernet::cli {
 namespace {
 
-/// Names of the robots of a trace: those of the scenario beside it, or else their numbers.
+/// Names of the robots of a trace: its own, or those of the scenario beside it, or else their
+/// numbers.
 class TraceNames {
   public:
-    explicit TraceNames(const std::string& trace) {
+    /// @param recorded  names that the trace itself has
+    TraceNames(const std::string& trace, const std::vector<std::string>& recorded)
+        : names_(recorded) {
+        if (!names_.empty()) return;
         const auto beside = std::filesystem::path(trace).parent_path() / "scenario.toml";
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(beside, ignored)) return;
@@ -113,9 +118,11 @@ void print_without(const FollowedMessage& way, const TraceNames& names) {
 
 void trace_follow(const TraceFollowArguments& a) {
     const auto strictness = a.strict ? Ns2Strictness::strict : Ns2Strictness::tolerant;
-    const FollowedMessage way = follow_ns2(a.file, a.message, strictness);
+    const TraceInput trace(a.file, {.format = Ns2Format::old_format, .mac = MacTrace::on});
+    const FollowedMessage way = follow_ns2(trace.text(), a.message, strictness);
     tell_refused(a.file, way.counts);
-    const TraceNames names(a.file);
+    tell_damage(a.file, trace.damage());
+    const TraceNames names(a.file, trace.robots());
     std::optional<NodeId> goal;
     if (a.robot) goal = names.number(*a.robot);
     print_head(way, names);

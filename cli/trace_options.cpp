@@ -4,7 +4,8 @@
 namespace rovernet::cli {
 namespace {
 
-constexpr const char* any_trace = "ns-2 trace (.tr), which may be packed by gzip or zstd";
+constexpr const char* any_trace =
+    "ns-2 trace (.tr), which may be packed by gzip or zstd, or recorded trace (.mcap)";
 
 void add_strict(Command command, bool& strict) {
     command.add_flag("--strict", strict, "stop at the first line that is none of ns-2");
@@ -12,7 +13,7 @@ void add_strict(Command command, bool& strict) {
 
 void add_trace_stats(Command trace) {
     const auto [stats, a] =
-        add_command(trace, "stats", "Print the metrics of an ns-2 trace", cli::trace_stats);
+        add_command(trace, "stats", "Print the metrics of a trace", cli::trace_stats);
     stats.add_examples({"rovernet trace stats runs/patrol-s3/trace.tr",
                         "rovernet trace stats out.tr.gz --by flow --csv"});
     stats.add_option("FILE", a.file, any_trace).required();
@@ -25,20 +26,23 @@ void add_trace_stats(Command trace) {
 
 void add_trace_convert(Command trace) {
     const auto [convert, a] =
-        add_command(trace, "convert", "Write an ns-2 trace in another form", cli::trace_convert);
+        add_command(trace, "convert", "Write a trace in another form", cli::trace_convert);
     convert.add_examples({"rovernet trace convert out.tr out.csv --to csv",
-                          "rovernet trace convert old.tr new.tr --to ns2-new"});
+                          "rovernet trace convert old.tr new.tr --to ns2-new",
+                          "rovernet trace convert trace.mcap trace.tr --to ns2-old --mac"});
     convert.add_option("IN", a.in, any_trace).required();
     convert.add_option("OUT", a.out, "file to write").required();
     convert.add_option("--to", a.to, "csv, ns2-old or ns2-new")
         .one_of({"csv", "ns2-old", "ns2-new"})
         .required();
+    convert.add_flag("--mac", a.mac,
+                     "of a recorded trace also the lines of the MAC, as with [trace] mac = true");
     add_strict(convert, a.strict);
 }
 
 void add_trace_cut(Command trace) {
-    const auto [cut, a] =
-        add_command(trace, "cut", "Write a piece of an ns-2 trace, line by line", cli::trace_cut);
+    const auto [cut, a] = add_command(
+        trace, "cut", "Write a piece of a trace as ns-2 text, line by line", cli::trace_cut);
     cut.add_examples({"rovernet trace cut out.tr piece.tr --from \"10 s\" --to \"20 s\"",
                       "rovernet trace cut out.tr piece.tr --message 3"});
     cut.add_option("IN", a.in, any_trace).required();
@@ -52,7 +56,7 @@ void add_trace_cut(Command trace) {
 
 void add_trace_diff(Command trace) {
     const auto [diff, a] = add_command(
-        trace, "diff", "Show where two ns-2 traces part; exit code 1 if they do", cli::trace_diff);
+        trace, "diff", "Show where two traces part; exit code 1 if they do", cli::trace_diff);
     diff.add_examples({"rovernet trace diff a.tr b.tr",
                        "rovernet trace diff old.tr new.tr --time-tolerance \"1 us\""});
     diff.add_option("A", a.a, any_trace).required();

@@ -98,6 +98,14 @@ bool TextSource::more() {
     before_buffer_ += begin_;
     begin_ = 0;
     end_ = rest;
+    if (next_) {
+        const std::string_view piece = next_();
+        if (buffer_.size() < rest + piece.size()) buffer_.resize(rest + piece.size());
+        std::copy(piece.begin(), piece.end(), buffer_.data() + rest);
+        at_end_ = piece.empty();
+        end_ += piece.size();
+        return !at_end_;
+    }
     if (buffer_.size() < rest + portion) buffer_.resize(rest + portion);
     char* out = buffer_.data() + rest;
     const std::size_t n = zstd_ ? unpack(out, portion) : read_file(out, portion);

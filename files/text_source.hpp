@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 struct gzFile_s;
@@ -25,6 +27,11 @@ class TextSource {
 
     /// @throws InputError if `path` is no file that can be read; later calls too, if it is damaged
     explicit TextSource(const std::string& path, Reads reads = Reads::twice);
+    /// Text that is made piece by piece, and read once.
+    /// @param name  of the source, for errors
+    /// @param next  called for the next piece, good until the next call; empty: there is no more
+    TextSource(std::string name, std::function<std::string_view()> next)
+        : name_(std::move(name)), next_(std::move(next)) {}
 
     /// Bytes that have been read and not yet taken; valid until the next call of more().
     std::string_view window() const { return {buffer_.data() + begin_, end_ - begin_}; }
@@ -38,7 +45,7 @@ class TextSource {
     void take(std::size_t n) { begin_ += n; }
     /// Number of bytes that have been taken since the start.
     std::uint64_t taken() const { return before_buffer_ + begin_; }
-    /// Back to the start of the file.
+    /// Back to the start of a file; of one alone.
     void rewind();
 
     const std::string& name() const { return name_; }
@@ -63,6 +70,7 @@ class TextSource {
         bool in_frame = false;  ///< the file must not end here
     };
     std::string name_;
+    std::function<std::string_view()> next_;  ///< makes the text; empty: file_ has it
     std::unique_ptr<gzFile_s, Close> file_;
     std::optional<Packed> zstd_;  ///< if it is a zstd file
     std::vector<char> buffer_;

@@ -95,9 +95,9 @@ bool is_in(const TraceCut& cut, const Ns2Reachable& r) {
 
 }  // namespace
 
-Converted convert_ns2(const std::string& in, const std::string& out, TraceForm form,
+Converted convert_ns2(Ns2Source in, const std::string& out, TraceForm form,
                       Ns2Strictness strictness) {
-    Ns2File file(in, strictness);
+    Ns2File file(std::move(in), strictness);
     LinesOut lines(out);
     if (form == TraceForm::csv) lines.buffer().append(ns2_csv_head).push_back('\n');
     Converted converted;
@@ -117,9 +117,9 @@ Converted convert_ns2(const std::string& in, const std::string& out, TraceForm f
     return converted;
 }
 
-Converted cut_ns2(const std::string& in, const std::string& out, const TraceCut& cut,
+Converted cut_ns2(Ns2Source in, const std::string& out, const TraceCut& cut,
                   Ns2Strictness strictness) {
-    Ns2File file(in, strictness);
+    Ns2File file(std::move(in), strictness);
     LinesOut lines(out);
     Converted converted;
     while (const Ns2Line* line = file.next()) {

@@ -31,7 +31,7 @@ struct Converted {
 /// only, which has less of them.
 /// @param out  file that gets its name when it is whole
 /// @throws InputError as Ns2File; RunError if it cannot be written
-Converted convert_ns2(const std::string& in, const std::string& out, TraceForm,
+Converted convert_ns2(Ns2Source in, const std::string& out, TraceForm,
                       Ns2Strictness = Ns2Strictness::tolerant);
 
 /// What a piece of a trace has: everything that is not ruled out.
@@ -46,7 +46,7 @@ struct TraceCut {
 /// Writes the events of a trace that belong to a piece of it, as they stand. `M` lines before its
 /// begin stay, as nobody would know where the robots are.
 /// @throws InputError, RunError as convert_ns2()
-Converted cut_ns2(const std::string& in, const std::string& out, const TraceCut&,
+Converted cut_ns2(Ns2Source in, const std::string& out, const TraceCut&,
                   Ns2Strictness = Ns2Strictness::tolerant);
 
 }  // namespace rovernet

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -87,7 +88,7 @@ std::string kind_name(const Ns2Line& event) {
 /// One of the two files, with what came last.
 class Side {
   public:
-    Side(const std::string& path, Ns2Strictness strictness) : file_(path, strictness) {}
+    Side(Ns2Source source, Ns2Strictness strictness) : file_(std::move(source), strictness) {}
 
     const Ns2Line* next() { return event_ = file_.next(); }
     const Ns2Line* event() const { return event_; }
@@ -117,10 +118,10 @@ void count_rest(Side& side, std::vector<NumberedLine>& shown, Count count) {
 
 }  // namespace
 
-TraceDifference diff_ns2(const std::string& path_a, const std::string& path_b, Duration tolerance,
+TraceDifference diff_ns2(Ns2Source source_a, Ns2Source source_b, Duration tolerance,
                          Ns2Strictness strictness) {
     TraceDifference result;
-    Side a(path_a, strictness), b(path_b, strictness);
+    Side a(std::move(source_a), strictness), b(std::move(source_b), strictness);
     a.next(), b.next();
     for (; a.event() && b.event(); a.next(), b.next()) {
         result.field = difference_of(*a.event(), *b.event(), tolerance);

@@ -36,7 +36,7 @@ struct TraceDifference {
 /// are no events, and blanks, do not matter; nor do the reason and the payload between formats.
 /// @param tolerance  times differ if they are further apart
 /// @throws InputError as Ns2File
-TraceDifference diff_ns2(const std::string& a, const std::string& b, Duration tolerance,
+TraceDifference diff_ns2(Ns2Source a, Ns2Source b, Duration tolerance,
                          Ns2Strictness = Ns2Strictness::tolerant);
 
 }  // namespace rovernet

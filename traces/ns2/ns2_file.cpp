@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <utility>
 #include <variant>
 
 namespace rovernet {
@@ -49,8 +50,8 @@ std::string Ns2Counts::format() const {
     return all.empty() ? "none" : all;
 }
 
-Ns2File::Ns2File(const std::string& path, Ns2Strictness strictness)
-    : source_(path, TextSource::Reads::once), strictness_(strictness) {}
+Ns2File::Ns2File(Ns2Source source, Ns2Strictness strictness)
+    : source_(std::move(source)), strictness_(strictness) {}
 
 bool Ns2File::next_text() {
     source_.take(taken_);

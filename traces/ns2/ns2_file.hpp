@@ -8,9 +8,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -42,14 +44,22 @@ struct Ns2Counts {
 /// What becomes of a line that is none of ns-2: it is counted, or it is an InputError.
 enum class Ns2Strictness { tolerant, strict };
 
-/// The events of an ns-2 trace, one after the other. Plain text, gzip or zstd; a pipe, too.
+/// Text of a trace: a file, or what somebody writes piece by piece.
+struct Ns2Source : TextSource {
+    /// Plain text, gzip or zstd; a pipe, too. @throws InputError if it cannot be read
+    Ns2Source(const std::string& path) : TextSource(path, Reads::once) {}
+    /// Text that `next` makes, see TextSource.
+    Ns2Source(std::string name, std::function<std::string_view()> next)
+        : TextSource(std::move(name), std::move(next)) {}
+};
+
+/// The events of an ns-2 trace, one after the other.
 ///
 /// Memory does not grow with the file. A line of more than 64 KiB is refused, whatever it holds;
 /// the lines behind it are read.
 class Ns2File {
   public:
-    /// @throws InputError if it cannot be read
-    explicit Ns2File(const std::string& path, Ns2Strictness = Ns2Strictness::tolerant);
+    explicit Ns2File(Ns2Source source, Ns2Strictness = Ns2Strictness::tolerant);
 
     /// The next line that is an event: neither Ns2Other nor Ns2Refused; nullptr after the last.
     /// Valid until the next call.
@@ -59,6 +69,8 @@ class Ns2File {
     /// @throws InputError under Ns2Strictness::strict
     void refuse(int column, const std::string& why);
 
+    /// Name of the file.
+    const std::string& name() const { return source_.name(); }
     /// The line that came last, without its end.
     std::string_view text() const { return text_; }
     /// Its number, from 1.
@@ -75,7 +87,7 @@ class Ns2File {
     void skip_long_line();
     Location place(std::uint64_t line, int column) const;
 
-    TextSource source_;
+    Ns2Source source_;
     Ns2Strictness strictness_;
     Ns2Counts counts_;
     std::string_view text_;

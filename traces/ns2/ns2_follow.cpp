@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -129,15 +130,15 @@ FollowedMessage Follower::way() const {
 
 }  // namespace
 
-FollowedMessage follow_ns2(const std::string& path, std::uint64_t uid, Ns2Strictness strictness) {
-    Ns2File file(path, strictness);
+FollowedMessage follow_ns2(Ns2Source source, std::uint64_t uid, Ns2Strictness strictness) {
+    Ns2File file(std::move(source), strictness);
     Follower follower(uid);
     while (const Ns2Line* line = file.next()) {
         std::visit([&](const auto& event) { follower.on(event); }, *line);
     }
     file.expect_trace();
     if (!follower.is_found()) {
-        throw InputError({.source = path},
+        throw InputError({.source = file.name()},
                          fmt::format("found no message {}; {}", uid, follower.known()));
     }
     FollowedMessage way = follower.way();

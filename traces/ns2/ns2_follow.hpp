@@ -51,7 +51,7 @@ struct FollowedMessage {
 /// A robot's place in the tree is that of its first copy, `r RTR` or `r AGT`, and of the sender
 /// that the MAC header names.
 /// @throws InputError as read_ns2_trace(), and if no message has this id
-FollowedMessage follow_ns2(const std::string& path, std::uint64_t uid,
+FollowedMessage follow_ns2(Ns2Source source, std::uint64_t uid,
                            Ns2Strictness = Ns2Strictness::tolerant);
 
 }  // namespace rovernet

@@ -299,9 +299,9 @@ void Replay::flush() {
 
 }  // namespace
 
-Ns2Counts read_ns2_trace(const std::string& path, Sink sink, Ns2Strictness strictness,
+Ns2Counts read_ns2_trace(Ns2Source source, Sink sink, Ns2Strictness strictness,
                          const OnNs2Packet& on_packet) {
-    Ns2File file(path, strictness);
+    Ns2File file(std::move(source), strictness);
     Replay replay(std::move(sink), file, on_packet);
     while (const Ns2Line* line = file.next()) {
         std::visit([&](const auto& event) { replay.on(event); }, *line);
@@ -311,9 +311,9 @@ Ns2Counts read_ns2_trace(const std::string& path, Sink sink, Ns2Strictness stric
     return file.counts();
 }
 
-MetricValues trace_metrics(const std::string& path, Ns2Strictness strictness) {
+MetricValues trace_metrics(Ns2Source source, Ns2Strictness strictness) {
     const auto metrics = std::make_shared<Metrics>();
-    read_ns2_trace(path, metrics, strictness);
+    read_ns2_trace(std::move(source), metrics, strictness);
     return metrics->values();
 }
 

@@ -42,13 +42,12 @@ using OnNs2Packet = std::function<void(const Ns2Packet&, const Message*)>;
 /// @throws InputError naming file:line:column, what was found and what was expected: if it cannot
 /// be
 ///         read, has no line of ns-2, or, if strict, at the first line that is refused
-Ns2Counts read_ns2_trace(const std::string& path, Sink sink,
+Ns2Counts read_ns2_trace(Ns2Source source, Sink sink,
                          Ns2Strictness strictness = Ns2Strictness::tolerant,
                          const OnNs2Packet& on_packet = {});
 
 /// The metrics of a trace: equal to the last digit to those of the run that wrote it.
 /// @throws InputError as read_ns2_trace()
-MetricValues trace_metrics(const std::string& path,
-                           Ns2Strictness strictness = Ns2Strictness::tolerant);
+MetricValues trace_metrics(Ns2Source source, Ns2Strictness strictness = Ns2Strictness::tolerant);
 
 }  // namespace rovernet

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <memory>
 #include <unordered_map>  // order never observed
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -194,13 +195,13 @@ struct MetricsAndCounter {
 
 }  // namespace
 
-TraceStats ns2_stats(const std::string& path, Ns2Strictness strictness, TraceRows rows) {
+TraceStats ns2_stats(Ns2Source source, Ns2Strictness strictness, TraceRows rows) {
     const MetricParts parts{.flows = rows == TraceRows::flow};
     const auto both = std::make_shared<MetricsAndCounter>(
         MetricsAndCounter{Metrics(start_of_run, parts), TraceCounter(rows)});
     TraceStats stats;
     stats.counts = read_ns2_trace(
-        path, both, strictness,
+        std::move(source), both, strictness,
         [&](const Ns2Packet& p, const Message* message) { both->counter.packet(p, message); });
     stats.metrics = both->metrics.values();
     both->counter.tell(stats);

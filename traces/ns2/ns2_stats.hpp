@@ -69,7 +69,7 @@ struct TraceStats {
 /// Counts a trace. Memory grows with robots, messages and, by 8 bytes, deliveries; by 40 bytes more
 /// for each flow at each of its receivers; not with lines.
 /// @throws InputError as read_ns2_trace()
-TraceStats ns2_stats(const std::string& path, Ns2Strictness = Ns2Strictness::tolerant,
+TraceStats ns2_stats(Ns2Source source, Ns2Strictness = Ns2Strictness::tolerant,
                      TraceRows rows = TraceRows::none);
 
 }  // namespace rovernet

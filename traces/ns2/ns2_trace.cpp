@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -77,8 +78,14 @@ struct PacketLine : Line {
 
 class Ns2Trace::Writer {
   public:
+    using Out = std::function<void(std::string_view)>;
+
     Writer(const std::string& path, Ns2Format format, MacTrace mac)
-        : file_(path),
+        : Writer([this](std::string_view text) { file_->write(text); }, format, mac) {
+        file_.emplace(path);
+    }
+    Writer(Out out, Ns2Format format, MacTrace mac)
+        : out_(std::move(out)),
           format_(format),
           mac_(mac),
           buffer_(std::make_unique<char[]>(size + longest_line)) {}
@@ -89,12 +96,12 @@ class Ns2Trace::Writer {
     void finish() {
         if (std::exchange(finished_, true)) return;
         flush();
-        file_.close();
+        if (file_) file_->close();
     }
     void close() {
         if (closed_) return;
         finish();
-        file_.give_name();
+        if (file_) file_->give_name();
         closed_ = true;
     }
 
@@ -135,10 +142,11 @@ class Ns2Trace::Writer {
     }
     void flush() {
         const std::size_t n = std::exchange(used_, 0);
-        file_.write({buffer_.get(), n});
+        if (n > 0) out_({buffer_.get(), n});
     }
 
-    PartFile file_;
+    std::optional<PartFile> file_;
+    Out out_;
     Ns2Format format_;
     MacTrace mac_;
     std::unique_ptr<char[]> buffer_;
@@ -318,6 +326,10 @@ void Ns2Trace::Writer::new_packet(const PacketLine& line, const Message& message
 
 Ns2Trace::Ns2Trace(const std::string& path, Ns2Format format, MacTrace mac)
     : writer_(std::make_unique<Writer>(path, format, mac)),
+      mac_(mac),
+      exceptions_(std::uncaught_exceptions()) {}
+Ns2Trace::Ns2Trace(std::function<void(std::string_view)> out, Ns2Format format, MacTrace mac)
+    : writer_(std::make_unique<Writer>(std::move(out), format, mac)),
       mac_(mac),
       exceptions_(std::uncaught_exceptions()) {}
 Ns2Trace::Ns2Trace(Ns2Trace&&) noexcept = default;

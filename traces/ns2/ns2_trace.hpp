@@ -4,8 +4,10 @@
 #include "sim/record.hpp"
 #include "sim/sink.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace rovernet {
 
@@ -54,6 +56,9 @@ class Ns2Trace {
     /// @throws RunError if it cannot be written
     explicit Ns2Trace(const std::string& path, Ns2Format format = Ns2Format::new_format,
                       MacTrace mac = MacTrace::off);
+    /// Gives the text away piece by piece instead, whole lines each.
+    explicit Ns2Trace(std::function<void(std::string_view)> out,
+                      Ns2Format format = Ns2Format::new_format, MacTrace mac = MacTrace::off);
     Ns2Trace(Ns2Trace&&) noexcept;
     Ns2Trace& operator=(Ns2Trace&&) noexcept;
     /// Closes the trace as close(), but silently; if an exception is on its way, removes what has

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <limits>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -35,6 +37,8 @@ std::vector<std::string> lines_of(std::string_view text) {
 }  // namespace
 
 bool is_recorded_trace(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;
     std::ifstream file(path, std::ios::binary);
     std::string begin(mcap_magic.size(), '\0');
     return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) &&

@@ -28,7 +28,7 @@ struct RecordedRun {
     std::vector<AttachedFile> files;
 };
 
-/// Whether the file begins as a recorded trace does.
+/// Whether the file begins as a recorded trace does. A pipe is none: what it has can be read once.
 bool is_recorded_trace(const std::string& path);
 
 /// Gives the records of a recorded trace back, in the order of the run, with legs and messages as
