@@ -15,7 +15,7 @@ void add_trace_stats(Command trace) {
     const auto [stats, a] =
         add_command(trace, "stats", "Print the metrics of a trace", cli::trace_stats);
     stats.add_examples({"rovernet trace stats runs/patrol-s3/trace.tr",
-                        "rovernet trace stats out.tr.gz --by flow --csv"});
+                        "rovernet trace stats runs/patrol-s3/trace.tr --by robot --csv"});
     stats.add_option("FILE", a.file, any_trace).required();
     stats.add_option("--by", a.by, "also the counts of each robot, flow or second")
         .one_of({"robot", "flow", "second"});

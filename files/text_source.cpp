@@ -94,7 +94,7 @@ std::size_t TextSource::unpack(char* out, std::size_t most) {
 bool TextSource::more() {
     if (at_end_) return false;
     const std::size_t rest = end_ - begin_;
-    std::memmove(buffer_.data(), buffer_.data() + begin_, rest);
+    if (rest > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, rest);
     before_buffer_ += begin_;
     begin_ = 0;
     end_ = rest;

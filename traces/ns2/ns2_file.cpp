@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -57,9 +56,9 @@ bool Ns2File::next_text() {
     source_.take(taken_);
     if (is_long_) skip_long_line();
     std::size_t scanned = 0;
-    const void* found = nullptr;
+    std::size_t found = 0;
     std::string_view text = source_.window();
-    while (!(found = std::memchr(text.data() + scanned, '\n', text.size() - scanned)) &&
+    while ((found = text.find('\n', scanned)) == std::string_view::npos &&
            text.size() <= longest_line) {
         scanned = text.size();
         const bool is_longer = source_.more();
@@ -69,12 +68,11 @@ bool Ns2File::next_text() {
     taken_ = text.size();
     if (text.empty()) return false;
     ++counts_.lines;
-    if (found) {
-        const auto* end = static_cast<const char*>(found);
-        text = text.substr(0, static_cast<std::size_t>(end - text.data()));
+    if (found != std::string_view::npos) {
+        text = text.substr(0, found);
         taken_ = text.size() + 1;
     }
-    is_long_ = !found && text.size() > longest_line;
+    is_long_ = found == std::string_view::npos && text.size() > longest_line;
     if (text.ends_with('\r')) text.remove_suffix(1);
     text_ = text;
     return true;
@@ -84,12 +82,12 @@ void Ns2File::skip_long_line() {
     is_long_ = false;
     do {
         const std::string_view text = source_.window();
-        const void* found = std::memchr(text.data(), '\n', text.size());
-        if (!found) {
+        const std::size_t found = text.find('\n');
+        if (found == std::string_view::npos) {
             source_.take(text.size());
             continue;
         }
-        source_.take(static_cast<std::size_t>(static_cast<const char*>(found) - text.data()) + 1);
+        source_.take(found + 1);
         return;
     } while (source_.more());
 }
