@@ -64,7 +64,7 @@ struct RecordedDay::Reading {
     void take(const Moved& moved) {
         if (moved.node.index() >= day.legs_.size()) day.legs_.resize(moved.node.index() + 1);
         std::vector<Leg>& legs = day.legs_[moved.node.index()];
-        // Of two that begin at one time the later one holds.
+        // Legs may begin at one time: the later one holds.
         if (!legs.empty() && legs.back().start == moved.leg.start) legs.pop_back();
         legs.push_back(moved.leg);
     }
