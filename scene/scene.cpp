@@ -62,6 +62,10 @@ std::set<std::uint8_t> materials_of(const OccupancyGrid& grid) {
     return found;
 }
 
+/// A gap no wider than this [cells] does not end a wall: one that stands askew to the cells is
+/// drawn in steps, and a ray leaves it at each.
+constexpr double widest_step = 2;
+
 bool comes_before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 /// Joins crossings of one material that overlap or touch; leaves them in order of entry.
@@ -208,14 +212,24 @@ double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
     if (comes_before(b, a)) std::swap(a, b);
     crossings(a, b, scratch);
     if (scratch.empty()) return 0;
+    const double step = widest_step * std::max(frame_.cell_width(), frame_.cell_height());
     const double length = distance(a, b);
     double sum = 0;
-    for (const Crossing& c : scratch) {
-        const Vec3 middle = a + ((c.entry + c.exit) / (2 * length)) * (b - a);
-        const bool heavy = wall_thickness(middle) >= rates.thinnest_heavy;
-        const WallRate& rate = (heavy ? rates.heavy : rates.light)[c.material];
-        sum += rate.per_crossing + rate.per_metre * c.length;
-        if (sum > enough) break;
+    for (std::size_t i = 0; i < scratch.size() && sum <= enough;) {
+        const Crossing& wall = scratch[i];
+        double end = wall.exit, inside = 0;
+        bool heavy = false;
+        for (; i < scratch.size() && scratch[i].material == wall.material &&
+               scratch[i].entry - end <= step;
+             ++i) {
+            const Crossing& part = scratch[i];
+            const Vec3 middle = a + ((part.entry + part.exit) / (2 * length)) * (b - a);
+            heavy = heavy || wall_thickness(middle) >= rates.thinnest_heavy;
+            end = part.exit;
+            inside += part.length;
+        }
+        const WallRate& rate = (heavy ? rates.heavy : rates.light)[wall.material];
+        sum += rate.per_crossing + rate.per_metre * inside;
     }
     return sum;
 }

@@ -72,8 +72,9 @@ class Scene {
     double wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
                      std::vector<Crossing>& scratch) const;
     /// Loss through the walls [dB], by the rate of each wall's material and drawn thickness; the
-    /// thickness is that in the middle of the segment's way through the wall. `enough`, `scratch`
-    /// and both directions as above.
+    /// thickness is that in the middle of the segment's way through the wall. A gap of up to two
+    /// cells is a step of a wall drawn askew and does not end it. `enough`, `scratch` and both
+    /// directions as above.
     double wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                      std::vector<Crossing>& scratch) const;
     /// Drawn thickness of the walls at a point, whatever their height [m]; 0 outside of walls. See

@@ -92,6 +92,36 @@ TEST_CASE("multi_wall: a wall takes the same at any angle, and its thickness is 
     }
 }
 
+TEST_CASE("multi_wall: a wall that is drawn askew is one wall, though rays leave it at its steps") {
+    constexpr int cells = 200;
+    constexpr double side = cells * cell, half_thickness = 0.075;  // [m]
+    const Vec3 normal{-std::sin(0.35), std::cos(0.35), 0};
+    const auto across = [&](Vec3 p) { return dot(p - Vec3{side / 2, side / 2, 0}, normal); };
+    OccupancyGrid grid;
+    grid.columns = grid.rows = cells;
+    grid.cell_width = grid.cell_height = cell;
+    for (int i = 0; i < cells * cells; ++i) {
+        const Vec3 middle{(i % cells + 0.5) * cell, (i / cells + 0.5) * cell, 0};
+        grid.cells.push_back(std::abs(across(middle)) < half_thickness ? Cell::occupied
+                                                                       : Cell::free);
+    }
+    const Scene scene(grid);
+    int in_parts = 0;
+    for (int k = 0; k < 40; ++k) {  // from straight through to 14 degrees off the wall
+        const Vec3 middle{side / 2 + 0.013 * k, side / 2, 0};
+        const Vec3 along{normal.y, -normal.x, 0};
+        const Vec3 ray = normal + (0.1 * k) * along;
+        const Vec3 from = middle - 0.5 * ray, to = middle + 0.5 * ray;
+        in_parts += scene.crossings(from, to).size() > 1;
+        const double more =
+            test::OneLink{.from = from, .to = to, .scene = &scene}.loss(MultiWall{}) -
+            test::OneLink{.from = from, .to = to}.loss(MultiWall{});
+        CAPTURE(k);
+        CHECK(near(more, MultiWall{}.heavy_wall.value, 1e-9));
+    }
+    CHECK(in_parts > 3);
+}
+
 TEST_CASE("multi_wall: what a material says comes first, by the crossing or by the metre") {
     const auto through = [](Material material) {
         const Scene scene(strip(4, {{20, 4}}), {std::move(material)});
