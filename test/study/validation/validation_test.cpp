@@ -67,6 +67,12 @@ TEST_CASE("validation: closed forms are met to the digits that are promised") {
     check_kept(promises);
 }
 
+TEST_CASE("validation: what brute force gives as well is met as promised") {
+    Promises promises;
+    check_by_brute_force(promises);
+    check_kept(promises);
+}
+
 TEST_CASE("validation: lengths of walls are exact, and every naive way is off") {
     Promises promises;
     const ValidationChart chart = wall_length_chart(few, promises);
