@@ -274,7 +274,8 @@ void Replay::on(const Ns2Packet& p) {
         if (sent(p) && on_packet_) on_packet_(p, &messages_[*message_of(p)]);
         return;
     }
-    const std::optional<MessageId> id = message_of(p);
+    const bool is_frame = p.layer == "MAC" && p.op != 'D';  // every one of them, many to a message
+    const std::optional<MessageId> id = is_frame ? std::nullopt : message_of(p);
     const bool may_go_on = id && (p.op == 'D' || (p.op == 'r' && p.layer == "AGT"));
     if (!may_go_on) flush();
     if (id) {

@@ -12,7 +12,8 @@
 namespace rovernet {
 
 /// Called for each packet line, after its records but that of a reception that the next line may go
-/// on with; with the application's message that the packet carries, if that is known.
+/// on with; with the application's message that the packet carries, if that is known and the line
+/// is not of a frame that a MAC sends or receives.
 using OnNs2Packet = std::function<void(const Ns2Packet&, const Message*)>;
 
 /// Reads an ns-2 trace, ours or that of ns-2, in any format, and feeds its records to `sink`.
@@ -23,13 +24,11 @@ using OnNs2Packet = std::function<void(const Ns2Packet&, const Message*)>;
 ///   ports.
 /// * `robots` of a Sent = robots that the file has told of so far; 2 if the line names a
 ///   destination. `reachable` from the annotation before it.
-/// * Hops = ttl of the first `s RTR` of the message - ttl carried + 1, as some routing agents of
-/// ns-2
+/// * Hops = ttl of the first `s RTR` of the message - ttl carried + 1: some routing agents of ns-2
 ///   set a ttl of their own.
-/// * A delivery from the first `r AGT` of a message at a robot other than its sender: whatever
-/// comes
-///   again is none. The `r AGT` goes on with the `r RTR` directly before it; where the routing
-///   agent writes no `r RTR` for its own robot, it is a reception of its own.
+/// * A delivery from the first `r AGT` of a message at a robot other than its sender; whatever
+///   comes again is none. The `r AGT` goes on with the `r RTR` directly before it; where the
+///   routing agent writes no `r RTR` for its own robot, it is a reception of its own.
 ///
 /// A Received comes with one reception at a time. Everything that Metrics counts is exact for our
 /// traces; positions are those of the `M` lines: rounded to 1 cm, speeds to 1 cm/s, times to 10 us,
