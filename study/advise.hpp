@@ -21,7 +21,7 @@ struct CandidateCost {
     double run_s = 0;  ///< [s] CPU time of a run, median; 0: not measured
     /// CPU time of the medium for each transmission [s]: median, lowest and highest turn.
     std::optional<double> transmission_s, low_s, high_s;
-    std::optional<double> share;  ///< [-] of the medium in a run's CPU time, about
+    std::optional<double> share;  ///< share of the medium in a run's CPU time [-], about
 };
 
 /// What differs between a candidate and the reference.
@@ -47,12 +47,13 @@ struct Advice {
     std::string metric;
     DecisionRule rule;
     AdviceCandidates candidates;
-    /// Path losses with the reference's reception, or the most detailed that they go with;
-    /// receptions with the reference's path loss, both in the order of their detail; then the
-    /// cheapest of both together, if that is none of them.
+    /// Candidates in the order in which they were judged: each path loss with the reference's
+    /// reception (or the most detailed one that it goes with), then each reception with the
+    /// reference's path loss, both in the order of their detail; then the cheapest of both
+    /// together, unless that was judged already.
     std::vector<JudgedCandidate> judged;
     std::size_t path_loss, reception;  ///< the choice
-    std::size_t replications = 0;      ///< of the reference
+    std::size_t replications = 0;      ///< replications of the reference
     CandidateCost reference_cost;
     std::string cost_text = {};  ///< words on how costs were measured; empty: they were not
 
@@ -78,8 +79,9 @@ using MakeRuns = std::function<void(const std::vector<std::uint32_t>& replicatio
 Advice advise(const AdviceCandidates& candidates, const Store& store, const std::string& metric,
               const DecisionRule& rule, const MakeRuns& make_runs);
 
-/// Replications after the next block, of n so far: 10 at first, then a quarter more each time, for
-/// a candidate that has its verdict early in a block makes the rest for nothing.
+/// Number of replications after the next block, if there are n so far: 10 at first, then a quarter
+/// more each time. Blocks are small, as a candidate whose verdict falls early in a block makes the
+/// rest of it in vain.
 std::size_t next_block(std::size_t n, std::size_t most);
 
 }  // namespace rovernet

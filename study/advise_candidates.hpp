@@ -16,7 +16,7 @@
 
 namespace rovernet {
 
-/// Models that are asked for.
+/// What a user asks: which models may be candidates, and what they are judged against.
 struct CandidateQuestion {
     /// Propagation models; if empty, on a map those that are listed before the reference, on an
     /// open field those that need no map.
@@ -51,8 +51,7 @@ struct AdviceCandidates {
     /// The most detailed reception that a path loss goes with: mostly the reference's.
     std::size_t reception_of(std::size_t path_loss) const;
     /// Number of combinations that could be judged: all points but the reference. Any of them may
-    /// become the choice, whatever the replications that lead to it, so that all of them share the
-    /// level.
+    /// become the choice, so that the probability of a false verdict is shared among all of them.
     std::size_t family() const;
     /// "log_distance + sinr"
     std::string name_of(std::size_t path_loss, std::size_t reception) const;

@@ -25,8 +25,9 @@ void add_costs(Advice& advice, Study& study, const std::function<bool()>& stoppe
 /// saves.
 std::string advice_text(const Advice& advice);
 
-/// What the most helpful candidate saves who wants the reference's mean: the best mix of both as a
-/// control variate. Without costs, the one with the highest correlation.
+/// Sentence on what the most helpful candidate saves if the reference's mean is wanted: the best
+/// mix of both as a control variate. Without costs, it is the candidate with the highest
+/// correlation.
 std::string control_variate_text(const Advice& advice);
 
 }  // namespace rovernet

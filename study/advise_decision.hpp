@@ -20,8 +20,8 @@ namespace rovernet {
 /// Error that must not exceed the tolerance. With D = value of a candidate - value of the reference
 /// in one replication:
 ///
-/// - `mean`: |E D|, that of the mean of many runs: a curve in a paper
-/// - `run`: E|D|, that of a single run: what becomes of one robot
+/// - `mean`: |E D|, the error of the mean of many runs, such as a curve in a paper
+/// - `run`: E|D|, the mean error of a single run, such as what becomes of one robot
 enum class ErrorCriterion { mean, run };
 template <>
 struct EnumNames<ErrorCriterion> {
@@ -45,14 +45,14 @@ struct DecisionRule {
 /// verdict that they give.
 ///
 /// Where the metric has two bounds, values are cut at them, and the verdict is that of an
-/// EquivalenceTest of D, or of |D| if the criterion is `run`: there only "above" can be false
-/// outside, so that family / alpha is enough for it. It is right with a probability of 1 - alpha
-/// for the whole family, whatever the distribution and whenever one looks.
+/// EquivalenceTest of D, or of |D| if the criterion is `run`: as |D| is never negative, only the
+/// wealth `above` can wrongly say "outside", so that family / alpha is enough for it. All verdicts
+/// of the family are right with a probability of 1 - alpha, whatever the distribution and whenever
+/// one looks.
 ///
 /// Elsewhere Student's interval for the mean of D, or of |D|, is looked at after 10, 20, 40, ...
 /// and `most` pairs, two-sided at the level alpha / (family * looks). Within: it lies inside of the
 /// tolerance; outside: it lies outside. Equal differences decide nothing. It supposes normal means.
-/// Source: reference/accuracy, C3.
 class CandidateDecision {
   public:
     /// @throws std::invalid_argument unless the tolerance is above 0, and below the range of a
@@ -77,7 +77,7 @@ class CandidateDecision {
   private:
     void bet(double error);
     void look(double error);
-    /// What is judged of a difference: itself, or its size.
+    /// Error that is judged: the difference, or its size.
     double error_of(double candidate, double reference) const;
 
     DecisionRule rule_;

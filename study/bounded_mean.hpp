@@ -21,8 +21,8 @@ struct BoundedMean {
 /// together, it covers the true mean with probability >= confidence. So one may look at it as often
 /// as one likes and stop when it is narrow. Its width is never 0.
 ///
-/// A candidate mean m is believed too small while nobody gets rich by betting against it. A gambler
-/// who stakes the share f of his money in every round on "above m" has after n values the wealth
+/// A candidate mean m is kept until somebody gets rich by betting that the true mean is above it.
+/// After n values, a gambler who stakes the share f of his money on "above m" each time owns
 ///   W_f(m) = (1 + f (x1 / m - 1)) ... (1 + f (xn / m - 1)),
 /// which is never negative and fair if m is the mean. The wealth W(m) is the average over 16
 /// gamblers with f_k = (1 - cos((2 k - 1) pi / 32)) / 2, k = 1 ... 16: Jeffreys' prior on f. By

@@ -37,7 +37,6 @@ struct CalibratedModel {
 /// Losses of walls are >= 0. With measured levels one constant is free in each model, as powers and
 /// gains are only roughly known: `excess` where a model has it, else the radios' power.
 /// Decisions are counted on links no longer than `decided_within`.
-/// Source: reference/accuracy, C1.
 std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& scenario,
                                        const std::string& except, Meters decided_within);
 
@@ -52,22 +51,23 @@ struct Calibration {
     std::vector<CalibratedModel> models;
     /// See loss_error_at_budget() [dB].
     double loss_error = 0;
-    /// Links are enough if their loss error is no more [dB].
+    /// Largest loss error [dB] at which the links are enough.
     static constexpr double enough = 0.5;
 };
 
 /// Loss over the budget that no radio overcomes.
 inline constexpr Db beyond_radio{20};
 
-/// Links of which only that is kept of a loss more than `beyond` over the budget: that it is. No
-/// radio overcomes it, and a fit to its decibels would miss those that matter.
+/// The links with their largest losses made unknown: a loss more than `beyond` over the budget
+/// becomes an unseen one, of which only this lower bound is known. No radio overcomes it, and a fit
+/// to its decibels would be worse for the losses that matter.
 KnownLinks censored(KnownLinks known, Db beyond);
 
 /// Calibrates to a reference model on links of the scenario's own robots: those of 20 replications,
 /// and of twice as many as long as they are not enough, up to 320; see LinkSample.
 /// @param reference  listed model, with the scenario's parameters; empty: the scenario's own
 /// @param tell       told the share that is done, 0 ... 1, again for each sample; may be empty
-/// @param beyond     of losses more than this over the budget only that is kept, see censored()
+/// @param beyond     losses more than this over the budget are made unknown, see censored()
 /// @throws InputError, RunError
 Calibration calibrate_to_model(const Scenario& scenario, const std::string& reference,
                                const std::function<void(double)>& tell,

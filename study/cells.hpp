@@ -22,14 +22,15 @@ struct Row {
 struct Rows {
     std::vector<std::string> averaged;  ///< keys with several values in a row
     std::vector<std::string> along;     ///< keys with one value in each row, not in all the same
-    std::vector<Table> combinations;    ///< combinations of the averaged keys' values, as they come
-    std::vector<Row> list;              ///< rows, as their first points come
+    std::vector<Table>
+        combinations;       ///< combinations of the averaged keys' values, in order of use
+    std::vector<Row> list;  ///< rows, in the order of their first points
 };
 
 /// @param group_by  paths that vary
 Rows rows_of(const std::vector<StoredPoint>& points, const std::vector<std::string>& group_by);
 
-/// The runs of a row that its number is without.
+/// Runs of a row that are missing from its value.
 struct Gaps {
     std::uint64_t failed = 0;
     std::uint64_t undefined = 0;  ///< finished, without a value of the metric
@@ -49,8 +50,8 @@ class Cells {
   public:
     Cells(const Rows& rows, const Inventory& inventory, ValuesOfPoints values);
 
-    /// A mean of each replication over the cells of a row, each with the same weight; of those
-    /// cells only that every row has, if `common`.
+    /// Mean of each replication over the cells of a row, each with the same weight; if `common`,
+    /// over those cells only that every row has.
     std::map<std::uint32_t, double> means(std::size_t row, bool common) const;
 
     Gaps gaps(std::size_t row) const;
@@ -58,8 +59,8 @@ class Cells {
     std::uint64_t count() const;   ///< cells of one row
     std::uint64_t common() const;  ///< cells that every row has
 
-    /// Rows that lack cells of replications that others have, in words, a line each; empty if means
-    /// over all cells are of the same cells in every row.
+    /// Text that names the rows without some cell that another row has, a line each; empty if every
+    /// row has the same cells.
     std::string unbalanced() const;
 
   private:

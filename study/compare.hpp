@@ -20,7 +20,7 @@ struct ComparedModel {
     Answer answer;                      ///< the metric of all its replications, as results have it
     double cpu_s = 0;                   ///< [s] mean per run
     std::optional<MediumCost> cost;     ///< cost of the medium; see add_costs()
-    std::optional<double> radio_share;  ///< [-] of the runs' CPU time, about: that cost
+    std::optional<double> radio_share;  ///< share of that cost in the runs' CPU time [-], about
     /// Mean distance to the most detailed model's value over the replications in which both have
     /// one, in the metric's unit, its interval (none for the most detailed model, whose error is 0
     /// by definition), and how many replications these are.
@@ -62,7 +62,8 @@ std::size_t place_of(const std::string& baseline, const std::vector<std::string>
 /// replications in which both have a value. The most detailed model is the last of them in the list
 /// of `rovernet models`: what is said of errors does not depend on how fast a machine is.
 /// @param  baseline  one of the models; the most detailed one if empty
-/// @param  margin    > 0, in the metric's unit: whether models are as good as the baseline
+/// @param  margin    > 0, in the metric's unit: how far from the baseline a model may lie and still
+///                   count as good; if not given, this is not judged
 /// @throws std::invalid_argument if the metric or the baseline is unknown
 Comparison compare_models(const Store& store, const std::string& metric,
                           const std::string& baseline, std::optional<double> margin = {});

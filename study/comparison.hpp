@@ -18,11 +18,11 @@ namespace rovernet {
 /// metric's unit.
 struct PairedComparison {
     Summary difference;        ///< summary of ai - bi; n >= 2
-    double confidence = 0;     ///< [-], that every interval of the family holds
+    double confidence = 0;     ///< probability that all intervals of the family hold [-]
     std::size_t family = 1;    ///< comparisons that are made together, this one among them
     double low = 0, high = 0;  ///< interval for the true mean difference
     IntervalMethod method{};   ///< method by which interval and p were made
-    double p = 1;              ///< [-], that the true mean difference is 0, adjusted for the family
+    double p = 1;  ///< p-value of "the true mean difference is 0" [-], adjusted for the family
     std::optional<double> detectable;  ///< see compare_pairs()
     friend bool operator==(const PairedComparison&, const PairedComparison&) = default;
 
@@ -40,9 +40,8 @@ struct PairedComparison {
 ///   degrees of freedom. Where s = 0 the limits hold: all differences equal and not 0 is a
 ///   difference that every replication shows, p = 0; all of them 0 is none, p = 1. By betting, p
 ///   below 1e-6 is not told apart from 1e-6, and it holds whenever one looks.
-/// detectable: by t, the smallest true mean difference that a study of this n and s would have
-/// found
-///   with a probability of 80 % by that interval: d s / sqrt(n), with d of t_shift() at the level
+/// detectable: by t, the smallest true mean difference that a study of this n and s finds by that
+///   interval with a probability of 80 %: d s / sqrt(n), with d of t_shift() at the level
 ///   (1 - confidence) / family. 0 if s = 0; nothing where t_shift() gives nothing, or by betting.
 /// Source: A. M. Law, Simulation Modeling and Analysis, 5th ed., sections 9.7 (Bonferroni) and
 /// 10.2.1.
@@ -71,9 +70,10 @@ std::optional<double> paired_variance_ratio(std::span<const double> a, std::span
 /// The comparison of a with b in words, found at the level 1 - confidence or not:
 ///   friis is 0.213 above disc (95 % 0.180 to 0.246, n = 30, p < 0.001)
 ///   no detectable difference between friis and disc (0.002, 95 % for all 4: -0.010 to 0.014,
-///   n = 30, p = 0.741); at this level a difference of 0.021 would have been detected with 80 %
-///   power friis is 0.2 above disc in each of 30 replications friis and disc are equal in each of
-///   30 replications
+///     n = 30, p = 0.741); at this level a difference of 0.021 would have been detected with 80 %
+///     power
+///   friis is 0.2 above disc in each of 30 replications
+///   friis and disc are equal in each of 30 replications
 /// Half the interval's width is shown with two digits, and everything else to the same decimal.
 /// Without a detectable difference the first half of its sentence stands alone.
 std::string comparison_text(std::string_view a, std::string_view b,
@@ -83,7 +83,7 @@ std::string comparison_text(std::string_view a, std::string_view b,
 ///   disc is within 0.05 of friis (95 % for all 4, decided by 57 of 100 replications)
 ///   disc is not within 0.05 of friis (95 %, decided by 30 of 30 replications)
 ///   not decided by 30 replications whether disc is within 0.05 of friis (95 %); about 800 would
-///   decide, if they are as these are
+///     decide, if they are as these are
 std::string equivalence_text(std::string_view a, std::string_view b, double margin,
                              const EquivalenceVerdict& verdict, const PairedComparison& comparison);
 

@@ -11,9 +11,9 @@ namespace rovernet {
 struct ControlVariate {
     double beta = 0;      ///< [-] cov(expensive, cheap) / var(cheap) over the pairs
     double rho = 0;       ///< [-] their correlation
-    double estimate = 0;  ///< of the expensive model's mean, in the metric's unit
+    double estimate = 0;  ///< estimate of the expensive model's mean, in its unit
     double standard_error = 0;
-    double standard_error_without = 0;  ///< of the expensive model's runs alone
+    double standard_error_without = 0;  ///< standard error of the expensive runs alone
 };
 
 /// Estimates an expensive model's mean H from n of its runs and from m >= n of a cheap model C, the
@@ -35,7 +35,7 @@ std::optional<ControlVariate> control_variate(std::span<const double> expensive,
 /// The best use of a cheap model beside an expensive one.
 struct BestMix {
     double ratio = 1;   ///< [-] cheap runs for each expensive one: sqrt(w rho^2 / (1 - rho^2))
-    double saving = 1;  ///< [-] by which CPU time is divided, for the same standard error
+    double saving = 1;  ///< factor by which CPU time is divided [-] at equal error
 };
 
 /// Mix that gives the least standard error for a CPU time:
@@ -44,9 +44,8 @@ struct BestMix {
 /// Source: as control_variate(), theorem 3.4 and corollary 3.5.
 /// @param  rho         [-] correlation, -1 < rho < 1
 /// @param  cost_ratio  [-] w: cost of an expensive run over that of a cheap one, > 0
-/// @return nothing where the cheap model saves nothing: saving <= 1. It needs more than a ratio
-/// above
-///         1, w > (1 - rho^2) / rho^2, as the cheap runs have to be paid for.
+/// @return nothing where the cheap model saves nothing: saving <= 1. A ratio above 1, that is
+///         w > (1 - rho^2) / rho^2, is not enough, as the cheap runs have to be paid for.
 std::optional<BestMix> best_mix(double rho, double cost_ratio);
 
 }  // namespace rovernet

@@ -12,11 +12,11 @@
 
 namespace rovernet {
 
-/// A robot got a message of an application. Messages have the same origin and number in two runs of
-/// a scenario, whatever becomes of them.
+/// Delivery of an application's message to a robot. Messages have the same origin and number in two
+/// runs of a scenario, whatever becomes of them.
 struct Delivery {
     NodeId origin;
-    std::uint32_t number;  ///< among the messages of its origin, from 0
+    std::uint32_t number;  ///< number among the messages of its origin, from 0
     NodeId at;
     Time sent;
 

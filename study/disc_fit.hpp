@@ -21,10 +21,10 @@ struct DiscFit {
     std::size_t wrong;      ///< down ones among them, and up ones beyond
 };
 
-/// Fits the range of a disc: that with the fewest wrong decisions. Of several the lower median, in
-/// the order of how many links they call up. The range lies between the distances of the farthest
-/// link that is called up and the next one, at their geometric mean; half of the nearest if none is
-/// called up, the farthest if all are.
+/// Fits the range of a disc: the one with the fewest wrong decisions. Of several that are equally
+/// good it is the lower median, in the order of how many links they call up. The range lies between
+/// the distances of the farthest link that is called up and the next one, at their geometric mean;
+/// it is half the nearest distance if no link is called up, and the farthest one if all are.
 /// @param links  in any order; those of equal distance keep theirs
 /// @throws std::invalid_argument without a link, or if a distance is not > 0 and finite
 DiscFit fit_disc(std::vector<DiscLink> links);

@@ -28,7 +28,7 @@ std::optional<double> t_shift(double degrees, double level, double power);
 /// The probability that of n draws, each a success with probability p, at most k are; k < n.
 double binomial_at_most(std::size_t k, std::size_t n, double p);
 
-/// Probability that more than k are.
+/// Probability that more than k of these draws are successes.
 double binomial_above(std::size_t k, std::size_t n, double p);
 
 }  // namespace rovernet

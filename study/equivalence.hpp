@@ -33,14 +33,17 @@ struct EquivalenceVerdict {
 ///
 /// With s = +-1 the side and m = +-margin the edge that a gambler bets on, and mean and var known
 /// from the differences before, his wealth W = 1 grows by each difference d to
-///   W (1 + lambda s (d - m)),  lambda = clip(s (mean - m) / (var + (mean - m)^2), 0, 0.9/(1 +
-///   |m|)) mean = (sum of the d before) / (r + 1),  var = (1/4 + sum (d_j - mean_j)^2) / (r + 1),
-/// r of them, mean_j just after d_j. By Ville's inequality it reaches 1/a at any time at all with
-/// probability <= a if what it bets against is true. Source: I. Waudby-Smith, A. Ramdas, Estimating
-/// means of bounded random variables by betting, JRSS-B 86(1), 2024, section 4.
+///   W (1 + lambda s (d - m)),
+///   lambda = clip(s (mean - m) / (var + (mean - m)^2), 0, 0.9 / (1 + |m|)),
+///   mean = (sum of the d before) / (r + 1),
+///   var = (1/4 + sum (d_j - mean_j)^2) / (r + 1),
+/// where r is the number of the d before, and mean_j the mean just after d_j. By Ville's inequality
+/// a wealth reaches 1/a at any time at all with probability <= a if what it bets against is true.
+/// Source: I. Waudby-Smith, A. Ramdas, Estimating means of bounded random variables by betting,
+/// JRSS-B 86(1), 2024, section 4.
 class EquivalenceTest {
   public:
-    /// The wealths: each, when large, says that the true mean D lies so.
+    /// Wealths of the four gamblers: a large one says that the true mean D lies as written here.
     enum Wealth : std::size_t {
         not_above,  ///< D < margin
         not_below,  ///< D > -margin
@@ -50,7 +53,7 @@ class EquivalenceTest {
 
     /// @param  margin  [-], above 0 and below 1
     /// @param  alpha   [-], in (0, 0.5): the probability of any false verdict among `family` tests
-    /// @throws std::invalid_argument unless they are so and family > 0
+    /// @throws std::invalid_argument unless both are in these ranges and family > 0
     EquivalenceTest(double margin, double alpha, std::size_t family);
 
     /// @param  difference  [-], -1 ... 1

@@ -17,8 +17,8 @@ namespace rovernet {
 struct FreeParameter {
     std::string_view model, key;
     std::string_view unit = "";  ///< empty: a bare number
-    double base = 0;             ///< some value at which no loss is held at 0
-    bool non_negative = false;   ///< what walls take
+    double base = 0;             ///< value at which no loss is cut at 0, so that it is linear
+    bool non_negative = false;   ///< true for the losses of walls
 };
 
 /// The free parameters of a listed model; none for most.

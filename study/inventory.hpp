@@ -32,8 +32,8 @@ struct RunCounts {
 /// @throws InputError if the store is damaged
 StudyTable study_of(const Store& store);
 
-/// Inventory of a store: what it has of every point. A study with `precision` asks for what the
-/// values so far do.
+/// Inventory of a store: what it has of every point. A study with `precision` asks for as many
+/// replications as the values so far call for.
 Inventory inventory_of(const Store& store);
 
 RunCounts counts_of(const Inventory& inventory);

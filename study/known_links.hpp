@@ -29,9 +29,9 @@ struct KnownLink {
     std::uint32_t replication = 0;
     /// Links of one group share what is random: robots of a replication, a measured receiver.
     std::uint32_t group = 0;
-    /// Path loss [dB]. Of an unseen link only that its loss is more than this.
+    /// Path loss [dB]; of an unseen link its lower bound.
     double loss = 0;
-    bool unseen = false;
+    bool unseen = false;  ///< nothing was received: the loss is above that bound
     /// Link budget [dB]: the link is up if its loss is no more.
     double budget = 0;
 
@@ -70,8 +70,8 @@ struct SampleSize {
 /// apart than the reference reaches with a budget of 20 dB more. They are chosen by distance alone:
 /// chosen by their loss, they would bias every fit. Of too many every k-th is taken.
 ///
-/// Runs whose robots react to messages are those of the scenario, but that multi_wall takes the
-/// place of rays in them: only where robots drive depends on it.
+/// If robots react to messages, the scenario is run with its messages, but with multi_wall in place
+/// of rays: only where robots drive depends on these runs.
 ///
 /// Groups are replications; senders if all replications are alike.
 /// @param tell  told the share that is done, 0 ... 1: first of the runs, then of the losses; may be

@@ -44,10 +44,9 @@ class MediumReplay {
         std::uint64_t frames = 0, receivers = 0;
         double cpu_s = 0;  ///< [s] of this thread, the making of the medium left out
     };
-    /// Answers a record from its beginning, as in the run: what is kept of pairs at rest comes
-    /// about anew.
-    /// @param most_frames  so many at most
-    /// @param most_s       [s] of CPU time, about: so long at most
+    /// Answers a record from its beginning, as in the run: caches of pairs at rest begin empty.
+    /// @param most_frames  frames to answer, at most
+    /// @param most_s       CPU time to spend [s], at most, about
     Answers answer(const MediumRecord& record, std::uint64_t most_frames, double most_s) const;
 
   private:

@@ -14,11 +14,11 @@
 namespace rovernet {
 
 /// A scenario with one small change to what radio sees. Robots, their ways and everything random
-/// are those of the scenario as given: its maps keep robots, the changed ones attenuate.
+/// are those of the scenario as given: robots keep to its own maps, the changed maps attenuate.
 struct Perturbation {
     std::string name;     ///< such as "resolution x2"
     Scenario scenario;    ///< with the change in it
-    Meters moved{0};      ///< [m] each antenna is off its place; 0: the change is another
+    Meters moved{0};      ///< displacement of each antenna [m]; 0: the change is another
     std::string nothing;  ///< why there is nothing to change; empty: there is
 
     /// Settings of a network for the perturbed scenario.
@@ -28,12 +28,12 @@ struct Perturbation {
 
 /// The perturbations of a scenario, in this order:
 ///
-///   1 cm, 1 um             each antenna is that far off, see Displaced
-///   resolution x2, x0.5    cells of the maps split in four, or four joined: see
-///   scene/redrawing.hpp walls outlined, filled thick walls hollow, hollow ones up to 1 m wide
-///   solid MATERIAL +3 dB, -3 dB  loss of a crossing, not below 0 dB; of up to 8 materials one by
-///   one, of
-///                          more of them all at once
+///   1 cm, 1 um                   each antenna is displaced by that much, see Displaced
+///   resolution x2, x0.5          cells of the maps split in four, or four joined into one: see
+///                                scene/redrawing.hpp
+///   walls outlined, filled       thick walls hollow, hollow ones up to 1 m wide solid
+///   MATERIAL +3 dB, -3 dB        loss of a crossing, not below 0 dB; up to 8 materials one by one,
+///                                more of them all at once
 ///
 /// A material with a loss per metre alone changes by 3 dB over the median drawn thickness of its
 /// walls. Walls that follow the model change together, by its wall_factor, light_wall and

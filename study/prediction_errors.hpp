@@ -14,11 +14,11 @@ namespace rovernet {
 
 /// Errors of predicted losses: predicted less known [dB], and decisions on links.
 struct PredictionErrors {
-    std::size_t losses = 0;      ///< that the next three are of
+    std::size_t losses = 0;      ///< losses that the next three values are about
     double rmse = 0;             ///< [dB]
     double bias = 0;             ///< mean error [dB]
     double most_in_95 = 0;       ///< 95 % of the errors are no larger [dB]
-    std::size_t decisions = 0;   ///< links that the next two are of
+    std::size_t decisions = 0;   ///< links that the next two values are about
     std::size_t false_up = 0;    ///< called up, but down
     std::size_t false_down = 0;  ///< called down, but up
 

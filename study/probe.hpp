@@ -17,14 +17,14 @@ namespace rovernet {
 
 /// Bounds of a probe's work.
 struct ProbeSize {
-    std::uint32_t times = 20;  ///< times of the run at which links are looked at
-    std::size_t links = 1000;  ///< at most
-    std::uint64_t events =
-        1'000'000;               ///< of the run as given, whose messages are compared; 0: none
-    std::size_t messages = 100;  ///< changes of messages kept for each perturbation, at most
+    std::uint32_t times = 20;          ///< times of the run at which links are looked at
+    std::size_t links = 1000;          ///< at most
+    std::uint64_t events = 1'000'000;  ///< events of the run whose messages are compared; 0: none
+    std::size_t messages = 100;        ///< changes of messages kept for each perturbation, at most
 };
 
-/// Link under one perturbation; of those of its ends' places the one that changes most.
+/// Effect of one perturbation on a link. If it displaces an end, this is the displacement that
+/// changes the loss most.
 struct LinkEffect {
     std::string link;          ///< its ends, and when
     std::string perturbation;  ///< such as "resolution x2", or "1 cm: A to the east"
@@ -32,13 +32,13 @@ struct LinkEffect {
     double budget = 0;         ///< loss that the link bears [dB]
     double before = 0;         ///< path loss as given [dB]
     double after = 0;          ///< path loss under the perturbation [dB]
-    double moved = 0;          ///< [m] one end is off; 0: it is not
+    double moved = 0;          ///< displacement of one end [m]; 0: none
 
     double change() const { return after - before; }  ///< [dB]
     bool was_up() const { return before <= budget; }
     bool is_up() const { return after <= budget; }
     bool flips() const { return was_up() != is_up(); }
-    /// Change over the way that the end moved [dB/mm]; 0 if it did not.
+    /// Change of the loss over the displacement of the end [dB/mm]; 0 without one.
     double steepness() const;
     /// The loss changes by more than 0.5 dB per mm.
     bool is_cliff() const { return steepness() > cliff; }
@@ -64,15 +64,15 @@ struct PerturbationEffect {
     double worst = 0;          ///< change of the loss that is largest in size [dB]
     double rms = 0;            ///< root mean square change [dB]
     double steepest = 0;       ///< [dB/mm]
-    std::uint64_t lost = 0;    ///< receptions of messages as given that are gone
-    std::uint64_t gained = 0;  ///< ... that are new
+    std::uint64_t lost = 0;    ///< receptions that the run as given has and this one has not
+    std::uint64_t gained = 0;  ///< receptions that only this run has
 };
 
 /// Findings about a scenario.
 struct Probe {
     std::string model;
     std::size_t links = 0;
-    std::uint64_t deliveries = 0;  ///< receptions of messages as given, one for each robot
+    std::uint64_t deliveries = 0;  ///< messages received in the run as given, one per robot
     Time until = start_of_run;     ///< [ns] messages until then are compared
     bool whole_run = true;         ///< that is the end of the run
     std::vector<PerturbationEffect> perturbations;

@@ -28,9 +28,9 @@ struct Quantile {
 /// rank for which P(B < l) <= (1 - confidence) / 2 and P(B >= u) <= (1 - confidence) / 2; B is
 /// binomial, of n draws with probability p. It covers the true quantile with probability
 /// P(l <= B < u), exactly so for a continuous distribution and at least so for a discrete one.
-/// There is none if that asks for a value below the smallest or above the largest: the median at 95
-/// % needs 6 values, the 0.95-quantile 72. Source: H. A. David, H. N. Nagaraja, Order Statistics,
-/// 3rd ed., section 7.1.
+/// There is none if that asks for a value below the smallest or above the largest: at 95 % the
+/// median needs 6 values, the 0.95-quantile 72. Source: H. A. David, H. N. Nagaraja, Order
+/// Statistics, 3rd ed., section 7.1.
 ///
 /// @param  values  in any order
 /// @param  p       [-], above 0 and below 1; a p n within 1e-12 (relative) of a whole number is one

@@ -28,10 +28,10 @@ struct Question {
     std::optional<std::vector<std::string>> group_by = {};
     std::vector<Condition> where = {};      ///< conditions that all points meet
     std::optional<double> confidence = {};  ///< confidence; as in [study] if not given
-    std::optional<double> quantile = {};    ///< this one, in place of the mean
+    std::optional<double> quantile = {};    ///< quantile to answer with, in place of the mean
     /// Method of intervals of means; as in [study] if not given, else see method_for().
     std::optional<IntervalMethod> interval = {};
-    bool common = false;  ///< only of the cells that every row has
+    bool common = false;  ///< average only over the cells that every row has
 };
 
 /// Answer: one metric of the points that agree in what a question groups by.
@@ -60,10 +60,10 @@ struct Answers {
 
 /// Answers a question about a study.
 ///
-/// The replication is the unit: points that a row joins are averaged in each replication first, and
-/// each counts the same. A row that joins points is of the same cells (a combination of the keys
-/// averaged over, in one replication) as every other row, or it would differ from them by what it
-/// lacks: runs that failed, are missing or have no value.
+/// The replication is the unit: points that a row joins are averaged in each replication first,
+/// with equal weights. All rows that join points must have the same cells (a cell is a combination
+/// of the keys averaged over, in one replication): a row without some cell, as a run failed, is
+/// missing or has no value, would differ from the others by that alone.
 /// @throws std::invalid_argument for a metric or path that the study does not have, if no point
 ///         meets the conditions, or if rows that join points are of different cells and the
 ///         question does not say `common`

@@ -21,7 +21,7 @@ namespace rovernet {
 class StoredRow {
   public:
     /// @param path  of the store, for errors
-    /// @param keys  so many columns tell which row it is, > 0
+    /// @param keys  number of columns that tell which row it is, > 0
     StoredRow(const std::string& path, const SQLite::Statement& statement, int keys)
         : path_(path), statement_(statement), keys_(keys) {}
 
@@ -45,7 +45,7 @@ class StoredRow {
 };
 
 /// The error of a damaged store, with what to do about it.
-/// @param what  is wrong, and what was expected
+/// @param what  what is wrong, and what was expected
 InputError damaged_store(const std::string& path, const std::string& what);
 
 }  // namespace rovernet

@@ -50,12 +50,12 @@ struct SweepOptions {
 struct ImprecisePoint {
     std::uint32_t point = 0;
     std::size_t values = 0;            ///< replications in which the metric has a value
-    std::optional<double> half_width;  ///< reached; nothing where there is no interval
+    std::optional<double> half_width;  ///< half-width reached; nothing where there is no interval
 };
 
 struct SweepResult {
     SweepProgress progress;
-    bool stopped = false;              ///< before everything was done
+    bool stopped = false;              ///< true: it ended before everything was done
     std::optional<StoredRun> failure;  ///< the first
     std::vector<ImprecisePoint>
         imprecise;  ///< points without the precision, of a sweep that was not stopped

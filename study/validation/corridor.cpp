@@ -59,8 +59,8 @@ std::shared_ptr<const Scene> corridor(double width) {
 }
 
 /// Loss [dB] of the sum of all images' powers, which has a closed form:
-/// sum over m of 1 / (x^2 + (2 m a + y)^2) = (pi / 2 a x) sinh(pi x / a) / (cosh(pi x / a) - cos(pi
-/// y / a)).
+///   sum over m of 1 / (x^2 + (2 m a + y)^2)
+///   = (pi / 2 a x) sinh(pi x / a) / (cosh(pi x / a) - cos(pi y / a)).
 double power_of_images_db(const CorridorLink& link) {
     const double q = math::exp(-std::numbers::pi * link.along / link.width);
     double sum = 0;

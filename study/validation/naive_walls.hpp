@@ -38,7 +38,7 @@ class NaiveRaster {
     std::vector<std::uint8_t> cells_;
 };
 
-/// Length [m] by looking at points a fixed step apart. @param is_wall  of a point
+/// Length of wall [m] by looking at points a fixed step apart. @param is_wall  asked for each point
 template <class IsWall>
 double sampled_wall(Vec3 a, Vec3 b, double step, const IsWall& is_wall) {
     const double length = distance(a, b);

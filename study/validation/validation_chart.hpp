@@ -21,8 +21,8 @@ using Detail = std::pair<std::string, double>;
 struct ValidationPoint {
     std::string label;        ///< name of the method
     std::string series = {};  ///< methods that belong together, such as "fitted"
-    TurnCost cost = {};       ///< [ns] in what the panel's axis says
-    double error = 0;         ///< in the panel's unit, >= 0
+    TurnCost cost = {};       ///< [ns] of what the panel's axis says
+    double error = 0;         ///< error in the panel's unit, >= 0
     std::optional<double> error_low = {}, error_high = {};  ///< interval around the error
     std::vector<Detail> details = {};  ///< details, with the same names in all points of a panel
 };
@@ -46,7 +46,7 @@ struct ValidationChart {
     std::string title;  ///< question or subject
     std::string truth;  ///< sentence: what is taken as true, and what was asked how often
     std::vector<ValidationPanel> panels = {};
-    std::vector<std::string> sentences = {};  ///< what a user may do with it, from the numbers
+    std::vector<std::string> sentences = {};  ///< conclusions for a user, with their numbers
 };
 
 /// Promise of the code about its errors, and the worst that this run has seen.

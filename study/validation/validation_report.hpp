@@ -5,7 +5,7 @@
 
 #include <string>
 
-// What a person gets of a validation: pictures, tables and pages.
+// Reports of a validation: pictures, tables and pages.
 
 namespace rovernet {
 

@@ -43,7 +43,7 @@ struct Variant {
 
 /// Runs of a variant.
 struct VariantRuns {
-    std::vector<double> delivery_ratio;  ///< of each replication
+    std::vector<double> delivery_ratio;  ///< delivery ratio of each replication
     TurnCost cost;                       ///< [ns] CPU of a run per transmission, over the runs
 };
 
