@@ -13,9 +13,9 @@ namespace rovernet {
 enum class ChartKind {
     /// A line per series through its points in the order of x, broken where a y is missing.
     lines,
-    /// Bars from 0 at words, grouped by series. Where nothing would be seen of their differences
-    /// (all ends within the upper fifth of the longest bar, or a logarithmic axis, which has no 0)
-    /// dots take their place: a bar is read by its length, a dot by its place.
+    /// Bars from 0 at words, grouped by series. Dots take their place where bars would hide the
+    /// differences (all ends within the upper fifth of the longest bar) or cannot begin at 0 (a
+    /// logarithmic axis): a bar is read by its length, a dot by its place.
     bars,
     /// A mark per point, with its label.
     scatter,
@@ -33,7 +33,7 @@ struct ChartPoint {
     std::string category = {};  ///< place if x is a word; then the number is not looked at
     double y = 0;
     std::optional<double> low = {}, high = {};      ///< ends of the interval around y
-    std::optional<double> x_low = {}, x_high = {};  ///< ends of that around x, in a scatter
+    std::optional<double> x_low = {}, x_high = {};  ///< ends of the interval around x, in a scatter
     std::string label = {};                         ///< written beside it, in a scatter
     std::uint64_t n = 0;  ///< observations behind it; 0 if that is not known
 };

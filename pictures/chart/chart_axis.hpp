@@ -24,7 +24,7 @@ class ChartRange {
 
 struct ChartTick {
     double value = 0;
-    std::string text;  ///< empty: a small one
+    std::string text;  ///< empty: a small tick
 };
 
 /// An axis of a chart: what part of the numbers it shows, and its ticks in ascending order.
@@ -40,8 +40,8 @@ struct ChartAxis {
 };
 
 /// An axis of numbers. It shows the whole range, with at most `most` >= 3 texts at multiples of 1,
-/// 2 or 5 times a power of ten, of whole numbers at such. A logarithmic axis has texts at powers of
-/// ten, or at 1, 2 and 5 times them if there are few.
+/// 2 or 5 times a power of ten; a range of whole numbers has texts at whole numbers. A logarithmic
+/// axis has texts at powers of ten, or at 1, 2 and 5 times them if there are few.
 /// @param range   within -1e100 ... 1e100, of positive numbers if log
 /// @param limits  the axis ends there, unless the range itself goes beyond
 ChartAxis number_axis(const ChartRange& range, bool log, int most, const ChartLimits& limits = {});

@@ -32,7 +32,7 @@ void draw_bars(Svg& svg, const Chart& chart, const ChartView& view, const ChartF
 /// @return how many labels found no place
 std::size_t draw_scatter(Svg& svg, const Chart& chart, const ChartView& view,
                          const ChartFrame& frame);
-/// Steps.
+/// Steps of a distribution function.
 void draw_cdf(Svg& svg, const ChartView& view, const ChartFrame& frame);
 
 /// Whether a chart of lines has room for the marks of its points.

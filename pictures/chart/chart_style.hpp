@@ -13,7 +13,7 @@ namespace rovernet {
 
 inline constexpr double chart_text_size = 11;  ///< [px] of ticks, values, legends and notes
 inline constexpr double text_drop = 4;  ///< [px] from the middle of such a line to its baseline
-inline constexpr int most_ticks = 8;    ///< of an axis that another program draws
+inline constexpr int most_ticks = 8;    ///< ticks of an axis that another program draws
 
 /// The mark of a series: its name as Vega-Lite says it, its number in gnuplot, its corners.
 struct ChartMarker {

@@ -28,7 +28,7 @@ struct ChartView {
     std::vector<std::vector<DrawnPoint>> series;
     std::size_t points = 0;  ///< points in all series
     std::size_t left_out = 0;
-    bool dots = false;        ///< instead of bars
+    bool dots = false;        ///< dots are drawn instead of bars
     ChartRange x_range = {};  ///< range of numbers
     ChartRange y_range = {};  ///< range with the intervals, and 0 where bars begin there
     ChartLimits y_limits = {};
@@ -40,8 +40,8 @@ struct ChartView {
 /// @param chart  lives longer
 ChartView view_of(const Chart& chart);
 
-/// Whether the intervals of a line are drawn as a band: where x is a number, and points are not
-/// few, for a band says that it goes on between them.
+/// Whether the intervals of a line are drawn as a band: where x is a number and there are enough
+/// points, as a band suggests values between them.
 bool has_band(const ChartView& view, std::size_t series);
 
 /// Whether the words of a chart are too long to stand side by side in an ordinary picture.

@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// An upright rectangle of the world [m] that grows around what is put into it; z says nothing.
+/// An upright rectangle of the world [m] that grows around what is put into it; z is ignored.
 class Extent {
   public:
     /// Makes room for a disc.
@@ -55,7 +55,7 @@ class Plot {
 
     double left = 0, top = 0, width = 1, height = 1;  ///< [px]
     double scale = 1;                                 ///< [px/m]
-    Vec3 low{}, high{1, 1};                           ///< [m] what it shows
+    Vec3 low{}, high{1, 1};                           ///< corners of what it shows [m]
 };
 
 /// The largest of 1, 2, 5, 10, 20, 50 ... (and 0.5, 0.2 ...) that is at most `most` > 0.

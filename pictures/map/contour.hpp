@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// A line along which a map has one level.
+/// A line along which the level of a map is the same.
 struct ContourLine {
     std::vector<Vec3> points;  ///< [m] at the map's height; places above the level to the left
     bool closed = false;       ///< the first point, which is not repeated, follows the last

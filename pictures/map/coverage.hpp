@@ -19,7 +19,7 @@ struct Transmitter {
     Radio radio = {};
     Vec3 antenna = {};             ///< [m]
     Radians heading{0};            ///< [rad] of the robot, for a directional antenna
-    std::uint64_t key = 0;         ///< the robot's, for random draws
+    std::uint64_t key = 0;         ///< key of the robot, for random draws
     const Scene* scene = nullptr;  ///< not null; outlives the transmitter
     Meters floor_height{3};        ///< [m] of one storey
     std::uint64_t seed = 0;

@@ -21,8 +21,8 @@ struct PictureOptions {
     int cells = 200'000;  ///< cells of the heat map, about; from 1 to most_coverage_cells
     bool axes = false;    ///< axes in metres, around the map
     int width = 1200;  ///< [px] of the picture at most, from 100 to 10000; a tall one is narrower
-    /// [points] of its texts, from 4 to 36, where 1200 points are the width of the picture: `width`
-    /// changes how many pixels it has, and nothing in it.
+    /// Size of the texts [points], from 4 to 36; the picture is 1200 points wide, so that `width`
+    /// changes its pixels and nothing else.
     double font_size = 12;
 };
 

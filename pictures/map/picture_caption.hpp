@@ -11,10 +11,10 @@
 
 namespace rovernet {
 
-/// Caption of a picture: the lines above it. They say of a network the time, the robots that are
-/// not there, the models, and of whom the coverage is.
-/// @param end     of the scenario's run: a time after it is said to be so
-/// @param source  whose coverage is drawn
+/// Caption of a picture: the lines above it. They tell the time, the robots of the network that are
+/// not there, the models, and the robot whose coverage is drawn.
+/// @param end     end of the scenario's run: the caption tells that `at` is after it
+/// @param source  robot whose coverage is drawn
 std::vector<std::string> picture_caption(const Network& network, Time at, Time end,
                                          std::optional<NodeId> source);
 

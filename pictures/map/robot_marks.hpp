@@ -33,7 +33,7 @@ struct RobotMark {
 /// heading and the name beside, where there is room for it.
 class RobotMarks {
   public:
-    /// @param standing_out  whose coverage is drawn
+    /// @param standing_out  robot whose coverage is drawn
     /// @param colored       each has a rim of its own colour, that of its trail
     RobotMarks(const Network& network, std::optional<NodeId> standing_out, bool colored,
                const Plot& plot);
