@@ -22,7 +22,7 @@ struct EnumNames<StartPlace> {
     static constexpr std::array<std::string_view, 2> values = {"uniform", "here"};
 };
 
-/// The rectangle along the axes in which a robot moves. Heights are the robot's affair.
+/// The rectangle along the axes in which a robot moves. It says nothing of heights.
 struct Area {
     Vec3 lower;  ///< [m]
     Vec3 upper;  ///< [m] beyond `lower` in x and y
@@ -57,7 +57,7 @@ struct Area {
                                     std::string_view model) const;
 };
 
-/// Shorter legs [m] are none: the robot stands at an obstacle or a border.
+/// Least length of a leg [m]: a robot that could go less far stands at an obstacle or a border.
 inline constexpr double least_leg = 1e-6;
 
 /// Point up to which the mover can go straight from where it is towards `to`: `to`, or a micrometre

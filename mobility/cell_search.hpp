@@ -46,11 +46,12 @@ struct PathEnd {
 
 /// Finds shortest ways over the cells of a map by A*, best first to within half a cell.
 ///
-/// Cells to go on from lie in buckets by the length so far and the least that may be left. One to
-/// which a shorter way turns up is gone on from again; the search ends when no bucket is left that
-/// could shorten the way found. Of ways equally long but for rounding a cell keeps the one whose
-/// last cell is nearest to the straight line between the ends. Boost's astar_search takes four
-/// times as many instructions: it makes its arrays anew and keeps its heap in full order.
+/// Cells to go on from lie in buckets by their total: the length so far plus the least that may be
+/// left. A cell to which a shorter way turns up is put into a bucket again; the search ends when no
+/// bucket is left that could shorten the way found. Of ways equally long but for rounding a cell
+/// keeps the one whose last cell is nearest to the straight line between the ends. Boost's
+/// astar_search takes four times as many instructions: it makes its arrays anew and keeps its heap
+/// in full order.
 ///
 /// Sources: P. E. Hart, N. J. Nilsson, B. Raphael, A Formal Basis for the Heuristic Determination
 /// of Minimum Cost Paths, IEEE SSC-4 (1968); R. B. Dial, Algorithm 360, Comm. ACM 12 (1969).
@@ -67,11 +68,11 @@ class CellSearch {
   private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    /// Knowledge of a cell.
+    /// Best way to a cell that is known so far.
     struct Reached {
         double so_far = infinity;  // [m] from the start
         int before = -1;           // the cell before it on the way; -1: the start
-        float aside = 0;           // of that cell
+        float aside = 0;           // distance of `before` from the straight line, see aside()
     };
     /// A cell to go on from, unless a shorter way to it has been found meanwhile.
     struct Open {
@@ -92,16 +93,16 @@ class CellSearch {
     int columns_;
     double bucket_width_;                             // [m]
     double rounding_;                                 // [m] lengths so much apart are equal
-    std::array<int, cell_steps.size()> offset_{};     // of the steps
-    std::array<double, cell_steps.size()> length_{};  // [m] of the steps
+    std::array<int, cell_steps.size()> offset_{};     // of a step: difference of the cells' indices
+    std::array<double, cell_steps.size()> length_{};  // of a step [m]
 
     CellPoint start_{}, goal_{};
     std::vector<Reached> reached_;               // by cell
-    std::vector<int> touched_;                   // those of reached_ that are not as they were made
-    std::array<std::vector<Open>, 32> buckets_;  // around and around
-    std::size_t bucket_ = 0;                     // the one under work, counted on
-    std::size_t open_ = 0;                       // in all buckets
-    double least_ = 0;                           // [m] total from which the first one is
+    std::vector<int> touched_;                   // cells whose entry in reached_ was changed
+    std::array<std::vector<Open>, 32> buckets_;  // ring of buckets
+    std::size_t bucket_ = 0;  // number of the current bucket, not yet modulo the ring
+    std::size_t open_ = 0;    // cells in all buckets
+    double least_ = 0;        // total at which the first bucket begins [m]
 };
 
 }  // namespace rovernet

@@ -10,8 +10,8 @@ namespace rovernet {
 
 /// The random numbers of one movement, one after the other.
 ///
-/// They depend on seed, replication, the robot's name and the number of its movement, on nothing
-/// that other robots do.
+/// They depend on seed, replication, the robot's name and the number of its movement, and on
+/// nothing that other robots do.
 struct Draws {
     std::uint32_t used = 0;  // a leg takes a few: enough for a billion legs
 

@@ -19,7 +19,7 @@ struct Driven {
     MetersPerSecond speed{0};        ///< ahead; < 0: backwards. At most the robot's top speed
     RadiansPerSecond turn_rate{0};   ///< counter-clockwise
     Meters chord{0.001};             ///< > 0
-    std::optional<Time> until = {};  ///< the command ends then: the robot stands still
+    std::optional<Time> until = {};  ///< end of the command: then the robot stands still
 
     Step next_leg(Mover& mover);
 };

@@ -13,8 +13,9 @@ namespace rovernet {
 /// there, around the walls, until `distance` is left of it.
 ///
 /// It spreads what it has to go over the interval, at `speed` at most, and stands while the leader
-/// is nearer. Behind a leader of constant speed v < `speed` on a straight line it looks from
-/// `distance` + v `every`. While there is no way it stands and looks again. Its height stays.
+/// is nearer. Behind a leader of constant speed v < `speed` on a straight line, it is
+/// `distance` + v `every` away at each look. While there is no way it stands and looks again. Its
+/// height stays.
 struct Follow {
     static constexpr std::string_view name = "follow";
 

@@ -12,7 +12,8 @@
 
 namespace rovernet {
 
-/// Speed and direction with a memory, new every `step`: the Gauss-Markov model.
+/// Speed and direction drawn anew every `step`, correlated with those before: the Gauss-Markov
+/// model.
 ///   s' = a s + (1 - a) mean_speed + sqrt(1 - a^2) speed_sigma w,   w normal; direction alike.
 ///
 /// Speed is normal with mean_speed and speed_sigma at all times, and its autocorrelation over k
@@ -31,7 +32,7 @@ struct GaussMarkov {
     MetersPerSecond mean_speed{1};     ///< [m/s], >= 0
     MetersPerSecond speed_sigma{0.2};  ///< [m/s], >= 0
     std::optional<Radians> mean_direction =
-        std::nullopt;                         ///< direction at first; none: drawn, uniform
+        std::nullopt;                         ///< direction at first; nothing: drawn, uniform
     Radians direction_sigma{0.4};             ///< >= 0
     double memory = 0.75;                     ///< a [-], 0 ... 1
     Duration step = std::chrono::seconds{1};  ///< [ns], from 1 us

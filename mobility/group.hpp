@@ -24,7 +24,7 @@ struct Group {
 
     NodeId leader = {};
     Meters radius{5};                          ///< [m], >= 0, around the reference point
-    Duration every = std::chrono::seconds{5};  ///< [ns], from 1 us
+    Duration every = std::chrono::seconds{5};  ///< time from one draw to the next [ns], from 1 us
     Vec3 offset = {};                          ///< [m] of the reference point from the leader
 
     static constexpr auto fields() {

@@ -10,8 +10,8 @@
 
 namespace rovernet {
 
-/// Planners of the scenes that were asked for last: what a worker that makes many runs keeps from
-/// run to run.
+/// Planners of the scenes that were used last: a worker that makes many runs keeps them from run to
+/// run.
 ///
 /// A scene never changes, so its address tells which one it is: it is kept alive as long as its
 /// planners are.
@@ -30,7 +30,7 @@ class KeptPlanners {
         std::shared_ptr<Planners> planners;
     };
     std::size_t most_cells_;
-    std::deque<Kept> kept_;  // asked for last: first
+    std::deque<Kept> kept_;  // the one that was asked for last comes first
 };
 
 }  // namespace rovernet

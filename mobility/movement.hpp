@@ -18,7 +18,7 @@
 
 namespace rovernet {
 
-/// [rad/s] of robots that turn in place: half a turn ends well before the clock does.
+/// Rates [rad/s] at which robots turn in place: half a turn ends well before the clock does.
 inline constexpr Range turn_rates{.low = 1e-8, .text = ">= 1e-8 rad/s"};
 
 /// A robot that asks for its next leg, and what its movement model may know.

@@ -13,8 +13,8 @@ namespace rovernet {
 
 /// Patrol from place to place and round again for ever, around the walls where there are any.
 ///
-/// A place without a way to it ends the movement: Blocked. So does a round in which nothing has to
-/// be gone, at rest.
+/// A place without a way to it ends the movement: Blocked. A round without any distance to go ends
+/// it, too: AtRest.
 struct Patrol {
     static constexpr std::string_view name = "patrol";
 

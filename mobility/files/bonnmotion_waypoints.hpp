@@ -68,7 +68,7 @@ struct Waypoint {
 };
 
 /// The first of `candidates` that the whole file agrees with, and how many waypoints there are.
-/// @throws InputError if it agrees with none: why not with the one that it follows furthest
+/// @throws InputError if it agrees with none: tells where the one that fits longest fails
 std::pair<PlaceColumns, std::uint64_t> columns_of(BonnMotionNumbers& numbers,
                                                   const std::vector<PlaceColumns>& candidates);
 

@@ -30,7 +30,7 @@ std::string setdest_text(std::span<const Track> tracks, Time end);
 /// with z if some track leaves z = 0. Times are exact; places to 5e-10 m. A jump takes 1 ns.
 /// @throws std::invalid_argument as setdest_text()
 std::string bonnmotion_text(std::span<const Track> tracks, Time end);
-/// The .params that go with it.
+/// The file NAME.params that goes with bonnmotion_text().
 /// @throws std::invalid_argument as setdest_text()
 std::string bonnmotion_params(std::span<const Track> tracks, Time end);
 

@@ -12,7 +12,7 @@ namespace rovernet {
 /// Line of an ns-2 movement file.
 struct SetdestLine {
     enum class Kind : std::uint8_t {
-        nothing,  ///< blank, a comment, or what only ns-2's god is told
+        nothing,  ///< blank, a comment, or a command to ns-2's object god
         place,    ///< `$node_(i) set X_ v`: before the run
         jump,     ///< `$ns_ at T "$node_(i) set X_ v"`
         setdest,  ///< `$ns_ at T "$node_(i) setdest x y speed"`
