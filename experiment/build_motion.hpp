@@ -49,8 +49,8 @@ class MotionBuilder {
 
     Network& network_;
     const Scenario& scenario_;
-    std::map<const MoveTable*, Movement> shared_;     // whose copies share their parameters
-    std::map<std::string, NodeId, std::less<>> ids_;  // ids of all robots, built or to be
+    std::map<const MoveTable*, Movement> shared_;     // copies share their parameters
+    std::map<std::string, NodeId, std::less<>> ids_;  // all robots, also those not yet built
 };
 
 }  // namespace rovernet

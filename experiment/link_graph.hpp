@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-/// How links that work both ways join robots.
+/// Shape of a network: how links that work both ways join robots.
 struct LinkGraph {
     std::vector<std::size_t> parts;  ///< part of each robot, from 0: robots of a part are joined
     std::vector<std::size_t> cut;    ///< robots without which a part would fall apart, in order

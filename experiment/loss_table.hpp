@@ -21,17 +21,17 @@ struct LossAntennas {
 };
 
 /// Median path loss (shadowing off) of a listed model over distance.
-/// @param parameters  "name=value" each; what is not given takes the model's default
+/// @param parameters  "name=value" each; parameters that are not given take the model's defaults
 /// @param distances   [m] horizontal
 /// @param wall        [m] length of the way that lies in walls
-/// @throws InputError whose place is the option that is wrong
+/// @throws InputError that names the wrong option in place of a file
 std::vector<LossRow> loss_table(const std::string& model,
                                 const std::vector<std::string>& parameters, Hertz frequency,
                                 const std::vector<Meters>& distances, LossAntennas heights,
                                 Meters wall);
 
 /// A quantity from the command line: its text, or a bare number in SI units.
-/// @throws InputError whose place is `option`
+/// @throws InputError that names `option` in place of a file
 Hertz option_frequency(const std::string& option, const std::string& text);
 Meters option_length(const std::string& option, const std::string& text);
 Duration option_time(const std::string& option, const std::string& text);

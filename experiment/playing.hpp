@@ -8,10 +8,10 @@
 
 namespace rovernet {
 
-/// Told the simulated time that has been reached, now and then while a network is played.
+/// Function that is told the simulated time reached, now and then, while a network runs.
 using TellTime = std::function<void(Time)>;
 
-/// Runs the network until `end` and tells how far it is; empty: nobody wants to know.
+/// Runs the network until `end` and tells how far it is. @param tell  may be empty
 void play_until(Network& network, Time end, const TellTime& tell);
 
 }  // namespace rovernet

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-// The scenario inside a recorded trace: on its way in, and out again.
+// The scenario inside a recorded trace: how it is stored, and how it is taken out again.
 
 namespace rovernet {
 
@@ -38,8 +38,8 @@ class ReplayedScenario {
     Scenario with(const std::vector<std::string>& set) const;
 
   private:
-    std::string folder_;  // of the attached files ...
-    std::string file_;    // ... and of the scenario
+    std::string folder_;  // folder of the attached files
+    std::string file_;    // path of the scenario in it
 };
 
 }  // namespace rovernet

@@ -21,7 +21,7 @@ namespace rovernet {
 
 struct RunOptions {
     std::optional<std::string> folder;  ///< folder for the results; run_folder() if not given
-    std::optional<double> speed;        ///< simulated per real seconds; unpaced if not given
+    std::optional<double> speed;        ///< simulated per real time [-]; none: unpaced
     /// Told the share that is done, 0 ... 1, now and then; false stops the run.
     std::function<bool(double)> progress = {};
 };
@@ -60,11 +60,11 @@ void append_metrics(Table& table, const MetricValues& metrics);
 /// @param topology  null: not measured
 void append_parts(Table& table, const Scenario& scenario, const Network& network,
                   const MetricValues& metrics, Duration measured, Topology* topology);
-/// The sink for them that [metrics] asks for, added to the network; null: it does not.
+/// Adds the sink that measures the topology to the network, if [metrics] asks for it; else null.
 std::shared_ptr<Topology> add_topology(Network& network, const Scenario& scenario, Duration warmup);
 
-/// Document that `run --json` prints: the results; times and the machine's part are in summary.json
-/// only. Its timeline is empty: write_summary() renders that.
+/// Document that `run --json` prints: the results. Only summary.json has the times of the run and
+/// what depends on the machine. Its timeline is empty: write_summary() renders that.
 Table run_summary(const Scenario& scenario, const RunResult& result);
 /// Writes such a summary as JSON, piece by piece, with the timeline.
 void write_summary(const Table& summary, const Timeline& timeline, const Write& write);
@@ -77,8 +77,8 @@ std::string host_name();
 /// The robot of that name. @throws std::invalid_argument, naming some that there are
 NodeId robot_named(const Network& network, const std::string& name);
 
-/// The scenario for somebody who looks at robots and links only: without its traffic, unless a
-/// robot reacts to messages.
+/// The scenario as far as robots and links depend on it: without its traffic, unless a robot reacts
+/// to messages.
 Scenario without_idle_traffic(const Scenario& scenario);
 
 /// A network whose robots and links are as the scenario's at `at`.
@@ -104,8 +104,8 @@ struct LinkReport {
     std::optional<Rays::Paths> rays;  ///< paths of the link, if its model is rays
 };
 
-/// Runs the scenario until `at`, then looks at one link. Only the two robots move and those that
-/// they go by, unless some robot reacts to what others do.
+/// Runs the scenario until `at`, then looks at one link. Only the two robots, and those that their
+/// movements depend on, move, unless some robot reacts to what others do.
 /// @throws std::invalid_argument if there is no such robot or both are one
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
                        Time at, const TellTime& tell = {});

@@ -13,8 +13,9 @@ namespace rovernet {
 /// other than 0 "runs/rescue-s1-r3", with settings "runs/rescue-s1-radio.power=20dBm".
 ///
 /// Runs with other settings have another folder. Settings come in the order of their keys, each
-/// once; "20 dBm" loses its blank. Characters that do not belong into a file's name become "_";
-/// they, or more than 80 characters, make the folder's name end in a digest of the settings.
+/// once; "20 dBm" loses its blank. Characters that do not belong in a file's name become "_". With
+/// such characters, or with more than 80 in all, the folder's name ends in a digest of the
+/// settings.
 /// @param set  as in ScenarioOptions
 std::string run_folder(const Scenario& scenario, const std::vector<std::string>& set);
 

@@ -11,11 +11,11 @@
 namespace rovernet {
 
 /// A map: its size, walls and materials, and how much of it is free.
-/// @param walls  one entry per rectangle; else their number only
+/// @param walls  true: an entry for each rectangle of wall; false: their number only
 Table scene_report(const Scene& scene, bool walls);
 
-/// The robots of a scenario at a time, their radios, and how links join them: parts that hang
-/// together, robots without which one would fall apart, the longest shortest way in hops.
+/// Appends the robots of a network now, their radios, and how links join them: connected parts,
+/// robots without which a part would fall apart, and the diameter in hops.
 void append_robots(Table& report, const Network& network);
 
 }  // namespace rovernet

@@ -20,8 +20,8 @@ namespace rovernet {
 /// Timeline of a run with few robots, for a person: who said something for the first time, who
 /// heard of it when and over how many hops, who arrived where, whose way was blocked, who failed.
 ///
-/// An entry takes 24 bytes, a place 16 more, who heard what 16 or so; text is made of it when it is
-/// shown.
+/// An entry takes 24 bytes, a place 16 more, and 16 or so for each pair of words and robot that
+/// heard them; text is made of it when it is shown.
 class Timeline {
   public:
     /// An entry as it is shown.
@@ -43,7 +43,8 @@ class Timeline {
     std::size_t size() const { return entries_.size(); }
     /// The i-th entry, in the order in which they happened.
     Happening operator[](std::size_t i) const;
-    /// Appends it as a JSON object, its lines indented by four blanks but for the first.
+    /// Appends the i-th entry as a JSON object; its lines but the first are indented by four
+    /// blanks.
     void append_json(std::size_t i, std::string& out) const;
 
   private:
@@ -64,7 +65,7 @@ class Timeline {
     /// Pairs of words and robot, in an open-addressed table at most two thirds full.
     class Pairs {
       public:
-        /// False if it was there.
+        /// Adds a pair. @return false if it was there already
         bool add(std::uint32_t words, NodeId node);
 
       private:
@@ -88,8 +89,8 @@ class Timeline {
     Chunks<Entry> entries_;
     std::deque<Words> words_;  // stable: the index refers to their payloads
     std::map<std::pair<NodeId, std::string_view>, std::uint32_t> word_index_;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>>
-        by_message_;                                 // uid and words of each message
+    // By message: its uid and its words.
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> by_message_;
     std::vector<std::pair<double, double>> places_;  // [m]
     Pairs known_;
 };

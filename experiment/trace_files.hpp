@@ -13,8 +13,8 @@ namespace rovernet {
 /// A trace of a run.
 struct TraceFile {
     std::string path;
-    Sink sink;  ///< writes it
-    /// Puts it in its place, once the sink has finished. @throws RunError if that cannot be done
+    Sink sink;  ///< sink that writes it
+    /// Gives the file its name, once the sink has finished. @throws RunError if that cannot be done
     std::function<void()> give_name;
 };
 

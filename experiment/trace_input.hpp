@@ -19,10 +19,10 @@ namespace rovernet {
 ///     for (const std::string& what : trace.damage()) notice(what);
 class TraceInput {
   public:
-    /// Lines that are made of a recorded trace.
+    /// Form of the lines that are made of a recorded trace.
     struct Lines {
         Ns2Format format = Ns2Format::new_format;
-        /// Nothing: as the `[trace] mac` of its scenario says.
+        /// Whether lines of the MAC are made; if not given, as `[trace] mac` of its scenario says.
         std::optional<MacTrace> mac = {};
     };
 

@@ -13,7 +13,7 @@
 
 namespace rovernet {
 
-/// Where every robot is at a time.
+/// Positions of all robots at a time.
 struct Whereabouts {
     struct Row {
         std::string name;
@@ -30,7 +30,7 @@ struct Whereabouts {
 std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times,
                                      const TellTime& tell = {});
 
-/// Everybody's legs of the scenario's run.
+/// Legs of every robot in the scenario's run.
 std::vector<Track> tracks(const Scenario& scenario, const TellTime& tell = {});
 
 /// The scenario's motion as a movement file: NAME.movements (and NAME.params beside it) for
