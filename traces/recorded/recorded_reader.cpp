@@ -106,7 +106,9 @@ void RecordedReader::read_attachment(std::string_view content) {
 /// Unpacks the next chunk that is whole. @return false at the end of the file
 bool RecordedReader::begin_chunk() {
     while (const auto record = file_.next()) {
+        if (record->opcode == McapOpcode::statistics) tell_missing_chunks(record->content);
         if (record->opcode != McapOpcode::chunk) continue;
+        ++chunks_;
         const auto messages = file_.unpack(*record);
         if (!messages) continue;
         chunk_ = ByteReader(messages->records);
@@ -114,6 +116,16 @@ bool RecordedReader::begin_chunk() {
         return true;
     }
     return false;
+}
+
+/// Tells of chunks that look like something else, and so were passed over.
+void RecordedReader::tell_missing_chunks(std::string_view statistics) {
+    ByteReader from(statistics);
+    from.take(8 + 2 + 4 + 4 + 4);  // messages, schemas, channels, attachments, metadata
+    const auto chunks = from.fixed<std::uint32_t>();
+    if (!from.failed() && chunks > chunks_ && damage().empty()) {
+        file_.tell(fmt::format("{} of {} chunks are missing", chunks - chunks_, chunks));
+    }
 }
 
 const Record* RecordedReader::next() {

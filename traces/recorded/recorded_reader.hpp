@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rovernet {
@@ -64,6 +65,7 @@ class RecordedReader {
     void read_metadata(std::string_view content);
     void read_attachment(std::string_view content);
     bool begin_chunk();
+    void tell_missing_chunks(std::string_view statistics);
     bool take_message(std::string_view content);
     bool define(std::string_view bytes);
     bool meet(const Record& record);
@@ -74,6 +76,7 @@ class RecordedReader {
     RecordedRun run_;
     ByteReader chunk_{{}};  // what is left of the current chunk
     std::uint64_t chunk_offset_ = 0;
+    std::uint32_t chunks_ = 0;  // so far
     Time now_ = start_of_run;
     Record record_;
     bool has_record_ = false;  // the last message was a record, not a definition
