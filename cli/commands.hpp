@@ -251,7 +251,7 @@ struct TraceFollowArguments {
     std::string file;
     std::uint64_t message = 0;
     std::optional<std::string> robot;
-    bool strict = false;
+    bool strict = false, json = false;
 };
 void trace_follow(const TraceFollowArguments& arguments);
 

@@ -37,7 +37,12 @@ void tell_damage(const std::string& file, const std::vector<std::string>& damage
 
 namespace {
 
-Table stats_table(const Ns2Counts& counts) {
+/// Stats of a trace, and its format: a recorded trace is read as text of another.
+struct ToldStats : TraceStats {
+    std::string format;
+};
+
+Table counts_table(const Ns2Counts& counts, const std::string& format) {
     Table skipped;
     for (std::size_t i = 0; i < counts.skipped.size(); ++i) {
         if (counts.skipped[i] > 0) skipped.set(names_of_other[i], counts.skipped[i]);
@@ -52,7 +57,7 @@ Table stats_table(const Ns2Counts& counts) {
         refused_lines.emplace_back(std::move(one));
     }
     Table table;
-    table.set("format", counts.format());
+    table.set("format", format);
     table.set("lines", counts.lines);
     table.set("event_lines", counts.events);
     table.set("skipped", std::move(skipped));
@@ -93,7 +98,7 @@ Table stats_table(const TraceRow& row, const std::string& by) {
     return table;
 }
 
-Table stats_table(const TraceStats& stats, const std::string& by) {
+Table stats_table(const ToldStats& stats, const std::string& by) {
     Table table;
     append_metrics(table, stats.metrics);
     append_drops(table, stats);
@@ -105,7 +110,9 @@ Table stats_table(const TraceStats& stats, const std::string& by) {
     table.set("jitter_rfc3550_s", stats.jitter_rfc3550);
     table.set("jitter_sd_s", stats.jitter_sd);
     table.set("throughput_bps", stats.throughput);
-    for (const Entry& entry : stats_table(stats.counts).entries) table.set(entry.key, entry.value);
+    for (const Entry& entry : counts_table(stats.counts, stats.format).entries) {
+        table.set(entry.key, entry.value);
+    }
     if (by.empty()) return table;
     Array rows;
     for (const TraceRow& row : stats.rows) rows.emplace_back(stats_table(row, by));
@@ -142,7 +149,7 @@ std::string csv_line(const Table& table, bool is_head) {
     return line + '\n';
 }
 
-void print_stats_csv(const TraceStats& stats, const std::string& by) {
+void print_stats_csv(const ToldStats& stats, const std::string& by) {
     if (by.empty()) {
         Table flat;
         flatten(stats_table(stats, by), "", flat);
@@ -162,7 +169,7 @@ void print_flat(const Table& flat) {
     }
 }
 
-void print_stats(const TraceStats& stats, const std::string& by) {
+void print_stats(const ToldStats& stats, const std::string& by) {
     Table flat;
     flatten(stats_table(stats, by), "", flat);
     print_flat(flat);
@@ -186,10 +193,11 @@ TraceRows rows_by(const std::string& by) {
 }
 
 /// What is counted of a trace. A recorded one has the metrics of its run, without its warm-up.
-TraceStats stats_of(const TraceStatsArguments& a) {
+ToldStats stats_of(const TraceStatsArguments& a) {
     const TraceInput trace(a.file, {.format = Ns2Format::old_format, .mac = MacTrace::on});
     const auto strictness = a.strict ? Ns2Strictness::strict : Ns2Strictness::tolerant;
-    TraceStats stats = ns2_stats(trace.text(), strictness, rows_by(a.by));
+    ToldStats stats{ns2_stats(trace.text(), strictness, rows_by(a.by)), {}};
+    stats.format = trace.is_recorded() ? "recorded" : stats.counts.format();
     tell_refused(a.file, stats.counts);
     if (!trace.is_recorded()) return stats;
     tell_damage(a.file, trace.damage());
@@ -205,7 +213,7 @@ TraceStats stats_of(const TraceStatsArguments& a) {
 }  // namespace
 
 void trace_stats(const TraceStatsArguments& a) {
-    const TraceStats stats = stats_of(a);
+    const ToldStats stats = stats_of(a);
     if (stats.metrics.messages == 0) notice(a.file + ": no message was sent in this trace");
     if (a.json) {
         fmt::print("{}", to_json(stats_table(stats, a.by)));

@@ -73,8 +73,11 @@ void add_trace_follow(Command trace) {
                          "rovernet trace follow runs/rescue-s1/trace.tr --message 3 --robot E"});
     follow.add_option("FILE", a.file, any_trace).required();
     follow.add_option("--message", a.message, "id of the message").required();
-    follow.add_option("--robot", a.robot, "name or number of a robot: the way to it only");
+    follow.add_option("--robot", a.robot,
+                      "name or number of a robot: the way to it only; of a recorded trace also "
+                      "how each frame came there");
     add_strict(follow, a.strict);
+    add_json(follow, a.json);
 }
 
 }  // namespace

@@ -217,20 +217,20 @@ std::vector<Variant> broken_chunks(const Sample& s) {
 /// Damage beside the chunks: no record is lost.
 std::vector<Variant> broken_elsewhere(const Sample& s) {
     const std::size_t metadata = s.first(McapOpcode::metadata).begin,
-                      attachment = s.first(McapOpcode::attachment).begin,
-                      chunk = s.chunks[1].begin;
+                      attachment = s.first(McapOpcode::attachment).begin, chunk = s.chunks[1].begin;
     const std::string junk(10'000'000, 'x'), nothing(1'000'000, '\0');
     std::vector<Variant> all = {
         {"an attachment", flipped(s.bytes, attachment + mcap_record_head + 60)},
         {"length of an attachment 2^63", with_number(s.bytes, attachment + 1, huge)},
         {"10 MB of letters between chunks", with_text(s.bytes, chunk, junk)},
         {"1 MB of NUL bytes between chunks", with_text(s.bytes, chunk, nothing)},
-        {"a record of no known kind", with_text(s.bytes, chunk, std::string("\x7f\0\0\0\0\0\0\0\0", 9))},
+        {"a record of no known kind",
+         with_text(s.bytes, chunk, std::string("\x7f\0\0\0\0\0\0\0\0", 9))},
         {"a chunk of nothing", with_text(s.bytes, chunk, std::string("\x06\0\0\0\0\0\0\0\0", 9))}};
     all.push_back({"the scenario", flipped(s.bytes, metadata + mcap_record_head + 60)});
     all.back().is_told = false;  // it has no checksum
-    for (const auto& [name, at] : {std::pair{"magic", std::size_t{1}},
-                                   std::pair{"profile", std::size_t{8 + 9 + 5}}}) {
+    for (const auto& [name, at] :
+         {std::pair{"magic", std::size_t{1}}, std::pair{"profile", std::size_t{8 + 9 + 5}}}) {
         all.push_back({name, flipped(s.bytes, at)});
         all.back().is_refused = true;
     }
