@@ -2,6 +2,7 @@
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/trace_notices.hpp"
+#include "experiment/capture.hpp"
 #include "experiment/loss_table.hpp"
 #include "experiment/trace_input.hpp"
 #include "traces/ns2/ns2_convert.hpp"
@@ -45,9 +46,26 @@ void print_kinds(const TraceDifference& d) {
     }
 }
 
+void convert_to_capture(const TraceConvertArguments& a) {
+    if (!is_recorded_trace(a.in)) {
+        throw InputError({.source = a.in},
+                         "pcapng is made of a recorded trace only (run --record): its levels "
+                         "follow from the scenario inside");
+    }
+    const Capture made = capture_recorded(a.in, a.out);
+    tell_damage(a.in, made.damage);
+    if (made.left_out > 0) {
+        notice(
+            fmt::format("{}: {} frames sent or received are left out: what they belong to is "
+                        "in a broken part",
+                        a.in, made.left_out));
+    }
+}
+
 }  // namespace
 
 void trace_convert(const TraceConvertArguments& a) {
+    if (a.to == "pcapng") return convert_to_capture(a);
     TraceInput::Lines lines;
     if (a.to == "ns2-old") lines.format = Ns2Format::old_format;
     if (a.mac) lines.mac = MacTrace::on;

@@ -32,8 +32,8 @@ void add_trace_convert(Command trace) {
                           "rovernet trace convert trace.mcap trace.tr --to ns2-old --mac"});
     convert.add_option("IN", a.in, any_trace).required();
     convert.add_option("OUT", a.out, "file to write").required();
-    convert.add_option("--to", a.to, "csv, ns2-old or ns2-new")
-        .one_of({"csv", "ns2-old", "ns2-new"})
+    convert.add_option("--to", a.to, "csv, ns2-old, ns2-new, or of a recorded trace pcapng")
+        .one_of({"csv", "ns2-old", "ns2-new", "pcapng"})
         .required();
     convert.add_flag("--mac", a.mac,
                      "of a recorded trace also the lines of the MAC, as with [trace] mac = true");

@@ -89,16 +89,22 @@ struct History {
 
 }  // namespace
 
-std::vector<Device> devices(const Network& network) {
-    Addresses ips(network.medium(), network.size(), &Radio::ip, ip_of);
-    Addresses macs(network.medium(), network.size(), &Radio::mac, mac_of);
+std::vector<Device> devices(const Medium& medium, const std::vector<std::string>& names) {
+    Addresses ips(medium, names.size(), &Radio::ip, ip_of);
+    Addresses macs(medium, names.size(), &Radio::mac, mac_of);
     std::vector<Device> all;
-    for (std::uint32_t i = 0; i < network.size(); ++i) {
-        const Radio& radio = network.medium().radio(NodeId{i});
-        all.push_back({network.name(NodeId{i}), ips.of(radio, NodeId{i}), macs.of(radio, NodeId{i}),
-                       radio.essid, radio.frequency, radio.mode, radio.encryption});
+    for (std::uint32_t i = 0; i < names.size(); ++i) {
+        const Radio& radio = medium.radio(NodeId{i});
+        all.push_back({names[i], ips.of(radio, NodeId{i}), macs.of(radio, NodeId{i}), radio.essid,
+                       radio.frequency, radio.mode, radio.encryption});
     }
     return all;
+}
+
+std::vector<Device> devices(const Network& network) {
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < network.size(); ++i) names.push_back(network.name(NodeId{i}));
+    return devices(network.medium(), names);
 }
 
 void for_each_link_table(const Network& network, const std::optional<std::string>& robot,

@@ -37,6 +37,8 @@ struct LinkTable {
 /// Devices of all robots. Addresses that were not given are made: ip 10.0.0.1 for the first robot
 /// and so on, mac 02:00:00:00:00:01; a number that a robot has been given is passed over.
 std::vector<Device> devices(const Network& network);
+/// Devices of the stations of a medium, which have these names.
+std::vector<Device> devices(const Medium& medium, const std::vector<std::string>& names);
 
 /// Visits the tables of all robots now, or of `robot` only, one after the other: the memory is that
 /// of one table, n rows for n robots.
