@@ -27,9 +27,10 @@ void add_trace_stats(Command trace) {
 void add_trace_convert(Command trace) {
     const auto [convert, a] =
         add_command(trace, "convert", "Write a trace in another form", cli::trace_convert);
-    convert.add_examples({"rovernet trace convert out.tr out.csv --to csv",
-                          "rovernet trace convert old.tr new.tr --to ns2-new",
-                          "rovernet trace convert trace.mcap trace.tr --to ns2-old --mac"});
+    convert.add_examples(
+        {"rovernet trace convert runs/patrol-s3/trace.tr patrol.csv --to csv",
+         "rovernet trace convert runs/rescue-s1/trace.mcap rescue.tr --to ns2-old --mac",
+         "rovernet trace convert runs/rescue-s1/trace.mcap rescue.pcapng --to pcapng"});
     convert.add_option("IN", a.in, any_trace).required();
     convert.add_option("OUT", a.out, "file to write").required();
     convert.add_option("--to", a.to, "csv, ns2-old, ns2-new, or of a recorded trace pcapng")
@@ -43,8 +44,9 @@ void add_trace_convert(Command trace) {
 void add_trace_cut(Command trace) {
     const auto [cut, a] = add_command(
         trace, "cut", "Write a piece of a trace as ns-2 text, line by line", cli::trace_cut);
-    cut.add_examples({"rovernet trace cut out.tr piece.tr --from \"10 s\" --to \"20 s\"",
-                      "rovernet trace cut out.tr piece.tr --message 3"});
+    cut.add_examples(
+        {"rovernet trace cut runs/patrol-s3/trace.tr piece.tr --from \"10 s\" --to \"20 s\"",
+         "rovernet trace cut runs/rescue-s1/trace.mcap piece.tr --message 3"});
     cut.add_option("IN", a.in, any_trace).required();
     cut.add_option("OUT", a.out, "file to write").required();
     cut.add_option("--from", a.from, "time of the first packet");
@@ -57,8 +59,9 @@ void add_trace_cut(Command trace) {
 void add_trace_diff(Command trace) {
     const auto [diff, a] = add_command(
         trace, "diff", "Show where two traces part; exit code 1 if they do", cli::trace_diff);
-    diff.add_examples({"rovernet trace diff a.tr b.tr",
-                       "rovernet trace diff old.tr new.tr --time-tolerance \"1 us\""});
+    diff.add_examples({"rovernet trace diff runs/rescue-s1/trace.tr runs/rescue-s1/trace.mcap",
+                       "rovernet trace diff runs/rescue-s1/trace.tr runs/rescue-s1/trace.mcap "
+                       "--time-tolerance \"1 us\""});
     diff.add_option("A", a.a, any_trace).required();
     diff.add_option("B", a.b, any_trace).required();
     diff.add_option("--time-tolerance", a.time_tolerance, "times differ if further apart")
@@ -70,7 +73,7 @@ void add_trace_follow(Command trace) {
     const auto [follow, a] =
         add_command(trace, "follow", "Follow a message from robot to robot", cli::trace_follow);
     follow.add_examples({"rovernet trace follow runs/rescue-s1/trace.tr --message 3",
-                         "rovernet trace follow runs/rescue-s1/trace.tr --message 3 --robot E"});
+                         "rovernet trace follow runs/rescue-s1/trace.mcap --message 0 --robot E"});
     follow.add_option("FILE", a.file, any_trace).required();
     follow.add_option("--message", a.message, "id of the message").required();
     follow.add_option("--robot", a.robot,
