@@ -96,9 +96,9 @@ struct MetricValues {
     std::optional<double> delivery_ratio;
 
     /// RE = r / e [-]: r the deliveries, e the sum over messages of the robots that a chain of
-    /// links joined to the sender when it was sent; of a unicast its destination, if so. Robots
-    /// that move or relay late may be reached beyond those: it can exceed 1. Nothing if e is 0 or
-    /// a message did not carry its part of it. Source: S.-Y. Ni et al., The broadcast storm
+    /// links joined to the sender when it was sent; of a unicast only its destination counts.
+    /// Robots that move or relay late may be reached beyond those: it can exceed 1. Nothing if e is
+    /// 0 or a message did not carry its part of it. Source: S.-Y. Ni et al., The broadcast storm
     /// problem, MobiCom 1999.
     std::optional<double> reach;
     bool reach_known = true;  ///< every message carried its part of reach

@@ -37,7 +37,7 @@ class Metrics {
     MetricValues values() const;
 
   private:
-    /// Knowledge of a message in the table. A slot begins anew with every message, also with one
+    /// State of a message in the table. A slot begins anew with every message, also with one
     /// that has no Sent, such as a router's own.
     struct Flood {
         std::uint64_t uid = ~std::uint64_t{0};
@@ -79,16 +79,16 @@ class Metrics {
     Counts<Fate, last_fate> fates_;
     Counts<DropReason, last_drop_reason> drops_;
     std::uint64_t others_ = 0;         ///< sum of (robots - 1)
-    std::uint64_t reachable_ = 0;      ///< sum of reachable ...
-    std::uint64_t reached_ = 0;        ///< ... and the deliveries of messages that carried it
+    std::uint64_t reachable_ = 0;      ///< sum of Flood::reachable
+    std::uint64_t reached_ = 0;        ///< deliveries of messages with a Flood::reachable
     std::uint64_t forwarders_ = 0;     ///< distinct (message, robot other than the origin)
     std::vector<Duration> delays_;     ///< delays of the deliveries, in no order
     std::vector<std::uint64_t> hops_;  // deliveries by their hops
     std::vector<Flood> floods_;        ///< floods by MessageId
     std::vector<PartValues> flows_;    ///< values by flow - 1
-    std::vector<PartValues> robots_;   ///< values by robot, but for broadcasts: ...
-    std::uint64_t broadcasts_ = 0;     ///< ... these, of everybody, ...
-    std::vector<std::uint64_t> own_broadcasts_;  ///< ... less its own
+    std::vector<PartValues> robots_;   ///< values by robot, without the broadcasts
+    std::uint64_t broadcasts_ = 0;     ///< broadcasts of all robots, which are for everybody else
+    std::vector<std::uint64_t> own_broadcasts_;  ///< broadcasts by each robot itself
 };
 
 }  // namespace rovernet

@@ -21,10 +21,11 @@ struct TopologyValues {
     /// at the beginning and one each second.
     std::optional<double> components_mean;
     std::optional<double> speed_mean;  ///< [m/s] over time and over all robots, rests included
-    /// [s] From when a robot begins to hear another one until it does not any more, of the links
-    /// for which both were seen. Source: F. Bai et al., IMPORTANT, INFOCOM 2003 (link duration).
+    /// Time [s] from when a robot begins to hear another one until it no longer does, over the
+    /// links for which both were seen. Source: F. Bai et al., IMPORTANT, INFOCOM 2003 (link
+    /// duration).
     std::optional<double> link_lifetime_mean;
-    std::uint64_t links_ended = 0;  ///< links that this is the mean of
+    std::uint64_t links_ended = 0;  ///< number of links in that mean
 };
 
 /// Measures the topology from the records of links, legs and switches. Costs a search for every

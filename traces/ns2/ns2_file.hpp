@@ -32,7 +32,7 @@ struct Ns2Counts {
     std::array<std::uint64_t, std::size(names_of_other)> skipped{};  ///< by Ns2Other
     std::uint64_t refused = 0;
     std::vector<Ns2RefusedLine> refused_lines;  ///< the first ten
-    std::array<bool, 3> dialects{};             ///< that there are lines of, by Ns2Dialect
+    std::array<bool, 3> dialects{};             ///< true: the file has such lines, by Ns2Dialect
 
     std::uint64_t skipped_of(Ns2Other kind) const {
         return skipped[static_cast<std::size_t>(kind)];
@@ -65,7 +65,7 @@ class Ns2File {
     /// Valid until the next call.
     /// @throws InputError if a line is refused, under Ns2Strictness::strict; if the file is damaged
     const Ns2Line* next();
-    /// Takes the event that came last back: in its place in the file it cannot be one.
+    /// Refuses the event that came last after all, as it makes no sense at its place in the file.
     /// @throws InputError under Ns2Strictness::strict
     void refuse(int column, const std::string& why);
 

@@ -38,9 +38,8 @@ using OnNs2Packet = std::function<void(const Ns2Packet&, const Message*)>;
 ///
 /// The file is streamed: memory grows with robots and messages, not with lines.
 ///
-/// @throws InputError naming file:line:column, what was found and what was expected: if it cannot
-/// be
-///         read, has no line of ns-2, or, if strict, at the first line that is refused
+/// @throws InputError naming file:line:column, what was found and what was expected: if the file
+///         cannot be read, has no line of ns-2, or, if strict, at the first line that is refused
 Ns2Counts read_ns2_trace(Ns2Source source, Sink sink,
                          Ns2Strictness strictness = Ns2Strictness::tolerant,
                          const OnNs2Packet& on_packet = {});

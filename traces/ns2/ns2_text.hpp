@@ -18,7 +18,7 @@ namespace rovernet {
 
 /// Adds the packet as ns-2 writes it in the old format.
 std::string_view write_old_line(const Ns2Packet& packet, std::string& out);
-/// Adds it in the new format. @param place  where the robot is then [m]
+/// Adds the packet in the new format. @param place  where the robot is then [m]
 std::string_view write_new_line(const Ns2Packet& packet, Vec3 place, std::string& out);
 
 /// Column names of write_csv_line().

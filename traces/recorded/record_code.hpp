@@ -76,12 +76,13 @@ void encode(const Message& message, MessageId slot, Time time, ByteWriter& to);
 
 /// Record of these bytes, on the channel of its kind.
 /// @param receptions  gets those of a Received, to which the record then points
-/// @return whether they are one: neither too short nor too long, all values in their ranges
+/// @return whether the bytes are a record: neither too short nor too long, all values in their
+///         ranges
 bool decode(std::uint16_t channel, Time time, std::string_view bytes,
             std::vector<Reception>& receptions, Record& record);
 /// Message of these bytes.
 /// @param kind  gets the text of Message::kind, which the caller has to keep
-/// @return whether they are one
+/// @return whether the bytes are a message
 bool decode(Time time, std::string_view bytes, MessageId& slot, Message& message,
             std::string_view& kind);
 

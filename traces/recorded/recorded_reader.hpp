@@ -41,8 +41,8 @@ bool is_recorded_trace(const std::string& path);
 ///
 /// Not in the records: keys of random draws (0), and levels of receptions (none). A file without an
 /// end is read up to its last whole chunk. A broken chunk is left out: behind it the messages are
-/// right at once, the place of a robot with its next leg. Memory grows with robots
-/// and messages that are under way, not with records.
+/// right at once, and the place of a robot from its next leg on. Memory grows with robots and
+/// messages that are under way, not with records.
 class RecordedReader {
   public:
     /// Opens the file and reads what stands before the records.

@@ -47,8 +47,8 @@ class RecordedTrace {
     KindMask kinds() const;
     /// Writes the scenario, its seed and the robots' names.
     void begin(const RunInfo& run);
-    /// @throws RunError if the file cannot be written (disk full, say), at a later record than the
-    /// one that found no room
+    /// @throws RunError if the file cannot be written (disk full, say); this may show some records
+    ///         late
     void on(const Record& record, const RecordContext& context);
     /// Writes what has not been written, and ends the writing. @throws RunError as on()
     void finish();
