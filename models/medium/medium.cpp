@@ -143,15 +143,18 @@ Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
 double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
                     Db give_up) const {
     const Db most = fades_ ? give_up + fades_->most() : give_up;
-    if (const auto known = recent_.find({from, to, here, there}, most)) {
-        return faded(*known, from, to, here, there, frame);
+    const auto seen = [&](double loss_db) {
+        return fades_ ? faded(loss_db, from, to, here, there, frame) : loss_db;
+    };
+    if (!recent_.empty()) {
+        if (const auto known = recent_.find({from, to, here, there}, most)) return seen(*known);
     }
     LinkBatch link = batch(from, here, t, frame);
     link.to = {&there, 1};
     link.to_keys = {&keys_[to.index()], 1};
     double db = 0;
     model(from).loss(link, most, {&db, 1});
-    return faded(db, from, to, here, there, frame);
+    return seen(db);
 }
 
 /// Loss [dB] that a frame sees; the local mean has no frame.

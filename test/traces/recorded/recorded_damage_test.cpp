@@ -294,14 +294,14 @@ std::vector<Variant> nonsense(const Sample& s) {
 }
 
 /// Peak of this process's memory since it was set back [MB]; 0 where nobody tells.
-std::size_t peak_memory_mb() {
+[[maybe_unused]] std::size_t peak_memory_mb() {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);) {
         if (line.starts_with("VmHWM:")) return std::stoul(line.substr(6)) / 1024;
     }
     return 0;
 }
-void set_peak_memory_back() { std::ofstream("/proc/self/clear_refs") << 5; }
+[[maybe_unused]] void set_peak_memory_back() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 void check(const Sample& sample, const Variant& variant) {
     CAPTURE(variant.name);
