@@ -260,6 +260,10 @@ struct ReplayArguments {
     bool verify = false;
     std::vector<std::string> with;   ///< radios, each "path=value" or several of them after ";"
     std::optional<std::string> map;  ///< map of these
+    std::optional<double> speed;
+    // Of an ns-2 trace: its radio, as one of `with`, and "flood" or "direct".
+    std::optional<std::string> as, routing, movements;
+    std::optional<std::string> store;
     bool json = false;
 };
 void replay(const ReplayArguments& arguments);

@@ -7,10 +7,16 @@
 #include "experiment/session.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
+#include "files/text_source.hpp"
+#include "sim/error.hpp"
+#include "traces/ns2/ns2_trace.hpp"
 #include "traces/recorded/record_text.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string_view>
 
@@ -60,7 +66,7 @@ class Comparison {
         recorded_.clear();
         if (record) append_text(*record, trace_.context(), recorded_);
         if (record && recorded_ == now_) {
-            ++result_.records;
+            ++result_.same;
         } else {
             result_.difference = difference_of(recorded_, now_);
         }
@@ -73,9 +79,76 @@ class Comparison {
     std::string recorded_, now_;
 };
 
+/// Compares the ns-2 text of a run with that of a trace, until they differ.
+class TextComparison {
+  public:
+    TextComparison(const std::string& path, Verification& result)
+        : trace_(TextSource(path, TextSource::Reads::once)), result_(result) {}
+
+    void take(std::string_view text) {
+        while (!text.empty() && !result_.difference) {
+            const std::string_view now = first_line(text);
+            const auto recorded = trace_.next();
+            if (recorded == now) {
+                ++result_.same;
+            } else {
+                result_.difference = {std::string(recorded.value_or("")), std::string(now)};
+            }
+        }
+    }
+    void finish() {
+        if (result_.difference) return;
+        if (const auto more = trace_.next()) result_.difference = {std::string(*more), ""};
+    }
+
+  private:
+    TextLines trace_;
+    Verification& result_;
+};
+
+/// Runs on while nothing differs. @throws Interrupted
+void run_until_difference(Session& session, const Verification& result,
+                          const std::function<bool(double)>& progress) {
+    const bool is_done = session.run(
+        {}, [&](double share) { return !result.difference && (!progress || progress(share)); });
+    if (!is_done && !result.difference) throw Interrupted();
+    if (is_done) session.network().finish();
+}
+
+Scenario scenario_beside(const std::string& trace) {
+    const auto path = std::filesystem::path(trace).parent_path() / "scenario.toml";
+    if (!std::filesystem::exists(path)) {
+        throw InputError({trace},
+                         fmt::format("there is no {}; expected an ns-2 trace that rovernet "
+                                     "wrote, in the folder of its run",
+                                     path.string()));
+    }
+    Scenario scenario = load_scenario(path.string(), {});
+    if (scenario.trace.ns2 != Ns2Choice::none) return scenario;
+    throw InputError({path.string()},
+                     "its run writes no ns-2 trace; expected [trace] ns2 = \"old\" or \"new\"");
+}
+
+Verification verify_ns2(const std::string& path, const std::function<bool(double)>& progress) {
+    const Scenario scenario = scenario_beside(path);
+    Verification result;
+    result.unit = "lines";
+    result.version = code_version();
+    TextComparison comparison(path, result);
+    Session session(scenario);
+    session.network().add_sink(std::make_shared<Ns2Trace>(
+        [&](std::string_view text) { comparison.take(text); },
+        scenario.trace.ns2 == Ns2Choice::old_format ? Ns2Format::old_format : Ns2Format::new_format,
+        scenario.trace.mac ? MacTrace::on : MacTrace::off));
+    run_until_difference(session, result, progress);
+    comparison.finish();
+    return result;
+}
+
 }  // namespace
 
 Verification verify_replay(const std::string& path, const std::function<bool(double)>& progress) {
+    if (!is_recorded_trace(path)) return verify_ns2(path, progress);
     RecordedReader trace(path);
     const ReplayedScenario replayed(trace.run(), path);
     const Scenario scenario = replayed.with({});
@@ -85,10 +158,7 @@ Verification verify_replay(const std::string& path, const std::function<bool(dou
     Session session(scenario);
     const auto comparison = std::make_shared<Comparison>(trace, scenario.trace.links, result);
     session.network().add_sink(comparison);
-    const bool is_done = session.run(
-        {}, [&](double share) { return !result.difference && (!progress || progress(share)); });
-    if (!is_done && !result.difference) throw Interrupted();
-    if (is_done) session.network().finish();
+    run_until_difference(session, result, progress);
     result.damage = trace.damage();
     return result;
 }

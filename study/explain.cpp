@@ -34,9 +34,20 @@ std::vector<std::string> options_of(const Store& store) {
     return words;
 }
 
+/// The replay that makes a row of a store of store_days().
+std::string replay_command(const Store& store, const std::string& replay,
+                           const StoredPoint& point) {
+    const Value* radio = point.settings.find("radio");
+    const std::string name = radio ? plain_text(*radio) : "";
+    const bool is_with = name.find('=') != name.npos && name != store.property("first");
+    return is_with ? replay + " --with " + shell_word(name) : replay;
+}
+
 }  // namespace
 
 std::string run_command(const Store& store, const StoredPoint& point, std::uint32_t replication) {
+    const std::string replay = store.property("replay");
+    if (!replay.empty()) return replay_command(store, replay, point);
     const fs::path folder = fs::path(store.path()).parent_path();
     const fs::path file = folder / store.property("file");
     std::string command = "rovernet run " + shell_word(fs::proximate(file).string());

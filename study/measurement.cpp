@@ -31,15 +31,7 @@ std::optional<double> number_of(const Value& value) {
 }
 
 std::vector<MetricValue> flat(const MetricValues& values, std::uint64_t events, Duration warmup) {
-    Table table;
-    append_metrics(table, values);
-    std::vector<MetricValue> list;
-    for (const Entry& entry : table.entries) {
-        if (!entry.value.table()) list.push_back({entry.key, number_of(entry.value)});
-    }
-    for (const DropCount& drop : values.drops) {
-        list.push_back({fmt::format("drops.{}", drop.reason), static_cast<double>(drop.count)});
-    }
+    std::vector<MetricValue> list = metric_list(values);
     list.push_back({"events", static_cast<double>(events)});
     list.push_back({"warmup_s", seconds(warmup)});
     return list;
@@ -77,6 +69,19 @@ std::optional<double> number_in(std::string_view text) {
 }
 
 }  // namespace
+
+std::vector<MetricValue> metric_list(const MetricValues& values) {
+    Table table;
+    append_metrics(table, values);
+    std::vector<MetricValue> list;
+    for (const Entry& entry : table.entries) {
+        if (!entry.value.table()) list.push_back({entry.key, number_of(entry.value)});
+    }
+    for (const DropCount& drop : values.drops) {
+        list.push_back({fmt::format("drops.{}", drop.reason), static_cast<double>(drop.count)});
+    }
+    return list;
+}
 
 const std::vector<std::string>& metric_names() {
     static const auto names = [] {

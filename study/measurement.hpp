@@ -3,6 +3,7 @@
 
 #include "mobility/kept_planners.hpp"
 #include "scenario/scenario.hpp"
+#include "traces/metric_values.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,9 @@ struct MetricValue {
     std::optional<double> value;
     friend bool operator==(const MetricValue&, const MetricValue&) = default;
 };
+
+/// Metrics of summary.json as a list: its drops as "drops.DUP" and so on.
+std::vector<MetricValue> metric_list(const MetricValues& values);
 
 /// Measurement of one run: what a study keeps of it.
 struct Measurement {

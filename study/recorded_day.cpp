@@ -5,6 +5,7 @@
 #include "experiment/run.hpp"
 #include "experiment/warmup.hpp"
 #include "mobility/recorded_legs.hpp"
+#include "study/to_destination.hpp"
 #include "traces/metrics.hpp"
 
 #include <algorithm>
@@ -47,29 +48,6 @@ DeliveryChange change_of(const PlayedDay& before, const PlayedDay& after, std::s
     return {missing(b, a, robots), missing(a, b, robots)};
 }
 
-/// Sink that takes down who moved, spoke and was switched.
-struct RecordedDay::Reading {
-    RecordedDay& day;
-
-    KindMask kinds() const { return kind_of<Moved>() | kind_of<Sent>() | kind_of<Switched>(); }
-    void on(const Record& record, const RecordContext& context) {
-        if (const auto* moved = std::get_if<Moved>(&record)) {
-            take(*moved);
-        } else if (const auto* sent = std::get_if<Sent>(&record)) {
-            day.said_.push_back({sent->time, context.messages[sent->message]});
-        } else if (const auto* switched = std::get_if<Switched>(&record)) {
-            day.turned_.push_back({switched->time, switched->node, switched->on});
-        }
-    }
-    void take(const Moved& moved) {
-        if (moved.node.index() >= day.legs_.size()) day.legs_.resize(moved.node.index() + 1);
-        std::vector<Leg>& legs = day.legs_[moved.node.index()];
-        // Legs may begin at one time: the later one holds.
-        if (!legs.empty() && legs.back().start == moved.leg.start) legs.pop_back();
-        legs.push_back(moved.leg);
-    }
-};
-
 RecordedDay::RecordedDay(const std::string& path) {
     RecordedReader trace(path);
     run_ = trace.run();
@@ -77,13 +55,20 @@ RecordedDay::RecordedDay(const std::string& path) {
     const Scenario scenario = scenario_->with({});
     const auto metrics = metrics_of(scenario, network_settings(scenario));
     const auto deliveries = std::make_shared<Deliveries>();
-    Sink sinks[] = {Sink(Reading{*this}), Sink(metrics), Sink(deliveries)};
+    Sink sinks[] = {Sink(DayLogSink{log_}), Sink(metrics), Sink(deliveries)};
     while (const Record* record = trace.next()) {
         for (Sink& sink : sinks) sink.on(*record, trace.context());
     }
-    recorded_ = {metrics->values(), std::move(deliveries->all)};
-    damage_ = trace.damage();
-    legs_.resize(run_.robots.size());
+    log_.recorded = {metrics->values(), std::move(deliveries->all)};
+    log_.notices = trace.damage();
+    log_.legs.resize(run_.robots.size());
+}
+
+RecordedDay::RecordedDay(RecordedRun run, const std::string& path, DayLog log)
+    : run_(std::move(run)),
+      scenario_(std::make_unique<ReplayedScenario>(run_, path)),
+      log_(std::move(log)) {
+    log_.legs.resize(run_.robots.size());
 }
 
 PlayedDay RecordedDay::play(const std::vector<std::string>& set,
@@ -94,7 +79,7 @@ PlayedDay RecordedDay::play(const std::vector<std::string>& set,
     const auto deliveries = std::make_shared<Deliveries>();
     settings.metrics = false;
     Network network(settings);
-    network.route(scenario.routing.make());
+    network.route(to_destinations(scenario.routing.make()));
     add_robots(network, scenario);
     network.add_sink(metrics);
     network.add_sink(deliveries);
@@ -121,10 +106,10 @@ void RecordedDay::add_robots(Network& network, const Scenario& scenario) const {
     }
     for (std::size_t i = 0; i < run_.robots.size(); ++i) {
         Robot robot{.name = run_.robots[i], .at = {}, .radio = scenario.radio};
-        if (!legs_[i].empty()) {
-            robot.at = legs_[i].front().from;
-            robot.heading = {legs_[i].front().heading};
-            robot.move = RecordedLegs(legs_[i]);
+        if (!log_.legs[i].empty()) {
+            robot.at = log_.legs[i].front().from;
+            robot.heading = {log_.legs[i].front().heading};
+            robot.move = RecordedLegs(log_.legs[i]);
         }
         if (const auto found = tables.find(run_.robots[i]); found != tables.end()) {
             const RobotTable& table = *found->second;
@@ -138,15 +123,15 @@ void RecordedDay::add_robots(Network& network, const Scenario& scenario) const {
 
 /// Schedules what robots said and when they were switched, each in the order in which it was.
 void RecordedDay::schedule(Network& network) const {
-    for (const Turned& turned : turned_) {
+    for (const DayLog::Turned& turned : log_.turned) {
         network.at(turned.time, [this, &network, turned] {
             if (!turned.on) return network.switch_off(turned.node);
             network.switch_on(turned.node);
             // It would take up the leg that it was on; the trace has what it did then.
-            network.move(turned.node, RecordedLegs(legs_[turned.node.index()]));
+            network.move(turned.node, RecordedLegs(log_.legs[turned.node.index()]));
         });
     }
-    for (const Said& said : said_) {
+    for (const DayLog::Said& said : log_.said) {
         network.at(said.time, [&network, &message = said.message] {
             if (message.to == everyone) {
                 network.broadcast(message.origin, message.payload, message.size, message.flow);

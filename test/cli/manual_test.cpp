@@ -19,7 +19,7 @@ const std::vector<std::string> commands = {
     "run",          "sweep",       "compare",     "link",          "links",     "scene",
     "where",        "draw",        "plot",        "move convert",  "results",   "explain",
     "models",       "loss",        "trace stats", "trace convert", "trace cut", "trace diff",
-    "trace follow", "bench flood", "version"};
+    "trace follow", "bench flood", "version",     "replay"};
 
 /// What a line of the shell ends with, where `rovernet` is the command and `examples` the folder.
 Ended shell(const TemporaryFolder& folder, const std::string& line) {
@@ -62,10 +62,13 @@ TEST_CASE("every command has examples in its --help, and they run") {
         const std::vector<std::string> examples =
             examples_in(shell(folder, "rovernet " + name + " --help").out);
         CAPTURE(name);
-        CHECK_FALSE(examples.empty());
+        // Those of a replay first make the trace that they replay.
+        CHECK(std::any_of(examples.begin(), examples.end(), [&](const std::string& line) {
+            return line.starts_with("rovernet " + name);
+        }));
         for (const std::string& line : examples) {
             CAPTURE(line);
-            CHECK(line.starts_with("rovernet " + name));
+            CHECK(line.starts_with("rovernet "));
             const Ended ended = shell(folder, line);
             CAPTURE(ended.err);
             // The store that is drawn takes minutes to make, so there is none here.

@@ -66,7 +66,7 @@ TEST_CASE("a recorded day under its own radio comes out as it was, to the last d
         CAPTURE(more);
         const TemporaryFolder folder;
         const RecordedDay day(record(folder, busy_day + more));
-        CHECK(day.damage().empty());
+        CHECK(day.notices().empty());
         const PlayedDay again = day.play({});
         CHECK(again.metrics == day.recorded().metrics);
         CHECK(again.metrics.deliveries > 20);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "traces/ns2/ns2_reader.hpp"
 
+#include "traces/ns2/ns2_motion.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -63,20 +64,6 @@ class Getters {
     NodeId first_ = everyone;
     std::vector<bool> others_;  ///< by robot
 };
-
-Leg leg_of(const Ns2Move& m) {
-    Leg leg{.start = m.time, .end = never, .from = m.from, .velocity = {}, .to = m.from};
-    const double length = distance(m.from, m.to);
-    if (!(m.speed > 0) || !(length > 0) || !std::isfinite(length)) return leg;
-    leg.velocity = (m.speed / length) * (m.to - m.from);
-    leg.to = m.to;
-    constexpr double longest_s = 9e9;  // half of the clock's range: start + duration stays in it
-    const double duration_s = length / m.speed;
-    if (duration_s < longest_s && seconds(m.time) + duration_s < longest_s) {
-        leg.end = m.time + from_seconds(duration_s);
-    }
-    return leg;
-}
 
 /// Turns events into records.
 class Replay {

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/link_layer.hpp"
+#include "sim/router.hpp"
+
+#include <cstdint>
+#include <span>
+#include <utility>
+
+namespace rovernet {
+
+/// Protocol that brings messages to everyone, used for messages to one robot: everyone gets them
+/// and forwards them, and they are delivered at their destination alone.
+/// @tparam wants_level  RouterTraits::wants_levels of the protocol
+template <bool wants_level>
+class ToDestination {
+  public:
+    static constexpr bool routes_unicasts = true;
+    static constexpr bool wants_levels = wants_level;
+
+    explicit ToDestination(Router protocol) : protocol_(std::move(protocol)) {}
+
+    Hops initial_ttl() const { return protocol_.initial_ttl(); }
+    void send(LinkLayer& link, NodeId node, MessageId message) {
+        protocol_.send(link, node, message);
+    }
+    void on_receive(LinkLayer& link, const Frame& frame, std::span<Reception> receptions) {
+        protocol_.on_receive(link, frame, receptions);
+        const NodeId to = link.message(frame.message).to;
+        if (to == everyone) return;
+        for (Reception& each : receptions) each.delivered = each.delivered && each.node == to;
+    }
+    void on_timer(LinkLayer& link, NodeId node, std::uint64_t tag) {
+        protocol_.on_timer(link, node, tag);
+    }
+    void on_sent(LinkLayer& link, const Frame& frame, SendResult result) {
+        protocol_.on_sent(link, frame, result);
+    }
+    void on_start(LinkLayer& link, NodeId node) { protocol_.on_start(link, node); }
+    void on_switched(LinkLayer& link, NodeId node, bool on) {
+        protocol_.on_switched(link, node, on);
+    }
+    void forget(MessageId message) { protocol_.forget(message); }
+
+  private:
+    Router protocol_;
+};
+
+/// The protocol as one that also brings messages to one robot.
+inline Router to_destinations(Router protocol) {
+    if (protocol.traits().routes_unicasts) return protocol;
+    const bool wants_levels = protocol.traits().wants_levels;
+    if (wants_levels) return ToDestination<true>(std::move(protocol));
+    return ToDestination<false>(std::move(protocol));
+}
+
+}  // namespace rovernet

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "test/cli/process.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace replay_test {
+using namespace rovernet::test;
+
+namespace {
+
+const std::string sample = std::string(ROVERNET_TEST_DATA) + "/ns2_old.tr";
+
+const char* const two = R"([scenario]
+name = "two"
+duration = "5 s"
+[[robot]]
+name = "A"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "B"
+at = ["50 m", "0 m"]
+move = { model = "waypoints", path = [["50 m", "30 m"]], speed = "10 m/s" }
+[[traffic]]
+from = "A"
+payload = "F"
+every = "1 s"
+)";
+
+/// Runs the scenario of two robots. @return folder of its results
+std::string run_two(const TemporaryFolder& folder, const std::string& trace) {
+    const std::string out = folder.path("out");
+    const std::string file = folder.write("two.toml", two);
+    REQUIRE(command(folder, {"run", file, "--set", trace, "--out", out, "--quiet"}).exit == 0);
+    return out;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+/// The line of a table that begins with these words; fails if there is none.
+std::string row(const std::string& table, const std::string& begin) {
+    for (const std::string& line : lines_of(table)) {
+        if (line.starts_with(begin)) return line;
+    }
+    FAIL("no row " << begin << " in\n" << table);
+    return "";
+}
+
+bool ends_without_difference(const std::string& line) {
+    const std::string none = "-           -       -";
+    return line.find(none) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("replay of an ns-2 trace compares radios with its first radio, not with ns-2") {
+    const TemporaryFolder folder;
+    const Ended ended = command(folder, {"replay", sample, "--with", "radio.power=40 dBm;seed=2",
+                                         "--with", "radio.power=0 dBm"});
+    CHECK(ended.exit == 2);  // there is no key "seed"
+    const Ended good =
+        command(folder, {"replay", sample, "--with", "radio.power=40 dBm;scenario.seed=2", "--with",
+                         "radio.power=0 dBm"});
+    CAPTURE(good.err);
+    REQUIRE(good.exit == 0);
+    CHECK(ends_without_difference(row(good.out, "as recorded")));
+    CHECK(ends_without_difference(row(good.out, "two_ray, 914 MHz, 250 m")));
+    CHECK(row(good.out, "radio.power=40 dBm").find("+0.3333     5       0") != std::string::npos);
+    CHECK(row(good.out, "radio.power=0 dBm ").find("-0.6667     0       10") != std::string::npos);
+    CHECK(good.out.find("Messages flood: the protocol of the trace is not simulated") !=
+          std::string::npos);
+}
+
+TEST_CASE("replay --as changes the radio that others are compared with") {
+    const TemporaryFolder folder;
+    const std::vector<std::string> words = {"replay", sample,         "--as", "radio.power=40 dBm",
+                                            "--with", "routing.ttl=2"};
+    const Json json = json_of(folder, words);
+    CHECK(json["recorded"]["deliveries"] == 10);
+    CHECK(json["radios"][0]["deliveries"] == 15);
+    CHECK_FALSE(json["radios"][0].contains("lost"));
+    CHECK(json["radios"][1]["with"] == "routing.ttl=2");
+    CHECK(json["radios"][1]["lost"] == 15 - json["radios"][1]["deliveries"].get<int>());
+    std::vector<std::string> direct = words;
+    direct.insert(direct.end(), {"--routing", "direct"});
+    CHECK(json_of(folder, direct)["radios"][0]["hops_max"] == 1);
+}
+
+TEST_CASE("replay: what only an ns-2 trace needs is refused for a recorded one") {
+    const TemporaryFolder folder;
+    const std::string out = run_two(folder, "trace.record=true");
+    for (const char* option : {"--as", "--movements"}) {
+        const Ended ended = command(folder, {"replay", out + "/trace.mcap", "--with",
+                                             "radio.power=0 dBm", option, "radio.power=0 dBm"});
+        CHECK(ended.exit == 2);
+        CHECK(ended.err.find("are for ns-2 traces") != std::string::npos);
+    }
+    CHECK(command(folder, {"replay", sample}).exit == 2);
+}
+
+TEST_CASE(
+    "replay --verify of an ns-2 trace runs the scenario beside it, and shows the first "
+    "line that differs") {
+    const TemporaryFolder folder;
+    for (const char* format : {"trace.ns2=old", "trace.ns2=new"}) {
+        const std::string trace = run_two(folder, format) + "/trace.tr";
+        const std::size_t lines = lines_of(content(trace)).size();
+        const Ended same = command(folder, {"replay", trace, "--verify"});
+        CHECK(same.exit == 0);
+        CHECK(same.out == "identical: " + std::to_string(lines) + " lines\n");
+        std::string text = content(trace);
+        const std::size_t at = text.rfind("50.00");
+        text[at] = '4';
+        folder.write("out/trace.tr", text);
+        const Ended other = command(folder, {"replay", trace, "--verify"});
+        CHECK(other.exit == 1);
+        CHECK(other.out.find("\nnow       ") != std::string::npos);
+        CHECK(other.out.find("40.00") != std::string::npos);
+        folder.write("out/trace.tr", text + "M 9.00000 0 (0.00, 0.00, 0.00), (0.00, 0.00), 0.00\n");
+        CHECK(command(folder, {"replay", trace, "--verify"}).exit == 1);
+    }
+    const Ended alone = command(folder, {"replay", sample, "--verify"});
+    CHECK(alone.exit == 3);
+    CHECK(alone.err.find("there is no") != std::string::npos);
+}
+
+TEST_CASE(
+    "replay --verify of an ns-2 trace sees lines at its end that the run has not, and lacks") {
+    const TemporaryFolder folder;
+    const std::string trace = run_two(folder, "trace.ns2=old") + "/trace.tr";
+    const std::string text = content(trace);
+    folder.write("out/trace.tr", text + "# more\n");
+    const Ended longer = command(folder, {"replay", trace, "--verify"});
+    CHECK(longer.exit == 1);
+    CHECK(longer.out.find("recorded  # more\nnow       nothing more\n") != std::string::npos);
+    folder.write("out/trace.tr", text.substr(0, text.rfind('\n', text.size() - 2) + 1));
+    const Ended shorter = command(folder, {"replay", trace, "--verify"});
+    CHECK(shorter.exit == 1);
+    CHECK(shorter.out.find("recorded  nothing more\n") != std::string::npos);
+}
+
+TEST_CASE("replay --speed prints the events of both kinds of trace, each in its place") {
+    const TemporaryFolder folder;
+    const Ended ns2 = command(folder, {"replay", sample, "--speed", "x1000"});
+    CHECK(ns2.exit == 0);
+    std::vector<std::string> expected = lines_of(content(sample));
+    std::erase_if(expected, [](const std::string& line) { return line.starts_with('#'); });
+    CHECK(lines_of(ns2.out) == expected);
+
+    const std::string out = run_two(folder, "trace.record=true");
+    const Ended recorded = command(folder, {"replay", out + "/trace.mcap", "--speed", "1000"});
+    CHECK(recorded.exit == 0);
+    const std::string same_run = run_two(folder, "trace.ns2=old");
+    CHECK(recorded.out == content(same_run + "/trace.tr"));
+    CHECK(command(folder, {"replay", sample, "--speed", "0"}).exit == 2);
+}
+
+TEST_CASE("replay --store keeps the rows for results, and adds those of a second replay") {
+    const TemporaryFolder folder;
+    const std::string store = folder.path("radios.db");
+    const std::vector<std::string> words = {"replay", sample, "--store", store, "--with"};
+    for (const char* radio : {"radio.power=40 dBm", "radio.power=0 dBm", "radio.power=0 dBm"}) {
+        std::vector<std::string> each = words;
+        each.push_back(radio);
+        const Ended ended = command(folder, each);
+        CAPTURE(ended.err);
+        CHECK(ended.exit == 0);
+    }
+    const Json json =
+        json_of(folder, {"results", store, "--metric", "deliveries", "--metric", "gained.at.n3"});
+    REQUIRE(json["rows"].size() == 8);
+    const std::vector<std::string> radios = {"as recorded", "two_ray, 914 MHz, 250 m",
+                                             "radio.power=40 dBm", "radio.power=0 dBm"};
+    const std::vector<int> deliveries = {10, 10, 15, 0};
+    for (std::size_t i = 0; i < radios.size(); ++i) {
+        CHECK(json["rows"][2 * i]["settings"]["radio"] == radios[i]);
+        CHECK(json["rows"][2 * i]["value"] == deliveries[i]);
+    }
+    CHECK(json["rows"][5]["value"] == 5);
+    CHECK(json["missing"] == 0);
+    const Ended explained = command(folder, {"explain", store, "2/0"});
+    CHECK(explained.out.find("again: rovernet replay " + sample + " --with 'radio.power=40 dBm'") !=
+          std::string::npos);
+    std::vector<std::string> other = words;
+    other.insert(other.end(), {"radio.power=0 dBm", "--routing", "direct"});
+    const Ended refused = command(folder, other);
+    CHECK(refused.exit == 3);
+    CHECK(refused.err.find("expected another --store") != std::string::npos);
+    const std::string picture = folder.path("radios.svg");
+    CHECK(command(folder, {"plot", store, "-x", "radio", "-y", "delivery_ratio", "-o", picture})
+              .exit == 0);
+}
+
+}  // namespace replay_test
