@@ -2,18 +2,87 @@
 #include "experiment/session.hpp"
 
 #include "experiment/build.hpp"
-#include "mobility/driven.hpp"
+#include "mobility/waypoints.hpp"
+#include "models/medium/medium.hpp"
 #include "scenario/located.hpp"
+#include "sim/link_layer.hpp"
+#include "sim/sink.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
 namespace rovernet {
+namespace {
+
+/// Place where no robot is, for an arc that nobody is on.
+constexpr Vec3 not_driven{1e300, 0, 0};
+
+}  // namespace
+
+/// Sink that notes what the callbacks of a network do not tell: the numbers of messages, and whose
+/// frame brought a message at what level.
+class Session::Ears {
+  public:
+    struct Frame {
+        std::uint64_t uid;  // of the message
+        Time time;
+        NodeId sender;
+        std::optional<Dbm> level;
+    };
+
+    KindMask kinds() const { return kind_of<Sent>() | kind_of<Received>() | kind_levels; }
+    void on(const Record& record, const RecordContext& context) {
+        if (const auto* sent = std::get_if<Sent>(&record)) {
+            last_sent = context.messages[sent->message].uid;
+        }
+        const auto* got = std::get_if<Received>(&record);
+        if (!got) return;
+        for (std::size_t i = 0; i < got->receptions.size(); ++i) {
+            const Reception& at = got->receptions[i];
+            const auto listening = frames_.find(at.node);
+            if (!at.delivered || listening == frames_.end()) continue;
+            auto& frames = listening->second;
+            // A robot that was switched off before it could react leaves its frames here.
+            std::erase_if(frames, [&](const Frame& f) { return f.time + reacts_in < at.time; });
+            frames.push_back({context.messages[got->frame.message].uid, at.time, got->frame.sender,
+                              got->levels.empty() ? std::nullopt : std::optional(got->levels[i])});
+        }
+    }
+
+    void listen(NodeId robot) { frames_[robot]; }
+    void stop_listening(NodeId robot) { frames_.erase(robot); }
+    /// The frame that brought a message to a robot, which is forgotten then.
+    std::optional<Frame> take(NodeId robot, std::uint64_t uid) {
+        auto& frames = frames_[robot];
+        const auto found = std::find_if(frames.begin(), frames.end(),
+                                        [&](const Frame& frame) { return frame.uid == uid; });
+        if (found == frames.end()) return std::nullopt;
+        const Frame frame = *found;
+        frames.erase(found);
+        return frame;
+    }
+    /// Notes the port of a message, later than those before.
+    void put_port(std::uint64_t uid, std::uint16_t port) { ports_.emplace_back(uid, port); }
+    std::uint16_t port(std::uint64_t uid) const {
+        const auto found = std::lower_bound(ports_.begin(), ports_.end(), std::pair{uid, no_port});
+        return found != ports_.end() && found->first == uid ? found->second : no_port;
+    }
+
+    std::optional<std::uint64_t> last_sent;
+
+  private:
+    static constexpr Duration reacts_in = 2 * least_reaction;
+    static constexpr std::uint16_t no_port = 0;
+
+    std::map<NodeId, std::vector<Frame>> frames_;
+    std::vector<std::pair<std::uint64_t, std::uint16_t>> ports_;  // in order
+};
 
 Session::Session(const Scenario& scenario) : Session(scenario, network_settings(scenario)) {}
 
@@ -30,7 +99,6 @@ Session::~Session() {
     }
 }
 
-/// Serves events until `until`, and at most so many. @return true once that time is reached
 bool Session::advance(Time until, std::uint64_t most_events) {
     // A fault that a model finds only when its turn comes is the scenario's, too.
     return located(Location{file_},
@@ -60,39 +128,61 @@ bool Session::run(std::optional<double> speed, const std::function<bool(double)>
     }
 }
 
-ClientId Session::attach(const std::vector<NodeId>& robots) {
+ClientId Session::attach(const std::vector<NodeId>& robots, std::string name) {
     for (const NodeId robot : robots) {
-        const std::string name = network_->name(robot);
+        const std::string robot_name = network_->name(robot);
         if (drivers_.contains(robot)) {
             throw std::invalid_argument(
-                fmt::format("robot {} is driven by another client already", name));
+                fmt::format("robot {} is driven by another client already", robot_name));
         }
         if (std::count(robots.begin(), robots.end(), robot) > 1) {
-            throw std::invalid_argument(fmt::format("robot {} is listed twice", name));
+            throw std::invalid_argument(fmt::format("robot {} is listed twice", robot_name));
         }
+    }
+    advance(network_->now(), every_event);  // a command comes after all events of its time
+    if (!ears_) {
+        ears_ = std::make_shared<Ears>();
+        network_->add_sink(ears_);
     }
     const ClientId id = next_client_++;
     Client& client = clients_[id];
+    client.name = std::move(name);
     client.robots = robots;
     for (const NodeId robot : robots) {
         drivers_[robot] = id;
+        ears_->listen(robot);
         client.subscriptions.push_back(network_->on_receive(
             robot, [this, id, robot](const Message& message, const Heard& how) {
-                clients_.at(id).heard.push_back(
-                    {network_->now(), robot, message.origin, how.hops, message.payload});
+                hear(id, robot, message, how);
             }));
     }
     return id;
 }
 
+void Session::hear(ClientId client, NodeId robot, const Message& message, const Heard& how) {
+    HeardMessage heard{network_->now(), robot,           message.origin,
+                       how.hops,        message.payload, message.origin};
+    if (const auto frame = ears_->take(robot, message.uid)) {
+        heard.last_hop = frame->sender;
+        heard.level = frame->level;
+    }
+    heard.port = ears_->port(message.uid);
+    clients_.at(client).heard.push_back(std::move(heard));
+}
+
 void Session::detach(ClientId client) {
     for (Subscription& each : client_of(client).subscriptions) each.end();
     for (const NodeId robot : client_of(client).robots) {
-        network_->stop(robot);
+        carry_out(client, robot, StopCommand{});
+        ears_->stop_listening(robot);
         drivers_.erase(robot);
-        driving_.erase(robot);
     }
     clients_.erase(client);
+}
+
+std::optional<ClientId> Session::driver(NodeId robot) const {
+    const auto found = drivers_.find(robot);
+    return found == drivers_.end() ? std::nullopt : std::optional(found->second);
 }
 
 Session::Client& Session::client_of(ClientId client) {
@@ -108,29 +198,49 @@ void Session::check_robot(ClientId client, NodeId robot) {
         fmt::format("robot {} is not the client's: attach it first", network_->name(robot)));
 }
 
-void Session::drive(ClientId client, NodeId robot, MetersPerSecond speed,
-                    RadiansPerSecond turn_rate, std::optional<Duration> timeout) {
+std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,
+                                                const RobotCommand& command, std::uint64_t number) {
     check_robot(client, robot);
-    Driven driven{.speed = speed, .turn_rate = turn_rate};
-    if (timeout) driven.until = network_->now() + *timeout;
-    driving_.erase(robot);
-    if (speed.value != 0) driving_[robot] = driven.until.value_or(never);
+    if (tell_) tell_({network_->now(), robot, client_of(client).name, number, command});
+    ears_->last_sent.reset();
+    std::visit([&](const auto& each) { act(robot, each); }, command);
+    return ears_->last_sent;
+}
+
+void Session::act(NodeId robot, const DriveCommand& command) {
+    Driven driven{.speed = command.speed, .turn_rate = command.turn_rate};
+    if (command.timeout) driven.until = network_->now() + *command.timeout;
+    Driving& driving = driving_[robot];
+    if (!driving.arc) driving.arc = std::make_shared<DrivenArc>(DrivenArc{.at = not_driven});
+    driving.until = driven.until.value_or(never);
+    driving.speed = command.speed.value;
+    driven.arc = driving.arc;
     network_->move(robot, driven);
+}
+
+void Session::act(NodeId robot, const GoalCommand& command) {
+    driving_.erase(robot);
+    network_->move(robot, ToGoal{command.to, command.speed});
+}
+
+void Session::act(NodeId robot, const StopCommand&) {
+    driving_.erase(robot);
+    network_->stop(robot);
+}
+
+void Session::act(NodeId robot, const SendCommand& command) {
+    if (command.to) {
+        network_->unicast(robot, *command.to, command.payload, command.size);
+    } else {
+        network_->broadcast(robot, command.payload, command.size);
+    }
+    if (command.port != 0 && ears_->last_sent) ears_->put_port(*ears_->last_sent, command.port);
 }
 
 void Session::move(ClientId client, NodeId robot, Movement movement) {
     check_robot(client, robot);
     driving_.erase(robot);
     network_->move(robot, std::move(movement));
-}
-
-void Session::send(ClientId client, NodeId robot, std::optional<NodeId> to, std::string payload) {
-    check_robot(client, robot);
-    if (to) {
-        network_->unicast(robot, *to, std::move(payload));
-    } else {
-        network_->broadcast(robot, std::move(payload));
-    }
 }
 
 std::vector<HeardMessage> Session::heard(ClientId client) {
@@ -141,10 +251,26 @@ std::vector<HeardMessage> Session::heard(ClientId client) {
     return heard;
 }
 
+const Session::Driving* Session::driving(NodeId robot) const {
+    const auto found = driving_.find(robot);
+    const bool drives = found != driving_.end() && network_->now() < found->second.until;
+    return drives ? &found->second : nullptr;
+}
+
 bool Session::is_stalled(NodeId robot) const {
-    const auto driving = driving_.find(robot);
-    if (driving == driving_.end() || network_->now() >= driving->second) return false;
-    return network_->legs().leg(robot).velocity == Vec3{};
+    const Driving* driven = driving(robot);
+    return driven && driven->speed != 0 && network_->legs().leg(robot).velocity == Vec3{};
+}
+
+Twist Session::twist(NodeId robot) const {
+    const Leg leg = network_->legs().leg(robot);
+    if (network_->now() >= leg.end) return {};
+    const double speed = std::sqrt(squared_distance(leg.velocity, {}));
+    const Driving* driven = driving(robot);
+    if (!driven) return {speed, leg.turning};
+    // A chord is a little shorter than its arc.
+    if (driven->arc->speed != 0) return {driven->arc->speed, leg.turning};
+    return {driven->speed < 0 ? -speed : speed, leg.turning};
 }
 
 }  // namespace rovernet

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/robot_command.hpp"
+#include "mobility/driven.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -23,7 +27,17 @@ struct HeardMessage {
     NodeId from;  ///< robot that sent it first
     int hops;
     std::string payload;
+    NodeId last_hop = {};           ///< robot whose frame it was
+    std::optional<Dbm> level = {};  ///< level of that frame here [dBm]; none: on its way already
+                                    ///< when the first client came
+    std::uint16_t port = 0;
     friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
+};
+
+/// Speed of a robot as its own sensors would tell it.
+struct Twist {
+    double speed = 0;      ///< ahead [m/s], < 0: backwards
+    double turn_rate = 0;  ///< [rad/s], counter-clockwise
 };
 
 /// A scenario that is run from outside: in steps, or paced by the clock, while clients drive its
@@ -47,53 +61,91 @@ class Session {
     /// Runs until `until`, or to the scenario's end if that is earlier.
     /// @throws InputError, RunError
     void step(Time until) { advance(until, every_event); }
+    /// Runs like step(), but serves at most so many events. @return whether that time is reached
+    bool advance(Time until, std::uint64_t most_events);
     /// Runs to the scenario's end.
     /// @param speed     simulated per real seconds; as fast as possible if not given
     /// @param progress  told the share that is done, 0 ... 1, now and then; false stops it
     /// @return false if it was stopped
     bool run(std::optional<double> speed, const std::function<bool(double)>& progress);
 
-    /// A client takes robots that nobody else drives. @throws std::invalid_argument, naming one
-    /// that is taken or listed twice
-    ClientId attach(const std::vector<NodeId>& robots);
+    /// A client takes robots that nobody else drives. Events of the present time are served first,
+    /// so that a command comes after all events of its time. @throws std::invalid_argument, naming
+    /// one that is taken or listed twice
+    /// @param name  of the client, for on_input()
+    ClientId attach(const std::vector<NodeId>& robots, std::string name = {});
     /// The client leaves, and all that belongs to it: its robots stand still.
     void detach(ClientId client);
 
+    /// Client that drives the robot, if one does.
+    std::optional<ClientId> driver(NodeId robot) const;
+    /// Calls `tell` for every command from now on, before it is carried out: together with the
+    /// scenario they make the run again. Robots of a client that leaves are told to stop.
+    void on_input(std::function<void(const Input&)> tell) { tell_ = std::move(tell); }
+
     // Commands, for robots of the client. @throws std::invalid_argument for any other
 
+    /// Carries out a command, now.
+    /// @param number  client's own, for on_input()
+    /// @return the message's number, unique in the run, if one was sent: a robot that is off sends
+    /// none
+    std::optional<std::uint64_t> carry_out(ClientId client, NodeId robot,
+                                           const RobotCommand& command, std::uint64_t number = 0);
     /// Drives ahead and turns, as Driven does, until the next command or for `timeout`.
     void drive(ClientId client, NodeId robot, MetersPerSecond speed, RadiansPerSecond turn_rate,
-               std::optional<Duration> timeout = {});
-    /// Gives a robot any other movement: Waypoints to a goal, Fixed to stand still.
+               std::optional<Duration> timeout = {}) {
+        carry_out(client, robot, DriveCommand{speed, turn_rate, timeout});
+    }
+    /// Gives a robot any other movement. It is no command: on_input() is not told of it.
     void move(ClientId client, NodeId robot, Movement movement);
     /// The robot sends to everyone, or over one hop to `to`.
-    void send(ClientId client, NodeId robot, std::optional<NodeId> to, std::string payload);
+    void send(ClientId client, NodeId robot, std::optional<NodeId> to, std::string payload) {
+        carry_out(client, robot, SendCommand{.to = to, .payload = std::move(payload)});
+    }
 
     /// Messages that the client's robots heard since it asked last, in order of time and then of
     /// robot.
     std::vector<HeardMessage> heard(ClientId client);
     /// The robot was told to drive ahead and cannot.
     bool is_stalled(NodeId robot) const;
+    /// Speed of a robot: as it is driven, or else that of its leg.
+    Twist twist(NodeId robot) const;
 
   private:
     static constexpr std::uint64_t every_event = ~std::uint64_t{0};
 
+    class Ears;
     struct Client {
+        std::string name;
         std::vector<NodeId> robots;
         std::vector<Subscription> subscriptions;
         std::vector<HeardMessage> heard;
     };
+    /// Robot that is driven by a velocity.
+    struct Driving {
+        Time until;
+        double speed;  // [m/s] as commanded
+        std::shared_ptr<DrivenArc> arc;
+    };
 
-    bool advance(Time until, std::uint64_t most_events);
     Client& client_of(ClientId client);
     void check_robot(ClientId client, NodeId robot);
+    void hear(ClientId client, NodeId robot, const Message& message, const Heard& how);
+    // The ways of carry_out().
+    void act(NodeId robot, const DriveCommand& command);
+    void act(NodeId robot, const GoalCommand& command);
+    void act(NodeId robot, const StopCommand& command);
+    void act(NodeId robot, const SendCommand& command);
+    const Driving* driving(NodeId robot) const;
 
     std::string file_;  // file of the scenario, for errors
     std::shared_ptr<Network> network_;
     Time end_;
     std::map<ClientId, Client> clients_;
     std::map<NodeId, ClientId> drivers_;
-    std::map<NodeId, Time> driving_;  // ahead: until when
+    std::map<NodeId, Driving> driving_;
+    std::shared_ptr<Ears> ears_;  // null until a client comes
+    std::function<void(const Input&)> tell_;
     ClientId next_client_ = 0;
 };
 

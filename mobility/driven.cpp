@@ -6,16 +6,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace rovernet {
 namespace {
+
+constexpr double longest_leg = 1e6;  // [s]
 
 /// Time that a chord may take [ns] so that the arc is nowhere farther from it than `chord`: an arc
 /// of radius v / w is |v w| t^2 / 8 away at most. No chord spans more than a quarter of the circle.
 Duration chord_time(double v, double w, double chord) {
     constexpr double quarter = 1.5707963267948966;  // [rad]
     const double t = std::min(std::sqrt(8 * chord / std::abs(v * w)), quarter / std::abs(w));
-    return std::max(from_seconds(t), Duration{1});
+    return std::max(from_seconds(std::min(t, longest_leg)), Duration{1});
 }
 
 /// Far enough ahead to leave any map from anywhere on it [m].
@@ -24,11 +27,40 @@ double beyond_map(const Scene& scene) {
     return 1 + std::hypot(size.x, size.y);
 }
 
+/// Time until the end of the next chord, or of the straight way; nothing: it goes on for ever.
+std::optional<Duration> time_ahead(const Mover& mover, double v, double w, double chord, Time end) {
+    Duration time = end == never ? Duration::max() : end - mover.now;
+    if (w != 0) return std::min(time, chord_time(v, w, chord));
+    if (!mover.scene().open_field()) {
+        const double t = beyond_map(mover.scene()) / std::abs(v);
+        return std::min(time, std::max(from_seconds(std::min(t, longest_leg)), Duration{1}));
+    }
+    return end == never ? std::nullopt : std::optional(time);
+}
+
+/// Place on the arc where a command takes the robot over: where the robot is, unless it is on a
+/// chord of the command before.
+Vec3 place_on(const DrivenArc* arc, const Mover& mover, double chord) {
+    if (!arc) return mover.position;
+    const Vec3 place = arc->position(mover.now);
+    return distance(place, mover.position) <= chord ? place : mover.position;
+}
+
 }  // namespace
+
+Vec3 DrivenArc::position(Time t) const {
+    const double time = seconds(t - since);
+    const double half = turn_rate * time / 2;
+    const auto [sin, cos] = math::sincos(heading + half);
+    const double share = half == 0 ? 1 : math::sincos(half).sin / half;
+    return at + share * speed * time * Vec3{cos, sin, 0};
+}
 
 Step Driven::next_leg(Mover& mover) {
     Leg leg = standing_leg(mover);
     const Time end = until.value_or(never);
+    const Vec3 begin = place_on(arc.get(), mover, chord.value);
+    if (arc) *arc = {mover.now, begin, mover.heading, 0, 0};
     if (mover.now >= end) return leg;
     const double top = mover.top_speed.value;
     const double v = std::clamp(speed.value, -top, top), w = turn_rate.value;
@@ -36,34 +68,28 @@ Step Driven::next_leg(Mover& mover) {
     leg.end = end;
     if (v == 0) return leg;
 
-    // End of the chord, and time until then.
-    const auto [sin, cos] = math::sincos(mover.heading);
-    Duration time = end == never ? Duration::max() : end - mover.now;
-    Vec3 way;
-    if (w == 0) {
-        const bool is_open = mover.scene().open_field();
-        if (is_open && end == never) {
-            leg.velocity = v * Vec3{cos, sin, 0};
-            return leg;
-        }
-        if (!is_open) time = std::min(time, from_seconds(beyond_map(mover.scene()) / std::abs(v)));
-        way = v * seconds(time) * Vec3{cos, sin, 0};
-    } else {
-        time = std::min(time, chord_time(v, w, chord.value));
-        const auto [sin_then, cos_then] = math::sincos(mover.heading + w * seconds(time));
-        way = v / w * Vec3{sin_then - sin, cos - cos_then, 0};
+    // A chord that begins beside the arc is half as long: it is nowhere farther off than it began.
+    const double off = begin == mover.position ? 1 : 0.25;
+    const std::optional<Duration> time = time_ahead(mover, v, w, off * chord.value, end);
+    const DrivenArc ahead{mover.now, begin, mover.heading, v, w};
+    if (!time) {
+        const auto [sin, cos] = math::sincos(mover.heading);
+        leg.velocity = v * Vec3{cos, sin, 0};
+        if (arc) *arc = ahead;
+        return leg;
     }
-
-    const Vec3 to = mover.position + way;
+    leg.end = mover.now + *time;
+    const Vec3 to = ahead.position(leg.end);
     const Vec3 stop = straight_stop(mover, to);
-    leg.end = mover.now + time;
     if (stop == mover.position) {
         if (w == 0) leg.end = end;  // it stands there
         return leg;
     }
-    if (stop != to) {
+    if (stop == to) {
+        if (arc) *arc = ahead;
+    } else {
         const double share = distance(mover.position, stop) / distance(mover.position, to);
-        leg.end = mover.now + std::max(from_seconds(share * seconds(time)), Duration{1});
+        leg.end = mover.now + std::max(from_seconds(share * seconds(*time)), Duration{1});
     }
     leg.to = stop;
     leg.velocity = (1 / seconds(leg.end - mover.now)) * (stop - mover.position);

@@ -2,6 +2,7 @@
 // A scenario that is run from outside.
 #include "experiment/session.hpp"
 
+#include "experiment/run.hpp"
 #include "mobility/waypoints.hpp"
 #include "scenario/scenario.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -11,8 +12,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace session_test {
@@ -177,6 +180,101 @@ radius = "0.2 m"
     CHECK_FALSE(session.is_stalled({0}));
     session.step(start_of_run + 20s);
     CHECK_FALSE(session.is_stalled({0}));  // the command has ended
+}
+
+TEST_CASE("session: a message is heard with its last hop, the level of that frame, and its port") {
+    const TemporaryFolder folder;
+    const Scenario line = load_scenario(folder.write("s.toml", R"([scenario]
+duration = "20 s"
+[propagation]
+model = "friis"
+[radio]
+sensitivity = "-70 dBm"
+[[robot]]
+name = "a"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "b"
+at = ["150 m", "0 m"]
+[[robot]]
+name = "c"
+at = ["300 m", "0 m"]
+)"),
+                                        {});
+    Session session(line);
+    const ClientId client = session.attach({NodeId{0}, NodeId{1}, NodeId{2}}, "ears");
+    const auto uid =
+        session.carry_out(client, {0}, SendCommand{.port = 7, .payload = std::string("F\0x", 3)});
+    CHECK(uid == 0);
+    session.step(start_of_run + 1s);
+    const auto heard = session.heard(client);
+    REQUIRE(heard.size() == 2);
+    CHECK(heard[0].at == NodeId{1});
+    CHECK(heard[0].last_hop == NodeId{0});
+    CHECK(heard[1].at == NodeId{2});
+    CHECK(heard[1].from == NodeId{0});
+    CHECK(heard[1].last_hop == NodeId{1});
+    CHECK(heard[1].hops == 2);
+    CHECK(heard[1].port == 7);
+    CHECK(heard[1].payload == std::string("F\0x", 3));
+    const LinkReport link = report_link(line, "b", "c", start_of_run);
+    REQUIRE(heard[1].level.has_value());
+    CHECK(std::abs(heard[1].level->value - link.received.value) < 1e-9);
+    // A later message has a port of its own, and one without has none.
+    session.carry_out(client, {1}, SendCommand{.to = NodeId{2}, .payload = "x"});
+    session.carry_out(client, {1}, SendCommand{.to = NodeId{2}, .port = 9, .payload = "y"});
+    session.step(start_of_run + 2s);
+    const auto later = session.heard(client);
+    REQUIRE(later.size() == 2);
+    CHECK(later[0].port + later[1].port == 9);
+}
+
+TEST_CASE("session: whoever asks is told of every command, the stop of a client that leaves too") {
+    const auto driven = [](Session& s, std::vector<Input>& inputs) {
+        s.on_input([&](const Input& input) { inputs.push_back(input); });
+        const ClientId client = s.attach({NodeId{1}, NodeId{2}}, "pilot");
+        s.carry_out(client, {1}, DriveCommand{{1}, {0.5}, 4s}, 1);
+        s.step(start_of_run + 3s);
+        s.carry_out(client, {2}, GoalCommand{{20, 3, 0}, {0.5}}, 2);
+        s.carry_out(client, {2}, SendCommand{.port = 3, .payload = "here", .size = 100}, 3);
+        s.step(start_of_run + 3500ms);
+        s.detach(client);
+    };
+    std::vector<Input> inputs;
+    const std::string first = fingerprint_of([&](Session& s) { driven(s, inputs); });
+    REQUIRE(inputs.size() == 5);
+    CHECK(inputs[1].time == start_of_run + 3s);
+    CHECK(inputs[2].client == "pilot");
+    CHECK(inputs[2].number == 3);
+    CHECK(std::holds_alternative<StopCommand>(inputs[4].command));
+    CHECK(fingerprint_of([&](Session& s) {
+              const ClientId all = s.attach({NodeId{1}, NodeId{2}});
+              for (const Input& input : inputs) {
+                  s.step(input.time);
+                  s.carry_out(all, input.robot, input.command);
+              }
+          }) == first);
+}
+
+TEST_CASE("session: a robot's speed is what it is driven at, and that of its leg otherwise") {
+    Session session{scenario()};
+    const ClientId client = session.attach({NodeId{1}});
+    CHECK(session.driver({1}) == client);
+    CHECK_FALSE(session.driver({0}).has_value());
+    session.drive(client, {1}, {-0.5}, {0.25});
+    session.step(start_of_run + 1s);
+    CHECK(session.twist({1}).speed == -0.5);
+    CHECK(session.twist({1}).turn_rate == 0.25);
+    session.carry_out(client, {1}, GoalCommand{{50, 0, 0}, {2}});
+    session.step(start_of_run + 2s);
+    CHECK(std::abs(session.twist({1}).speed - 2) < 1e-9);
+    session.carry_out(client, {1}, StopCommand{});
+    CHECK(session.twist({1}).speed == 0);
+    session.drive(client, {1}, {0}, {1}, 2s);
+    session.step(start_of_run + 3s);
+    CHECK(session.twist({1}).turn_rate == 1);
+    session.step(start_of_run + 5s);
+    CHECK(session.twist({1}).turn_rate == 0);
 }
 
 }  // namespace session_test

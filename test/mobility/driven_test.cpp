@@ -136,4 +136,41 @@ TEST_CASE("driven: stops at a wall, turns there, and goes on when it may") {
     CHECK(scene.clearance(drive.net.position(drive.robot)) >= 0.2 - 1e-9);
 }
 
+TEST_CASE("driven: a thousand commands in the midst of chords are as near to the arc as one") {
+    Drive drive;
+    const auto arc = std::make_shared<DrivenArc>();
+    double worst = 0;
+    for (int command = 0; command < 1000; ++command) {
+        drive.net.move(drive.robot, Driven{.speed = {1}, .turn_rate = {1}, .arc = arc});
+        for (int look = 1; look <= 13; ++look) {
+            drive.net.run_for(1ms);
+            const double t = 0.013 * command + 0.001 * look;
+            worst = std::max(
+                worst, distance(drive.net.position(drive.robot), on_arc({5, 7, 0}, 0, 1, 1, t)));
+        }
+    }
+    CHECK(worst < 0.00101);
+    CHECK(worst > 1e-5);
+    // An arc of somebody who is elsewhere is no place to begin.
+    drive.net.place(drive.robot, {0, 0, 0});
+    drive.net.move(drive.robot, Driven{.speed = {1}, .arc = arc});
+    const double a = drive.heading();
+    drive.net.run_for(1s);
+    CHECK(distance(drive.net.position(drive.robot), on_arc({0, 0, 0}, a, 1, 0, 1)) < 1e-9);
+}
+
+TEST_CASE("driven: turn rates from nearly none on follow their circles") {
+    for (const double w : {1e-300, 1e-15, 1e-9, 1e-6, 1e-4}) {
+        CAPTURE(w);
+        Drive drive(0.3);
+        drive.net.move(drive.robot, Driven{.speed = {2}, .turn_rate = {w}});
+        drive.net.run_for(100s);
+        // To the second order of w t, which is at most 0.01.
+        const double s = 200, bend = w * 100;
+        const Vec3 along = s * (1 - bend * bend / 6) * Vec3{std::cos(0.3), std::sin(0.3), 0};
+        const Vec3 aside = s * bend / 2 * Vec3{-std::sin(0.3), std::cos(0.3), 0};
+        CHECK(distance(drive.net.position(drive.robot), Vec3{5, 7, 0} + along + aside) < 0.00101);
+    }
+}
+
 }  // namespace driven_test

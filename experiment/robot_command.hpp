@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/geometry.hpp"
+#include "sim/ids.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+// Commands that a program outside gives to its robots, as values: a session carries them out, a log
+// of inputs keeps them.
+
+namespace rovernet {
+
+/// Command to drive ahead and turn, as Driven does, until the next command.
+struct DriveCommand {
+    MetersPerSecond speed{0};              ///< [m/s], < 0: backwards
+    RadiansPerSecond turn_rate{0};         ///< [rad/s], counter-clockwise
+    std::optional<Duration> timeout = {};  ///< the robot stands still after that; none: never
+};
+
+/// Command to go to a place, around the walls, and to rest there.
+struct GoalCommand {
+    Vec3 to;                   ///< [m]
+    MetersPerSecond speed{1};  ///< [m/s], > 0
+};
+
+/// Command to stand still.
+struct StopCommand {};
+
+/// Command to send a message: to everyone by the routing protocol, or over one hop.
+struct SendCommand {
+    std::optional<NodeId> to = {};  ///< none: everyone
+    std::uint16_t port = 0;         ///< which program of the receiver it is for
+    std::string payload = {};
+    std::optional<std::uint32_t> size = {};  ///< on air [bytes]; the payload's length if not given
+};
+
+using RobotCommand = std::variant<DriveCommand, GoalCommand, StopCommand, SendCommand>;
+
+/// Command as it was accepted: what happens after that follows from it and the scenario.
+struct Input {
+    Time time;
+    NodeId robot;
+    std::string client;        ///< name of the client that gave it
+    std::uint64_t number = 0;  ///< client's own number of it
+    RobotCommand command;
+};
+
+}  // namespace rovernet
