@@ -110,24 +110,6 @@ std::string shortened(std::string_view text, std::size_t most) {
     return std::string(text.substr(0, kept_bytes)) + "\xe2\x80\xa6";
 }
 
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const auto byte = [&](std::size_t i) -> std::uint32_t {
-        return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0;
-    };
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::uint32_t bits = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
-        out += digits[bits >> 18U];
-        out += digits[bits >> 12U & 63U];
-        out += i + 1 < bytes.size() ? digits[bits >> 6U & 63U] : '=';
-        out += i + 2 < bytes.size() ? digits[bits & 63U] : '=';
-    }
-    return out;
-}
-
 double text_width(std::string_view text, double size) {
     double em = 0;
     for_each_character(text,

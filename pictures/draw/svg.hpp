@@ -22,9 +22,6 @@ std::string xml_text(std::string_view text);
 /// `text` cut to at most `most` >= 1 characters, the last of which is then an ellipsis.
 std::string shortened(std::string_view text, std::size_t most);
 
-/// Bytes as base64 (RFC 4648, section 4), for data inside a document.
-std::string base64(std::string_view bytes);
-
 /// About how wide a text is [px] in the picture's font; an estimate from above.
 double text_width(std::string_view text, double size);
 

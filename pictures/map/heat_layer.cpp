@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/heat_layer.hpp"
 
+#include "files/base64.hpp"
 #include "scene/png.hpp"
 
 #include <fmt/format.h>

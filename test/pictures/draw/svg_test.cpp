@@ -49,15 +49,6 @@ TEST_CASE("svg: a text is shortened by characters, not by bytes") {
     CHECK(shortened("\xc3\xa4\xc3\xb6\xc3\xbc", 2) == "\xc3\xa4\xe2\x80\xa6");
 }
 
-TEST_CASE("svg: base64 of the vectors of RFC 4648, section 10") {
-    CHECK(base64("").empty());
-    CHECK(base64("f") == "Zg==");
-    CHECK(base64("fo") == "Zm8=");
-    CHECK(base64("foo") == "Zm9v");
-    CHECK(base64("foobar") == "Zm9vYmFy");
-    CHECK(base64("\xfb\xff") == "+/8=");
-}
-
 TEST_CASE("svg: a longer text is wider, and an unknown character is as wide as any") {
     CHECK(text_width("ii", 10) < text_width("mm", 10));
     CHECK(text_width("abc", 20) == 2 * text_width("abc", 10));
