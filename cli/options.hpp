@@ -65,6 +65,8 @@ void add_scene_commands(Command app);
 void add_result_commands(Command app);
 /// Adds trace and what is below it.
 void add_trace(Command app);
+/// Adds live.
+void add_live(Command app);
 /// Adds replay.
 void add_replay(Command app);
 /// Adds models, loss, material, validate, trace, replay, bench, version, completion.

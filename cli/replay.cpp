@@ -4,12 +4,14 @@
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/options.hpp"
+#include "cli/replay_inputs.hpp"
 #include "cli/stop.hpp"
 #include "cli/text_table.hpp"
 #include "cli/waiting.hpp"
 #include "experiment/run.hpp"
 #include "experiment/trace_input.hpp"
 #include "experiment/trace_play.hpp"
+#include "live/input_log.hpp"
 #include "scenario/json.hpp"
 #include "study/command_words.hpp"
 #include "study/day_store.hpp"
@@ -291,6 +293,7 @@ void play_events(const ReplayArguments& a) {
 }  // namespace
 
 void replay(const ReplayArguments& a) {
+    if (a.verify && has_input_log(a.file)) return verify_inputs(a);
     if (a.verify) return verify(a);
     if (a.speed) return play_events(a);
     if (a.with.empty() && !a.map && !a.as) {
@@ -311,7 +314,11 @@ void add_replay(Command app) {
          "rovernet run examples/rescue/rescue.toml --set trace.ns2=old --out rescue",
          "rovernet replay rescue/trace.tr --verify",
          "rovernet replay rescue/trace.tr --with \"radio.power=10 dBm\""});
-    replay.add_option("TRACE", a.file, "recorded trace (.mcap), or an ns-2 trace").required();
+    replay
+        .add_option(
+            "TRACE", a.file,
+            "recorded trace (.mcap), an ns-2 trace, or with --verify the folder of a live run")
+        .required();
     const Option verify = replay.add_flag(
         "--verify", a.verify, "run its scenario again and compare; exit 1 at the first difference");
     const Option speed =

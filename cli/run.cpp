@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/run_output.hpp"
 #include "cli/stop.hpp"
 #include "cli/waiting.hpp"
 #include "experiment/run_folder.hpp"
@@ -134,7 +135,11 @@ void run(const RunArguments& a) {
                                 }});
     waiting.reset();
     writing.reset();
-    if (a.json) {
+    print_run(scenario, result, a.json);
+}
+
+void print_run(const Scenario& scenario, const RunResult& result, bool json) {
+    if (json) {
         write_summary(run_summary(scenario, result), *result.timeline,
                       [](std::string_view text) { fmt::print("{}", text); });
     } else {

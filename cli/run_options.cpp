@@ -184,6 +184,7 @@ void add_probe(Command app) {
 
 void add_run_commands(Command app, const std::string& typed) {
     add_run(app);
+    add_live(app);
     add_sweep(app, typed);
     add_compare(app, typed);
     add_advise(app, typed);

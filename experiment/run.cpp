@@ -10,7 +10,6 @@
 #include "files/part_file.hpp"
 #include "scenario/json.hpp"
 #include "scenario/toml.hpp"
-#include "traces/fingerprint.hpp"
 
 #include <fmt/format.h>
 
@@ -77,6 +76,14 @@ void name_results(const std::string& folder, const std::vector<TraceFile>& trace
     for (PartFile* file : files) file->give_name();
 }
 
+/// The scenario as it was run, if the run ended early.
+std::optional<Scenario> shortened(const Scenario& scenario, Duration simulated) {
+    if (simulated >= scenario.scenario.duration) return std::nullopt;
+    std::optional<Scenario> copy(scenario);
+    copy->scenario.duration = simulated;
+    return copy;
+}
+
 }  // namespace
 
 RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
@@ -100,13 +107,17 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     const std::vector<TraceFile> traces = trace_files(scenario, result.folder);
     for (const TraceFile& trace : traces) network.add_sink(trace.sink);
     if (!traces.empty()) result.trace = traces.front().path;
-    if (!session.run(options.speed, options.progress)) throw Interrupted();
+    const bool is_whole = options.drive ? options.drive(session, *fingerprint)
+                                        : session.run(options.speed, options.progress);
+    if (!is_whole) throw Interrupted();
     result.fingerprint = fingerprint->text();
     network.finish();
 
+    result.simulated = network.now() - start_of_run;
     result.metrics = network.metrics();
-    append_parts(result.parts, scenario, network, result.metrics,
-                 scenario.scenario.duration - settings.warmup, topology.get());
+    const auto ended_early = shortened(scenario, result.simulated);
+    append_parts(result.parts, ended_early ? *ended_early : scenario, network, result.metrics,
+                 std::max(result.simulated - settings.warmup, Duration{0}), topology.get());
     result.events = network.events();
     result.network = session.shared_network();
     result.interference_left_out = network.interference_left_out();
@@ -206,7 +217,7 @@ Table run_summary(const Scenario& scenario, const RunResult& result) {
     table.set("seed", scenario.scenario.seed);
     table.set("replication", scenario.scenario.replication);
     table.set("fingerprint", result.fingerprint);
-    table.set("sim_s", seconds(scenario.scenario.duration));
+    table.set("sim_s", seconds(result.simulated));
     table.set("wall_s", result.wall_s);
     table.set("events", result.events);
     if (result.interference_left_out) {

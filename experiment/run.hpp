@@ -8,6 +8,7 @@
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/value.hpp"
+#include "traces/fingerprint.hpp"
 #include "traces/metrics.hpp"
 #include "traces/topology.hpp"
 
@@ -19,11 +20,16 @@
 
 namespace rovernet {
 
+class Session;
+
 struct RunOptions {
     std::optional<std::string> folder;  ///< folder for the results; run_folder() if not given
     std::optional<double> speed;        ///< simulated per real time [-]; none: unpaced
     /// Told the share that is done, 0 ... 1, now and then; false stops the run.
     std::function<bool(double)> progress = {};
+    /// Runs the session in place of Session::run(), by programs outside, say; it may end early.
+    /// Given the fingerprint of the run, which goes on. False: the run was stopped.
+    std::function<bool(Session&, const Fingerprint&)> drive = {};
 };
 
 /// The run was stopped from outside; none of its files was left.
@@ -39,6 +45,7 @@ struct RunResult {
     std::string fingerprint;
     Table parts;  ///< see append_parts()
     std::uint64_t events = 0;
+    Duration simulated{0};  ///< that it ran for: the scenario's, unless it ended early
     std::optional<Db> interference_left_out;  ///< see Network
     double wall_s = 0;                        ///< [s] of real time
     std::string started;                      ///< UTC, ISO 8601

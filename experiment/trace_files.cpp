@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* ns2_name = "/trace.tr";
 constexpr const char* recorded_name = "/trace.mcap";
+constexpr const char* inputs_name = "/inputs.jsonl";  // of a live run, which writes it itself
 
 Ns2Trace ns2_trace(const TraceTable& table, const std::string& path) {
     const bool is_old = table.ns2 == Ns2Choice::old_format;
@@ -46,7 +47,7 @@ std::vector<TraceFile> trace_files(const Scenario& scenario, const std::string& 
 }
 
 void remove_other_traces(const std::string& folder, const std::vector<TraceFile>& files) {
-    for (const char* name : {ns2_name, recorded_name}) {
+    for (const char* name : {ns2_name, recorded_name, inputs_name}) {
         const std::string path = folder + name;
         const bool is_written = std::any_of(files.begin(), files.end(),
                                             [&](const TraceFile& f) { return f.path == path; });

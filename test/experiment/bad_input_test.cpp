@@ -505,7 +505,7 @@ TEST_CASE("bad input: a slip on the command line is told with what was probably 
     const TemporaryFolder folder;
     for (const auto& [arguments, expected] :
          {std::pair{"rnu s.toml",
-                    "rovernet: unknown command \"rnu\"; expected one of run, sweep, "},
+                    "rovernet: unknown command \"rnu\"; expected one of run, live, sweep, "},
           std::pair{"rnu --seed 3", "; did you mean \"run\"?; run with --help for more\n"},
           std::pair{"bench flod", "expected one of flood; did you mean \"flood\"?"},
           std::pair{"bench flood --recordde=1 x",

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/request.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// Carrier of lines between controllers and this process: TCP on this machine, Unix sockets, and
+/// the standard input and output of programs that it starts. It is the only one that knows sockets
+/// (Boost.Asio), and everything happens in the thread that calls it.
+///
+/// A controller's next line is read when the last one is answered and the answer is out. So
+/// nothing grows with a controller that asks without reading, and lines may be sent ahead.
+///
+/// | limit                             | value  | beyond it                           |
+/// |-----------------------------------|--------|-------------------------------------|
+/// | line                              | 1 MiB  | "too_long", closed                  |
+/// | lines of all, not yet taken       | 64 MiB | "too_long", closed                  |
+/// | connections                       | 500    | closed at once                      |
+/// | time until the first line is whole| 60 s   | closed                              |
+class Doors {
+  public:
+    using Connection = std::uint32_t;
+    /// What is told of connections. The functions may call send().
+    struct Users {
+        std::function<void(Connection from, std::string_view line)> line;
+        std::function<void(Connection to, const RequestError& why)> refuse;
+        std::function<void(Connection gone)> closed;
+    };
+
+    explicit Doors(Users users);
+    /// Closes everything; programs that are still there are ended.
+    ~Doors();
+    Doors(const Doors&) = delete;
+    Doors& operator=(const Doors&) = delete;
+
+    /// Starts a program by the shell; it speaks by its standard input and output.
+    /// @throws RunError if it cannot be started
+    void start(const std::string& command);
+    /// Listens on an address of this machine alone: nobody else could be told from a controller.
+    /// @param address  "127.0.0.1:7007", "localhost:0", "[::1]:7007"; port 0: any that is free
+    /// @return the address with the port
+    /// @throws std::invalid_argument for another address, RunError if it is in use
+    std::string listen(const std::string& address);
+    /// Listens on a Unix socket, for this user alone; one that nobody listens on is replaced.
+    /// @throws RunError
+    void listen_unix(const std::string& path);
+
+    /// Sends a line, without its end: the answer to the last one of that controller.
+    void send(Connection to, std::string_view line);
+    /// Number of controllers that may still speak; more may come if it listens.
+    std::size_t connections() const;
+    bool listens() const;
+    /// Waits for something to happen, at most so long, and tells of it: of one thing only.
+    void wait(std::chrono::milliseconds most);
+    /// Waits until all lines are out, at most so long, then closes everything and waits for the
+    /// programs that it started, as long again; those who are still there are ended.
+    /// @return what programs came to no good end: "python3 x.py ended with 1"
+    std::vector<std::string> close(std::chrono::milliseconds most);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "live/json_object.hpp"
+
+#include "sim/error.hpp"
+
+namespace rovernet {
+
+using simdjson::dom::element_type;
+
+namespace {
+
+/// What was found, in the words of an error.
+std::string found(const simdjson::dom::element& value) {
+    switch (value.type()) {
+        case element_type::NULL_VALUE: return "null";
+        case element_type::BOOL: return value.get_bool().value_unsafe() ? "true" : "false";
+        case element_type::STRING: return "a text";
+        case element_type::ARRAY: return "a list";
+        case element_type::OBJECT: return "an object";
+        default: return fmt::format("{}", value.get_double().value_unsafe());
+    }
+}
+
+}  // namespace
+
+std::string JsonPath::text() const {
+    if (!above) return std::string(key);
+    const std::string outer = above->text();
+    if (key.data() == nullptr) return fmt::format("{}[{}]", outer, index);
+    return outer.empty() ? std::string(key) : fmt::format("{}.{}", outer, key);
+}
+
+void JsonElement::expected(std::string_view what) const {
+    fail("bad_type", fmt::format("found {}; expected {}", found(value), what));
+}
+
+double JsonElement::number(const Range& range) const {
+    double number = 0;
+    if (value.get_double().get(number) != simdjson::SUCCESS) expected("a number");
+    if (!range.contains(number)) {
+        fail("out_of_range", fmt::format("found {}; expected a number {}", number, range.text));
+    }
+    return number;
+}
+
+std::uint64_t JsonElement::whole_number(std::uint64_t lowest, std::uint64_t highest) const {
+    std::uint64_t number = 0;
+    const std::string limits = fmt::format("a whole number from {} to {}", lowest, highest);
+    if (value.get_uint64().get(number) != simdjson::SUCCESS) {
+        if (value.is_number()) {
+            fail("out_of_range", fmt::format("found {}; expected {}", found(value), limits));
+        }
+        expected(limits);
+    }
+    if (number < lowest || number > highest) {
+        fail("out_of_range", fmt::format("found {}; expected {}", number, limits));
+    }
+    return number;
+}
+
+bool JsonElement::truth() const {
+    bool is_true = false;
+    if (value.get_bool().get(is_true) != simdjson::SUCCESS) expected("true or false");
+    return is_true;
+}
+
+std::string_view JsonElement::text() const {
+    std::string_view text;
+    if (value.get_string().get(text) != simdjson::SUCCESS) expected("a text");
+    return text;
+}
+
+simdjson::dom::object JsonElement::object() const {
+    simdjson::dom::object object;
+    if (value.get_object().get(object) != simdjson::SUCCESS) expected("an object { ... }");
+    return object;
+}
+
+simdjson::dom::array JsonElement::array() const {
+    simdjson::dom::array array;
+    if (value.get_array().get(array) != simdjson::SUCCESS) expected("a list [ ... ]");
+    return array;
+}
+
+void fail_unknown_key(const JsonPath& object, std::string_view key,
+                      std::vector<std::string> known) {
+    const std::string meant = did_you_mean(key, known);
+    const std::string message =
+        fmt::format("unknown key \"{}\"; {}", key,
+                    meant.empty() ? fmt::format("known are {}", fmt::join(known, ", ")) : meant);
+    throw RequestError("unknown_key", JsonPath{.above = &object, .key = key}.text(), message);
+}
+
+void fail_missing_key(const JsonPath& object, std::string_view key, std::string_view example) {
+    throw RequestError("missing_key", JsonPath{.above = &object, .key = key}.text(),
+                       fmt::format("\"{}\" is missing; expected such as {}", key, example));
+}
+
+void fail_repeated_key(const JsonPath& object, std::string_view key) {
+    throw RequestError("repeated_key", JsonPath{.above = &object, .key = key}.text(),
+                       fmt::format("\"{}\" stands there twice", key));
+}
+
+}  // namespace rovernet

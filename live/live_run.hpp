@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/run.hpp"
+#include "live/lockstep.hpp"
+#include "scenario/scenario.hpp"
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// How a scenario is run live: where its controllers come from, and how long they are waited for.
+struct LiveOptions {
+    std::string folder;                    ///< for the results
+    std::vector<std::string> controllers;  ///< programs to start, by the shell
+    std::optional<std::string> listen;     ///< "127.0.0.1:7007", see Doors::listen()
+    std::optional<std::string> unix_path;  ///< path of a Unix socket
+    Lockstep::Settings lockstep = {};
+    std::optional<std::chrono::nanoseconds> patience = {};  ///< for a question, of real time
+    std::function<bool()> go_on = [] { return true; };  ///< asked now and then; false ends the run
+    /// Told what a person should know: addresses, who is waited for.
+    std::function<void(std::string_view)> say = [](std::string_view) {};
+};
+
+/// A live run that has ended; its results are written.
+struct LiveResult {
+    RunResult run;
+    Scenario scenario;  ///< as it ran: a controller may have asked for another seed
+    /// What went wrong with a controller, if something did.
+    std::string fault;
+};
+
+/// Runs a scenario whose robots are driven by programs outside, in lock-step. It ends when they
+/// have left, and writes what run_scenario() writes, and the log of inputs.
+/// @throws InputError, RunError, Interrupted; std::invalid_argument for an address
+LiveResult run_live(Scenario scenario, const LiveOptions& options);
+
+}  // namespace rovernet

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+// The command `live` with controllers at its doors, in processes and sockets of their own.
+#include "test/cli/process.hpp"
+#include "test/live/line_client.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace live_test {
+using namespace rovernet;
+using namespace rovernet::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+const std::string scenario = R"([scenario]
+name = "row"
+duration = "2 s"
+[[robot]]
+name = "A"
+at = ["0 m", "0 m"]
+[[robot]]
+name = "B"
+at = ["15 m", "0 m"]
+[[robot]]
+name = "C"
+at = ["30 m", "0 m"]
+[[traffic]]
+from = "A"
+payload = "tick"
+every = "0.3 s"
+)";
+
+/// The controller that speaks through every door.
+const std::string python = R"(import json, sys
+def ask(**q):
+    print(json.dumps(q), flush=True)
+    return json.loads(sys.stdin.readline())
+ask(type="hello", protocol=1, robots=["A", "B"], step="100 ms")
+for n in range(1, 21):
+    send = [{"from": "B", "to": "*", "port": n, "data": "Rg=="}] if n % 3 == 0 else []
+    ask(type="step", n=n, do={"A": {"v": 0.1 * n, "w": 0.3}}, send=send)
+ask(type="bye")
+)";
+
+/// A live run in the background.
+class Live {
+  public:
+    explicit Live(std::vector<std::string> options, const std::string& file = scenario)
+        : process_(folder, arguments(std::move(options), file)) {}
+
+    /// Port that it says it listens on; waits for that.
+    int port() const {
+        const std::string words = "listening on 127.0.0.1:";
+        return std::stoi(said(words).substr(words.size()));
+    }
+    /// The line of standard output that begins so.
+    std::string said(const std::string& words) const {
+        for (int i = 0; i < 2000; ++i, std::this_thread::sleep_for(5ms)) {
+            std::ifstream out(folder.path("stdout"));
+            for (std::string line; std::getline(out, line);) {
+                if (line.starts_with(words) && !out.eof()) return line;
+            }
+        }
+        FAIL("it does not say " << words << ": " << content(folder.path("stderr")));
+        return {};
+    }
+    Ended wait() const { return process_.wait(); }
+    const Process& process() const { return process_; }
+    std::string fingerprint() const {
+        return Json::parse(content(folder.path("out/summary.json"))).at("fingerprint");
+    }
+    Ended replay() const { return command(folder, {"replay", folder.path("out"), "--verify"}); }
+
+    TemporaryFolder folder;
+
+  private:
+    std::vector<std::string> arguments(std::vector<std::string> options, const std::string& file) {
+        options.insert(options.begin(),
+                       {"live", folder.write("s.toml", file), "--out", folder.path("out")});
+        std::replace(options.begin(), options.end(), std::string("SOCKET"), folder.path("door"));
+        std::replace(options.begin(), options.end(), std::string("PROGRAM"),
+                     "python3 " + folder.write("c.py", python));
+        return options;
+    }
+
+    Process process_;
+};
+
+std::string hello(const std::string& robots, const std::string& step = "100 ms") {
+    return R"({"type":"hello","protocol":1,"robots":[)" + robots + R"(],"step":")" + step + "\"}";
+}
+
+/// The same words as the program above. @return the last line
+std::string drive(LineClient& client) {
+    client.ask(hello(R"("A","B")"));
+    for (int n = 1; n <= 20; ++n) {
+        Json question{{"type", "step"}, {"n", n}};
+        question["do"]["A"] = Json{{"v", 0.1 * n}, {"w", 0.3}};
+        if (n % 3 == 0) {
+            question["send"] =
+                Json::array({Json{{"from", "B"}, {"to", "*"}, {"port", n}, {"data", "Rg=="}}});
+        }
+        CHECK(Json::parse(client.ask(question.dump())).at("type") == "state");
+    }
+    return client.ask(R"({"type":"bye"})");
+}
+
+/// A controller of one robot that takes its time.
+void drive_slowly(LineClient& client, const std::string& robot, std::uint64_t seed) {
+    client.ask(hello("\"" + robot + "\""));
+    for (int n = 1; n <= 20; ++n) {
+        const auto number = static_cast<std::uint64_t>(n + robot[0]) * 2654435761U;
+        std::this_thread::sleep_for(std::chrono::microseconds((seed * number >> 8U) % 5000));
+        const std::string n_text = std::to_string(n);
+        client.ask(R"({"type":"step","n":)" + n_text + R"(,"do":{")" + robot + R"(":{"v":0.)" +
+                   n_text + R"(}},"send":[{"from":")" + robot + R"(","data":"Rg=="}]})");
+    }
+    client.ask(R"({"type":"bye"})");
+}
+
+long megabytes_of(pid_t pid) {
+    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("VmRSS:")) return std::stol(line.substr(6)) / 1024;
+    }
+    return 0;
+}
+
+}  // namespace
+
+TEST_CASE("live: the same controller has the same run through every door, and in its replay") {
+    const Live by_stdio({"--controller", "PROGRAM"});
+    CHECK(by_stdio.wait().exit == 0);
+    const std::string fingerprint = by_stdio.fingerprint();
+
+    const Live by_tcp({"--listen-json", "127.0.0.1:0"});
+    LineClient tcp(by_tcp.port());
+    CHECK(Json::parse(drive(tcp)).at("fingerprint") == fingerprint);
+    CHECK(by_tcp.wait().exit == 0);
+    CHECK(by_tcp.fingerprint() == fingerprint);
+
+    const Live by_path({"--unix", "SOCKET"});
+    by_path.said("listening on ");
+    LineClient local(by_path.folder.path("door"));
+    CHECK(Json::parse(drive(local)).at("fingerprint") == fingerprint);
+    CHECK(by_path.wait().exit == 0);
+    CHECK_FALSE(std::filesystem::exists(by_path.folder.path("door")));
+
+    const Ended again = by_stdio.replay();
+    CHECK(again.exit == 0);
+    CHECK(again.out == "identical: 28 inputs, fingerprint " + fingerprint + "\n");
+}
+
+TEST_CASE(
+    "live: a log that was changed is no replay, and one that was cut goes as far as it goes") {
+    const Live live({"--controller", "PROGRAM"});
+    REQUIRE(live.wait().exit == 0);
+    const std::string path = live.folder.path("out/inputs.jsonl"), log = content(path);
+    const auto changed = [&](const std::string& text) {
+        live.folder.write("out/inputs.jsonl", text);
+        return live.replay();
+    };
+    std::string other = log;
+    other.replace(other.find("\"v\":0.5"), 7, "\"v\":0.6");
+    CHECK(changed(other).exit == 1);
+    CHECK(changed(other).err.find("differs from its fingerprint") != std::string::npos);
+    const std::size_t last = log.rfind('\n', log.size() - 2);
+    const Ended cut = changed(log.substr(0, last - 5));
+    CHECK(cut.exit == 0);
+    CHECK(cut.out.find("cut after") != std::string::npos);
+    const Ended broken = changed(log.substr(0, 100) + "\n{\"t_ns\":-1}\n");
+    CHECK(broken.exit == 3);
+    CHECK(broken.err.find("inputs.jsonl:") != std::string::npos);
+}
+
+TEST_CASE("live: the time that controllers take does not show in a result") {
+    std::vector<std::string> fingerprints;
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        const Live live({"--listen-json", "127.0.0.1:0", "--wait-for", "2"});
+        LineClient a(live.port()), b(live.port());
+        std::thread other([&] { drive_slowly(a, "A", seed); });
+        drive_slowly(b, "B", seed);
+        other.join();
+        CHECK(live.wait().exit == 0);
+        fingerprints.push_back(live.fingerprint());
+        CHECK(live.replay().exit == 0);
+    }
+    CHECK(fingerprints[0] == fingerprints[1]);
+    CHECK(fingerprints[0] == fingerprints[2]);
+}
+
+TEST_CASE("live: Ctrl-C ends it within a second, with results and a goodbye") {
+    const Live live({"--listen-json", "127.0.0.1:0"});
+    LineClient client(live.port());
+    client.ask(hello("\"A\""));
+    client.ask(R"({"type":"step","n":1,"do":{"A":{"v":1}}})");
+    live.process().interrupt();
+    const Json end = Json::parse(client.line());
+    CHECK(end.at("reason") == "stopped");
+    CHECK(live.wait().exit == 0);
+    CHECK(live.fingerprint() == end.at("fingerprint"));
+    CHECK(live.replay().exit == 0);
+    CHECK(Json::parse(content(live.folder.path("out/summary.json"))).at("sim_s") == 0.1);
+}
+
+TEST_CASE("live: a lost controller, one without patience, and a program that fails end it with 1") {
+    const Live lost({"--listen-json", "127.0.0.1:0"});
+    {
+        LineClient client(lost.port());
+        client.ask(hello("\"A\""));
+        client.reset();
+    }
+    const Ended without = lost.wait();
+    CHECK(without.exit == 1);
+    CHECK(without.err.find("controller A has gone at 0 s without a bye") != std::string::npos);
+    CHECK(lost.replay().exit == 0);
+
+    const Live slow({"--listen-json", "127.0.0.1:0", "--patience", "50ms"});
+    LineClient client(slow.port());
+    client.ask(hello("\"A\""));
+    CHECK(Json::parse(client.line()).at("reason") == "patience");
+    CHECK(slow.wait().err.find("no question within 0.05 s from controller A") != std::string::npos);
+
+    const Live failing({"--controller", "exit 7"});
+    const Ended failed = failing.wait();
+    CHECK(failed.exit == 1);
+    CHECK(failed.err.find("exit 7 ended with 7") != std::string::npos);
+}
+
+TEST_CASE("live: lines may be sent ahead, and a sender that is done is told the rest") {
+    const Live live({"--listen-json", "127.0.0.1:0"});
+    LineClient client(live.port());
+    client.send_bytes(hello("\"A\"") + "\n" + R"({"type":"step","n":1})" + "\r\n" +
+                      R"({"type":"step","n":2})" + "\n" + R"({"type":"bye"})" + "\n");
+    client.end_sending();
+    std::vector<std::string> types;
+    for (std::string line = client.line(); !line.empty(); line = client.line()) {
+        types.push_back(Json::parse(line).at("type"));
+    }
+    CHECK(types == std::vector<std::string>{"welcome", "state", "state", "end"});
+    CHECK(live.wait().exit == 0);
+}
+
+TEST_CASE("live: only this machine is listened to, and an address in use is told") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", scenario);
+    const auto refused = [&](const std::string& address) {
+        const Ended ended = command(folder, {"live", file, "--listen-json", address});
+        CAPTURE(address);
+        CHECK(ended.exit == 2);
+        return ended.err;
+    };
+    CHECK(refused("0.0.0.0:0").find("expected an address of this machine alone") !=
+          std::string::npos);
+    for (const char* address : {"192.168.1.1:7007", "127.0.0.1", "127.0.0.1:x", "127.0.0.1:65536",
+                                "[::]:7007", "example.org:1", ":7007"}) {
+        refused(address);
+    }
+    CHECK(command(folder, {"live", file}).exit == 2);
+    CHECK(command(folder, {"live", file, "--unix", file}).exit == 1);
+    const Live live({"--listen-json", "127.0.0.1:0"});
+    CHECK(
+        command(folder, {"live", file, "--listen-json", "127.0.0.1:" + std::to_string(live.port())})
+            .exit == 1);
+    live.process().interrupt();
+    CHECK(live.wait().exit == 0);
+}
+
+TEST_CASE("live: hostile connections are closed, take little memory and hold nobody up") {
+    const Live live({"--listen-json", "127.0.0.1:0"});
+    const int port = live.port();
+    LineClient good(port);
+    good.ask(hello("\"A\""));
+
+    LineClient endless(port);
+    const std::string megabyte(std::size_t{1} << 20U, 'x');
+    endless.send_bytes(megabyte);
+    endless.send_bytes(megabyte);
+    CHECK(Json::parse(endless.line()).at("code") == "too_long");
+    CHECK(endless.line().empty());
+    CHECK(Json::parse(good.ask(R"({"type":"step","n":1})")).at("n") == 1);
+
+    // Somebody who asks and never reads is not read any more.
+    LineClient deaf(port);
+    std::string questions;
+    for (int i = 0; i < 20'000; ++i) questions += "nonsense\n";
+    std::thread asks([&] {
+        for (int i = 0; i < 100; ++i) {
+            if (!deaf.send_bytes(questions)) return;
+        }
+    });
+    for (int n = 2; n <= 10; ++n) {
+        std::this_thread::sleep_for(20ms);
+        const std::string step = R"({"type":"step","n":)" + std::to_string(n) + "}";
+        CHECK(Json::parse(good.ask(step)).at("n") == n);
+    }
+    CHECK(megabytes_of(live.process().pid()) < 256);
+
+    // The one beyond the limit is closed at once, and those who drop out free their places.
+    std::vector<LineClient> crowd;
+    for (int i = 0; i < 498; ++i) crowd.emplace_back(port);
+    LineClient beyond(port);
+    CHECK(beyond.line().empty());
+    for (auto& each : crowd) each.reset();
+    CHECK(Json::parse(good.ask(R"({"type":"step","n":11})")).at("n") == 11);
+    LineClient late(port);
+    CHECK(Json::parse(late.ask("[]")).at("code") == "bad_type");
+
+    good.send_bytes("{\"type\":\"bye\"}\n");
+    CHECK(Json::parse(good.line()).at("type") == "end");
+    CHECK(live.wait().exit == 0);
+    asks.join();
+}
+
+}  // namespace live_test

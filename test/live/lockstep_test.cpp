@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+// The lock-step protocol, line by line, without sockets.
+#include "live/lockstep.hpp"
+
+#include "test/live/talk.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace lockstep_test {
+using namespace rovernet;
+using namespace rovernet::test;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string hello_a = R"({"type":"hello","protocol":1,"robots":["A"],"step":"100 ms"})";
+const std::string hello_b = R"({"type":"hello","protocol":1,"robots":["B","C"],"step":"300 ms"})";
+
+std::string step(int n, const std::string& more = {}) {
+    return R"({"type":"step","n":)" + std::to_string(n) + more + "}";
+}
+std::string drive(int n, const std::string& robot, double v) {
+    return step(n, R"(,"do":{")" + robot + R"(":{"v":)" + std::to_string(v) +
+                       R"(}},"send":[{"from":")" + robot + R"(","data":"Rg=="}])");
+}
+
+/// The parts of an error that programs and people go by.
+std::string fault(const std::string& line) {
+    const Json error = Json::parse(line);
+    if (error.value("type", "") != "error") return line;
+    CHECK_FALSE(error.at("msg").get<std::string>().empty());
+    return error.at("code").get<std::string>() + " " + error.at("at").get<std::string>();
+}
+
+std::string type_of(const std::string& line) { return Json::parse(line).at("type"); }
+
+}  // namespace
+
+TEST_CASE("lockstep: the transcript of the documentation, byte for byte") {
+    Talk talk(three_in_a_row());
+    std::ifstream file(ROVERNET_TEST_DATA "/../live/transcript.txt");
+    REQUIRE(file);
+    std::vector<std::string> expected;
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("C ")) {
+            talk.say(0, line.substr(2));
+            if (talk.lockstep.state() == Lockstep::State::over) talk.end();
+        } else if (line.starts_with("S ")) {
+            expected.push_back(line.substr(2));
+        }
+    }
+    auto& told = talk.told[0];
+    REQUIRE(told.size() == expected.size());
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        const Json told_now = Json::parse(told[i]);
+        if (told_now.contains("version")) {  // that of the library
+            const std::string version = told_now["version"].dump();
+            told[i].replace(told[i].find(version), version.size(), "\"0.1.0\"");
+        }
+        CHECK(told[i] == expected[i]);
+    }
+}
+
+TEST_CASE("lockstep: each malformed line has its code and its place, and changes nothing") {
+    Talk talk(three_in_a_row());
+    const auto check = [&](const std::vector<std::pair<std::string, std::string>>& table) {
+        for (const auto& [line, expected] : table) {
+            CAPTURE(line);
+            CHECK(fault(talk.ask(0, line)) == expected);
+        }
+    };
+    const std::string deep =
+        R"({"type":"step","n":1,"do":)" + std::string(40, '[') + std::string(40, ']') + "}";
+    check({
+        {"", "bad_json "},
+        {"hello", "bad_json "},
+        {R"({"type":"hello")", "bad_json "},
+        {R"({"type":"bye"}{})", "bad_json "},
+        {R"({"type":"bye","n":1e999})", "bad_json "},
+        {"{\"type\":\"\xff\"}", "bad_utf8 "},
+        {deep, "too_deep "},
+        {"[]", "bad_type "},
+        {"7", "bad_type "},
+        {"{}", "missing_key type"},
+        {R"({"type":7})", "bad_type type"},
+        {R"({"type":"helo"})", "unknown_type type"},
+        {R"({"type":"step","n":1})", "hello_first type"},
+        {R"({"type":"bye"})", "hello_first type"},
+        {R"({"type":"reset"})", "hello_first type"},
+        {R"({"type":"hello"})", "missing_key protocol"},
+        {R"({"type":"hello","protocol":2,"robots":["A"],"step":"1 s"})", "bad_protocol protocol"},
+        {R"({"type":"hello","protocol":1,"step":"1 s"})", "missing_key robots"},
+        {R"({"type":"hello","protocol":1,"robots":[],"step":"1 s"})", "out_of_range robots"},
+        {R"({"type":"hello","protocol":1,"robots":["A","Z"],"step":"1 s"})",
+         "unknown_robot robots[1]"},
+        {R"({"type":"hello","protocol":1,"robots":["A","A"],"step":"1 s"})",
+         "repeated_robot robots"},
+        {R"({"type":"hello","protocol":1,"robots":["A"]})", "missing_key step"},
+        {R"({"type":"hello","protocol":1,"robots":["A"],"step":1})", "bad_type step"},
+        {R"({"type":"hello","protocol":1,"robots":["A"],"step":"1 kg"})", "bad_value step"},
+        {R"({"type":"hello","protocol":1,"robots":["A"],"step":"1 ns"})", "out_of_range step"},
+        {R"({"type":"hello","protocol":1,"robots":["A"],"step":"1 s","stp":1})", "unknown_key stp"},
+        {R"({"type":"hello","protocol":1,"robots":["A"],"step":"1 s","step":"1 s"})",
+         "repeated_key step"},
+        {R"({"type":"hello","protocol":1,"robots":["A"],"step":"1 s","observe":["pos"]})",
+         "bad_value observe[0]"},
+        {R"({"type":"hello","protocol":1,"robots":["A"],"step":"1 s","seed":-1})",
+         "out_of_range seed"},
+        {R"({"type":"hello","protocol":1,"robots":["A"],"step":"1 s","name":""})",
+         "out_of_range name"},
+    });
+    CHECK(type_of(talk.ask(0, hello_a)) == "welcome");
+    check({
+        {hello_a, "hello_again type"},
+        {R"({"type":"step"})", "missing_key n"},
+        {R"({"type":"step","n":-1})", "out_of_range n"},
+        {R"({"type":"step","n":1,"doo":{}})", "unknown_key doo"},
+        {R"({"type":"step","n":1,"do":[]})", "bad_type do"},
+        {R"({"type":"step","n":1,"do":{"Z":{"v":1}}})", "unknown_robot do.Z"},
+        {R"({"type":"step","n":1,"do":{"B":{"v":1}}})", "not_yours do.B"},
+        {R"({"type":"step","n":1,"do":{"A":{"v":"1"}}})", "bad_type do.A.v"},
+        {R"({"type":"step","n":1,"do":{"A":{"v":1e6}}})", "out_of_range do.A.v"},
+        {R"({"type":"step","n":1,"do":{"A":{"w":-1e6}}})", "out_of_range do.A.w"},
+        {R"({"type":"step","n":1,"do":{"A":{"v":1,"stop":true}}})", "bad_value do.A"},
+        {R"({"type":"step","n":1,"do":{"A":{"goal":[1]}}})", "bad_value do.A.goal"},
+        {R"({"type":"step","n":1,"do":{"A":{"goal":[1,2],"speed":0}}})", "out_of_range do.A.speed"},
+        {R"({"type":"step","n":1,"do":{"A":{"speed":1}}})", "missing_key do.A.goal"},
+        {R"({"type":"step","n":1,"do":{"A":{"stop":false}}})", "bad_value do.A.stop"},
+        {R"({"type":"step","n":1,"do":{"A":{"v":1,"timeout":"0 s"}}})",
+         "out_of_range do.A.timeout"},
+        {R"({"type":"step","n":1,"do":{"A":{"v":1},"A":{"v":2}}})", "repeated_robot do"},
+        {R"({"type":"step","n":1,"do":{"robots":[7],"v":[1]}})", "out_of_range do.robots[0]"},
+        {R"({"type":"step","n":1,"do":{"robots":[0],"v":[1,2]}})", "bad_value do.v"},
+        {R"({"type":"step","n":1,"send":{}})", "bad_type send"},
+        {R"({"type":"step","n":1,"send":[{"data":"Rg=="}]})", "missing_key send[0].from"},
+        {R"({"type":"step","n":1,"send":[{"from":"B","data":"Rg=="}]})", "not_yours send[0].from"},
+        {R"({"type":"step","n":1,"send":[{"from":"A"}]})", "missing_key send[0].data"},
+        {R"({"type":"step","n":1,"send":[{"from":"A","data":"Rg"}]})", "bad_base64 send[0].data"},
+        {R"({"type":"step","n":1,"send":[{"from":"A","to":"A","data":""}]})",
+         "bad_value send[0].to"},
+        {R"({"type":"step","n":1,"send":[{"from":"A","port":65536,"data":""}]})",
+         "out_of_range send[0].port"},
+        {R"({"type":"bye","n":1})", "unknown_key n"},
+        {R"({"type":"reset","seed":1.5})", "out_of_range seed"},
+    });
+    CHECK(Json::parse(talk.ask(0, R"({"type":"step","n":5,"x":1})")).at("n") == 5);
+    CHECK(talk.session->network().now() == start_of_run);
+    CHECK(type_of(talk.ask(0, step(3))) == "state");
+    CHECK(fault(talk.ask(0, step(3))) == "old_number n");
+}
+
+TEST_CASE(
+    "lockstep: an unknown robot is told with those that there are, a key with what was meant") {
+    Talk talk(three_in_a_row());
+    talk.say(0, hello_a);
+    CHECK(Json::parse(talk.ask(0, step(1, R"(,"do":{"Zoe":{}})"))).at("msg") ==
+          "no robot Zoe; there are A, B, C");
+    CHECK(Json::parse(talk.ask(0, step(1, R"(,"do":{"A":{"timeuot":"1 s"}})"))).at("msg") ==
+          "unknown key \"timeuot\"; did you mean \"timeout\"?");
+}
+
+TEST_CASE("lockstep: time goes to the nearest end of a step once everybody has asked") {
+    Talk talk(three_in_a_row(), {.wait_for = 2});
+    CHECK(talk.ask(0, hello_a).empty());
+    CHECK(fault(talk.ask(0, step(1))) == "too_early ");
+    CHECK(type_of(talk.ask(1, hello_b)) == "welcome");
+    CHECK(type_of(talk.told[0].back()) == "welcome");
+    CHECK(talk.ask(0, step(1)).empty());
+    CHECK(fault(talk.ask(0, step(2))) == "too_early ");
+    CHECK(talk.ask(1, step(1)).empty());  // until 300 ms
+    CHECK(Json::parse(talk.told[0].back()).at("t_ns") == 100'000'000);
+    CHECK(Json::parse(talk.ask(0, step(2))).at("t_ns") == 200'000'000);
+    CHECK(Json::parse(talk.ask(0, step(3))).at("t_ns") == 300'000'000);
+    CHECK(Json::parse(talk.told[1].back()).at("t_ns") == 300'000'000);
+}
+
+TEST_CASE("lockstep: neither the order of arrival nor that of the controllers shows in a result") {
+    const auto run = [](bool swapped) {
+        Talk talk(three_in_a_row(), {.wait_for = 2});
+        const Lockstep::Connection a = 0, b = 1;
+        const auto both = [&](const std::string& of_a, const std::string& of_b) {
+            talk.lockstep.receive(swapped ? b : a, swapped ? of_b : of_a);
+            talk.lockstep.receive(swapped ? a : b, swapped ? of_a : of_b);
+            talk.go_on();
+        };
+        both(hello_a, R"({"type":"hello","protocol":1,"robots":["B","C"],"step":"100 ms"})");
+        for (int n = 1; n <= 20; ++n) {
+            both(drive(n, "A", 0.1 * n), drive(n, n % 2 == 0 ? "B" : "C", -0.2 * n));
+        }
+        CHECK(Json::parse(talk.told[a].back()).at("done") == true);
+        return talk.fingerprint->text();
+    };
+    CHECK(run(false) == run(true));
+}
+
+TEST_CASE("lockstep: nor does the order in which controllers leave") {
+    const auto run = [](Lockstep::Connection first) {
+        Talk talk(three_in_a_row(), {.wait_for = 2});
+        talk.say(0, hello_a);
+        talk.say(1, hello_b);
+        talk.say(first, R"({"type":"bye"})");
+        CHECK(talk.told[first].size() == 1);  // as long as the other owes a question
+        talk.say(1 - first, R"({"type":"bye"})");
+        CHECK(talk.lockstep.state() == Lockstep::State::over);
+        talk.end();
+        CHECK(type_of(talk.told[first].back()) == "end");
+        return talk.fingerprint->text();
+    };
+    CHECK(run(0) == run(1));
+}
+
+TEST_CASE("lockstep: robots are one controller's, and columns say what objects say") {
+    Talk talk(three_in_a_row(), {.wait_for = 1});
+    talk.say(0, hello_a);
+    CHECK(fault(talk.ask(1, R"({"type":"hello","protocol":1,"robots":["B","A"],"step":"1 s"})")) ==
+          "taken robots[1]");
+    CHECK(fault(talk.ask(1, R"({"type":"hello","protocol":1,"robots":["B"],"step":"1 s",
+        "name":"A"})")) == "taken name");
+    CHECK(fault(talk.ask(1, R"({"type":"hello","protocol":1,"robots":["B"],"step":"1 s",
+        "seed":9})")) == "other_seed seed");
+
+    Talk lists(three_in_a_row()), objects(three_in_a_row());
+    lists.say(0, R"({"type":"hello","protocol":1,"robots":["C","A"],"step":"1 s","columns":true})");
+    objects.say(0, R"({"type":"hello","protocol":1,"robots":["C","A"],"step":"1 s"})");
+    const Json columns =
+        Json::parse(lists.ask(0, step(1, R"(,"do":{"robots":[2,0],"v":[1,2],"w":[0.5,0]})")));
+    const Json state =
+        Json::parse(objects.ask(0, step(1, R"(,"do":{"C":{"v":1,"w":0.5},"A":{"v":2}})")));
+    CHECK(columns.at("state").at("robots") == Json{2, 0});
+    for (const char* key : {"x", "y", "heading", "v", "w", "on", "stalled"}) {
+        CHECK(columns.at("state").at(key)[0] == state.at("robots").at("C").at(key));
+        CHECK(columns.at("state").at(key)[1] == state.at("robots").at("A").at(key));
+    }
+    CHECK(lists.fingerprint->text() == objects.fingerprint->text());
+}
+
+TEST_CASE("lockstep: a run ends when its time is over, and begins anew by a reset") {
+    Talk talk(three_in_a_row());
+    talk.say(0, R"({"type":"hello","protocol":1,"robots":["A"],"step":"1.5 s","seed":4})");
+    CHECK(Json::parse(talk.told[0].back()).at("seed") == 4);
+    talk.say(0, step(1));
+    const Json last = Json::parse(talk.ask(0, step(2)));
+    CHECK(last.at("done") == true);
+    CHECK(last.at("t_ns") == 2'000'000'000);
+    const std::string first = talk.fingerprint->text();
+    CHECK(fault(talk.ask(0, step(3))) == "done type");
+    CHECK(Json::parse(talk.ask(0, R"({"type":"reset"})")).at("t_ns") == 0);
+    talk.say(0, step(1));
+    talk.say(0, step(2));
+    CHECK(talk.fingerprint->text() == first);
+    CHECK(Json::parse(talk.ask(0, R"({"type":"reset","seed":5})")).at("seed") == 5);
+    talk.say(0, R"({"type":"bye"})");
+    CHECK(talk.lockstep.state() == Lockstep::State::over);
+    CHECK(talk.lockstep.fault().empty());
+    talk.end();
+    CHECK(Json::parse(talk.told[0].back()).at("reason") == "bye");
+}
+
+TEST_CASE("lockstep: a controller that leaves early is told the end, the others go on") {
+    Talk talk(three_in_a_row(), {.wait_for = 2});
+    talk.say(0, hello_a);
+    talk.say(1, hello_b);
+    talk.say(1, step(1));
+    const Json end = Json::parse(talk.ask(0, R"({"type":"bye"})"));
+    CHECK(end.at("type") == "end");
+    CHECK(end.at("reason") == "bye");
+    CHECK(end.at("fingerprint").get<std::string>().size() == 16);
+    CHECK(Json::parse(talk.told[1].back()).at("t_ns") == 300'000'000);
+}
+
+TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or is waited for") {
+    const auto lose = [](Talk& talk) {
+        talk.say(0, hello_a);
+        talk.say(1, hello_b);
+        talk.say(0, drive(1, "A", 1));
+        talk.say(1, step(1));
+        talk.lockstep.lost(0);
+        talk.go_on();
+    };
+    Talk ends(three_in_a_row(), {.wait_for = 2});
+    lose(ends);
+    CHECK(ends.lockstep.state() == Lockstep::State::over);
+    CHECK(ends.lockstep.fault() == "controller A has gone at 0.1 s without a bye");
+
+    Talk stops(three_in_a_row(), {.wait_for = 2, .on_loss = OnLoss::stop});
+    lose(stops);
+    CHECK(stops.lockstep.state() == Lockstep::State::runs);
+    CHECK(Json::parse(stops.told[1].back()).at("t_ns") == 300'000'000);
+    CHECK(std::abs(stops.session->network().position({0}).x - 0.1) < 1e-9);
+
+    Talk waits(three_in_a_row(), {.wait_for = 2, .on_loss = OnLoss::wait});
+    lose(waits);
+    CHECK(waits.lockstep.owing() == std::vector<std::string>{"A"});
+    CHECK(type_of(waits.told[1].back()) == "welcome");  // time waits
+    const std::string seen = waits.told[0].back();
+    CHECK(fault(waits.ask(5, R"({"type":"hello","protocol":1,"robots":["A"],"step":"1 s"})")) ==
+          "taken name");
+    CHECK(waits.ask(5, hello_a) == seen);  // the same state again, behind a welcome
+    CHECK(waits.told[5].size() == 2);
+    CHECK(Json::parse(waits.ask(5, step(2))).at("t_ns") == 200'000'000);
+    CHECK(Json::parse(waits.ask(5, step(3))).at("t_ns") == 300'000'000);
+}
+
+TEST_CASE("lockstep: a step that is stopped in its midst ends the run with all of that time") {
+    Talk talk(three_in_a_row(R"([[traffic]]
+from = "B"
+payload = "x"
+start = "0.1 s"
+every = "1 ms"
+)"));
+    talk.say(0, R"({"type":"hello","protocol":1,"robots":["A"],"step":"2 s"})");
+    talk.lockstep.receive(0, step(1));
+    talk.lockstep.advance([] { return false; });
+    CHECK(talk.lockstep.state() == Lockstep::State::over);
+    CHECK(talk.session->network().now() < talk.session->end());
+    talk.end();
+    CHECK(Json::parse(talk.told[0].back()).at("reason") == "stopped");
+}
+
+}  // namespace lockstep_test
