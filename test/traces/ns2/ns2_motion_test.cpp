@@ -107,7 +107,7 @@ TEST_CASE("ns-2 motion: the legs come later one than the other, whatever the ord
     go(motion, 1s, {4, 0}, {5, 0}, 1);
     motion.is_at(robot, at(3s), {8, 0});
     go(motion, 2999995us, {8, 0}, {9, 0}, 1);  // rounded down
-    go(motion, 500ms, {8, 0}, {7, 0}, 1);  // another file begins
+    go(motion, 500ms, {8, 0}, {7, 0}, 1);      // another file begins
     motion.is_at(robot, at(0s), {1, 1});
     const std::vector<Leg> legs = motion.legs(robot);
     for (std::size_t i = 1; i < legs.size(); ++i) CHECK(legs[i - 1].start < legs[i].start);
