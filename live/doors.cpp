@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
-#include <utility>  // Asio needs it before its own headers in C++20
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -197,6 +197,7 @@ struct Doors::State {
                           });
     }
 
+    /// @param link  not the one in `links`, which goes
     void close(const Shared& link) {
         if (links.erase(link->id) == 0) return;
         error_code ignored;
@@ -316,7 +317,10 @@ std::vector<std::string> Doors::close(std::chrono::milliseconds most) {
     }
     state_->users = {
         .line = [](auto, auto) {}, .refuse = [](auto, auto&) {}, .closed = [](auto) {}};
-    while (!state_->links.empty()) state_->close(state_->links.begin()->second);
+    while (!state_->links.empty()) {
+        const State::Shared link = state_->links.begin()->second;  // close() takes it off the table
+        state_->close(link);
+    }
     std::vector<std::string> failed;
     for (Child& child : state_->children) {
         if (auto fault = child.wait(most); !fault.empty()) failed.push_back(std::move(fault));
