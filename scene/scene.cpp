@@ -214,13 +214,7 @@ double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
     if (scratch.empty()) return 0;
     const double step = widest_step * std::max(frame_.cell_width(), frame_.cell_height());
     const double length = distance(a, b);
-    const WallLayer& first = layers_.front();
-    const CellPoint begin = first.frame.to_cells(a), last = first.frame.to_cells(b);
-    const auto thickness = [&](double share) -> Meters {
-        if (layers_.size() > 1) return wall_thickness(a + share * (b - a));
-        return {first.thickness->at(
-            {begin.u + share * (last.u - begin.u), begin.v + share * (last.v - begin.v)})};
-    };
+    const auto thickness_at = [&](double share) { return wall_thickness(a + share * (b - a)); };
     double sum = 0;
     for (std::size_t i = 0; i < scratch.size() && sum <= enough;) {
         const Crossing& wall = scratch[i];
@@ -230,8 +224,8 @@ double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                scratch[i].entry - end <= step;
              ++i) {
             const Crossing& part = scratch[i];
-            heavy =
-                heavy || thickness((part.entry + part.exit) / (2 * length)) >= rates.thinnest_heavy;
+            heavy = heavy ||
+                    thickness_at((part.entry + part.exit) / (2 * length)) >= rates.thinnest_heavy;
             end = part.exit;
             inside += part.length;
         }
