@@ -2,10 +2,10 @@
 #include "study/advise.hpp"
 
 #include "cli/advise_report.hpp"
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/passing_store.hpp"
 #include "cli/picture_output.hpp"
+#include "cli/run_commands.hpp"
 #include "cli/stop.hpp"
 #include "cli/study_display.hpp"
 #include "cli/study_run.hpp"

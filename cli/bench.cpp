@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
+#include "cli/tool_commands.hpp"
 #include "experiment/version.hpp"
 #include "scenario/json.hpp"
 #include "sim/error.hpp"

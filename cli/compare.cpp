@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "study/compare.hpp"
 
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/passing_store.hpp"
 #include "cli/picture_output.hpp"
+#include "cli/run_commands.hpp"
 #include "cli/stop.hpp"
 #include "cli/study_run.hpp"
 #include "cli/text_table.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/explain.hpp"
 
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/result_commands.hpp"
 #include "scenario/json.hpp"
 #include "study/inventory.hpp"
 #include "study/study.hpp"

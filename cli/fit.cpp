@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
+#include "cli/run_commands.hpp"
 #include "cli/text_table.hpp"
 #include "cli/waiting.hpp"
 #include "scenario/json.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
+#include "cli/tool_commands.hpp"
 #include "experiment/loss_table.hpp"
 #include "scenario/json.hpp"
 #include "scenario/read_value.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 
 /// The commands' options, one file for each family of commands: what a command is called, takes and
-/// tells in its --help. What it does stands in commands.hpp.
+/// tells in its --help. What it does stands in FAMILY_commands.hpp.
 namespace rovernet::cli {
 
 /// --quiet and --verbose, which every command has.
@@ -56,8 +56,8 @@ Check below_90_degrees();
 /// Whole number from 0 to 2^63 - 1, as in a file.
 Check whole_number();
 
-/// Adds run, sweep, compare, advise, fit, probe, validate. @param typed  the command line as it was
-/// typed
+/// Adds run, sweep, compare, advise, fit, probe.
+/// @param typed  the command line as it was typed
 void add_run_commands(Command app, const std::string& typed);
 /// Adds link, links, scene, where, draw, move.
 void add_scene_commands(Command app);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
 #include "cli/picture_output.hpp"
+#include "cli/result_commands.hpp"
 #include "cli/stop.hpp"
 #include "pictures/draw/picture_file.hpp"
 #include "sim/error.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/probe.hpp"
 
-#include "cli/commands.hpp"
+#include "cli/run_commands.hpp"
 #include "cli/text_table.hpp"
 #include "cli/waiting.hpp"
 #include "scenario/json.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/replay.hpp"
 
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/options.hpp"
 #include "cli/replay_inputs.hpp"
 #include "cli/stop.hpp"
 #include "cli/text_table.hpp"
+#include "cli/trace_commands.hpp"
 #include "cli/waiting.hpp"
 #include "experiment/run.hpp"
 #include "experiment/trace_input.hpp"
@@ -338,8 +338,9 @@ void add_replay(Command app) {
         .one_word()
         .excludes(verify)
         .excludes(speed);
-    const auto add = [&](const char* name, std::optional<std::string>& value, const char* what) {
-        return replay.add_option(name, value, what).excludes(verify).excludes(speed);
+    const auto add = [&, command = replay](const char* name, std::optional<std::string>& value,
+                                           const char* what) {
+        return command.add_option(name, value, what).excludes(verify).excludes(speed);
     };
     add("--map", a.map, "map (.yaml, .png) in place of the recorded one");
     add("--as", a.as, "of an ns-2 trace: the radio that others are compared with, as --with");

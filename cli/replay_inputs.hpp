@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cli/commands.hpp"
+#include "cli/trace_commands.hpp"
 
 namespace rovernet::cli {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/playing.hpp"
+#include "cli/scene_commands.hpp"
+#include "cli/tool_commands.hpp"
 #include "experiment/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"

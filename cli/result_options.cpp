@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/options.hpp"
+#include "cli/result_commands.hpp"
 
 namespace rovernet::cli {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/results.hpp"
 
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/result_commands.hpp"
 #include "cli/text_table.hpp"
 #include "scenario/json.hpp"
 #include "scenario/toml.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run.hpp"
 
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/run_commands.hpp"
 #include "cli/run_output.hpp"
 #include "cli/stop.hpp"
 #include "cli/waiting.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/picture_output.hpp"
 #include "cli/playing.hpp"
+#include "cli/scene_commands.hpp"
 #include "cli/stop.hpp"
 #include "cli/waiting.hpp"
 #include "experiment/link_table.hpp"

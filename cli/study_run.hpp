@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cli/commands.hpp"
+#include "cli/run_commands.hpp"
 #include "study/sweep.hpp"
 
 namespace rovernet::cli {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/sweep.hpp"
 
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/run_commands.hpp"
 #include "cli/slurm.hpp"
 #include "cli/study_run.hpp"
 #include "scenario/json.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
+#include "cli/trace_commands.hpp"
 #include "cli/trace_notices.hpp"
 #include "experiment/capture.hpp"
 #include "experiment/loss_table.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/text_table.hpp"
+#include "cli/trace_commands.hpp"
 #include "cli/trace_notices.hpp"
 #include "experiment/message_at_robot.hpp"
 #include "experiment/trace_input.hpp"

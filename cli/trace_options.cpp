@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/options.hpp"
+#include "cli/trace_commands.hpp"
 
 namespace rovernet::cli {
 namespace {

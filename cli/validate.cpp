@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
 #include "cli/diagnostics.hpp"
 #include "cli/stop.hpp"
 #include "cli/text_table.hpp"
+#include "cli/tool_commands.hpp"
 #include "cli/waiting.hpp"
 #include "experiment/output.hpp"
 #include "study/validation/validation.hpp"
