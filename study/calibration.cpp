@@ -219,8 +219,8 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
     const KnownLink& some = out.known.links.front();
     double budget = some.budget;
     for (const KnownLink& link : out.known.links) budget = std::max(budget, link.budget);
-    const Meters reach = truth.reach(Db{budget}, some.frequency);
-    out.models = calibrate(out.known, scenario, model, reach);
+    out.decided_within = truth.reach(Db{budget}, some.frequency);
+    out.models = calibrate(out.known, scenario, model, out.decided_within);
     return out;
 }
 

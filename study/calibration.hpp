@@ -48,6 +48,8 @@ double loss_error_at_budget(const KnownLinks& known, const Scenario& scenario);
 struct Calibration {
     std::string reference;  ///< model; empty: measured levels
     KnownLinks known;
+    Meters decided_within =
+        Propagation::anything;  ///< decisions count on links no longer than this
     std::vector<CalibratedModel> models;
     /// See loss_error_at_budget() [dB].
     double loss_error = 0;

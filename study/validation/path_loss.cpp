@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "models/propagation/list.hpp"
+#include "scenario/toml.hpp"
 #include "study/calibration.hpp"
 #include "study/free_parameters.hpp"
 #include "study/known_links.hpp"
 #include "study/medium_cost.hpp"
+#include "study/prediction_errors.hpp"
 #include "study/validation/validation_charts.hpp"
 #include "study/validation/validation_scene.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <map>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -19,20 +22,40 @@ namespace {
 
 constexpr const char *as_given = "as given", *after_fit = "fitted", *reference_series = "reference";
 
-/// Model whose losses are taken as true where there are walls: the most detailed that is listed.
-std::string most_detailed_with_walls() {
-    std::string out = "multi_wall";
-    for_each_model([&]<class Model>() {
-        if (Model::name == "rays") out = "rays";
-    });
-    return out;
-}
+/// Form of a model: keys of [propagation]. The label of the most detailed one is the name of the
+/// model.
+struct Form {
+    const char *label, *keys;
+};
 
-Table model_table(const std::string& model) {
-    Table propagation, settings;
-    propagation.set("model", model);
+/// Cheaper forms of `rays`.
+constexpr std::array fewer_rays{
+    Form{"rays, order 0", "model = 'rays'\norder = 0\ndiffraction = 'none'"},
+    Form{"rays, order 1", "model = 'rays'\norder = 1\ndiffraction = 'none'"},
+    Form{"rays, order 2, knife edge", "model = 'rays'\norder = 2\ndiffraction = 'knife_edge'"},
+    Form{"rays, order 2, UTD", "model = 'rays'\norder = 2\ndiffraction = 'utd'"}};
+
+/// Model whose losses are taken as true, and cheaper forms of it.
+struct Truth {
+    Form model;
+    std::span<const Form> cheaper = {};
+};
+constexpr Truth in_the_open{{"two_ray", "model = 'two_ray'\nform = 'exact'"}};
+constexpr Truth among_walls{{"rays", "model = 'rays'\norder = 3\ndiffraction = 'utd'"}, fewer_rays};
+
+Table propagation_settings(Table propagation) {
+    Table settings;
     settings.set("propagation", std::move(propagation));
     return settings;
+}
+Table settings_of(const Form& form) {
+    return propagation_settings(*parse_toml(form.keys, form.label).table());
+}
+/// A model as a user would write it who gives nothing but its name.
+Table settings_of(const std::string& model) {
+    Table propagation;
+    propagation.set("model", model);
+    return propagation_settings(std::move(propagation));
 }
 
 /// Variant, and the share of links that it decides wrongly.
@@ -41,29 +64,49 @@ struct JudgedModel {
     double wrong_links = 0;
 };
 
-/// Models fitted to the reference on links of the scene, as by `rovernet fit`; quickly: on fewer.
-std::vector<CalibratedModel> calibrated(const Scenario& scenario, const std::string& reference,
-                                        const ValidationSize& size) {
-    if (!size.quick) return calibrate_to_model(scenario, reference, {}).models;
-    const KnownLinks known = sample_links(scenario, model_with(scenario, reference, {}),
-                                          {.replications = 4, .times = 10, .links = 400});
-    return calibrate(known, scenario, reference, Propagation::anything);
+/// Models fitted to the reference on links of the scene, as by `rovernet advise`; quickly: on
+/// fewer.
+Calibration calibrated(const Scenario& scenario, const std::string& reference,
+                       const ValidationSize& size) {
+    if (!size.quick) return calibrate_to_model(scenario, reference, {}, beyond_radio);
+    Calibration out;
+    out.known = censored(sample_links(scenario, model_with(scenario, reference, {}),
+                                      {.replications = 4, .times = 10, .links = 400}),
+                         beyond_radio);
+    out.models = calibrate(out.known, scenario, reference, out.decided_within);
+    return out;
+}
+
+/// Share of the known links that a form decides wrongly.
+double wrong_links(const Scenario& scenario, const Calibration& calibration) {
+    const Propagation model = scenario.propagation.make();
+    Predictions predictions(calibration.known, calibration.decided_within);
+    for (std::size_t i = 0; i < calibration.known.links.size(); ++i) {
+        predictions.add(i, calibration.known.loss_by(model, calibration.known.links[i]));
+    }
+    return predictions.errors().wrong();
 }
 
 /// Models of a scene, the reference first.
-std::vector<JudgedModel> models_of(const ValidationScene& scene, const std::string& reference,
+std::vector<JudgedModel> models_of(const ValidationScene& scene, const Truth& truth,
                                    const ValidationSize& size) {
-    std::vector<JudgedModel> out{{{reference, reference_series, model_table(reference)}, 0}};
-    for (const CalibratedModel& model :
-         calibrated(scene.scenario(model_table(reference)), reference, size)) {
+    const Table settings = settings_of(truth.model);
+    std::vector<JudgedModel> out{{{truth.model.label, reference_series, settings}, 0}};
+    const Calibration calibration = calibrated(scene.scenario(settings), truth.model.label, size);
+    for (const CalibratedModel& model : calibration.models) {
         if (!model.failure.empty()) continue;
         if (model.as_given && model.model != "disc") {
             out.push_back(
-                {{model.model, as_given, model_table(model.model)}, model.as_given->wrong()});
+                {{model.model, as_given, settings_of(model.model)}, model.as_given->wrong()});
         }
         if (model.parameters.empty()) continue;
         const PredictionErrors& errors = model.left_out ? *model.left_out : model.fitted;
         out.push_back({{model.model, after_fit, model.settings}, errors.wrong()});
+    }
+    for (const Form& form : truth.cheaper) {
+        const Table fewer = settings_of(form);
+        out.push_back(
+            {{form.label, as_given, fewer}, wrong_links(scene.scenario(fewer), calibration)});
     }
     return out;
 }
@@ -92,9 +135,9 @@ struct ScenePanels {
     ValidationPanel delivery, links;
 };
 
-ScenePanels panels_of(const ValidationScene& scene, const std::string& reference,
-                      std::size_t replications, const ValidationSize& size) {
-    const std::vector<JudgedModel> models = models_of(scene, reference, size);
+ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::size_t replications,
+                      const ValidationSize& size) {
+    const std::vector<JudgedModel> models = models_of(scene, truth, size);
     std::vector<Variant> variants;
     for (const JudgedModel& model : models) variants.push_back(model.variant);
     const std::vector<VariantRuns> runs = paired_runs(scene, variants, replications);
@@ -147,17 +190,17 @@ std::string fit_sentence(const ValidationPanel& panel) {
 }  // namespace
 
 std::vector<ValidationChart> path_loss_charts(const ValidationSize& size) {
-    const std::string walls = most_detailed_with_walls();
     const std::size_t replications = size.of(40, 2);
     std::vector<ScenePanels> panels;
-    panels.push_back(panels_of(open_field_scene(), "two_ray", replications, size));
-    panels.push_back(panels_of(office_scene(), walls, replications, size));
-    panels.push_back(panels_of(cave_scene(), walls, replications, size));
+    panels.push_back(panels_of(open_field_scene(), in_the_open, replications, size));
+    panels.push_back(panels_of(office_scene(), among_walls, replications, size));
+    panels.push_back(panels_of(cave_scene(), among_walls, replications, size));
     const std::string truth = fmt::format(
         "Robots on the move flood a message every two seconds, {} replications of each scene. True "
-        "is the exact sum of two rays on the open field, and {} in the office and in the cave. "
-        "Fitted: to losses of the true model on other replications (`rovernet fit`).",
-        replications, walls);
+        "is the exact sum of two rays on the open field, and in the office and in the cave rays of "
+        "three reflections with diffraction by UTD. Fitted: to losses of the true model on other "
+        "replications, as `rovernet advise` does.",
+        replications);
     ValidationChart delivery{
         .name = "path_loss", .title = "Which path loss model, and is it fitted?", .truth = truth};
     ValidationChart links{.name = "wrong_links",

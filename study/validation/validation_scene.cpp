@@ -90,7 +90,6 @@ antenna_height = "1 m"
 
 [propagation]
 model = "two_ray"
-form = "exact"
 sigma = "0 dB"
 
 [[robot]]
