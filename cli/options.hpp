@@ -56,7 +56,7 @@ Check below_90_degrees();
 /// Whole number from 0 to 2^63 - 1, as in a file.
 Check whole_number();
 
-/// Adds run, sweep, compare, advise, fit, probe.
+/// Adds run, sweep, compare, advise, fit, probe, live, locate.
 /// @param typed  the command line as it was typed
 void add_run_commands(Command app, const std::string& typed);
 /// Adds link, links, scene, where, draw, move.
@@ -67,6 +67,8 @@ void add_result_commands(Command app);
 void add_trace(Command app);
 /// Adds live.
 void add_live(Command app);
+/// Adds locate.
+void add_locate(Command app);
 /// Adds replay.
 void add_replay(Command app);
 /// Adds models, loss, material, validate, trace, replay, bench, version, completion.

@@ -191,6 +191,7 @@ void add_run_commands(Command app, const std::string& typed) {
     add_advise(app, typed);
     add_fit(app);
     add_probe(app);
+    add_locate(app);
 }
 
 }  // namespace rovernet::cli

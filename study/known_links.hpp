@@ -46,6 +46,8 @@ struct KnownLinks {
     const char* group_name = "replication";  ///< what a group is
     /// Levels were measured: powers and gains may be others than the scenario says.
     bool measured = false;
+    /// Places of receivers are given; false: `to` is nowhere.
+    bool knows_receivers = true;
     /// Scene that they lie in.
     std::shared_ptr<const Scene> scene;
     Meters floor_height;
@@ -99,6 +101,9 @@ class LinkSample {
     std::unique_ptr<State> state_;
 };
 
+/// What a file of levels says of its receivers.
+enum class Receivers { known, may_be_unknown };
+
 /// Measured levels as links of a scenario: a file of comma-separated values whose first line names
 /// the columns; lines that begin with # are comments.
 ///
@@ -109,9 +114,11 @@ class LinkSample {
 ///                                        antennas' places if not given
 ///
 /// Loss is the power of the scenario's [radio] with its gains, less the level.
-/// @param floor  level [dBm] below which nothing was received
+/// @param floor      level [dBm] below which nothing was received
+/// @param receivers  may_be_unknown: a file may have `place` in their place
 /// @throws InputError with line and column for what is no such file
-KnownLinks read_levels(const std::string& path, const Scenario& scenario, std::optional<Dbm> floor);
+KnownLinks read_levels(const std::string& path, const Scenario& scenario, std::optional<Dbm> floor,
+                       Receivers receivers = Receivers::known);
 
 /// How well measurements repeat: nobody predicts them better.
 struct Repeatability {

@@ -34,9 +34,10 @@ std::vector<Word> fields_of(std::string_view line) {
 /// Reads the lines of a file of levels by the names of their columns.
 class LevelsReader {
   public:
-    LevelsReader(const std::string& path, const Radio& radio, std::optional<Dbm> floor)
+    LevelsReader(const std::string& path, const Radio& radio, std::optional<Dbm> floor,
+                 Receivers receivers)
         : lines_(TextSource(path)), radio_(radio), floor_(floor) {
-        read_head();
+        read_head(receivers);
     }
 
     void read(KnownLinks& out) {
@@ -50,6 +51,7 @@ class LevelsReader {
             out.links.push_back(link());
         }
         out.groups = groups_.size();
+        out.knows_receivers = column("to_x_m").has_value();
         if (out.links.empty()) throw InputError(lines_.where(), "no level in this file");
     }
 
@@ -66,7 +68,7 @@ class LevelsReader {
         }
     }
 
-    void read_head() {
+    void read_head(Receivers receivers) {
         const auto line = next();
         if (!line) throw InputError(lines_.where(), "an empty file");
         const std::vector<Word> names = fields_of(*line);
@@ -75,14 +77,17 @@ class LevelsReader {
             const auto at = std::find(known.begin(), known.end(), names[i].text);
             if (at != known.end()) column_[static_cast<std::size_t>(at - known.begin())] = i;
         }
+        const bool by_place = receivers == Receivers::may_be_unknown && !column("to_x_m") &&
+                              !column("to_y_m") && column("place");
         for (const std::string_view needed :
-             {"from_x_m", "from_y_m", "to_x_m", "to_y_m", "level_dbm"}) {
-            if (column(needed)) continue;
+             {"from_x_m", "from_y_m", "level_dbm", "to_x_m", "to_y_m"}) {
+            if (column(needed) || (by_place && needed.starts_with("to_"))) continue;
             throw InputError(
                 lines_.where(),
                 fmt::format("no column \"{}\"; expected at least from_x_m, from_y_m, to_x_m, "
-                            "to_y_m and level_dbm",
-                            needed));
+                            "to_y_m{} and level_dbm",
+                            needed,
+                            receivers == Receivers::known ? "" : " (or place in their place)"));
         }
     }
 
@@ -120,9 +125,13 @@ class LevelsReader {
             return i ? std::string(words_[*i].text) : std::string();
         };
         const auto text = [](Vec3 p) { return fmt::format("{} {} {}", p.x, p.y, p.z); };
-        const std::string group = column("group") ? word("group") : text(link.to);
-        link.place =
-            column("place") ? group + " " + word("place") : text(link.from) + " " + text(link.to);
+        const bool knows_receiver = column("to_x_m").has_value();
+        const std::string group = column("group")  ? word("group")
+                                  : knows_receiver ? text(link.to)
+                                                   : word("place");
+        link.place = !knows_receiver   ? word("place")
+                     : column("place") ? group + " " + word("place")
+                                       : text(link.from) + " " + text(link.to);
         link.group =
             groups_.emplace(group, static_cast<std::uint32_t>(groups_.size())).first->second;
         return link;
@@ -139,8 +148,8 @@ class LevelsReader {
 
 }  // namespace
 
-KnownLinks read_levels(const std::string& path, const Scenario& scenario,
-                       std::optional<Dbm> floor) {
+KnownLinks read_levels(const std::string& path, const Scenario& scenario, std::optional<Dbm> floor,
+                       Receivers receivers) {
     const NetworkSettings settings = network_settings(scenario);
     KnownLinks out;
     out.group_name = "receiver";
@@ -148,7 +157,7 @@ KnownLinks read_levels(const std::string& path, const Scenario& scenario,
     out.scene = settings.scene ? settings.scene : std::make_shared<Scene>();
     out.floor_height = settings.floor_height;
     out.seed = scenario.scenario.seed;
-    LevelsReader(path, scenario.radio, floor).read(out);
+    LevelsReader(path, scenario.radio, floor, receivers).read(out);
     return out;
 }
 

@@ -99,6 +99,7 @@ struct Playground {
     Network net;
     std::vector<Radio> radios{};
     std::shared_ptr<Log> log = std::make_shared<Log>();
+    std::vector<std::vector<std::optional<Heard>>> arrivals{};  // by sending and node
 
     Playground(std::uint32_t number, Propagation model, Collision collision, bool reference)
         : seed(number),
@@ -157,10 +158,18 @@ struct Playground {
             }
         }
         net.run_for(100ms);
+        for (const Sending& sending : log->sendings) {
+            auto& at_each = arrivals.emplace_back();
+            for (std::uint32_t i = 0; i < radios.size(); ++i)
+                at_each.push_back(arrival(sending, NodeId{i}));
+        }
     }
 
     /// A sending as it arrives at `node`, if it is strong enough to interfere there.
     std::optional<Heard> heard(const Sending& sending, NodeId node) const {
+        return arrivals[static_cast<std::size_t>(&sending - log->sendings.data())][node.index()];
+    }
+    std::optional<Heard> arrival(const Sending& sending, NodeId node) const {
         if (node.index() >= sending.robots.size() || !sending.robots[node.index()].on) return {};
         const Vec3 from = sending.robots[sending.from.index()].antenna;
         const Vec3 to = sending.robots[node.index()].antenna;
