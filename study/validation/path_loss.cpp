@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -168,21 +167,39 @@ ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::siz
     return {delivery, links};
 }
 
-/// The best fitted model, and what fitting did to it.
-std::string fit_sentence(const ValidationPanel& panel) {
+/// The point of least error that costs at most `cost` [ns], but for the reference.
+const ValidationPoint* best_within(const ValidationPanel& panel, double cost) {
     const ValidationPoint* best = nullptr;
-    std::map<std::string, double> given;
     for (const ValidationPoint& p : panel.points) {
-        if (p.series == as_given) given[p.label] = p.error;
-        if (p.series != reference_series && (!best || p.error < best->error)) best = &p;
+        if (p.series == reference_series || p.cost.median > cost) continue;
+        if (!best || p.error < best->error) best = &p;
     }
+    return best;
+}
+
+std::string name_of(const ValidationPoint& p) { return p.label + " " + p.series; }
+
+/// The best model, the best that costs a hundredth, and what fitting did to that.
+std::string nearest_sentence(const ValidationPanel& panel) {
+    const ValidationPoint& reference = panel.points.front();
+    const ValidationPoint* best = best_within(panel, reference.cost.median);
+    const ValidationPoint* cheap = best_within(panel, 0.01 * reference.cost.median);
     if (!best) return "";
+    const auto share = [&](const ValidationPoint& p) {
+        return two_digits(p.cost.median / reference.cost.median);
+    };
     std::string out =
-        fmt::format("In the {}, {} {} comes nearest to {}: {:.2g} off, at {} of its cost.",
-                    panel.title, best->label, best->series, panel.points.front().label, best->error,
-                    two_digits(best->cost.median / panel.points.front().cost.median));
-    if (best->series == after_fit && given.contains(best->label)) {
-        out += fmt::format(" Without the fit it is {:.2g} off.", given[best->label]);
+        fmt::format("In the {}, {} comes nearest to {}: {:.2g} off, at {} of its cost.",
+                    panel.title, name_of(*best), reference.label, best->error, share(*best));
+    if (!cheap) return out;
+    if (cheap != best) {
+        out += fmt::format(" Of those that cost a hundredth {} comes nearest: {:.2g} off, at {}.",
+                           name_of(*cheap), cheap->error, share(*cheap));
+    }
+    if (cheap->series != after_fit) return out;
+    for (const ValidationPoint& p : panel.points) {
+        if (p.label == cheap->label && p.series == as_given)
+            out += fmt::format(" Without the fit it is {:.2g} off.", p.error);
     }
     return out;
 }
@@ -207,8 +224,8 @@ std::vector<ValidationChart> path_loss_charts(const ValidationSize& size) {
                           .title = "How many links does a path loss model decide wrongly?",
                           .truth = truth};
     for (ScenePanels& scene : panels) {
-        delivery.sentences.push_back(fit_sentence(scene.delivery));
-        links.sentences.push_back(fit_sentence(scene.links));
+        delivery.sentences.push_back(nearest_sentence(scene.delivery));
+        links.sentences.push_back(nearest_sentence(scene.links));
         delivery.panels.push_back(std::move(scene.delivery));
         links.panels.push_back(std::move(scene.links));
     }
