@@ -91,6 +91,11 @@ Session::Session(const Scenario& scenario, NetworkSettings settings)
       network_(std::make_shared<Network>(std::move(settings))),
       end_(start_of_run + scenario.scenario.duration) {
     populate(*network_, scenario);
+    for (const RobotTable& table : scenario.robots) {
+        for (int i = 0; table.scan && i < table.count.value_or(1); ++i) {
+            range_finders_[*network_->find(table.name_of(i))] = *table.scan;
+        }
+    }
 }
 
 Session::~Session() {
@@ -271,6 +276,25 @@ Twist Session::twist(NodeId robot) const {
     // A chord is a little shorter than its arc.
     if (driven->arc->speed != 0) return {driven->arc->speed, leg.turning};
     return {driven->speed < 0 ? -speed : speed, leg.turning};
+}
+
+const RangeFinder* Session::range_finder(NodeId robot) const {
+    const auto found = range_finders_.find(robot);
+    return found == range_finders_.end() ? nullptr : &found->second;
+}
+
+std::vector<double> Session::scan(NodeId robot) const {
+    const RangeFinder& finder = range_finders_.at(robot);
+    std::vector<RoundBody> others;
+    for (NodeId other{0}; other.index() < network_->size(); ++other.value) {
+        const RobotState state = network_->robot(other);
+        const bool is_there = state.presence == Presence::on || state.presence == Presence::off;
+        if (other != robot && is_there) others.push_back({state.at, state.radius});
+    }
+    std::vector<double> ranges(static_cast<std::size_t>(finder.beams));
+    finder.measure(network_->scene(), network_->position(robot), network_->heading(robot), others,
+                   ranges);
+    return ranges;
 }
 
 }  // namespace rovernet

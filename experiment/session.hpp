@@ -5,6 +5,7 @@
 #include "mobility/driven.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
+#include "scene/range_finder.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -111,6 +112,13 @@ class Session {
     /// Speed of a robot: as it is driven, or else that of its leg.
     Twist twist(NodeId robot) const;
 
+    /// Range finder that the scenario gives to a robot; null if it has none.
+    const RangeFinder* range_finder(NodeId robot) const;
+    /// Distances that a robot's range finder measures now [m], one for each beam: to walls, and to
+    /// the bodies of other robots. Only a call costs anything.
+    /// @throws std::out_of_range if it has none
+    std::vector<double> scan(NodeId robot) const;
+
   private:
     static constexpr std::uint64_t every_event = ~std::uint64_t{0};
 
@@ -144,6 +152,7 @@ class Session {
     std::map<ClientId, Client> clients_;
     std::map<NodeId, ClientId> drivers_;
     std::map<NodeId, Driving> driving_;
+    std::map<NodeId, RangeFinder> range_finders_;
     std::shared_ptr<Ears> ears_;  // null until a client comes
     std::function<void(const Input&)> tell_;
     ClientId next_client_ = 0;
