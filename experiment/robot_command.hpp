@@ -32,6 +32,12 @@ struct GoalCommand {
 /// Command to stand still.
 struct StopCommand {};
 
+/// Command that puts the robot somewhere else at once, at rest.
+struct PlaceCommand {
+    Vec3 at;          ///< [m]
+    Radians heading;  ///< [rad], counter-clockwise from the x axis
+};
+
 /// Command to send a message: to everyone by the routing protocol, or over one hop.
 struct SendCommand {
     std::optional<NodeId> to = {};  ///< none: everyone
@@ -40,7 +46,8 @@ struct SendCommand {
     std::optional<std::uint32_t> size = {};  ///< on air [bytes]; the payload's length if not given
 };
 
-using RobotCommand = std::variant<DriveCommand, GoalCommand, StopCommand, SendCommand>;
+using RobotCommand =
+    std::variant<DriveCommand, GoalCommand, StopCommand, PlaceCommand, SendCommand>;
 
 /// Command as it was accepted: what happens after that follows from it and the scenario.
 struct Input {

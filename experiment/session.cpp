@@ -206,6 +206,7 @@ void Session::check_robot(ClientId client, NodeId robot) {
 std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,
                                                 const RobotCommand& command, std::uint64_t number) {
     check_robot(client, robot);
+    advance(network_->now(), every_event);  // what the last command caused at this time comes first
     if (tell_) tell_({network_->now(), robot, client_of(client).name, number, command});
     ears_->last_sent.reset();
     std::visit([&](const auto& each) { act(robot, each); }, command);
@@ -231,6 +232,11 @@ void Session::act(NodeId robot, const GoalCommand& command) {
 void Session::act(NodeId robot, const StopCommand&) {
     driving_.erase(robot);
     network_->stop(robot);
+}
+
+void Session::act(NodeId robot, const PlaceCommand& command) {
+    driving_.erase(robot);
+    network_->place(robot, command.at, command.heading);
 }
 
 void Session::act(NodeId robot, const SendCommand& command) {

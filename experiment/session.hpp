@@ -143,6 +143,7 @@ class Session {
     void act(NodeId robot, const DriveCommand& command);
     void act(NodeId robot, const GoalCommand& command);
     void act(NodeId robot, const StopCommand& command);
+    void act(NodeId robot, const PlaceCommand& command);
     void act(NodeId robot, const SendCommand& command);
     const Driving* driving(NodeId robot) const;
 

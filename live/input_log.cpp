@@ -39,6 +39,11 @@ void put(Table& line, const GoalCommand& command, const Network&) {
     line.set("speed", command.speed.value);
 }
 void put(Table& line, const StopCommand&, const Network&) { line.set("do", "stop"); }
+void put(Table& line, const PlaceCommand& command, const Network&) {
+    line.set("do", "place");
+    line.set("at", Array{command.at.x, command.at.y, command.at.z});
+    line.set("heading", command.heading.value);
+}
 void put(Table& line, const SendCommand& command, const Network& network) {
     line.set("do", "send");
     line.set("to", command.to ? network.name(*command.to) : "*");
@@ -122,11 +127,11 @@ SendCommand logged_message(const JsonElement& to, const JsonElement& port, const
 
 /// Reads a line that is neither the first nor the last.
 Input input_in(const JsonElement& line, const Network& network) {
-    static constexpr std::array<std::string_view, 14> keys = {
-        "t_ns",       "n",    "client", "robot", "do",   "v",    "w",
-        "timeout_ns", "goal", "speed",  "to",    "port", "data", "size"};
-    const auto [t, n, client, robot, what, v, w, timeout, goal, speed, to, port, data, size] =
-        members(line, keys);
+    static constexpr std::array<std::string_view, 16> keys = {
+        "t_ns", "n",     "client", "robot",   "do", "v",    "w",    "timeout_ns",
+        "goal", "speed", "at",     "heading", "to", "port", "data", "size"};
+    const auto [t, n, client, robot, what, v, w, timeout, goal, speed, at, heading, to, port, data,
+                size] = members(line, keys);
     const auto given = [&](const auto& member, std::string_view key) -> const JsonElement& {
         return needed(member, line, key, "a line of inputs.jsonl");
     };
@@ -144,11 +149,14 @@ Input input_in(const JsonElement& line, const Network& network) {
     } else if (name == "goal") {
         input.command = GoalCommand{logged_place(given(goal, "goal")),
                                     {given(speed, "speed").number(positive)}};
+    } else if (name == "place") {
+        input.command =
+            PlaceCommand{logged_place(given(at, "at")), {given(heading, "heading").number(any)}};
     } else if (name == "send") {
         input.command = logged_message(given(to, "to"), given(port, "port"), given(data, "data"),
                                        size, network);
     } else if (name != "stop") {
-        act.fail("bad_value", "expected velocity, goal, stop or send");
+        act.fail("bad_value", "expected velocity, goal, stop, place or send");
     }
     return input;
 }

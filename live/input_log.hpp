@@ -20,6 +20,7 @@
 //     {"t_ns":200000000,"n":2,"client":"A","robot":"A","do":"send","to":"*","port":7,"data":"Rg=="}
 //     {"t_ns":200000000,"n":2,"client":"A","robot":"B","do":"goal","goal":[1,12,0],"speed":1.5}
 //     {"t_ns":300000000,"n":3,"client":"A","robot":"A","do":"stop"}
+//     {"t_ns":300000000,"n":4,"client":"A","robot":"B","do":"place","at":[1,12,0],"heading":1.57}
 //     {"end_ns":300000000,"fingerprint":"b13b..."}
 
 namespace rovernet {

@@ -180,13 +180,14 @@ void Motion::move(NodeId id, Movement movement) {
     if (world_.running && world_.medium.is_on(id)) next_leg(id);
 }
 
-void Motion::place(NodeId id, Vec3 at) {
+void Motion::place(NodeId id, Vec3 at, std::optional<Radians> heading) {
     check_place(at);
     end_movement(id);
     nodes_[id.index()].movement = Fixed{};
     nodes_[id.index()].moving = true;
     Leg leg = standing_leg(mover(id));
     leg.from = leg.to = at;
+    if (heading) leg.heading = wrapped(heading->value);
     if (world_.running) return take(id, leg);
     put(id, leg);
 }

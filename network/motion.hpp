@@ -61,8 +61,9 @@ class Motion {
     /// Replaces the node's movement, now.
     void move(NodeId node, Movement movement);
     /// Puts a robot somewhere else at once, at rest; its movement is over.
+    /// @param heading  that it has there; as before if not given
     /// @throws std::invalid_argument for a coordinate that is not finite or beyond 1e15 m
-    void place(NodeId node, Vec3 at);
+    void place(NodeId node, Vec3 at, std::optional<Radians> heading = {});
     /// Stops a robot that was switched off, and keeps its leg.
     void pause(NodeId node);
     /// Moves a robot on that was switched on: what is left of its leg takes as long as before.

@@ -66,7 +66,9 @@ Subscription Network::on_link_lost(NodeId node, std::function<void(NodeId)> reac
 void Network::move(NodeId node, Movement movement) {
     engine_->motion.move(node, std::move(movement));
 }
-void Network::place(NodeId node, Vec3 at) { engine_->motion.place(node, at); }
+void Network::place(NodeId node, Vec3 at, std::optional<Radians> heading) {
+    engine_->motion.place(node, at, heading);
+}
 void Network::stop(NodeId node) { engine_->motion.place(node, position(node)); }
 void Network::switch_off(NodeId node) { engine_->switch_robot(node, false); }
 void Network::take_away(NodeId node, Presence why) {

@@ -102,7 +102,8 @@ class Network {
     /// Replaces the node's movement, now.
     void move(NodeId node, Movement movement);
     /// Puts a robot somewhere else at once, at rest; its movement is over.
-    void place(NodeId node, Vec3 at);
+    /// @param heading  that it has there [rad]; as before if not given
+    void place(NodeId node, Vec3 at, std::optional<Radians> heading = {});
     /// Stops a robot where it is; its movement is over.
     void stop(NodeId node);
     /// Switches a robot off: it stops, its radio is silent and deaf.

@@ -277,4 +277,43 @@ TEST_CASE("session: a robot's speed is what it is driven at, and that of its leg
     CHECK(session.twist({1}).turn_rate == 0);
 }
 
+TEST_CASE("session: a robot is put elsewhere, and commands of one time come one after the other") {
+    Session session{scenario()};
+    const ClientId client = session.attach({NodeId{1}});
+    session.drive(client, {1}, {1}, {0});
+    session.step(start_of_run + 1s);
+    session.carry_out(client, {1}, PlaceCommand{{5, 6, 0}, {1.5}});
+    session.step(start_of_run + 2s);
+    CHECK(session.network().position({1}) == Vec3{5, 6, 0});
+    CHECK(session.network().heading({1}).value == 1.5);
+    CHECK(session.twist({1}).speed == 0);
+}
+
+TEST_CASE("session: a range finder sees walls and robots from where its robot is") {
+    Session session{scenario(R"([[robot]]
+name = "d"
+count = 2
+at = ["0 m", "3 m"]
+radius = "0.5 m"
+scan = { beams = 3, range = "20 m" }
+)")};
+    const auto d = *session.network().find("d1");
+    REQUIRE(session.range_finder(d));
+    CHECK_FALSE(session.range_finder({0}));
+    CHECK_THROWS_AS(session.scan({0}), std::out_of_range);
+    CHECK(session.scan(d)[0] == 0);  // its twin is where it is
+    session.network().place(*session.network().find("d0"), {0, -9});
+    // Down, at 3 m less its radius, is the robot a; ahead and up there is nobody.
+    const auto sees = [&](double right, double ahead, double left) {
+        const std::vector<double> ranges = session.scan(d);
+        return std::abs(ranges[0] - right) < 1e-12 && ranges[1] == ahead &&
+               std::abs(ranges[2] - left) < 1e-12;
+    };
+    CHECK(sees(2.8, 20, 20));
+    session.network().place({0}, {0, 9});
+    CHECK(sees(11.5, 20, 5.8));
+    session.network().take_away({0}, Presence::left);
+    CHECK(session.scan(d)[2] == 20);
+}
+
 }  // namespace session_test
