@@ -2,6 +2,7 @@
 #include "live/doors.hpp"
 
 #include "live/child.hpp"
+#include "live/loopback.hpp"
 #include "sim/error.hpp"
 
 #include <boost/asio.hpp>
@@ -10,7 +11,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <list>
 #include <map>
+#include <netinet/tcp.h>
 #include <optional>
 #include <stdexcept>
 #include <sys/stat.h>
@@ -29,47 +32,36 @@ using Socket = asio::generic::stream_protocol::socket;
 constexpr std::size_t longest_line = std::size_t{1} << 20U;  // [bytes]
 constexpr std::size_t most_input = std::size_t{64} << 20U;   // [bytes] of all connections
 constexpr std::size_t most_connections = 500;
-constexpr std::size_t portion = 16'384;  // [bytes] that one read takes
+constexpr std::size_t most_messages = 1'024;                   // that wait in a stream
+constexpr std::size_t most_waiting = std::size_t{4} << 20U;    // [bytes] the same
+constexpr std::size_t much_waiting = std::size_t{256} << 10U;  // [bytes] then it is not read
+constexpr int stream_buffer = 256 << 10;  // [bytes] of the system: what it holds gets old
+constexpr std::size_t portion = 16'384;   // [bytes] that one read takes
 constexpr auto first_line_within = std::chrono::seconds(60);
 constexpr auto accepts_again_after = std::chrono::milliseconds(100);
 
-[[noreturn]] void fail_address(const std::string& address, const std::string& why) {
-    throw std::invalid_argument(fmt::format(
-        "{}: {}; expected an address of this machine alone, such as 127.0.0.1:7007", address, why));
-}
-
-asio::ip::tcp::endpoint loopback(const std::string& address) {
-    const std::size_t colon = address.rfind(':');
-    if (colon == std::string::npos) fail_address(address, "found no port");
-    std::string host = address.substr(0, colon);
-    const std::string port = address.substr(colon + 1);
-    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-    if (host == "localhost") host = "127.0.0.1";
-    constexpr unsigned long last_port = 65'535;
-    const bool is_number = !port.empty() && port.size() <= 5 &&
-                           port.find_first_not_of("0123456789") == std::string::npos;
-    if (!is_number || std::stoul(port) > last_port) {
-        fail_address(address, fmt::format("found the port \"{}\"", port));
-    }
-    error_code error;
-    const auto ip = asio::ip::make_address(host, error);
-    if (error) fail_address(address, fmt::format("found the host \"{}\"", host));
-    if (!ip.is_loopback()) fail_address(address, "this door has no password");
-    return {ip, static_cast<std::uint16_t>(std::stoul(port))};
+/// Has what was received acknowledged at once. A client that writes a command and a request, and
+/// has not switched off Nagle's algorithm, would wait 40 ms for that in each round.
+void acknowledge_at_once(Socket& socket) {
+    const int on = 1;
+    setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
 }
 
 }  // namespace
 
-/// One controller's connection.
+/// One program's connection.
 struct Link {
-    Link(Socket taken, Doors::Connection number) : socket(std::move(taken)), id(number) {}
+    Link(Socket taken, Doors::Connection number, const Doors::Streams* users)
+        : socket(std::move(taken)), id(number), streams(users) {}
 
     Socket socket;
     Doors::Connection id;
+    const Doors::Streams* streams;  // null: it carries lines
     Clock::time_point since = Clock::now();
     std::string input, sending, queued;
+    std::size_t messages = 0;  // that are queued
     std::size_t searched = 0;  // of the input: there is no end of line
-    bool has_spoken = false;   // a whole line
+    bool has_spoken = false;   // a whole line; in a stream: anything
     bool is_reading = false, is_writing = false;
     bool is_answered = true;  // its last line
     bool has_ended = false;   // no more comes in
@@ -81,37 +73,51 @@ struct Doors::State {
 
     using Shared = std::shared_ptr<Link>;
 
-    void add(Socket socket) {
+    /// An address of TCP, and who is told of those who come in there; nobody: they carry lines.
+    struct Gate {
+        asio::ip::tcp::acceptor acceptor;
+        std::optional<Streams> streams = {};
+    };
+
+    void add(Socket socket, const Streams* streams = nullptr) {
         if (links.size() >= most_connections) return;
-        const auto link = std::make_shared<Link>(std::move(socket), next++);
+        const auto link = std::make_shared<Link>(std::move(socket), next++, streams);
         links[link->id] = link;
+        if (streams) streams->opened(link->id);
         read(link);
     }
 
     template <class Acceptor>
-    void accept(Acceptor& acceptor) {
-        acceptor.async_accept([this, &acceptor](error_code error, auto socket) {
+    void accept(Acceptor& acceptor, const Streams* streams = nullptr) {
+        acceptor.async_accept([this, &acceptor, streams](error_code error, auto socket) {
             if (error == asio::error::operation_aborted) return;
             if (!error) {
-                add_accepted(std::move(socket));
-                return accept(acceptor);
+                prepare(socket, streams);
+                add(std::move(socket), streams);
+                return accept(acceptor, streams);
             }
             // No descriptor is free, say: that passes.
             auto timer = std::make_shared<asio::steady_timer>(io, accepts_again_after);
-            timer->async_wait([this, &acceptor, timer](error_code) { accept(acceptor); });
+            timer->async_wait(
+                [this, &acceptor, streams, timer](error_code) { accept(acceptor, streams); });
         });
     }
-    void add_accepted(asio::ip::tcp::socket socket) {
+    static void prepare(asio::ip::tcp::socket& socket, const Streams* streams) {
         error_code ignored;
         socket.set_option(asio::ip::tcp::no_delay(true), ignored);
         socket.set_option(asio::socket_base::keep_alive(true), ignored);
-        add(std::move(socket));
+        if (!streams) return;
+        socket.set_option(asio::socket_base::send_buffer_size(stream_buffer), ignored);
     }
-    void add_accepted(asio::local::stream_protocol::socket socket) { add(std::move(socket)); }
+    static void prepare(asio::local::stream_protocol::socket&, const Streams*) {}
+
+    static bool is_busy(const Link& link) {
+        if (link.streams) return link.sending.size() + link.queued.size() > much_waiting;
+        return link.is_writing || link.input.size() > longest_line;
+    }
 
     void read(const Shared& link) {
-        if (link->is_reading || link->is_writing || link->has_ended || link->is_closing) return;
-        if (link->input.size() > longest_line) return;
+        if (link->is_reading || link->has_ended || link->is_closing || is_busy(*link)) return;
         link->is_reading = true;
         link->socket.async_wait(Socket::wait_read,
                                 [this, link](error_code error) { take_in(link, error); });
@@ -127,6 +133,7 @@ struct Doors::State {
             const std::size_t got =
                 link->socket.read_some(asio::buffer(link->input.data() + before, portion), error);
             link->input.resize(before + got);
+            if (link->streams) acknowledge_at_once(link->socket);
         }
         if (error) link->has_ended = true;
         serve(link);
@@ -138,14 +145,26 @@ struct Doors::State {
         return bytes;
     }
 
-    /// Hands over the next line, if the last one is answered; then goes on reading.
+    /// Hands over the next line, if the last one is answered, or all bytes; then goes on reading.
     void serve(const Shared& link) {
+        if (link->streams) return serve_stream(link);
         const bool may_speak = link->is_answered && !link->is_writing && !link->is_closing;
         if (may_speak) hand_over(link);
         const bool has_spoken_now = may_speak && !link->is_answered;
         const bool is_out = link->has_ended && !link->is_writing && !has_line(*link);
         if (is_out && !has_spoken_now) return close(link);
         read(link);
+    }
+
+    void serve_stream(const Shared& link) {
+        const std::string bytes = std::exchange(link->input, {});
+        if (!bytes.empty() && !link->is_closing) {
+            link->has_spoken = true;
+            link->streams->received(link->id, bytes);
+        }
+        if (!link->has_ended) return read(link);
+        link->is_closing = true;
+        if (!link->is_writing) close(link);
     }
 
     static bool has_line(Link& link) {
@@ -185,10 +204,12 @@ struct Doors::State {
 
     void write(const Shared& link) {
         link->is_writing = true;
+        link->messages = 0;
         link->sending = std::exchange(link->queued, {});
         asio::async_write(link->socket, asio::buffer(link->sending),
                           [this, link](error_code error, std::size_t) {
                               link->is_writing = false;
+                              link->sending.clear();
                               if (!links.contains(link->id)) return;
                               if (error) return close(link);
                               if (!link->queued.empty()) return write(link);
@@ -197,13 +218,43 @@ struct Doors::State {
                           });
     }
 
+    /// Adds a message to those that wait in a stream. A client that takes none is closed.
+    void queue(const Shared& link, std::string_view message) {
+        if (link->is_closing) return;
+        link->queued += message;
+        ++link->messages;
+        if (link->messages > most_messages || link->queued.size() > most_waiting) {
+            link->is_closing = true;
+            return close_later(link);
+        }
+        if (!link->is_writing) write(link);
+    }
+
+    void close_later(const Shared& link) {
+        asio::post(io, [this, link] { close(link); });
+    }
+
     /// @param link  not the one in `links`, which goes
     void close(const Shared& link) {
         if (links.erase(link->id) == 0) return;
         error_code ignored;
         link->socket.shutdown(Socket::shutdown_both, ignored);
         link->socket.close(ignored);
-        users.closed(link->id);
+        link->streams ? link->streams->closed(link->id) : users.closed(link->id);
+    }
+
+    /// Listens on an address. @return it, with its port
+    std::string listen(const std::string& address, std::optional<Streams> streams) {
+        const Loopback own = read_loopback(address);
+        const asio::ip::tcp::endpoint endpoint(asio::ip::make_address(own.host), own.port);
+        try {
+            gates.push_back({asio::ip::tcp::acceptor(io, endpoint), std::move(streams)});
+        } catch (const boost::system::system_error& fault) {
+            throw RunError(fmt::format("{}: {}", address, fault.code().message()));
+        }
+        Gate& gate = gates.back();
+        accept(gate.acceptor, gate.streams ? &*gate.streams : nullptr);
+        return Loopback{own.host, gate.acceptor.local_endpoint().port()}.text();
     }
 
     /// Closes connections that have not said a line for too long.
@@ -230,7 +281,7 @@ struct Doors::State {
     std::map<Connection, Shared> links;
     Connection next = 0;
     std::vector<Child> children;
-    std::optional<asio::ip::tcp::acceptor> tcp;
+    std::list<Gate> gates;  // links refer to them
     std::optional<asio::local::stream_protocol::acceptor> local;
     std::string unix_path;
     Clock::time_point looked = Clock::now();
@@ -252,17 +303,11 @@ void Doors::start(const std::string& command) {
 }
 
 std::string Doors::listen(const std::string& address) {
-    const auto endpoint = loopback(address);
-    try {
-        auto& acceptor = state_->tcp.emplace(state_->io, endpoint);
-        state_->accept(acceptor);
-        const auto bound = acceptor.local_endpoint();
-        const std::string host = bound.address().to_string();
-        return fmt::format("{}:{}", bound.address().is_v6() ? "[" + host + "]" : host,
-                           bound.port());
-    } catch (const boost::system::system_error& fault) {
-        throw RunError(fmt::format("{}: {}", address, fault.code().message()));
-    }
+    return state_->listen(address, std::nullopt);
+}
+
+std::string Doors::listen(const std::string& address, Streams streams) {
+    return state_->listen(address, std::move(streams));
 }
 
 void Doors::listen_unix(const std::string& path) {
@@ -291,18 +336,26 @@ void Doors::listen_unix(const std::string& path) {
     }
 }
 
-void Doors::send(Connection to, std::string_view line) {
+void Doors::send(Connection to, std::string_view message) {
     const auto found = state_->links.find(to);
     if (found == state_->links.end()) return;
     Link& link = *found->second;
-    link.queued += line;
+    if (link.streams) return state_->queue(found->second, message);
+    link.queued += message;
     link.queued += '\n';
     link.is_answered = true;
     if (!link.is_writing) state_->write(found->second);
 }
 
+void Doors::close(Connection which) {
+    const auto found = state_->links.find(which);
+    if (found == state_->links.end()) return;
+    found->second->is_closing = true;
+    if (!found->second->is_writing) state_->close_later(found->second);
+}
+
 std::size_t Doors::connections() const { return state_->links.size(); }
-bool Doors::listens() const { return state_->tcp || state_->local; }
+bool Doors::listens() const { return !state_->gates.empty() || state_->local; }
 
 void Doors::wait(std::chrono::milliseconds most) {
     // One event at a time: a question is answered before its asker is seen to have gone.
@@ -317,6 +370,9 @@ std::vector<std::string> Doors::close(std::chrono::milliseconds most) {
     }
     state_->users = {
         .line = [](auto, auto) {}, .refuse = [](auto, auto&) {}, .closed = [](auto) {}};
+    for (State::Gate& gate : state_->gates) {
+        if (gate.streams) gate.streams = {[](auto) {}, [](auto, auto) {}, [](auto) {}};
+    }
     while (!state_->links.empty()) {
         const State::Shared link = state_->links.begin()->second;  // close() takes it off the table
         state_->close(link);

@@ -14,19 +14,22 @@
 
 namespace rovernet {
 
-/// Carrier of lines between controllers and this process: TCP on this machine, Unix sockets, and
-/// the standard input and output of programs that it starts. It is the only one that knows sockets
-/// (Boost.Asio), and everything happens in the thread that calls it.
+/// Carrier of lines and bytes between programs outside and this process: TCP on this machine, Unix
+/// sockets, and the standard input and output of programs that it starts. It is the only one that
+/// knows sockets (Boost.Asio), and everything happens in the thread that calls it.
 ///
 /// A controller's next line is read when the last one is answered and the answer is out. So
 /// nothing grows with a controller that asks without reading, and lines may be sent ahead.
+/// A stream of bytes is read as it comes, and its client may be told things without asking.
 ///
-/// | limit                             | value  | beyond it                           |
-/// |-----------------------------------|--------|-------------------------------------|
-/// | line                              | 1 MiB  | "too_long", closed                  |
-/// | lines of all, not yet taken       | 64 MiB | "too_long", closed                  |
-/// | connections                       | 500    | closed at once                      |
-/// | time until the first line is whole| 60 s   | closed                              |
+/// | limit                              | value          | beyond it               |
+/// |------------------------------------|----------------|-------------------------|
+/// | line                               | 1 MiB          | "too_long", closed      |
+/// | lines of all, not yet taken        | 64 MiB         | "too_long", closed      |
+/// | messages of a stream, not taken yet| 1,024 or 4 MiB | closed                  |
+/// | bytes of a stream, not taken yet   | 256 KiB        | what it says is not read|
+/// | connections                        | 500            | closed at once          |
+/// | time until the first line or byte  | 60 s           | closed                  |
 class Doors {
   public:
     using Connection = std::uint32_t;
@@ -37,7 +40,15 @@ class Doors {
         std::function<void(Connection gone)> closed;
     };
 
-    explicit Doors(Users users);
+    /// What is told of connections that carry bytes. The functions may call send() and close().
+    struct Streams {
+        std::function<void(Connection opened)> opened;
+        std::function<void(Connection from, std::string_view bytes)> received;
+        std::function<void(Connection gone)> closed;
+    };
+
+    /// @param users  of lines; none are told if no connection carries any
+    explicit Doors(Users users = {});
     /// Closes everything; programs that are still there are ended.
     ~Doors();
     Doors(const Doors&) = delete;
@@ -51,12 +62,17 @@ class Doors {
     /// @return the address with the port
     /// @throws std::invalid_argument for another address, RunError if it is in use
     std::string listen(const std::string& address);
+    /// Listens for clients that send and are sent bytes. May be called for several addresses.
+    std::string listen(const std::string& address, Streams streams);
     /// Listens on a Unix socket, for this user alone; one that nobody listens on is replaced.
     /// @throws RunError
     void listen_unix(const std::string& path);
 
-    /// Sends a line, without its end: the answer to the last one of that controller.
-    void send(Connection to, std::string_view line);
+    /// Sends a line, without its end: the answer to the last one of that controller. In a stream:
+    /// a message, as it is.
+    void send(Connection to, std::string_view message);
+    /// Closes a connection once all is out. It is told as closed, but not by this call.
+    void close(Connection which);
     /// Number of controllers that may still speak; more may come if it listens.
     std::size_t connections() const;
     bool listens() const;

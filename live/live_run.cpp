@@ -2,7 +2,6 @@
 #include "live/live_run.hpp"
 
 #include "live/doors.hpp"
-#include "live/input_log.hpp"
 
 #include <fmt/format.h>
 
@@ -101,19 +100,13 @@ class LiveServer {
 /// One run, from its start to its end or to a reset. @return nothing if it begins anew
 std::optional<RunResult> run_once(const Scenario& scenario, const LiveOptions& options,
                                   LiveServer& server) {
-    std::optional<InputLog> log;
     const auto drive = [&](Session& session, const Fingerprint& fingerprint) {
-        log.emplace(options.folder, scenario);
-        session.on_input([&](const Input& input) { log->add(input, session.network()); });
         server.lockstep().begin(session, scenario, [&] { return fingerprint.text(); });
         server.serve();
         return server.lockstep().state() == Lockstep::State::over;
     };
     try {
-        RunResult result = run_scenario(
-            scenario, {.folder = options.folder, .speed = std::nullopt, .drive = drive});
-        log->finish(result.simulated, result.fingerprint);
-        return result;
+        return run_logged(scenario, options.folder, drive);
     } catch (const Interrupted&) {
         if (server.lockstep().state() != Lockstep::State::restarts) throw;
         return std::nullopt;

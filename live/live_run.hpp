@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "experiment/run.hpp"
 #include "live/lockstep.hpp"
+#include "live/logged_run.hpp"
 #include "scenario/scenario.hpp"
 
 #include <chrono>
@@ -25,14 +25,6 @@ struct LiveOptions {
     std::function<bool()> go_on = [] { return true; };  ///< asked now and then; false ends the run
     /// Told what a person should know: addresses, who is waited for.
     std::function<void(std::string_view)> say = [](std::string_view) {};
-};
-
-/// A live run that has ended; its results are written.
-struct LiveResult {
-    RunResult run;
-    Scenario scenario;  ///< as it ran: a controller may have asked for another seed
-    /// What went wrong with a controller, if something did.
-    std::string fault;
 };
 
 /// Runs a scenario whose robots are driven by programs outside, in lock-step. It ends when they

@@ -16,7 +16,7 @@
 
 namespace rovernet::test {
 
-/// Controller's end of a connection: it sends and receives lines, and waits 20 s at most.
+/// Program's end of a connection: it sends and receives lines or bytes, and waits 20 s at most.
 class LineClient {
   public:
     explicit LineClient(int port) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -70,6 +70,18 @@ class LineClient {
             if (got <= 0) return {};
             received_.append(bytes, static_cast<std::size_t>(got));
         }
+    }
+    /// The next bytes; fewer if the connection has ended.
+    std::string bytes(std::size_t number) {
+        char portion[65536];
+        while (received_.size() < number) {
+            const ssize_t got = recv(socket_, portion, sizeof portion, 0);
+            if (got <= 0) break;
+            received_.append(portion, static_cast<std::size_t>(got));
+        }
+        std::string found = received_.substr(0, number);
+        received_.erase(0, number);
+        return found;
     }
     std::string ask(const std::string& question) {
         send_bytes(question + "\n");

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include "live/logged_run.hpp"
+
+#include "experiment/session.hpp"
+#include "live/input_log.hpp"
+
+#include <optional>
+
+namespace rovernet {
+
+RunResult run_logged(const Scenario& scenario, const std::string& folder,
+                     const std::function<bool(Session&, const Fingerprint&)>& drive) {
+    std::optional<InputLog> log;
+    const auto drive_logged = [&](Session& session, const Fingerprint& fingerprint) {
+        log.emplace(folder, scenario);
+        session.on_input([&](const Input& input) { log->add(input, session.network()); });
+        return drive(session, fingerprint);
+    };
+    RunResult result =
+        run_scenario(scenario, {.folder = folder, .speed = std::nullopt, .drive = drive_logged});
+    log->finish(result.simulated, result.fingerprint);
+    return result;
+}
+
+}  // namespace rovernet

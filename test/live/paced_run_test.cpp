@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// Runs by the clock, with real sockets and a front that is made for them.
+#include "live/paced_run.hpp"
+
+#include "live/input_log.hpp"
+#include "live/loopback.hpp"
+#include "test/live/line_client.hpp"
+#include "test/live/parrot.hpp"
+#include "test/live/talk.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace paced_run_test {
+using namespace rovernet;
+using namespace rovernet::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A paced run in a thread of its own.
+template <class FrontUnderTest>
+class Paced {
+  public:
+    template <class... More>
+    explicit Paced(std::optional<double> speed, const Scenario& scenario, More... more) {
+        PacedOptions options;
+        options.folder = folder_.path("out");
+        options.speed = speed;
+        options.fronts.push_back({.addresses = {{"127.0.0.1:0", "one"}, {"localhost:0", "another"}},
+                                  .make = [more...](Front::Carrier carrier) {
+                                      return std::make_unique<FrontUnderTest>(std::move(carrier),
+                                                                              more...);
+                                  }});
+        options.go_on = [this] { return !stopped_; };
+        std::promise<void> opened;
+        options.say = [&](std::string_view text) {
+            said_.emplace_back(text);
+            if (said_.size() == 2) opened.set_value();
+        };
+        run_ = std::async(std::launch::async,
+                          [options, scenario] { return run_paced(scenario, options); });
+        opened.get_future().wait();
+    }
+    ~Paced() { stopped_ = true; }
+
+    int port(std::size_t door = 0) const {
+        const std::string words = "listening on 127.0.0.1:";
+        return std::stoi(said_[door].substr(words.size()));
+    }
+    LiveResult end() { return run_.get(); }
+    void stop() { stopped_ = true; }
+    InputReplay replay() const { return replay_inputs(folder_.path("out"), {}); }
+    const std::vector<std::string>& said() const { return said_; }
+    std::string folder() const { return folder_.path("out"); }
+
+  private:
+    TemporaryFolder folder_;
+    std::atomic<bool> stopped_ = false;
+    std::vector<std::string> said_;
+    std::future<LiveResult> run_;
+};
+
+/// Time does not go on before a client has said as many bytes as there were tenths of a second.
+class Patient : public Parrot {
+  public:
+    explicit Patient(Carrier carrier) : Parrot(std::move(carrier)) {}
+    void received(Connection from, std::string_view bytes) override {
+        Parrot::received(from, bytes);
+        limit_ += 100ms * static_cast<int>(bytes.size());
+    }
+    Time limit() const override { return limit_; }
+    bool is_done() const override { return limit_ > start_of_run && clients_.empty(); }
+
+  private:
+    Time limit_ = start_of_run;
+};
+
+/// Sends one byte after each of `steps` lines of a time.
+void answer(LineClient& client, int steps) {
+    client.line();  // the port
+    for (int i = 0; i < steps; ++i) {
+        client.send_bytes("a");
+        client.line();
+    }
+}
+
+}  // namespace
+
+TEST_CASE("paced run: clients come and go, are told at their times, and the scenario ends it") {
+    Paced<Parrot> paced(2, three_in_a_row());
+    CHECK(paced.said()[0].ends_with(" (one)"));
+    {
+        LineClient first(paced.port());
+        CHECK(first.line() == "port " + std::to_string(paced.port()));
+        first.send_bytes("abc");
+        const int t = std::stoi(first.line());
+        CHECK(t % 100 == 0);
+        CHECK(std::stoi(first.line()) == t + 100);
+    }
+    LineClient second(paced.port(1));
+    CHECK(second.line() == "port " + std::to_string(paced.port(1)));
+    second.send_bytes("xyz");
+    std::string last;
+    for (std::string line = second.line(); !line.empty(); line = second.line()) last = line;
+    CHECK(last == "2000");
+    const LiveResult result = paced.end();
+    CHECK(result.run.simulated == 2s);
+    CHECK(std::filesystem::exists(paced.folder() + "/summary.json"));
+    const InputReplay replay = paced.replay();
+    CHECK(replay.inputs == 12);
+    CHECK(replay.now == result.run.fingerprint);
+    CHECK(replay.recorded == replay.now);
+}
+
+TEST_CASE("paced run: commands of one time are replayed in their order, whatever they cause") {
+    Paced<Parrot> paced(4, three_in_a_row("[access]\nmodel = \"csma\"\n"));
+    LineClient client(paced.port());
+    client.line();
+    for (int i = 0; i < 15; ++i) {
+        client.send_bytes("abcdefghij");
+        client.line();
+    }
+    const LiveResult result = paced.end();
+    CHECK(result.run.metrics.messages > 100);
+    CHECK(paced.replay().now == result.run.fingerprint);
+}
+
+TEST_CASE("paced run: it ends when it is told to, with whole results") {
+    Paced<Parrot> paced(1e-3, three_in_a_row());
+    LineClient client(paced.port());
+    client.line();
+    client.send_bytes("a");
+    paced.stop();
+    const LiveResult result = paced.end();
+    CHECK(result.run.simulated < 1s);
+    CHECK(paced.replay().now == result.run.fingerprint);
+    CHECK(client.line().empty());
+}
+
+TEST_CASE("paced run: without a speed it goes as fast as its front lets it, the same every time") {
+    std::string fingerprints[2];
+    for (std::string& each : fingerprints) {
+        Paced<Patient> paced(std::nullopt, three_in_a_row());
+        LineClient client(paced.port());
+        answer(client, 12);
+        client.close();
+        const LiveResult result = paced.end();
+        CHECK(result.run.simulated <= 1200ms);
+        CHECK(result.run.simulated >= 1100ms);
+        each = result.run.fingerprint;
+    }
+    CHECK(fingerprints[0] == fingerprints[1]);
+}
+
+TEST_CASE("paced run: a client that does not read is closed, and others are served") {
+    Paced<Parrot> paced(2, three_in_a_row(), std::size_t{1} << 20U);
+    LineClient deaf(paced.port());
+    LineClient reader(paced.port());
+    std::string last;
+    for (std::string line = reader.line(); !line.empty(); line = reader.line()) last = line;
+    CHECK(last.starts_with("2000"));
+    paced.end();
+    int lines = 0;
+    while (!deaf.line().empty()) ++lines;
+    CHECK(lines < 15);
+}
+
+TEST_CASE("paced run: a front may end a connection, and bytes are no lines") {
+    Paced<Parrot> paced(1, three_in_a_row());
+    LineClient client(paced.port());
+    client.line();
+    std::string bytes = "a";
+    bytes += '\0';
+    bytes += "q";
+    client.send_bytes(bytes);
+    while (!client.line().empty()) {
+    }
+    LineClient other(paced.port());
+    CHECK_FALSE(other.line().empty());
+    paced.stop();
+    paced.end();
+    CHECK(paced.replay().inputs == 6);
+}
+
+TEST_CASE("loopback: addresses of this machine alone") {
+    CHECK(read_loopback("127.0.0.1:7007").text() == "127.0.0.1:7007");
+    CHECK(read_loopback("localhost:0").text() == "127.0.0.1:0");
+    CHECK(read_loopback("[::1]:65535").text() == "[::1]:65535");
+    CHECK(read_loopback("127.9.9.9:1").port == 1);
+    for (const char* bad : {"", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1",
+                            "127.0.0.1: 1", "0.0.0.0:1", "[::]:1", "10.0.0.1:1", "host:1", ":1"}) {
+        CAPTURE(bad);
+        CHECK_THROWS_AS(read_loopback(bad), std::invalid_argument);
+    }
+}
+
+}  // namespace paced_run_test

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/front.hpp"
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace rovernet::test {
+
+/// A front for tests: every byte that a client sends makes robot 0 speak and turn, and every 100 ms
+/// all clients are told the time in a line. `flood` bytes more are told with it.
+class Parrot : public Front {
+  public:
+    explicit Parrot(Carrier carrier, std::size_t flood = 0)
+        : carrier_(std::move(carrier)), flood_(flood) {}
+
+    void begin(Session& session, const Scenario&) override {
+        session_ = &session;
+        robot_ = session.attach({NodeId{0}}, "parrot");
+    }
+    void opened(Connection client, Entrance at) override {
+        clients_[client] = at;
+        carrier_.send(client, "port " + std::to_string(at.port) + "\n");
+    }
+    void received(Connection from, std::string_view bytes) override {
+        for (const char c : bytes) {
+            if (c == 'q') carrier_.close(from);
+            session_->send(robot_, NodeId{0}, {}, std::string(1, c));
+            session_->drive(robot_, NodeId{0}, MetersPerSecond{1}, RadiansPerSecond{c * 0.01});
+        }
+    }
+    void closed(Connection gone) override { clients_.erase(gone); }
+    Time next() const override { return next_; }
+    void tell() override {
+        const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(
+            session_->network().now().time_since_epoch());
+        for (const auto& [client, entrance] : clients_) {
+            carrier_.send(client, std::to_string(time.count()) + std::string(flood_, '.') + "\n");
+        }
+        next_ += std::chrono::milliseconds(100);
+    }
+
+  protected:
+    Session* session_ = nullptr;
+    std::map<Connection, Entrance> clients_;
+    Time next_ = start_of_run;
+
+  private:
+    Carrier carrier_;
+    ClientId robot_ = 0;
+    std::size_t flood_;
+};
+
+}  // namespace rovernet::test
