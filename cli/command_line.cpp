@@ -97,6 +97,10 @@ Option Option::shows_default() const { return Option(option_->capture_default_st
 
 Option Option::delimiter(char between) const { return Option(option_->delimiter(between)); }
 
+Option Option::usually(const char* text) const {
+    return Option(option_->expected(0, 1)->default_str(text)->run_callback_for_default(false));
+}
+
 Option Option::one_word() const { return Option(option_->allow_extra_args(false)); }
 
 Option Option::check(const Check& check) const {

@@ -33,6 +33,8 @@ class Option {
     Option shows_default() const;
     /// Takes several values in one word, between these characters.
     Option delimiter(char between) const;
+    /// Its value may be left out; then it is `text`.
+    Option usually(const char* text) const;
     /// Takes one word each time that it is given.
     Option one_word() const;
     Option check(const Check& check) const;

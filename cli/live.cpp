@@ -6,6 +6,7 @@
 #include "experiment/run_folder.hpp"
 #include "live/input_log.hpp"
 #include "live/live_run.hpp"
+#include "live/player/door.hpp"
 #include "scenario/quantity.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +22,9 @@ struct LiveArguments : FileArguments {
     std::vector<std::string> controllers;
     std::optional<std::uint64_t> wait_for;
     std::string on_loss = "end";
+    std::optional<std::string> player;
+    std::optional<double> speed;
+    bool one_port = false, lockstep = false;
     bool json = false;
 };
 
@@ -32,8 +36,22 @@ std::chrono::nanoseconds time_of(const std::string& option, const std::string& t
     return from_seconds(s);
 }
 
-LiveOptions options_of(const LiveArguments& a, const Scenario& scenario) {
-    LiveOptions options{.folder = a.out ? *a.out : run_folder(scenario, a.options.set),
+std::string folder_of(const LiveArguments& a, const Scenario& scenario) {
+    return a.out ? *a.out : run_folder(scenario, a.options.set);
+}
+
+bool goes_on() { return stops_asked() == 0; }
+
+/// Says something to a person; where it listens to programs, too.
+void say(std::string_view text) {
+    // They read the address from standard output, before there is any result.
+    if (!text.starts_with("listening")) return notice(text);
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+}
+
+LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
+    LiveOptions options{.folder = folder_of(a, scenario),
                         .controllers = a.controllers,
                         .listen = a.listen,
                         .unix_path = a.unix_path};
@@ -43,25 +61,93 @@ LiveOptions options_of(const LiveArguments& a, const Scenario& scenario) {
                                : a.on_loss == "wait" ? OnLoss::wait
                                                      : OnLoss::end;
     if (a.patience) options.patience = time_of("--patience", *a.patience);
-    options.go_on = [] { return stops_asked() == 0; };
-    options.say = [](std::string_view text) {
-        // Programs read the address from standard output, before there is any result.
-        if (!text.starts_with("listening")) return notice(text);
-        fmt::print("{}\n", text);
-        std::fflush(stdout);
-    };
+    options.go_on = goes_on;
+    options.say = say;
     return options;
 }
 
-void run_live(const LiveArguments& a) {
-    if (a.controllers.empty() && !a.listen && !a.unix_path) {
-        throw CommandEnd(usage, "live: expected --controller, --listen-json or --unix");
+FrontDoor player_door(const LiveArguments& a, const std::optional<PlayerConfig>& config,
+                      const Scenario& scenario) {
+    const PlayerSettings settings{.is_lockstep = a.lockstep, .wait_for = a.wait_for.value_or(1)};
+    const Loopback at = read_loopback(*a.player);
+    const std::vector<std::string> robots = robot_names(scenario);
+    if (config) return player_configured(at, *config, robots, settings);
+    return (a.one_port ? player_one_port : player_ports)(at, robots, settings);
+}
+
+/// Runs FILE by the clock, or the world that it names if it is a configuration of Player.
+LiveResult run_player(LiveArguments a) {
+    std::optional<PlayerConfig> config;
+    if (a.file.ends_with(".cfg")) {
+        config = read_player_config(a.file);
+        a.file = config->world;
     }
     const Scenario scenario = scenario_of(a);
+    PacedOptions options;
+    options.folder = folder_of(a, scenario);
+    if (a.speed) options.speed = a.speed;
+    if (a.lockstep) options.speed.reset();
+    options.fronts.push_back(player_door(a, config, scenario));
+    options.go_on = goes_on;
+    options.say = say;
+    return run_paced(scenario, options);
+}
+
+LiveResult run_lockstep(const LiveArguments& a) {
+    const Scenario scenario = scenario_of(a);
+    return rovernet::run_live(scenario, lockstep_options(a, scenario));
+}
+
+void run_live(const LiveArguments& a) {
+    if (a.controllers.empty() && !a.listen && !a.unix_path && !a.player) {
+        throw CommandEnd(usage, "live: expected --controller, --listen-json, --unix or --player");
+    }
     const HeldStop serving;
-    const LiveResult result = rovernet::run_live(scenario, options_of(a, scenario));
+    const LiveResult result = a.player ? run_player(a) : run_lockstep(a);
     print_run(result.scenario, result.run, a.json);
     if (!result.fault.empty()) throw CommandEnd(failed, result.fault);
+}
+
+/// Options of runs in lock-step, by JSON lines.
+void add_lockstep(Command live, LiveArguments& a) {
+    live.add_option(
+            "--controller", a.controllers,
+            "program to start, which speaks by its standard input and output; several times")
+        .one_word();
+    live.add_option("--listen-json", a.listen,
+                    "127.0.0.1:PORT to listen on for controllers; port 0: any that is free");
+    live.add_option("--unix", a.unix_path, "path of a Unix socket to listen on for controllers");
+    live.add_option("--patience", a.patience,
+                    "real time that a controller may take for a step, such as 30s (default: any)");
+    live.add_option(
+            "--on-loss", a.on_loss,
+            "when a controller has gone without a bye: end; stop its robots; or wait for it")
+        .one_of({"end", "stop", "wait"})
+        .shows_default();
+}
+
+/// Options of runs by the clock.
+void add_player(Command live, LiveArguments& a) {
+    const Option player =
+        live.add_option(
+                "--player", a.player,
+                "serve Player clients, at 127.0.0.1:PORT and the ports that follow, one for "
+                "each robot; port 0: any that is free (default: 6665)")
+            .usually(player_address.data());
+    for (const char* other : {"--controller", "--listen-json", "--unix"}) {
+        player.excludes(live.option(other));
+    }
+    live.add_flag("--player-one-port", a.one_port,
+                  "all robots at one port: the devices of the first have index 0, and so on")
+        .needs(player);
+    const Option lockstep =
+        live.add_flag("--player-lockstep", a.lockstep,
+                      "time goes on by 0.1 s once all clients that pull have asked for data")
+            .needs(player);
+    live.add_option("--speed", a.speed, "simulated per real time, with --player (default: 1)")
+        .check(above_zero())
+        .needs(player)
+        .excludes(lockstep);
 }
 
 }  // namespace
@@ -71,25 +157,15 @@ void add_live(Command app) {
         app, "live", "Run a scenario whose robots are driven by programs outside", run_live);
     live.add_examples(
         {"rovernet live examples/search/search.toml --controller \"python3 "
-         "examples/search/search.py\""});
+         "examples/search/search.py\"",
+         "rovernet live examples/rescue/rescue.toml --player"});
     add_file(live, a, any_file);
-    live.add_option(
-            "--controller", a.controllers,
-            "program to start, which speaks by its standard input and output; several times")
-        .one_word();
-    live.add_option("--listen-json", a.listen,
-                    "127.0.0.1:PORT to listen on for controllers; port 0: any that is free");
-    live.add_option("--unix", a.unix_path, "path of a Unix socket to listen on for controllers");
+    add_lockstep(live, a);
+    add_player(live, a);
     live.add_option("--wait-for", a.wait_for,
-                    "controllers with which the run begins (default: those started, or 1)")
+                    "controllers with which a run in lock-step begins (default: those started, or "
+                    "1)")
         .range(1, 500);
-    live.add_option("--patience", a.patience,
-                    "real time that a controller may take for a step, such as 30s (default: any)");
-    live.add_option(
-            "--on-loss", a.on_loss,
-            "when a controller has gone without a bye: end; stop its robots; or wait for it")
-        .one_of({"end", "stop", "wait"})
-        .shows_default();
     live.add_option("--out", a.out, "folder for the results (default: as that of run)");
     add_json(live, a.json);
 }

@@ -2,6 +2,7 @@
 // The command `live` with controllers at its doors, in processes and sockets of their own.
 #include "test/cli/process.hpp"
 #include "test/live/line_client.hpp"
+#include "test/live/player/wire.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -318,6 +319,123 @@ TEST_CASE("live: hostile connections are closed, take little memory and hold nob
     CHECK(Json::parse(good.line()).at("type") == "end");
     CHECK(live.wait().exit == 0);
     asks.join();
+}
+
+namespace {
+
+/// The next message of a Player server.
+Wire message_of(LineClient& client) {
+    std::string bytes = client.bytes(40);
+    REQUIRE(bytes.size() == 40);
+    bytes += client.bytes(number_at(bytes, 36, 4));
+    return take_messages(bytes).at(0);
+}
+
+/// Opens position2d of the first robot, to pull.
+void begin(LineClient& client) {
+    CHECK(client.bytes(32).starts_with("Player v."));
+    client.send_bytes(mode(pull) + device(4, 0));
+    for (int i = 0; i < 2; ++i) CHECK(message_of(client).type == ack);
+}
+
+/// One round of a client: it writes twice, as libplayerc does. @return the x of position2d
+double round(LineClient& client) {
+    client.send_bytes(rovernet::test::drive(1, 0));
+    client.send_bytes(ask());
+    CHECK(message_of(client).type == ack);
+    const Wire told = message_of(client);
+    CHECK(told.interface == 4);
+    CHECK(message_of(client).type == sync_message);
+    return double_at(told.payload, 0);
+}
+
+std::string long_scenario() {
+    std::string text = scenario;
+    text.replace(text.find("2 s"), 3, "99 s");
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("live: a Player client in lock-step, whose rounds wait for no acknowledgement") {
+    std::string fingerprints[2];
+    for (std::string& fingerprint : fingerprints) {
+        const Live live({"--player", "127.0.0.1:0", "--player-lockstep"}, long_scenario());
+        LineClient client(live.port());
+        begin(client);
+        std::vector<double> took;
+        for (int i = 1; i <= 200; ++i) {
+            const auto before = std::chrono::steady_clock::now();
+            CHECK(std::abs(round(client) - 0.1 * i) < 1e-9);
+            took.push_back(
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count());
+        }
+        client.close();
+        const Ended ended = live.wait();
+        CHECK(ended.exit == 0);
+        CHECK(Json::parse(content(live.folder.path("out/summary.json"))).at("sim_s") == 20);
+        fingerprint = live.fingerprint();
+        CHECK(live.replay().out.find("identical: 201 inputs, fingerprint " + fingerprint) !=
+              std::string::npos);
+        // With Nagle's algorithm at the client, each waits 40 ms for a delayed acknowledgement.
+        std::nth_element(took.begin(), took.begin() + 100, took.end());
+        CHECK(took[100] < 0.005);
+    }
+    CHECK(fingerprints[0] == fingerprints[1]);
+}
+
+TEST_CASE("live: Player clients by the clock, until Ctrl-C or the scenario's end") {
+    const Live live({"--player", "127.0.0.1:0", "--speed", "5"}, long_scenario());
+    CHECK(live.said("listening").ends_with("(Player, robot A)"));
+    LineClient client(live.port());
+    begin(client);
+    double last = round(client);
+    for (int i = 0; i < 5; ++i) {
+        const double x = round(client);
+        CHECK(x > last);
+        last = x;
+    }
+    live.process().interrupt();
+    CHECK(live.wait().exit == 0);
+    CHECK(live.replay().exit == 0);
+    CHECK(client.bytes(1).empty());
+
+    const Live short_run({"--player", "127.0.0.1:0", "--player-one-port", "--speed", "20"});
+    LineClient second(short_run.port());
+    begin(second);
+    CHECK(short_run.wait().exit == 0);
+    CHECK(Json::parse(content(short_run.folder.path("out/summary.json"))).at("sim_s") == 2);
+    CHECK(short_run.replay().exit == 0);
+}
+
+TEST_CASE("live: a configuration of Player names world and ports") {
+    const TemporaryFolder folder;
+    folder.write("two.world", R"(quit_time 1
+position ( name "r0" pose [0 0 0] wifi ( model "friis" ) )
+position ( name "r1" pose [9 0 0] wifi ( model "friis" ) )
+)");
+    const auto file = [&](const std::string& model) {
+        return folder.write("two.cfg", R"(
+driver ( name "stage" plugin "stageplugin" provides [ "simulation:0" ] worldfile "two.world" )
+driver ( name "stage" provides [ "6666:position2d:0" "6666:wifi:0" ] model ")" +
+                                           model + R"(" )
+driver ( name "relay" provides [ "6666:opaque:0" ] )
+)");
+    };
+    const std::string out = folder.path("out");
+    const auto run = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--out", out});
+        return command(folder, std::move(words));
+    };
+    const Ended ended = run({"live", file("r1"), "--player", "127.0.0.1:0", "--speed", "20"});
+    CHECK(ended.exit == 0);
+    CHECK(ended.out.find("(Player, robot r1)") != std::string::npos);
+    CHECK(ended.out.find("robot r0)") == std::string::npos);
+    const Ended missing = run({"live", file("r9"), "--player", "127.0.0.1:0"});
+    CHECK(missing.exit != 0);
+    CHECK(missing.err.find("two.cfg:3") != std::string::npos);
+    CHECK(run({"live", file("r1"), "--speed", "2"}).exit == 2);
+    CHECK(run({"live", file("r1"), "--player", "0.0.0.0:6665"}).exit == 2);
 }
 
 }  // namespace live_test

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "live/player/devices.hpp"
+
+#include "live/player/opaque.hpp"
+#include "live/player/position2d.hpp"
+#include "live/player/range_device.hpp"
+#include "live/player/simulation.hpp"
+#include "live/player/wifi.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace rovernet {
+
+PlayerDevices::PlayerDevices(Session& session, const std::vector<PlayerPlace>& places) {
+    std::map<std::string, PlayerRobot*, std::less<>> by_name;
+    for (const PlayerPlace& each : places) {
+        const auto robot = session.network().find(each.robot);
+        if (!robot) throw std::invalid_argument("there is no robot " + each.robot);
+        by_name[each.robot] = &robots_.emplace_back(session, *robot);
+    }
+    add(0, 0, 0, std::make_unique<PlayerSimulation>(by_name));
+    for (std::size_t i = 0; i < places.size(); ++i) add(i, places[i], *by_name.at(places[i].robot));
+}
+
+void PlayerDevices::add(std::size_t number, const PlayerPlace& at, PlayerRobot& robot) {
+    const auto [name, entrance, index] = at;
+    add(number, entrance, index, std::make_unique<PlayerPosition2d>(robot));
+    add(number, entrance, index, std::make_unique<PlayerWifi>(robot));
+    if (robot.session().range_finder(robot.id())) {
+        add(number, entrance, index, std::make_unique<PlayerRangeDevice>(robot));
+    }
+    add(number, entrance, 2 * index, std::make_unique<PlayerRelay>());
+    add(number, entrance, 2 * index + 1, std::make_unique<PlayerRadio>(robot));
+}
+
+void PlayerDevices::add(std::size_t robot, std::size_t entrance, std::uint32_t index,
+                        std::unique_ptr<PlayerDevice> device) {
+    const PlayerAddress address{device->interface(), index};
+    devices_.push_back({entrance, address, robot, std::move(device)});
+}
+
+PlacedDevice* PlayerDevices::find(std::size_t entrance, PlayerAddress address) {
+    const auto found = std::find_if(devices_.begin(), devices_.end(), [&](const auto& each) {
+        return each.entrance == entrance && each.address == address;
+    });
+    return found == devices_.end() ? nullptr : &*found;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/front.hpp"
+#include "live/player/devices.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// How robots are shown to Player clients.
+struct PlayerSettings {
+    std::vector<PlayerPlace> places = {};
+    /// Time goes on by one tick once all clients that pull have asked for data. The run ends when
+    /// the last client has left.
+    bool is_lockstep = false;
+    std::size_t wait_for = 1;  ///< clients that pull, with which time begins in lock-step
+};
+
+/// Player server, for programs that were written for Player and Stage. docs/live.md has its table
+/// of messages.
+///
+/// A client that pulls asks for data and is answered at the next tick: data of each device that it
+/// is subscribed to, then SYNCH. Without any data its round stays open. Others are told unasked.
+class PlayerFront : public Front {
+  public:
+    PlayerFront(PlayerSettings settings, Carrier carrier);
+    ~PlayerFront() override;
+
+    /// @throws std::invalid_argument if there is no robot of a name
+    void begin(Session& session, const Scenario& scenario) override;
+    void opened(Connection client, Entrance at) override;
+    void received(Connection from, std::string_view bytes) override;
+    void closed(Connection gone) override;
+    Time next() const override { return next_; }
+    void tell() override;
+    Time limit() const override;
+    bool is_done() const override;
+
+  private:
+    struct Client;
+    /// Command that waits for all clients to have asked, in lock-step.
+    struct Deferred {
+        PlacedDevice* device;
+        Connection from;
+        PlayerMessage message;
+    };
+
+    void handle(Connection from, const PlayerMessage& message);
+    void take_command(const Client& client, const PlayerMessage& message);
+    void answer(Client& client, const PlayerMessage& request);
+    void answer_subscription(Client& client, const PlayerMessage& request, XdrReader payload);
+    std::optional<std::string> server_answer(Client& client, std::uint32_t subtype,
+                                             XdrReader payload);
+    std::string device_list(const Client& client) const;
+    std::optional<std::string> driver(const Client& client, XdrReader payload);
+    void set_mode(Client& client, bool pulls);
+    void send(const Client& to, const PlayerMessage& request, PlayerType type, std::string payload);
+    void join(PlacedDevice& device, Client& client);
+    void leave(PlacedDevice& device, Client& client);
+    void tell_of(PlacedDevice& device);
+    void hold(Client& client, std::string message);
+    void end_round(Client& client);
+    void carry_out_deferred();
+    bool everyone_asks() const;
+    void go_on();
+    Time now() const { return session_->network().now(); }
+
+    PlayerSettings settings_;
+    Carrier carrier_;
+    Session* session_ = nullptr;
+    std::optional<PlayerDevices> devices_;
+    std::map<Connection, Client> clients_;
+    std::vector<Deferred> deferred_;
+    std::size_t deferred_bytes_ = 0;
+    bool has_begun_ = false;  // in lock-step
+    Time next_ = never;
+};
+
+}  // namespace rovernet

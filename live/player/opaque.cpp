@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "live/player/opaque.hpp"
+
+namespace rovernet {
+namespace {
+
+constexpr std::uint32_t opaque_bytes = 1;    // the only command
+constexpr std::size_t most_on_air = 65'535;  // [bytes] of a message
+
+}  // namespace
+
+void PlayerRelay::command(std::uint32_t subtype, XdrReader payload) {
+    if (subtype != opaque_bytes) return;
+    std::string message = XdrWriter().bytes(payload.bytes()).take();
+    if (said_.size() == most || bytes_ + message.size() > most_bytes) return;
+    bytes_ += message.size();
+    said_.push_back(std::move(message));
+}
+
+std::vector<std::string> PlayerRelay::data() {
+    bytes_ = 0;
+    return std::exchange(said_, {});
+}
+
+std::vector<std::string> PlayerRadio::data() {
+    std::vector<std::string> payloads;
+    for (const HeardMessage& heard : robot_.heard()) {
+        payloads.push_back(XdrWriter().bytes(heard.payload).take());
+    }
+    return payloads;
+}
+
+void PlayerRadio::command(std::uint32_t subtype, XdrReader payload) {
+    if (subtype != opaque_bytes) return;
+    const std::string_view bytes = payload.bytes();
+    if (bytes.size() > most_on_air) throw MalformedMessage("the message is too long for the air");
+    robot_.carry_out(SendCommand{.payload = std::string(bytes)});
+}
+
+}  // namespace rovernet

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Player's configuration files, and the doors that follow from them.
+#include "live/player/config.hpp"
+
+#include "live/player/door.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace config_test {
+using namespace rovernet;
+using namespace rovernet::test;
+
+namespace {
+
+const std::string head = R"(# a world with two robots
+driver
+(
+  name "stage"
+  provides [ "simulation:0" ]
+  plugin "stageplugin"
+  worldfile "worlds/two.world"
+)
+)";
+const std::string robots = R"(
+driver ( name "stage" provides [ "6665:position2d:0" "6665:laser:0" ] model "r0" )
+driver ( name "stage" provides [ "6666:wifi:1" "6666:position2d:1" ] model "r1" )
+driver ( name "stage" provides [ "6666:position2d:0" ] model "r2" )
+driver ( name "stage" provides [ "map:0" ] model "cave" )
+driver ( name "vfh" requires [ "position2d:1" ] provides [ "position2d:5" ] )
+)";
+
+PlayerConfig read(const std::string& text) {
+    const TemporaryFolder folder;
+    return read_player_config(folder.write("two.cfg", text));
+}
+
+}  // namespace
+
+TEST_CASE("player configuration: world, robots and their places") {
+    const PlayerConfig config = read(head + robots);
+    CHECK(config.world.ends_with("/worlds/two.world"));
+    REQUIRE(config.robots.size() == 3);
+    CHECK(config.robots[0].model == "r0");
+    CHECK(config.robots[0].port == 6665);
+    CHECK(config.robots[1].port == 6666);
+    CHECK(config.robots[1].index == 1);
+    CHECK(config.robots[2].where.line == 12);
+    CHECK(read(head + R"(driver ( name "stage" provides ["position2d:3"] model "r" ))")
+              .robots[0]
+              .port == 6665);
+    CHECK(
+        read(
+            head +
+            R"(driver ( name "stage" provides ["odometry:localhost:7000:position2d:3"] model "r" ))")
+            .robots[0]
+            .port == 7000);
+    CHECK(read(head + R"(driver ( name "stage" provides ["odometry:::position2d:3"] model "r" ))")
+              .robots[0]
+              .index == 3);
+}
+
+TEST_CASE("player configuration: mistakes are told with their place") {
+    const auto fault = [](const std::string& text) -> std::string {
+        try {
+            read(text);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(fault("").find("found no world") != std::string::npos);
+    CHECK(fault(head).find("found no robot") != std::string::npos);
+    CHECK(fault(robots).find("found no world") != std::string::npos);
+    for (const char* address :
+         {"position2d", "", "0:position2d:0", "65536:position2d:0", "x:position2d:0",
+          "6665:position2d:", "6665:position2d:-1", "a:b:c:6665:position2d:0"}) {
+        const std::string text =
+            head + "driver ( name \"stage\" model \"r\" provides [ \"" + address + "\" ] )";
+        CAPTURE(address);
+        CHECK(fault(text).find("two.cfg:9") != std::string::npos);
+        CHECK(fault(text).find("6665:position2d:0") != std::string::npos);
+    }
+    CHECK(fault(head + "driver ( name \"stage\" model \"r\" provides [ 6665 ] )")
+              .find("expected texts") != std::string::npos);
+    CHECK(fault(head + "driver ( name").find("two.cfg") != std::string::npos);
+    CHECK_THROWS_AS(read_player_config("/nowhere/two.cfg"), InputError);
+}
+
+TEST_CASE("player doors: a port for each robot, one for all, or those of a configuration") {
+    const std::vector<std::string> names = {"r0", "r1", "r2"};
+    const FrontDoor ports = player_ports({"127.0.0.1", 7000}, names, {});
+    REQUIRE(ports.addresses.size() == 3);
+    CHECK(ports.addresses[2].text == "127.0.0.1:7002");
+    CHECK(ports.addresses[2].what == "Player, robot r2");
+    CHECK(player_ports({"127.0.0.1", 0}, names, {}).addresses[2].text == "127.0.0.1:0");
+    CHECK(player_one_port({"::1", 7000}, names, {}).addresses.size() == 1);
+    const FrontDoor configured =
+        player_configured({"127.0.0.1", 6665}, read(head + robots), names, {});
+    REQUIRE(configured.addresses.size() == 2);
+    CHECK(configured.addresses[1].text == "127.0.0.1:6666");
+    CHECK(configured.addresses[1].what == "Player, robot r1, r2");
+    CHECK_THROWS_AS(player_configured({"127.0.0.1", 6665}, read(head + robots), {"r0"}, {}),
+                    InputError);
+    CHECK_NOTHROW(player_ports({"127.0.0.1", 6665}, std::vector<std::string>(100, "r"), {}));
+    CHECK_THROWS_AS(player_ports({"127.0.0.1", 6665}, std::vector<std::string>(101, "r"), {}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(player_ports({"127.0.0.1", 65535}, {"a", "b"}, {}), std::invalid_argument);
+}
+
+}  // namespace config_test

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/player/front.hpp"
+#include "scenario/scenario.hpp"
+#include "test/live/player/wire.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace rovernet::test {
+
+inline Scenario player_scenario(const std::string& text) {
+    const TemporaryFolder folder;
+    return load_scenario(folder.write("player.toml", text), {});
+}
+
+/// Player clients whose bytes are carried by a test, and time that goes on when it says so.
+class PlayerTalk {
+  public:
+    explicit PlayerTalk(Scenario scenario, PlayerSettings settings = {})
+        : scenario_(std::move(scenario)),
+          session(scenario_),
+          front(placed(std::move(settings)),
+                {.send = [this](auto to, auto bytes) { told_[to] += bytes; },
+                 .close = [this](auto which) { closed.insert(which); }}) {
+        session.step(start_of_run);
+        front.begin(session, scenario_);
+    }
+
+    /// A new client, its banner taken off.
+    Front::Connection come(std::size_t entrance = 0) {
+        const Front::Connection client = next_client_++;
+        front.opened(client, {entrance, static_cast<std::uint16_t>(6665 + entrance)});
+        told_[client].erase(0, 32);
+        return client;
+    }
+    void say(Front::Connection client, const std::string& bytes) { front.received(client, bytes); }
+    void go(Front::Connection client) { front.closed(client); }
+    /// Messages that a client was told since the last call.
+    std::vector<Wire> told(Front::Connection client) { return take_messages(told_[client]); }
+    std::vector<Wire> ask(Front::Connection client, const std::string& bytes) {
+        told(client);
+        say(client, bytes);
+        return told(client);
+    }
+
+    /// Lets time go on, as run_paced() does, but without a clock.
+    void run_until(Duration time) {
+        const Time end = start_of_run + time;
+        for (;;) {
+            const Time now = session.network().now();
+            const Time stop = std::min({end, front.next(), front.limit()});
+            if (stop > now) session.step(stop);
+            if (front.next() <= session.network().now()) {
+                front.tell();
+            } else if (stop <= now || stop == end) {
+                return;
+            }
+        }
+    }
+    void run_for(Duration time) { run_until(session.network().now().time_since_epoch() + time); }
+
+  private:
+    /// Robot k at the entrance k, unless it is said otherwise.
+    PlayerSettings placed(PlayerSettings settings) const {
+        if (!settings.places.empty()) return settings;
+        for (const RobotTable& robot : scenario_.robots) {
+            settings.places.push_back({robot.name, settings.places.size(), 0});
+        }
+        return settings;
+    }
+
+    Scenario scenario_;
+    std::map<Front::Connection, std::string> told_;
+    Front::Connection next_client_ = 0;
+
+  public:
+    std::set<Front::Connection> closed;
+    Session session;
+    PlayerFront front;
+};
+
+}  // namespace rovernet::test
