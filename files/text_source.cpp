@@ -46,7 +46,8 @@ void TextSource::detect_zstd() {
     constexpr std::string_view magic = "\x28\xb5\x2f\xfd";
     ensure(magic.size());
     if (!window().starts_with(magic)) return;
-    Packed& packed = zstd_.emplace();
+    zstd_ = std::make_unique<Packed>();
+    Packed& packed = *zstd_;
     packed.context.reset(ZSTD_createDCtx());
     packed.bytes.assign(window().begin(), window().end());
     packed.end = packed.bytes.size();

@@ -72,7 +72,7 @@ class TextSource {
     std::string name_;
     std::function<std::string_view()> next_;  ///< makes the text; empty: file_ has it
     std::unique_ptr<gzFile_s, Close> file_;
-    std::optional<Packed> zstd_;  ///< if it is a zstd file
+    std::unique_ptr<Packed> zstd_;  ///< if it is a zstd file
     std::vector<char> buffer_;
     std::size_t begin_ = 0;
     std::size_t end_ = 0;

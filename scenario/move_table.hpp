@@ -2,12 +2,14 @@
 #pragma once
 
 #include "mobility/follow.hpp"
+#include "mobility/follow_wall.hpp"
 #include "mobility/gauss_markov.hpp"
 #include "mobility/group.hpp"
 #include "mobility/patrol.hpp"
 #include "mobility/random_direction.hpp"
 #include "mobility/random_walk.hpp"
 #include "mobility/random_waypoint.hpp"
+#include "mobility/wander.hpp"
 #include "scenario/value.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
@@ -92,8 +94,9 @@ struct GoalTable {
 
 /// Movement models that scenario files know by name. A model that is added here is read, checked,
 /// printed, documented and swept: all of that follows from its fields().
-using MoveModels = std::variant<FixedTable, WaypointsTable, GoalTable, Patrol, Follow, Group,
-                                RandomWaypoint, RandomDirection, RandomWalk, GaussMarkov>;
+using MoveModels =
+    std::variant<FixedTable, WaypointsTable, GoalTable, Patrol, Follow, Group, RandomWaypoint,
+                 RandomDirection, RandomWalk, GaussMarkov, Wander, FollowWall>;
 
 /// Movement model of a robot that goes by another one: its leader, which the file gives by name.
 template <class Model>

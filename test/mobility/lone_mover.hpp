@@ -29,7 +29,7 @@ class LoneMover {
                 .radius = radius_,
                 .planners = *planners_,
                 .legs = legs,
-                .heading = leg.heading,
+                .heading = leg.heading_at(leg.end),
                 .top_speed = top_speed,
                 .draws = {.seed = 7, .a = robot_}};
     }

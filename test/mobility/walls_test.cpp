@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // No robot crosses a wall, whatever its movement model.
 #include "mobility/follow.hpp"
+#include "mobility/follow_wall.hpp"
 #include "mobility/gauss_markov.hpp"
 #include "mobility/group.hpp"
 #include "mobility/patrol.hpp"
 #include "mobility/random_direction.hpp"
 #include "mobility/random_walk.hpp"
 #include "mobility/random_waypoint.hpp"
+#include "mobility/wander.hpp"
 #include "network/network.hpp"
 #include "test/mobility/lone_mover.hpp"
 #include "test/scene/drawn_map.hpp"
@@ -63,7 +65,10 @@ int bad_legs(const Scene& scene, const Model& model, int legs) {
     int bad = 0;
     for (int i = 0; i < legs; i += 100) {
         Model movement = model;
-        LoneMover robot(planners, static_cast<std::uint64_t>(i), {}, radius);
+        RandomWalk anywhere;
+        LoneMover place(planners, static_cast<std::uint64_t>(i), {}, radius);
+        REQUIRE(place.walk(anywhere));
+        LoneMover robot(planners, static_cast<std::uint64_t>(i), place.leg.from, radius);
         REQUIRE(robot.walk(movement));
         for (int k = 0; k < 100; ++k) {
             REQUIRE(robot.walk(movement));
@@ -113,6 +118,8 @@ void check_models(const std::shared_ptr<const Scene>& scene, const std::vector<V
     CHECK(bad_legs(*scene, RandomDirection{.border_turn = BorderTurn::uniform}, legs) == 0);
     CHECK(bad_legs(*scene, RandomWalk{}, legs) == 0);
     CHECK(bad_legs(*scene, GaussMarkov{}, legs) == 0);
+    CHECK(bad_legs(*scene, Wander{}, legs) == 0);
+    CHECK(bad_legs(*scene, FollowWall{}, legs) == 0);
     if (!path.empty()) {
         Patrol patrol{.path = path};
         Planners planners(*scene);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "mobility/follow_wall.hpp"
+
+#include "mobility/area.hpp"
+#include "mobility/look_round.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace rovernet {
+namespace {
+
+constexpr double quarter = std::numbers::pi / 2;
+
+/// Leg along `direction`, as far as the body can go; turned away from the wall, by `away` [rad], as
+/// often as it takes to go at all.
+Step leg_along(const Mover& mover, double direction, double way, MetersPerSecond speed,
+               double away) {
+    for (double turned = 0; turned < 2 * std::numbers::pi; turned += std::abs(away)) {
+        const double at = direction + std::copysign(turned, away);
+        const Vec3 to = straight_stop(mover, mover.position + way * direction_of(at));
+        if (distance(mover.position, to) > least_leg) return straight_leg(mover, to, speed);
+    }
+    return Blocked{mover.position};
+}
+
+}  // namespace
+
+Step FollowWall::next_leg(Mover& mover) {
+    if (!progress.begun) {
+        check_fields(*this, name);
+        if (mover.scene().open_field())
+            throw std::invalid_argument("follow_wall: there is no map, so no wall to follow");
+        progress.begun = true;
+    }
+    const double sign = side == WallSide::left ? 1 : -1;  // of the turn to the wall
+    const double wanted = keep.value + mover.radius.value;
+    const LookRound look(mover, range);
+    const auto nearest = look.nearest();
+    constexpr double away = 15 * LookRound::step;
+    if (!nearest) {
+        const double way = std::max(stride.value, (range.value - wanted) / 2);
+        return leg_along(mover, mover.heading, way, speed, -sign * away);
+    }
+    const double error = look.way(*nearest) - wanted;
+    const double to_wall = std::atan2(error, stride.value);
+    const double along = look.direction(*nearest) - sign * (quarter - to_wall);
+    const double most = std::max(stride.value, error / 2);
+    const double before_next = look.way_towards(along) - wanted;  // to the wall at an inner corner
+    if (before_next > least_leg)
+        return leg_along(mover, along, std::min(most, before_next), speed, -sign * away);
+    return leg_along(mover, along - sign * quarter, stride.value, speed, -sign * away);
+}
+
+}  // namespace rovernet

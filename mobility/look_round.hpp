@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mobility/movement.hpp"
+#include "scene/range_finder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+
+namespace rovernet {
+
+/// What a robot's range finder measures all round: the way to the nearest wall, each degree.
+class LookRound {
+  public:
+    static constexpr int beams = 360;
+    static constexpr double step = 2 * std::numbers::pi / beams;  ///< [rad]
+
+    LookRound(const Mover& mover, Meters range) : heading_(mover.heading), range_(range.value) {
+        const RangeFinder finder{
+            .beams = beams, .from = Radians{0}, .to = Radians{(beams - 1) * step}, .range = range};
+        finder.measure(mover.scene(), mover.position, Radians{heading_}, {}, ways_);
+    }
+
+    /// Way that a beam measures [m]; the range if there is nothing nearer.
+    double way(std::size_t beam) const { return ways_[beam]; }
+    const std::array<double, beams>& ways() const { return ways_; }
+    /// Direction of a beam [rad]: the first one is straight ahead, the others counter-clockwise.
+    double direction(std::size_t beam) const { return heading_ + static_cast<double>(beam) * step; }
+    /// Way that the beam nearest to a direction [rad] measures [m].
+    double way_towards(double direction) const {
+        const double beam = std::round((direction - heading_) / step);
+        return ways_[static_cast<std::size_t>(std::fmod(beam + 4 * beams, beams))];
+    }
+    /// Beam that measures least; nothing if none measures less than the range.
+    std::optional<std::size_t> nearest() const {
+        const auto least = std::min_element(ways_.begin(), ways_.end());
+        if (*least >= range_) return std::nullopt;
+        return static_cast<std::size_t>(least - ways_.begin());
+    }
+
+  private:
+    double heading_, range_;
+    std::array<double, beams> ways_{};
+};
+
+}  // namespace rovernet
