@@ -166,6 +166,11 @@ class ScenarioFile {
     /// @param path  file; "-": a scenario from standard input, relative to the current folder
     /// @throws InputError for what is no scenario, with what it is and what to do
     ScenarioFile(const std::string& path, const ScenarioOptions& options);
+    /// Scenario whose document was made in code.
+    /// @param path  file that it stands for: paths in it are relative to its folder, or to the
+    ///              current one if it is empty
+    /// @throws InputError if it is no table, or for the world that it names
+    ScenarioFile(Value document, const std::string& path, const ScenarioOptions& options);
 
     /// Scenario with these values (by path, as for --set) over the file's.
     /// @throws InputError at the first mistake, at the value's place if that is wrong
@@ -184,6 +189,9 @@ class ScenarioFile {
 /// Commands that need one scenario call it.
 /// @throws InputError as ScenarioFile, and for the map
 Scenario load_scenario(const std::string& path, const ScenarioOptions& options);
+/// The same for a file that was read before.
+/// @param settings  values by path, see ScenarioFile::scenario()
+Scenario load_scenario(const ScenarioFile& file, const Table& settings = {});
 
 /// Document of a scenario with every default; it reads back as the same scenario.
 Table to_document(const Scenario& scenario);

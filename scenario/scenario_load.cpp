@@ -176,13 +176,24 @@ void add_world(Table& document, const Table& world) {
     document = std::move(all);
 }
 
+/// The document that a file is, or is made into.
+Value document_of(const std::string& path) {
+    refuse_others(path);
+    if (is_world(path)) return world_alone(path);
+    return is_movement(path) ? movement_alone(path) : read_toml(path);
+}
+
 }  // namespace
 
-ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& options) : path_(path) {
-    refuse_others(path);
-    document_ = is_world(path)      ? world_alone(path)
-                : is_movement(path) ? movement_alone(path)
-                                    : read_toml(path);
+ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& options)
+    : ScenarioFile(document_of(path), path, options) {}
+
+ScenarioFile::ScenarioFile(Value document, const std::string& path, const ScenarioOptions& options)
+    : path_(path), document_(std::move(document)) {
+    if (!document_.table()) {
+        throw InputError(document_.where, fmt::format("found {}; expected a table of tables",
+                                                      document_.description()));
+    }
     Table& table = *document_.table();
     const fs::path folder = fs::path(path).parent_path();
     apply_world_options(table, options, folder);
@@ -212,7 +223,11 @@ Scenario ScenarioFile::scenario(const Table& settings) const {
 }
 
 Scenario load_scenario(const std::string& path, const ScenarioOptions& options) {
-    Scenario scenario = ScenarioFile(path, options).scenario();
+    return load_scenario(ScenarioFile(path, options));
+}
+
+Scenario load_scenario(const ScenarioFile& file, const Table& settings) {
+    Scenario scenario = file.scenario(settings);
     if (!scenario.walls) {
         scenario.walls = load_map(scenario.scene, scenario.file, scenario.notices);
     }
