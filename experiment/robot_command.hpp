@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/fields.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -45,6 +47,16 @@ struct SendCommand {
     std::string payload = {};
     std::optional<std::uint32_t> size = {};  ///< on air [bytes]; the payload's length if not given
 };
+
+// Ranges of the numbers in commands, for the doors through which they come.
+
+inline constexpr Range drive_speeds{.low = -1000, .high = 1000, .text = "from -1000 to 1000 m/s"};
+inline constexpr Range drive_turns{.low = -1000, .high = 1000, .text = "from -1000 to 1000 rad/s"};
+inline constexpr Range goal_speeds{
+    .low = 0, .high = 1000, .low_included = false, .text = "above 0 and up to 1000 m/s"};
+inline constexpr Range goal_places{.low = -1e9, .high = 1e9, .text = "from -1e9 to 1e9 m"};
+inline constexpr std::size_t longest_message = 65'535;  ///< [bytes]
+inline constexpr Duration shortest_step{1'000};         ///< [ns] of a program that asks for steps
 
 using RobotCommand =
     std::variant<DriveCommand, GoalCommand, StopCommand, PlaceCommand, SendCommand>;

@@ -197,8 +197,8 @@ Session::Client& Session::client_of(ClientId client) {
 }
 
 void Session::check_robot(ClientId client, NodeId robot) {
-    const auto& robots = client_of(client).robots;
-    if (std::find(robots.begin(), robots.end(), robot) != robots.end()) return;
+    client_of(client);
+    if (driver(robot) == client) return;
     throw std::invalid_argument(
         fmt::format("robot {} is not the client's: attach it first", network_->name(robot)));
 }

@@ -14,17 +14,10 @@ namespace {
 
 namespace dom = simdjson::dom;
 
-constexpr std::size_t deepest = 32;          // levels of brackets
-constexpr std::size_t most_items = 100'000;  // of a list
-constexpr std::size_t longest_name = 64;     // [bytes]
-constexpr std::size_t longest_message = 65'535;
+constexpr std::size_t deepest = 32;                               // levels of brackets
+constexpr std::size_t most_items = 100'000;                       // of a list
+constexpr std::size_t longest_name = 64;                          // [bytes]
 constexpr std::uint64_t largest_count = std::uint64_t{1} << 53U;  // whole in every program
-constexpr Range speeds{.low = -1000, .high = 1000, .text = "from -1000 to 1000 m/s"};
-constexpr Range goal_speeds{
-    .low = 0, .high = 1000, .low_included = false, .text = "above 0 and up to 1000 m/s"};
-constexpr Range turns{.low = -1000, .high = 1000, .text = "from -1000 to 1000 rad/s"};
-constexpr Range places{.low = -1e9, .high = 1e9, .text = "from -1e9 to 1e9 m"};
-constexpr double shortest_step = 1e-6;  // [s]
 
 /// A message with advice behind it, if there is some.
 std::string advised(std::string message, const std::string& advice) {
@@ -145,9 +138,10 @@ HelloRequest read_hello(const JsonElement& line, const Robots& robots) {
                   fmt::format("robot {} stands there twice", robots.network.name(*twice)));
     }
     const JsonElement& length = needed(step, line, "step", "\"step\":\"100 ms\"");
-    const double s = time_in(length);
-    if (s < shortest_step) length.fail("out_of_range", "expected a step of 1 us or more");
-    hello.step = from_seconds(s);
+    hello.step = from_seconds(time_in(length));
+    if (hello.step < shortest_step) {
+        length.fail("out_of_range", "expected a step of 1 us or more");
+    }
     if (observe) read_observed(*observe, hello);
     if (columns) hello.columns = columns->truth();
     hello.seed = seed_in(seed);
@@ -157,8 +151,8 @@ HelloRequest read_hello(const JsonElement& line, const Robots& robots) {
 DriveCommand drive_of(const std::optional<JsonElement>& v, const std::optional<JsonElement>& w,
                       const std::optional<JsonElement>& timeout) {
     DriveCommand drive;
-    if (v) drive.speed.value = v->number(speeds);
-    if (w) drive.turn_rate.value = w->number(turns);
+    if (v) drive.speed.value = v->number(drive_speeds);
+    if (w) drive.turn_rate.value = w->number(drive_turns);
     if (timeout) {
         const double s = time_in(*timeout);
         if (!(s > 0)) timeout->fail("out_of_range", "expected a time above 0 s");
@@ -169,7 +163,7 @@ DriveCommand drive_of(const std::optional<JsonElement>& v, const std::optional<J
 
 Vec3 place_in(const JsonElement& list) {
     std::vector<double> at;
-    for_each_item(list, [&](const JsonElement& item) { at.push_back(item.number(places)); });
+    for_each_item(list, [&](const JsonElement& item) { at.push_back(item.number(goal_places)); });
     if (at.size() != 2 && at.size() != 3) {
         list.fail("bad_value",
                   fmt::format("found {} numbers; expected [x, y] in metres", at.size()));
@@ -219,8 +213,8 @@ void read_columns(const JsonElement& element, const Robots& robots, Commands& co
         const auto id = item.whole_number(0, robots.network.size() - 1);
         driven.push_back(robots.own_robot(item, NodeId{static_cast<std::uint32_t>(id)}));
     });
-    const auto speed = numbers_in(v, driven.size(), speeds);
-    const auto turn = numbers_in(w, driven.size(), turns);
+    const auto speed = numbers_in(v, driven.size(), drive_speeds);
+    const auto turn = numbers_in(w, driven.size(), drive_turns);
     const DriveCommand same = drive_of({}, {}, timeout);
     for (std::size_t i = 0; i < driven.size(); ++i) {
         commands.emplace_back(driven[i], DriveCommand{{speed[i]}, {turn[i]}, same.timeout});
