@@ -8,6 +8,7 @@
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
 #include "files/part_file.hpp"
+#include "mobility/kept_planners.hpp"
 #include "scenario/json.hpp"
 #include "scenario/toml.hpp"
 
@@ -86,48 +87,65 @@ std::optional<Scenario> shortened(const Scenario& scenario, Duration simulated) 
 
 }  // namespace
 
-RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
-    RunResult result;
-    result.started = utc_now();
-    const auto started = WallClock::now();
+ScenarioRun::ScenarioRun(const Scenario& scenario, KeptPlanners* kept) : scenario_(scenario) {
+    result_.started = utc_now();
     NetworkSettings settings = network_settings(scenario);
-    settings.warmup = warmup_of(scenario, settings);
+    if (kept) settings.planners = kept->of(settings.scene);
+    settings.warmup = warmup_ = warmup_of(scenario, settings);
     settings.scenario = [&scenario] { return to_toml(to_document(scenario)); };
-    Session session(scenario, settings);
-    Network& network = session.network();
+    session_ = std::make_unique<Session>(scenario, settings);
+    Network& network = session_->network();
+    timeline_ = std::make_shared<Timeline>(network);
+    network.add_sink(fingerprint_);
+    network.add_sink(timeline_);
+    topology_ = add_topology(network, scenario, warmup_);
+}
 
-    result.folder = options.folder.value_or(run_folder(scenario, {}));
-    if (options.progress && !options.progress(0)) throw Interrupted();
-    make_folder(result.folder);
-    const auto fingerprint = std::make_shared<Fingerprint>();
-    const auto timeline = std::make_shared<Timeline>(network);
-    network.add_sink(fingerprint);
-    network.add_sink(timeline);
-    const auto topology = add_topology(network, scenario, settings.warmup);
-    const std::vector<TraceFile> traces = trace_files(scenario, result.folder);
-    for (const TraceFile& trace : traces) network.add_sink(trace.sink);
-    if (!traces.empty()) result.trace = traces.front().path;
-    const bool is_whole = options.drive ? options.drive(session, *fingerprint)
-                                        : session.run(options.speed, options.progress);
-    if (!is_whole) throw Interrupted();
-    result.fingerprint = fingerprint->text();
+ScenarioRun::~ScenarioRun() = default;
+
+void ScenarioRun::write_to(const std::string& folder) {
+    result_.folder = folder;
+    make_folder(folder);
+    traces_ = trace_files(scenario_, folder);
+    for (const TraceFile& trace : traces_) session_->network().add_sink(trace.sink);
+    if (!traces_.empty()) result_.trace = traces_.front().path;
+}
+
+RunResult ScenarioRun::finish() {
+    Network& network = session_->network();
+    result_.fingerprint = fingerprint_->text();
     network.finish();
 
-    result.simulated = network.now() - start_of_run;
-    result.metrics = network.metrics();
-    const auto ended_early = shortened(scenario, result.simulated);
-    append_parts(result.parts, ended_early ? *ended_early : scenario, network, result.metrics,
-                 std::max(result.simulated - settings.warmup, Duration{0}), topology.get());
-    result.events = network.events();
-    result.network = session.shared_network();
-    result.interference_left_out = network.interference_left_out();
-    result.timeline = timeline;
-    result.wall_s = std::chrono::duration<double>(WallClock::now() - started).count();
-    PartFile document(result.folder + "/scenario.toml"), summary(result.folder + "/summary.json");
-    document.write(to_toml(document_in(result.folder, scenario)));
-    write_summary(whole_summary(scenario, result), *timeline, summary);
-    name_results(result.folder, traces, {&document, &summary});
-    return result;
+    result_.simulated = network.now() - start_of_run;
+    result_.metrics = network.metrics();
+    const auto ended_early = shortened(scenario_, result_.simulated);
+    append_parts(result_.parts, ended_early ? *ended_early : scenario_, network, result_.metrics,
+                 std::max(result_.simulated - warmup_, Duration{0}), topology_.get());
+    result_.events = network.events();
+    result_.network = session_->shared_network();
+    result_.interference_left_out = network.interference_left_out();
+    result_.timeline = timeline_;
+    result_.wall_s = std::chrono::duration<double>(WallClock::now() - begun_).count();
+    if (!result_.folder.empty()) write_results();
+    return std::move(result_);
+}
+
+void ScenarioRun::write_results() {
+    const std::string& folder = result_.folder;
+    PartFile document(folder + "/scenario.toml"), summary(folder + "/summary.json");
+    document.write(to_toml(document_in(folder, scenario_)));
+    write_summary(whole_summary(scenario_, result_), *timeline_, summary);
+    name_results(folder, traces_, {&document, &summary});
+}
+
+RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
+    ScenarioRun run(scenario);
+    if (options.progress && !options.progress(0)) throw Interrupted();
+    run.write_to(options.folder.value_or(run_folder(scenario, {})));
+    const bool is_whole = options.drive ? options.drive(run.session(), run.fingerprint())
+                                        : run.session().run(options.speed, options.progress);
+    if (!is_whole) throw Interrupted();
+    return run.finish();
 }
 
 void append_metrics(Table& table, const MetricValues& m) {

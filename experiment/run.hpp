@@ -12,6 +12,7 @@
 #include "traces/metrics.hpp"
 #include "traces/topology.hpp"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,7 +21,9 @@
 
 namespace rovernet {
 
+class KeptPlanners;
 class Session;
+struct TraceFile;
 
 struct RunOptions {
     std::optional<std::string> folder;  ///< folder for the results; run_folder() if not given
@@ -39,7 +42,7 @@ class Interrupted : public std::exception {
 };
 
 struct RunResult {
-    std::string folder;
+    std::string folder;                ///< empty: nothing was written
     std::optional<std::string> trace;  ///< path of the ns-2 trace, or else of the recorded one
     MetricValues metrics;
     std::string fingerprint;
@@ -51,6 +54,46 @@ struct RunResult {
     std::string started;                      ///< UTC, ISO 8601
     std::shared_ptr<const Timeline> timeline;
     std::shared_ptr<const Network> network;  ///< network as the run left it
+};
+
+/// Run of a scenario whose session somebody else takes through it; run_scenario() makes one, too.
+///
+///   ScenarioRun run(scenario);
+///   run.write_to("runs/mine");           // or not: then nothing is written
+///   run.session().step(start_of_run + 10s);
+///   RunResult result = run.finish();
+class ScenarioRun {
+  public:
+    /// Makes the network. @throws InputError for what only shows on the map
+    /// @param scenario  which has to live as long
+    /// @param kept      planners of its scene from earlier runs, which are kept there; may be null
+    explicit ScenarioRun(const Scenario& scenario, KeptPlanners* kept = nullptr);
+    ~ScenarioRun();
+    ScenarioRun(const ScenarioRun&) = delete;  // sinks refer to it
+    ScenarioRun& operator=(const ScenarioRun&) = delete;
+
+    /// Begins the traces that the scenario asks for, in the folder that gets the results; before
+    /// the session's first step. @throws RunError if that cannot be written
+    void write_to(const std::string& folder);
+    Session& session() { return *session_; }
+    /// Fingerprint of the run so far.
+    const Fingerprint& fingerprint() const { return *fingerprint_; }
+    /// Ends the run where it is, and writes the results if they have a folder. Once. @throws
+    /// RunError
+    RunResult finish();
+
+  private:
+    void write_results();
+
+    const Scenario& scenario_;
+    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+    RunResult result_;  // as far as it is known
+    Duration warmup_{0};
+    std::unique_ptr<Session> session_;
+    std::shared_ptr<Fingerprint> fingerprint_ = std::make_shared<Fingerprint>();
+    std::shared_ptr<Timeline> timeline_;
+    std::shared_ptr<Topology> topology_;  // null: not measured
+    std::vector<TraceFile> traces_;
 };
 
 /// Runs a scenario and writes summary.json, scenario.toml and the trace that it asks for into its
