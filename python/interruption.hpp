@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <utility>
+
+namespace rovernet::python {
+
+namespace py = pybind11;
+
+/// What ends a simulation from Python's side: Ctrl-C, and errors of callbacks. The simulation runs
+/// without Python's lock and asks now and then whether to go on; whoever called it then raises the
+/// error.
+class Interruption {
+  public:
+    /// Whether to go on. Looks for Ctrl-C, and calls `look`, every 50 ms of real time.
+    template <class Look>
+    bool go_on(const Look& look) {
+        constexpr std::chrono::milliseconds pause{50};
+        if (error_) return false;
+        const auto now = std::chrono::steady_clock::now();
+        if (now - looked_ < pause) return true;
+        looked_ = now;
+        call([&] {
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            look();
+        });
+        return !error_;
+    }
+    bool go_on() {
+        return go_on([] {});
+    }
+    /// Calls something of Python, with its lock; an error is kept.
+    template <class Callback>
+    void call(const Callback& callback) {
+        const py::gil_scoped_acquire lock;
+        is_calling_ = true;
+        try {
+            callback();
+        } catch (...) {
+            error_ = std::current_exception();
+        }
+        is_calling_ = false;
+    }
+    /// Python is being called: the simulation stands still.
+    bool is_calling() const { return is_calling_; }
+    bool has_error() const { return error_ != nullptr; }
+    /// Raises the error that was kept, once.
+    void raise() {
+        if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    }
+
+  private:
+    std::chrono::steady_clock::time_point looked_;
+    std::exception_ptr error_;
+    bool is_calling_ = false;
+};
+
+}  // namespace rovernet::python

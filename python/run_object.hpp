@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/run.hpp"
+#include "experiment/session.hpp"
+#include "python/interruption.hpp"
+#include "python/record_arrays.hpp"
+#include "python/values.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rovernet::python {
+
+/// Sink of the kinds of that names, if there are some.
+inline std::shared_ptr<RowSink> rows_of(const std::vector<std::string>& kinds) {
+    KindMask mask = 0;
+    for (const std::string& kind : kinds) mask |= record_named(kind);
+    return mask == 0 ? nullptr : std::make_shared<RowSink>(mask);
+}
+
+inline py::array records_in(const RowSink* rows, const std::string& name) {
+    const KindMask kind = record_named(name);
+    if (rows && (rows->kinds() & kind) != 0) return to_array(rows->table(kind));
+    throw py::value_error(fmt::format(
+        "records \"{}\" were not kept; expected records=[\"{}\"] as it begins", name, name));
+}
+
+inline py::tuple names_of(const Network& network) {
+    py::tuple names(network.size());
+    for (NodeId n{0}; n.index() < network.size(); ++n.value) names[n.index()] = network.name(n);
+    return names;
+}
+
+/// Result of a run: what `rovernet.Run` is.
+class RunObject {
+  public:
+    /// @param rows    that were kept; may be null
+    /// @param repeat  the run is its scenario's alone, so that it can be made again for records
+    /// that
+    ///                were not kept
+    RunObject(std::shared_ptr<const Scenario> scenario, RunResult result,
+              std::shared_ptr<RowSink> rows, bool repeat)
+        : scenario_(std::move(scenario)),
+          result_(std::move(result)),
+          rows_(std::move(rows)),
+          repeat_(repeat) {}
+
+    py::dict metrics() const {
+        Table table;
+        append_metrics(table, result_.metrics);
+        for (const Entry& part : result_.parts.entries) table.set(part.key, part.value);
+        return to_python(table);
+    }
+    py::list timeline() const {
+        py::list list;
+        for (std::size_t i = 0; i < result_.timeline->size(); ++i) {
+            const auto [time, robot, words] = (*result_.timeline)[i];
+            py::dict happening;
+            happening["t_ns"] = py::int_(time.time_since_epoch().count());
+            happening["robot"] = robot;
+            happening["text"] = words;
+            list.append(std::move(happening));
+        }
+        return list;
+    }
+    py::array records(const std::string& name) {
+        if (repeat_ && !(rows_ && (rows_->kinds() & record_named(name)) != 0)) run_again({name});
+        return records_in(rows_.get(), name);
+    }
+    py::tuple names() const { return names_of(*result_.network); }
+    const RunResult& result() const { return result_; }
+    const Scenario& scenario() const { return *scenario_; }
+
+  private:
+    void run_again(const std::vector<std::string>& kinds) {
+        Interruption interruption;
+        auto rows = rows_of(kinds);
+        {
+            const py::gil_scoped_release others_run;
+            ScenarioRun run(*scenario_);
+            run.session().network().add_sink(rows);
+            run.session().run({}, [&](double) { return interruption.go_on(); });
+            run.session().network().finish();
+        }
+        interruption.raise();
+        rows_ = std::move(rows);
+    }
+
+    std::shared_ptr<const Scenario> scenario_;
+    RunResult result_;
+    std::shared_ptr<RowSink> rows_;
+    bool repeat_;
+};
+
+/// Runs a scenario to its end: what `rovernet.run` is.
+inline RunObject run(const py::object& given, const py::object& set, const py::object& seed,
+                     const py::object& out, const std::vector<std::string>& records,
+                     const py::object& progress) {
+    const auto scenario = std::make_shared<const Scenario>(to_scenario(given, set, seed));
+    auto rows = rows_of(records);
+    const auto folder = out.is_none() ? std::nullopt : std::optional(path_in(out));
+    Interruption interruption;
+    std::optional<RunResult> result;
+    {
+        const py::gil_scoped_release others_run;
+        ScenarioRun run(*scenario);
+        if (folder) run.write_to(*folder);
+        if (rows) run.session().network().add_sink(rows);
+        const bool is_whole = run.session().run({}, [&](double share) {
+            return interruption.go_on([&] {
+                if (!progress.is_none()) progress(share);
+            });
+        });
+        if (is_whole) result = run.finish();
+    }
+    interruption.raise();
+    return {scenario, std::move(*result), std::move(rows), true};
+}
+
+}  // namespace rovernet::python

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "python/session_object.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+// Commands to a session, and what it tells of its robots, with Python's arguments and numpy's
+// arrays.
+
+namespace rovernet::python {
+
+using namespace py::literals;
+
+inline std::optional<Duration> duration_in(const std::optional<double>& s) {
+    return s ? std::optional(from_seconds(*s)) : std::nullopt;
+}
+
+inline void drive(SessionObject& session, const py::object& velocities,
+                  const std::optional<double>& timeout) {
+    using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+    const auto robots = static_cast<py::ssize_t>(session.run().robots().size());
+    const auto numbers = Numbers::ensure(velocities);
+    if (!numbers || numbers.ndim() != 2 || numbers.shape(0) != robots || numbers.shape(1) != 2) {
+        const py::object shape =
+            numbers ? numbers.attr("shape") : py::object(py::str(py::type::of(velocities)));
+        throw py::value_error(fmt::format("drive: expected numbers of shape ({}, 2), got {}",
+                                          robots, std::string(py::str(shape))));
+    }
+    session.run().drive({numbers.data(), static_cast<std::size_t>(numbers.size())},
+                        duration_in(timeout));
+}
+
+inline void go_to(SessionObject& session, const std::string& robot, const std::vector<double>& to,
+                  double speed) {
+    if (to.size() != 2 && to.size() != 3) {
+        throw py::value_error(
+            fmt::format("go_to: expected a place (x, y), got {} numbers", to.size()));
+    }
+    session.run().command(session.row(robot),
+                          GoalCommand{{to[0], to[1], to.size() == 3 ? to[2] : 0}, {speed}});
+}
+
+inline std::int64_t whole_in(std::string_view what, std::int64_t number) {
+    if (number >= 0 && number <= 65'535) return number;
+    throw py::value_error(fmt::format("send: {} must be from 0 to 65535, got {}", what, number));
+}
+
+inline void send(SessionObject& session, const std::string& robot, const py::bytes& data,
+                 const std::optional<std::string>& to, std::int64_t port,
+                 const std::optional<std::int64_t>& size) {
+    SendCommand send{.port = static_cast<std::uint16_t>(whole_in("port", port)), .payload = data};
+    const std::size_t row = session.row(robot);
+    if (to) send.to = robot_named(session.network(), *to);
+    if (to && *to == robot) {
+        throw py::value_error("send: expected another robot, or to=None for everyone");
+    }
+    if (size) send.size = static_cast<std::uint32_t>(whole_in("size", *size));
+    session.run().command(row, std::move(send));
+}
+
+/// An array that a function of the robots fills.
+template <class T, class Value>
+py::array_t<T> by_robot(SessionObject& session, Value value) {
+    const auto& robots = session.run().robots();
+    py::array_t<T> all(static_cast<py::ssize_t>(robots.size()));
+    T* out = all.mutable_data();
+    for (const NodeId robot : robots) *out++ = value(session.run().session(), robot);
+    return all;
+}
+
+inline py::array_t<double> twist(SessionObject& session) {
+    const auto& robots = session.run().robots();
+    py::array_t<double> all({static_cast<py::ssize_t>(robots.size()), py::ssize_t{2}});
+    double* out = all.mutable_data();
+    for (const NodeId robot : robots) {
+        const Twist twist = session.run().session().twist(robot);
+        *out++ = twist.speed;
+        *out++ = twist.turn_rate;
+    }
+    return all;
+}
+
+/// A view of the poses, which keeps the session.
+inline py::array pose(const py::object& self) {
+    auto& session = self.cast<SessionObject&>();
+    const std::span<const double> poses = session.run().poses();
+    py::array_t<double> view({static_cast<py::ssize_t>(poses.size() / 3), py::ssize_t{3}},
+                             poses.data(), self);
+    view.attr("setflags")("write"_a = false);
+    return view;
+}
+
+/// Row of an array of neighbours, as numpy sees it.
+struct NeighborRow {
+    PyObject* name;
+    double rssi, noise;
+    std::int32_t quality;
+};
+
+inline py::array neighbors(SessionObject& session, const std::string& robot) {
+    static const auto* type = new py::dtype(  // never freed: the interpreter may be gone by then
+        py::cast<py::list>(py::make_tuple("name", "rssi", "noise", "quality")),
+        py::cast<py::list>(py::make_tuple("O", "<f8", "<f8", "<i4")),
+        py::cast<py::list>(py::make_tuple(offsetof(NeighborRow, name), offsetof(NeighborRow, rssi),
+                                          offsetof(NeighborRow, noise),
+                                          offsetof(NeighborRow, quality))),
+        sizeof(NeighborRow));
+    const Network& network = session.network();
+    const auto found = network.links(robot_named(network, robot), network.now());
+    py::array all(*type, found.size());
+    auto* row = static_cast<NeighborRow*>(all.mutable_data());
+    for (const Neighbour& each : found) {
+        Py_XDECREF(row->name);
+        row->name = py::object(session.names()[each.node.index()]).release().ptr();
+        row->rssi = each.level.value;
+        row->noise = each.noise.value;
+        row->quality = each.quality;
+        ++row;
+    }
+    return all;
+}
+
+inline py::list robots(SessionObject& session) {
+    py::list names;
+    for (const NodeId robot : session.run().robots()) names.append(session.names()[robot.index()]);
+    return names;
+}
+
+inline py::dict metrics(SessionObject& session) {
+    Table table;
+    append_metrics(table, session.network().metrics());
+    return to_python(table);
+}
+
+}  // namespace rovernet::python

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/stepped_run.hpp"
+#include "models/medium/medium.hpp"
+#include "python/interruption.hpp"
+#include "python/record_arrays.hpp"
+#include "python/run_object.hpp"
+#include "python/values.hpp"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rovernet::python {
+
+/// Message that a robot heard: what `rovernet.Heard` is.
+struct HeardObject {
+    HeardMessage message;
+    double noise;     // [dBm]
+    py::tuple names;  // of all robots
+
+    py::object name(NodeId robot) const { return names[robot.index()]; }
+};
+
+/// Sink that tells a function of Python each record of a kind.
+class RecordCallback {
+  public:
+    RecordCallback(KindMask kind, py::object function, Interruption& interruption)
+        : kind_(kind), rows_(kind), function_(std::move(function)), interruption_(interruption) {}
+
+    KindMask kinds() const { return rows_.kinds(); }
+    void on(const Record& record, const RecordContext& context) {
+        if (interruption_.has_error()) return;
+        rows_.on(record, context);
+        interruption_.call([&] {
+            const RowSink::Table table = rows_.table(kind_);
+            for (std::size_t i = 0; i < table.size(); ++i) function_(row_of(table, i));
+        });
+        rows_.clear();
+    }
+    const py::object& function() const { return function_; }
+
+  private:
+    KindMask kind_;
+    RowSink rows_;
+    py::object function_;
+    Interruption& interruption_;
+};
+
+/// Scenario that a program drives step by step: what `rovernet.Session` is.
+///
+/// A step runs without Python's lock. Until it is over, the session refuses everything, but from
+/// callbacks, while which the simulation stands still.
+class SessionObject {
+  public:
+    SessionObject(const py::object& scenario, double step, const py::object& seed,
+                  const py::object& set, std::optional<std::vector<std::string>> robots,
+                  const py::object& out, std::vector<std::string> records)
+        : kinds_(std::move(records)),
+          run_(to_scenario(scenario, set, seed),
+               {.robots = std::move(robots),
+                .step = from_seconds(step),
+                .folder = out.is_none() ? std::nullopt : std::optional(path_in(out)),
+                .client = "python",
+                .prepare = [this](Network& network) { prepare(network); }}) {
+        const Network& network = run_.session().network();
+        names_ = names_of(network);
+        for (std::size_t row = 0; row < run_.robots().size(); ++row) {
+            rows_[run_.robots()[row]] = row;
+        }
+    }
+
+    void reset(const std::optional<std::uint64_t>& seed) {
+        const Working working(*this);
+        const py::gil_scoped_release others_run;
+        run_.reset(seed);
+    }
+    py::list step() {
+        constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
+        const Working working(*this);
+        {
+            const py::gil_scoped_release others_run;
+            run_.step(callbacks_.empty() ? events_a_slice : 1,
+                      [this] { return interruption_.go_on(); });
+        }
+        interruption_.raise();
+        py::list all;
+        for (HeardMessage& message : run_.heard()) {
+            const double noise = run_.session().network().medium().noise(message.at).value;
+            all.append(HeardObject{std::move(message), noise, names_});
+        }
+        return all;
+    }
+    RunObject finish() {
+        const Working working(*this);
+        auto scenario = std::make_shared<const Scenario>(run_.scenario());
+        RunResult result = run_.finish();
+        return {std::move(scenario), std::move(result), kept_, false};
+    }
+    /// Calls `function` with each record of a kind from now on, or none if it is None.
+    void on_record(const std::string& name, const py::object& function) {
+        const Working working(*this);
+        Network& network = run_.session().network();
+        const KindMask kind = record_named(name);
+        if (const auto old = callbacks_.find(kind); old != callbacks_.end()) {
+            network.remove_sink(old->second.sink);
+            callbacks_.erase(old);
+        }
+        if (function.is_none()) return;
+        auto callback = std::make_shared<RecordCallback>(kind, function, interruption_);
+        callbacks_[kind] = {callback, network.add_sink(callback)};
+    }
+
+    // What may be asked, or commanded, between steps and from callbacks.
+
+    SteppedRun& run() {
+        check_idle();
+        return run_;
+    }
+    Network& network() { return run().session().network(); }
+    std::size_t row(const std::string& robot) {
+        const auto found = rows_.find(robot_named(network(), robot));
+        if (found != rows_.end()) return found->second;
+        throw py::value_error(
+            fmt::format("robot {} is not among those that the session drives", robot));
+    }
+    const py::tuple& names() const { return names_; }
+    py::array records(const std::string& name) {
+        check_idle();
+        return records_in(kept_.get(), name);
+    }
+    /// Calls visit(function) for each callback: Python's collector of garbage asks.
+    template <class Visit>
+    void for_each_callback(Visit visit) const {
+        for (const auto& [kind, each] : callbacks_) visit(each.callback->function());
+    }
+
+    void forget_callbacks() {
+        for (const auto& [kind, each] : callbacks_) {
+            if (!run_.is_over()) run_.session().network().remove_sink(each.sink);
+        }
+        callbacks_.clear();
+    }
+
+  private:
+    struct Added {
+        std::shared_ptr<RecordCallback> callback;
+        SinkId sink;
+    };
+    /// The session works: nobody else may use it.
+    class Working {
+      public:
+        explicit Working(SessionObject& session) : session_(session) {
+            if (session_.works_)
+                throw RunError("the session is in a step, or another thread has it");
+            session_.works_ = true;
+        }
+        ~Working() { session_.works_ = false; }
+
+      private:
+        SessionObject& session_;
+    };
+    void check_idle() const {
+        if (works_ && !interruption_.is_calling()) {
+            throw RunError("the session is in a step; expected to be asked between steps");
+        }
+    }
+    void prepare(Network& network) {
+        kept_ = rows_of(kinds_);
+        if (kept_) network.add_sink(kept_);
+        for (auto& [kind, each] : callbacks_) each.sink = network.add_sink(each.callback);
+    }
+
+    std::vector<std::string> kinds_;
+    std::shared_ptr<RowSink> kept_;  // records of these kinds
+    Interruption interruption_;
+    std::map<KindMask, Added> callbacks_;
+    bool works_ = false;
+    SteppedRun run_;
+    py::tuple names_;
+    std::map<NodeId, std::size_t> rows_;
+};
+
+}  // namespace rovernet::python

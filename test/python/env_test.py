@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: MIT
+"""rovernet.ParallelEnv and Env: the shapes that programs for reinforcement learning expect."""
+import inspect
+import unittest
+
+import numpy as np
+
+import rovernet as rn
+from rovernet import spaces
+from scenes import ROW, still
+
+# Names, parameters and their defaults as PettingZoo 1.24 (ParallelEnv) and Gymnasium 0.29 (Env) document them.
+PARALLEL_ENV = {
+    "reset": "(self, seed=None, options=None)",
+    "step": "(self, actions)",
+    "render": "(self)",
+    "close": "(self)",
+    "state": "(self)",
+    "observation_space": "(self, agent)",
+    "action_space": "(self, agent)",
+}
+PARALLEL_ENV_ATTRIBUTES = ("metadata agents possible_agents num_agents max_num_agents observation_spaces "
+                           "action_spaces unwrapped")
+ENV = {
+    "reset": "(self, *, seed=None, options=None)",
+    "step": "(self, action)",
+    "render": "(self)",
+    "close": "(self)",
+}
+ENV_ATTRIBUTES = "metadata render_mode spec observation_space action_space unwrapped"
+
+FAILING = {
+    "scenario": {"duration": "1 s"},
+    "robot": [{"name": "A", "at": [0, 0]},
+              {"name": "B", "at": [10, 0], "off": ["0.25 s"]}],
+}
+"""B is switched off at 0.25 s."""
+
+
+def signature(function):
+    plain = inspect.signature(function)
+    without_types = [each.replace(annotation=inspect.Parameter.empty) for each in plain.parameters.values()]
+    return str(plain.replace(parameters=without_types, return_annotation=inspect.Signature.empty))
+
+
+def nothing(session, heard):
+    return np.zeros(len(session.robots))
+
+
+class Shapes(unittest.TestCase):
+    def test_parallel_env_has_the_functions_of_pettingzoo(self):
+        for name, expected in PARALLEL_ENV.items():
+            self.assertEqual(signature(getattr(rn.ParallelEnv, name)), expected, name)
+        env = rn.ParallelEnv(ROW, nothing)
+        for name in PARALLEL_ENV_ATTRIBUTES.split():
+            self.assertTrue(hasattr(env, name), name)
+        self.assertIn("render_modes", env.metadata)
+
+    def test_env_has_the_functions_of_gymnasium(self):
+        for name, expected in ENV.items():
+            self.assertEqual(signature(getattr(rn.Env, name)), expected, name)
+        with rn.Env(ROW, lambda session, heard: 0) as env:
+            for name in ENV_ATTRIBUTES.split():
+                self.assertTrue(hasattr(env, name), name)
+
+    def test_their_own_checkers_pass_if_they_are_installed(self):
+        try:
+            from gymnasium.utils.env_checker import check_env
+            from pettingzoo.test import parallel_api_test
+        except ImportError:
+            self.skipTest("neither gymnasium nor pettingzoo is installed")
+        check_env(rn.Env(ROW, lambda session, heard: 0), skip_render_check=True)
+        parallel_api_test(rn.ParallelEnv(ROW, nothing), num_cycles=100)
+
+
+class ParallelEnv(unittest.TestCase):
+    def test_actions_drive_and_observations_are_poses(self):
+        env = rn.ParallelEnv(still(2), lambda session, heard: session.pose[:, 0], step=1)
+        observations, infos = env.reset(seed=3)
+        self.assertEqual(env.session.seed, 3)
+        self.assertEqual({agent: each.tolist() for agent, each in observations.items()},
+                         {"r0": [0, 0, 0], "r1": [10, 0, 0]})
+        self.assertEqual(infos, {"r0": {"heard": []}, "r1": {"heard": []}})
+        result = env.step({"r1": np.array([0.5, 0.0])})
+        observations, rewards, terminations, truncations, infos = result
+        self.assertEqual([set(each) for each in result], [{"r0", "r1"}] * 5)
+        self.assertEqual(observations["r1"].tolist(), [10.5, 0, 0])
+        self.assertEqual(rewards, {"r0": 0.0, "r1": 10.5})
+        self.assertEqual(list(terminations.values()) + list(truncations.values()), [False] * 4)
+        later = env.step({})[0]  # goes on as it was told
+        self.assertEqual(later["r1"].tolist(), [11, 0, 0])
+        self.assertEqual(observations["r1"].tolist(), [10.5, 0, 0])  # a copy
+        self.assertTrue(all(env.observation_space(agent).contains(each) for agent, each in later.items()))
+        with self.assertRaisesRegex(ValueError, "no agent 'x'; expected one of r0, r1"):
+            env.step({"x": [0, 0]})
+
+    def test_messages_are_in_the_infos_of_who_heard_them(self):
+        env = rn.ParallelEnv(ROW, nothing)
+        env.reset()
+        env.session.send("B", b"F")
+        infos = env.step({})[4]
+        self.assertEqual([each.data for each in infos["A"]["heard"]], [b"F"])
+        self.assertEqual([each.at for each in infos["C"]["heard"]], ["C"])
+        self.assertEqual(infos["B"]["heard"], [])
+
+    def test_a_robot_that_is_off_is_terminated_and_the_end_truncates_the_others(self):
+        env = rn.ParallelEnv(FAILING, nothing)
+        env.reset()
+        lives, ends = [], []
+        while env.agents:
+            lives.append(list(env.agents))
+            _, _, terminations, truncations, _ = env.step({agent: [0.1, 0] for agent in env.agents})
+            self.assertEqual(list(terminations), lives[-1])
+            ends.append((terminations, truncations))
+        self.assertEqual(lives, [["A", "B"]] * 3 + [["A"]] * 7)
+        self.assertEqual(ends[2], ({"A": False, "B": True}, {"A": False, "B": False}))
+        self.assertEqual(ends[9], ({"A": False}, {"A": True}))
+        env.reset()
+        self.assertEqual(env.agents, ["A", "B"])
+
+    def test_episodes_without_a_seed_differ_and_repeat(self):
+        env = rn.ParallelEnv(ROW, nothing, seed=5)
+        seeds = []
+        for seed in (None, None, None, 9, None):
+            env.reset(seed=seed)
+            seeds.append(env.session.seed)
+        self.assertEqual(seeds, [5, 6, 7, 9, 10])
+
+    def test_observations_actions_and_ends_of_ones_own(self):
+        said = spaces.Discrete(2)
+
+        def speak(session, actions):
+            for agent, action in actions.items():
+                if action:
+                    session.send(agent, b"F")
+
+        def count(session, heard):
+            return {name: sum(each.at == name for each in heard) for name in session.robots}
+        env = rn.ParallelEnv(ROW, count, observe=count, observation_space=spaces.Discrete(10), act=speak,
+                             action_space=said, terminated=lambda session, heard: [False, True, False])
+        env.reset()
+        observations, rewards, terminations, *_ = env.step({"A": 0, "B": 1, "C": 0})
+        self.assertEqual(observations, {"A": 1, "B": 0, "C": 1})
+        self.assertEqual(rewards, observations)
+        self.assertEqual(env.agents, ["A", "C"])
+        self.assertIs(env.action_space("A"), said)
+        with self.assertRaisesRegex(ValueError, "observation_space"):
+            rn.ParallelEnv(ROW, nothing, observe=count)
+        with self.assertRaisesRegex(ValueError, "a row for each of 3 robots, got 2"):
+            env = rn.ParallelEnv(ROW, lambda session, heard: [1, 2])
+            env.reset()
+            env.step({})
+
+    def test_errors_of_a_reward_are_raised(self):
+        def fail(session, heard):
+            raise ZeroDivisionError
+        env = rn.ParallelEnv(ROW, fail)
+        env.reset()
+        with self.assertRaises(ZeroDivisionError):
+            env.step({})
+
+
+class Env(unittest.TestCase):
+    def test_one_controller_drives_all(self):
+        env = rn.Env(FAILING, lambda session, heard: -session.pose[0, 0], robots=["A"])
+        observation, info = env.reset(seed=1)
+        self.assertEqual(observation.tolist(), [[0, 0, 0]])
+        self.assertTrue(env.observation_space.contains(observation))
+        self.assertEqual(info, {"heard": []})
+        steps = 0
+        ended = False
+        while not ended:
+            observation, reward, terminated, truncated, info = env.step(np.array([[1.0, 0.0]]))
+            steps += 1
+            ended = terminated or truncated
+        self.assertEqual((steps, terminated, truncated), (10, False, True))
+        self.assertAlmostEqual(reward, -1)
+        self.assertIsInstance(reward, float)
+
+    def test_it_ends_once_all_robots_are_off(self):
+        env = rn.Env(FAILING, lambda session, heard: 0, robots=["B"])
+        env.reset()
+        ends = [env.step(np.zeros((1, 2)))[2:4] for _ in range(3)]
+        self.assertEqual(ends, [(False, False), (False, False), (True, False)])
+        with self.assertRaisesRegex(ValueError, r"shape \(1, 2\)"):
+            env.step([0, 0])
+
+
+class Spaces(unittest.TestCase):
+    def test_box(self):
+        box = spaces.Box(np.array([-1, 0, -np.inf, -np.inf]), np.array([1, np.inf, 0, np.inf]), dtype=np.float64)
+        self.assertEqual((box.shape, box.dtype), ((4,), np.dtype(float)))
+        box.seed(3)
+        samples = [box.sample() for _ in range(1000)]
+        self.assertTrue(all(box.contains(each) for each in samples))
+        self.assertLess(abs(np.mean(samples, axis=0)[0]), 0.1)  # 5 sigma: 1 / sqrt(3 * 1000) is 0.018
+        self.assertFalse(box.contains(np.array([2.0, 0, 0, 0])))
+        self.assertFalse(box.contains(np.zeros(3)))
+        self.assertFalse(box.contains(np.array(["a"] * 4)))
+        box.seed(3)
+        np.testing.assert_array_equal(box.sample(), samples[0])
+        whole = spaces.Box(0, 2, (100,), np.int64)
+        self.assertEqual(set(whole.sample().tolist()), {0, 1, 2})
+        self.assertEqual(spaces.Box(0, 1, (2,)), spaces.Box(0, 1, (2,)))
+        self.assertNotEqual(spaces.Box(0, 1, (2,)), spaces.Box(0, 1, (3,)))
+
+    def test_discrete(self):
+        space = spaces.Discrete(3, start=-1)
+        self.assertEqual({int(space.sample()) for _ in range(100)}, {-1, 0, 1})
+        self.assertTrue(0 in space and np.int64(1) in space)
+        self.assertFalse(2 in space or 0.5 in space or "a" in space)
+
+    def test_dict(self):
+        space = spaces.Dict({"say": spaces.Discrete(2), "drive": spaces.Box(-1, 1, (2,), np.float64)})
+        self.assertTrue(space.contains(space.sample()))
+        self.assertFalse(space.contains({"say": 1}))
+        self.assertEqual(space["say"], spaces.Discrete(2))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,403 @@
+# SPDX-License-Identifier: MIT
+"""rovernet.Session: steps, views, commands, callbacks, errors; the same run as through other doors."""
+import gc
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+import weakref
+
+import numpy as np
+
+import rovernet as rn
+from scenes import COMMAND, ROW, SEARCH, FolderTest, command, still
+
+CONTROLLER = """
+import base64, json, sys
+def ask(**q):
+    print(json.dumps(q), flush=True)
+    return json.loads(sys.stdin.readline())
+ask(type="hello", protocol=1, name="python", robots=["A", "B", "C"], step="100 ms", seed=9)
+for n in range(1, 21):
+    send = [{"from": "B", "to": "*", "port": n, "data": "Rg=="}] if n % 3 == 0 else []
+    ask(type="step", n=n, do={"A": {"v": 0.1 * n, "w": 0.3}, "B": {"v": 1, "w": 0}, "C": {"v": 0, "w": -1}}, send=send)
+ask(type="bye")
+"""
+
+
+def drive_as_the_controller(session):
+    for n in range(1, 21):
+        session.drive([[0.1 * n, 0.3], [1, 0], [0, -1]])
+        if n % 3 == 0:
+            session.send("B", b"F", port=n)
+        session.step()
+
+
+class Doors(FolderTest):
+    def test_the_same_controller_gives_the_same_run_in_lock_step_and_in_python(self):
+        session = rn.Session(ROW, seed=9, out=self.folder / "python")
+        drive_as_the_controller(session)
+        run = session.finish()
+        scenario, program = self.folder / "python" / "scenario.toml", self.write("controller.py", CONTROLLER)
+        code, _, errors = command("live", scenario, "--controller", f"{sys.executable} {program}", "--out",
+                                  self.folder / "live", folder=self.folder)
+        self.assertEqual(code, 0, errors)
+        summary = json.loads((self.folder / "live" / "summary.json").read_text())
+        self.assertEqual(run.fingerprint, summary["fingerprint"])
+        inputs = [(self.folder / door / "inputs.jsonl").read_text() for door in ("python", "live")]
+        self.assertEqual(inputs[0], inputs[1])
+
+    def test_the_log_of_inputs_makes_the_run_again(self):
+        with rn.Session(ROW, seed=9, out=self.folder / "run") as session:
+            drive_as_the_controller(session)
+            fingerprint = session.fingerprint
+        code, out, _ = command("replay", self.folder / "run", "--verify", folder=self.folder)
+        self.assertEqual(code, 0, out)
+        self.assertTrue(out.startswith("identical: 69 inputs, fingerprint "), out)  # with 3 stops at the end
+        self.assertNotIn(fingerprint, out)
+
+    def test_nothing_commanded_is_the_run_of_the_command(self):
+        session = rn.Session(ROW, step=0.3)
+        while not session.done:
+            session.step()
+        self.assertEqual(session.fingerprint, rn.run(ROW).fingerprint)
+        self.assertEqual(session.metrics | {"flows": None}, rn.run(ROW).metrics | {"flows": None})
+
+    def test_a_failure_within_with_leaves_no_results(self):
+        with self.assertRaises(KeyError):
+            with rn.Session(ROW, out=self.folder / "run") as session:
+                session.step()
+                raise KeyError
+        del session
+        gc.collect()
+        self.assertEqual(list((self.folder / "run").iterdir()), [])
+
+
+class Steps(unittest.TestCase):
+    def test_a_driven_robot_is_on_its_arc(self):
+        session = rn.Session(still(3), robots=["r1"])
+        session.drive([[0.5, 0.2]])
+        for _ in range(20):
+            session.step()
+        expected = [10 + 0.5 / 0.2 * np.sin(0.4), 0.5 / 0.2 * (1 - np.cos(0.4)), 0.4]
+        chord = 1e-3  # [m] that a chord is beside its arc at most
+        np.testing.assert_allclose(session.pose, [expected], rtol=0, atol=chord)
+        np.testing.assert_allclose(session.twist, [[0.5, 0.2]], atol=1e-12)
+        self.assertEqual((session.time, session.t_ns), (2.0, 2_000_000_000))
+
+    def test_a_row_of_nan_leaves_a_robot_as_it_is(self):
+        session = rn.Session(still(2))
+        session.drive([[1, 0], [1, 0]])
+        session.step()
+        session.drive([[np.nan, np.nan], [0, 0]])
+        session.step()
+        np.testing.assert_allclose(session.pose[:, 0], [0.2, 10.1], atol=1e-9)
+
+    def test_a_timeout_stops_a_robot(self):
+        session = rn.Session(still(1), step=1)
+        session.drive([[1, 0]], timeout=0.25)
+        session.step()
+        np.testing.assert_allclose(session.pose[0, 0], 0.25, atol=1e-9)
+
+    def test_a_robot_goes_to_a_place_and_stops(self):
+        session = rn.Session(still(1), step=1)
+        session.go_to("r0", (3, 4), speed=2)
+        session.step()
+        np.testing.assert_allclose(session.pose[0, :2], [1.2, 1.6], atol=1e-9)
+        session.stop("r0")
+        session.step()
+        np.testing.assert_allclose(session.pose[0, :2], [1.2, 1.6], atol=1e-9)
+
+    def test_messages_are_heard_with_their_way(self):
+        session = rn.Session(ROW, robots=["C", "B"])
+        session.send("C", b"\0F", port=7)
+        heard = session.step()
+        self.assertEqual([(h.at, h.origin, h.last_hop, h.hops, h.port, h.data) for h in heard],
+                         [("B", "C", "C", 1, 7, b"\0F")])  # A is not among its robots
+        self.assertGreater(heard[0].t_ns, 0)
+        self.assertIn("b'\\x00F'", repr(heard[0]))
+        self.assertAlmostEqual(heard[0].rssi, session.neighbors("B")["rssi"][1], places=9)
+
+    def test_a_unicast_is_heard_by_its_receiver_only(self):
+        session = rn.Session(ROW)
+        session.send("B", b"x", to="C")
+        self.assertEqual([h.at for h in session.step()], ["C"])
+
+    def test_reset_begins_anew(self):
+        session = rn.Session(ROW, seed=4)
+
+        def played():
+            drive_as_the_controller(session)
+            return session.fingerprint
+        first = played()
+        self.assertTrue(session.done)
+        session.reset()
+        self.assertEqual((session.time, session.seed, session.pose[2].tolist()), (0.0, 4, [300, 0, 0]))
+        self.assertEqual(played(), first)
+        session.reset(seed=5)
+        self.assertEqual(session.seed, 5)
+        self.assertNotEqual(played(), first)
+
+    def test_at_its_end_it_says_what_to_do(self):
+        session = rn.Session(ROW, step=3)
+        session.step()
+        self.assertEqual((session.done, session.time, session.end), (True, 2.0, 2.0))
+        with self.assertRaisesRegex(rn.RunError, "expected reset or finish"):
+            session.step()
+        run = session.finish()
+        self.assertEqual(run.duration, 2.0)
+        for use in (session.step, session.finish, lambda: session.time, lambda: session.send("A", b"")):
+            with self.assertRaisesRegex(rn.RunError, "expected a reset first"):
+                use()
+        session.reset()
+        session.step()
+
+    def test_records_are_kept_while_it_runs(self):
+        session = rn.Session(ROW, records=["sent"])
+        session.send("B", b"F")
+        session.step()
+        self.assertEqual(session.records("sent")["robot"].tolist(), [1])
+        with self.assertRaisesRegex(ValueError, r'were not kept; expected records=\["received"\]'):
+            session.records("received")
+        run = session.finish()
+        self.assertEqual(run.records("sent")["robot"].tolist(), [1])
+        with self.assertRaisesRegex(ValueError, "were not kept"):
+            run.records("received")
+        session.reset()
+        self.assertEqual(len(session.records("sent")), 0)
+
+
+class Neighbors(unittest.TestCase):
+    def test_they_are_those_of_the_command(self):
+        session = rn.Session(SEARCH)
+        found = session.neighbors("A")
+        code, out, _ = command("links", SEARCH, "--robot", "A", "--json")
+        self.assertEqual(code, 0, out)
+        self.assertEqual(found.dtype.names, ("name", "rssi", "noise", "quality"))
+        keys = ("robot", "level_dbm", "noise_dbm", "quality")
+        links = json.loads(out)["robots"][0]["links"]
+        self.assertEqual(found.tolist(), [tuple(link[key] for key in keys) for link in links])
+        self.assertGreater(len(found), 0)
+        with self.assertRaisesRegex(ValueError, 'no robot "a".*did you mean "A"'):
+            session.neighbors("a")
+
+
+class Views(unittest.TestCase):
+    def test_the_pose_is_read_only_and_updated_in_place(self):
+        session = rn.Session(still(2))
+        pose = session.pose
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            pose[0, 0] = 1
+        with self.assertRaises(ValueError):
+            pose.setflags(write=True)
+        session.drive([[1, 0], [0, 0]])
+        session.step()
+        self.assertAlmostEqual(pose[0, 0], 0.1)
+        session.reset()
+        self.assertEqual(pose[0, 0], 0)
+        self.assertEqual(pose.__array_interface__["data"], session.pose.__array_interface__["data"])
+
+    def test_a_view_lives_as_long_as_it_is_used(self):
+        session = rn.Session(still(1000))
+        pose = session.pose
+        del session
+        gc.collect()
+        filler = [np.ones(3000) for _ in range(100)]
+        self.assertEqual(pose[:, 0].tolist(), [10.0 * i for i in range(1000)])
+        del filler
+
+    def test_a_session_is_gone_with_its_last_user(self):
+        session = rn.Session(still(1))
+        session.on_record("sent", lambda row: session.time)  # a circle
+        gone = weakref.ref(session)
+        del session
+        gc.collect()
+        self.assertIsNone(gone())
+
+
+class BadInput(unittest.TestCase):
+    def setUp(self):
+        self.session = rn.Session(ROW)
+
+    def refused(self, words, use, *arguments, error=ValueError, **options):
+        with self.assertRaisesRegex(error, words):
+            use(*arguments, **options)
+
+    def test_shapes(self):
+        drive = self.session.drive
+        self.refused(r"expected numbers of shape \(3, 2\), got \(2, 2\)", drive, [[1, 1], [1, 1]])
+        self.refused(r"expected numbers of shape \(3, 2\), got \(6,\)", drive, np.zeros(6))
+        self.refused(r"expected numbers of shape \(3, 2\), got \(3, 2, 1\)", drive, np.zeros((3, 2, 1)))
+        self.refused(r"expected numbers of shape \(3, 2\), got \(\)", drive, 3.0)
+        self.refused(r"expected numbers of shape \(3, 2\), got <class 'str'>", drive, "fast")
+        self.refused(r"expected numbers of shape \(3, 2\), got <class 'list'>", drive, [[1, 2], [3]])
+        self.refused("expected a place", self.session.go_to, "A", (1, 2, 3, 4))
+
+    def test_numbers(self):
+        self.refused("speed of robot B must be from -1000 to 1000 m/s, got 5000", self.session.drive,
+                     [[0, 0], [5000, 0], [0, 0]])
+        self.refused("turn rate of robot C must be", self.session.drive, [[0, 0], [0, 0], [0, np.inf]])
+        self.refused("got nan", self.session.drive, [[0, np.nan], [0, 0], [0, 0]])
+        self.refused("timeout of robot A must be > 0 s", self.session.drive, np.zeros((3, 2)), timeout=-1)
+        self.refused("292 years", self.session.drive, np.zeros((3, 2)), timeout=1e300)
+        self.refused("port must be from 0 to 65535, got 65536", self.session.send, "A", b"", port=65536)
+        self.refused("size must be from 0 to 65535, got -1", self.session.send, "A", b"", size=-1)
+        self.refused("65536 bytes", self.session.send, "A", bytes(65536))
+        self.refused("speed of robot A must be above 0", self.session.go_to, "A", (1, 2), speed=0)
+        self.refused("1 us or more", rn.Session, ROW, step=0)
+        self.refused("292 years", rn.Session, ROW, step=float("nan"))
+        self.session.step()
+        self.assertEqual(self.session.pose[0].tolist(), [0, 0, 0])
+
+    def test_names(self):
+        self.refused('no robot "Z"; expected one of A, B, C', self.session.send, "Z", b"")
+        self.refused('no robot "Z"', self.session.send, "A", b"", to="Z")
+        self.refused("expected another robot", self.session.send, "A", b"", to="A")
+        self.refused("listed twice", rn.Session, ROW, robots=["A", "A"])
+        self.refused("not among those", rn.Session(ROW, robots=["A"]).stop, "B")
+
+    def test_types(self):
+        for use in (lambda: self.session.send("A", "text"), lambda: self.session.send("A", None),
+                    lambda: self.session.go_to("A", "there"), lambda: self.session.stop(0),
+                    lambda: self.session.reset("seed"), lambda: self.session.reset(-1),
+                    lambda: rn.Session(ROW, robots="A B")):
+            with self.assertRaises((TypeError, ValueError)):
+                use()
+
+
+class Callbacks(unittest.TestCase):
+    def test_records_are_told_in_order_and_what_is_commanded_holds_from_the_next_step(self):
+        session, told = rn.Session(ROW, records=["received"]), []
+
+        def answer(row):
+            told.append(row)
+            if row["robot"] == 2:
+                session.send("C", b"back")
+        session.on_record("received", answer)
+        session.send("B", b"F")
+        session.step()
+        self.assertEqual([(row["robot"], row["sender"], row["delivered"]) for row in told],
+                         [(0, 1, True), (2, 1, True)] + [(row["robot"], row["sender"], row["delivered"])
+                                                          for row in told[2:]])
+        self.assertEqual(session.metrics["messages"], 1)
+        kept = session.records("received")
+        self.assertEqual([tuple(row.values())[:7] for row in told], [row[:7] for row in kept.tolist()])
+        session.on_record("received", None)
+        count = len(told)
+        session.step()
+        self.assertEqual(session.metrics["messages"], 2)
+        self.assertEqual(len(told), count)
+
+    def test_an_error_ends_the_step_and_is_raised_there(self):
+        session = rn.Session(ROW, step=1)
+
+        def fail(row):
+            raise ZeroDivisionError(row["t_ns"])
+        session.on_record("sent", fail)
+        with self.assertRaises(ZeroDivisionError) as raised:
+            session.step()
+        self.assertEqual(raised.exception.args, (500_000_000,))
+        self.assertEqual(session.t_ns, 500_000_000)
+        session.on_record("sent", None)
+        session.step()
+        self.assertEqual(session.t_ns, 1_500_000_000)
+
+    def test_the_session_refuses_to_step_within_a_step(self):
+        session = rn.Session(ROW, step=1)
+        for use in (session.step, session.reset, session.finish, lambda: session.on_record("sent", None)):
+            session.reset()
+            session.on_record("sent", lambda row: use())
+            with self.assertRaisesRegex(rn.RunError, "in a step"):
+                session.step()
+
+    def test_it_may_be_asked_from_a_callback(self):
+        session, asked = rn.Session(ROW, step=1), []
+        session.on_record("sent", lambda row: asked.append((session.t_ns, session.pose[1, 0], session.names)))
+        session.step()
+        self.assertEqual(asked, [(500_000_000, 150.0, ("A", "B", "C"))])
+
+
+BUSY = {
+    "scenario": {"duration": "1e6 s", "event_limit": 10 ** 12},
+    "robot": [{"name": "r", "count": 30, "place": {"model": "uniform", "area": [[0, 0], [100, 100]]}}],
+    "traffic": [{"from": "r0", "payload": "x", "every": "10 ms"}],
+}
+"""A scenario that takes for ever."""
+
+
+class Threads(unittest.TestCase):
+    def test_ctrl_c_ends_a_step_and_a_run_within_200_ms_and_the_session_goes_on(self):
+        session = rn.Session(BUSY, step=1e5)
+        for use in (session.step, lambda: rn.run(BUSY)):
+            threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+            begun = time.monotonic()
+            with self.assertRaises(KeyboardInterrupt):
+                use()
+            self.assertGreater(time.monotonic() - begun, 0.25)
+            self.assertLess(time.monotonic() - begun, 5)  # 0.3 + 0.2 on a quiet machine
+        self.assertGreater(session.time, 0)
+
+    def test_other_threads_run_during_a_step_and_are_refused_by_its_session(self):
+        session = rn.Session(BUSY, step=1e5)
+        refused = []
+
+        def ask():
+            for use in (session.step, session.reset, lambda: session.time, lambda: session.stop("r0")):
+                try:
+                    use()
+                except rn.RunError as error:
+                    refused.append(str(error))
+            os.kill(os.getpid(), signal.SIGINT)
+        threading.Timer(0.2, ask).start()
+        with self.assertRaises(KeyboardInterrupt):
+            session.step()
+        self.assertEqual(len(refused), 4)
+        self.assertIn("in a step", refused[0])
+
+    def test_two_sessions_in_two_threads_are_as_one_after_the_other(self):
+        def play(seed, found):
+            session = rn.Session(ROW, seed=seed)
+            for _ in range(5):
+                session.reset()
+                drive_as_the_controller(session)
+            found[seed] = session.fingerprint
+        expected, found = {}, {}
+        for seed in (1, 2):
+            play(seed, expected)
+        threads = [threading.Thread(target=play, args=(seed, found)) for seed in (1, 2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, expected)
+
+
+def resident_kib():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE") // 1024
+
+
+class Leaks(unittest.TestCase):
+    def test_ten_thousand_resets_take_no_memory(self):
+        session = rn.Session(ROW, records=["received"])
+        session.on_record("sent", lambda row: None)
+
+        def play(times):
+            for _ in range(times):
+                session.reset()
+                session.drive(np.ones((3, 2)))
+                session.send("B", b"F")
+                session.step()
+                session.neighbors("A")
+        play(2000)
+        before = resident_kib()
+        play(10000)
+        self.assertLess(resident_kib() - before, 1024)
+
+
+if __name__ == "__main__":
+    unittest.main()
