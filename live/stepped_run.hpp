@@ -107,7 +107,8 @@ class SteppedRun {
     ClientId client_ = 0;
     std::vector<NodeId> robots_;
     std::vector<std::size_t> ascending_;  // rows, by robot
-    std::vector<std::optional<RobotCommand>> movements_, carried_;  // by row; carried_: in this step
+    // Last movement that was commanded, by row: for the next step, and those that are carried out.
+    std::vector<std::optional<RobotCommand>> movements_, carried_;
     std::vector<std::pair<std::size_t, SendCommand>> messages_;  // with their rows
     std::vector<double> poses_;
     std::uint64_t steps_ = 0;
