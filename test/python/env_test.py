@@ -118,6 +118,11 @@ class ParallelEnv(unittest.TestCase):
         env.reset()
         self.assertEqual(env.agents, ["A", "B"])
 
+    def test_who_is_terminated_at_the_end_is_not_truncated(self):
+        env = rn.ParallelEnv(FAILING, nothing, step=1, terminated=lambda session, heard: [True, False])
+        env.reset()
+        self.assertEqual(env.step({})[2:4], ({"A": True, "B": False}, {"A": False, "B": True}))
+
     def test_episodes_without_a_seed_differ_and_repeat(self):
         env = rn.ParallelEnv(ROW, nothing, seed=5)
         seeds = []
@@ -184,6 +189,9 @@ class Env(unittest.TestCase):
         self.assertEqual(ends, [(False, False), (False, False), (True, False)])
         with self.assertRaisesRegex(ValueError, r"shape \(1, 2\)"):
             env.step([0, 0])
+        both = rn.Env(FAILING, lambda session, heard: 0, step=0.5)
+        both.reset()
+        self.assertEqual(both.step(np.zeros((2, 2)))[2:4], (False, False))  # B is off
 
 
 class Spaces(unittest.TestCase):
@@ -195,6 +203,7 @@ class Spaces(unittest.TestCase):
         self.assertTrue(all(box.contains(each) for each in samples))
         self.assertLess(abs(np.mean(samples, axis=0)[0]), 0.1)  # 5 sigma: 1 / sqrt(3 * 1000) is 0.018
         self.assertFalse(box.contains(np.array([2.0, 0, 0, 0])))
+        self.assertFalse(box.contains(np.array([0, -1.0, 0, 0])))
         self.assertFalse(box.contains(np.zeros(3)))
         self.assertFalse(box.contains(np.array(["a"] * 4)))
         box.seed(3)
