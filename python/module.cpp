@@ -6,9 +6,6 @@
 #include "python/session_functions.hpp"
 #include "python/session_object.hpp"
 
-#include <pybind11/numpy.h>
-#include <pybind11/stl.h>
-
 namespace rovernet::python {
 namespace {
 
@@ -77,8 +74,7 @@ void add_run(py::module_& m) {
         .def(
             "records", &RunObject::records, "kind"_a,
             "Structured array of all records of a kind: \"received\", say. Times in ns, robots as\n"
-            "numbers, -1 for everyone or nobody. Kinds that were not kept by records= are found "
-            "by\n"
+            "numbers, -1 for everyone or nobody. Kinds that records= did not keep are found by\n"
             "running the scenario once more, which gives the same records.")
         .def("__repr__", [](const RunObject& run) {
             return fmt::format("<rovernet.Run of {} s, fingerprint {}>",
@@ -100,13 +96,9 @@ void add_run(py::module_& m) {
 
 // Session.
 
-py::object heard_name(const HeardObject& heard, NodeId HeardMessage::*robot) {
-    return heard.name(heard.message.*robot);
-}
-
 void add_heard(py::module_& m) {
     const auto name = [](NodeId HeardMessage::*robot) {
-        return [robot](const HeardObject& heard) { return heard_name(heard, robot); };
+        return [robot](const HeardObject& heard) { return heard.name(heard.message.*robot); };
     };
     const auto t_ns = [](const HeardObject& heard) {
         return std::int64_t{heard.message.time.time_since_epoch().count()};

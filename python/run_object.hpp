@@ -22,11 +22,9 @@ inline std::shared_ptr<RowSink> rows_of(const std::vector<std::string>& kinds) {
     return mask == 0 ? nullptr : std::make_shared<RowSink>(mask);
 }
 
-inline py::array records_in(const RowSink* rows, const std::string& name) {
-    const KindMask kind = record_named(name);
-    if (rows && (rows->kinds() & kind) != 0) return to_array(rows->table(kind));
-    throw py::value_error(fmt::format(
-        "records \"{}\" were not kept; expected records=[\"{}\"] as it begins", name, name));
+inline py::value_error not_kept(const std::string& kind) {
+    return py::value_error(fmt::format(
+        "records \"{}\" were not kept; expected records=[\"{}\"] as it begins", kind, kind));
 }
 
 inline py::tuple names_of(const Network& network) {
@@ -38,16 +36,15 @@ inline py::tuple names_of(const Network& network) {
 /// Result of a run: what `rovernet.Run` is.
 class RunObject {
   public:
-    /// @param rows    that were kept; may be null
-    /// @param repeat  the run is its scenario's alone, so that it can be made again for records
-    /// that
-    ///                were not kept
+    /// @param rows       that were kept; may be null
+    /// @param is_driven  a program drove robots, so that the run cannot be made again for records
+    ///                   that were not kept
     RunObject(std::shared_ptr<const Scenario> scenario, RunResult result,
-              std::shared_ptr<RowSink> rows, bool repeat)
+              std::shared_ptr<RowSink> rows, bool is_driven)
         : scenario_(std::move(scenario)),
           result_(std::move(result)),
-          rows_(std::move(rows)),
-          repeat_(repeat) {}
+          rows_{std::move(rows)},
+          is_driven_(is_driven) {}
 
     py::dict metrics() const {
         Table table;
@@ -68,17 +65,23 @@ class RunObject {
         return list;
     }
     py::array records(const std::string& name) {
-        if (repeat_ && !(rows_ && (rows_->kinds() & record_named(name)) != 0)) run_again({name});
-        return records_in(rows_.get(), name);
+        const KindMask kind = record_named(name);
+        for (const auto& rows : rows_) {
+            if (rows && (rows->kinds() & kind) != 0) return to_array(rows->table(kind));
+        }
+        if (is_driven_) throw not_kept(name);
+        rows_.push_back(found_again(name));
+        return to_array(rows_.back()->table(kind));
     }
     py::tuple names() const { return names_of(*result_.network); }
     const RunResult& result() const { return result_; }
     const Scenario& scenario() const { return *scenario_; }
 
   private:
-    void run_again(const std::vector<std::string>& kinds) {
+    /// Records of a kind, from running the scenario once more.
+    std::shared_ptr<RowSink> found_again(const std::string& kind) const {
         Interruption interruption;
-        auto rows = rows_of(kinds);
+        auto rows = rows_of({kind});
         {
             const py::gil_scoped_release others_run;
             ScenarioRun run(*scenario_);
@@ -87,13 +90,13 @@ class RunObject {
             run.session().network().finish();
         }
         interruption.raise();
-        rows_ = std::move(rows);
+        return rows;
     }
 
     std::shared_ptr<const Scenario> scenario_;
     RunResult result_;
-    std::shared_ptr<RowSink> rows_;
-    bool repeat_;
+    std::vector<std::shared_ptr<RowSink>> rows_;
+    bool is_driven_;
 };
 
 /// Runs a scenario to its end: what `rovernet.run` is.
@@ -118,7 +121,7 @@ inline RunObject run(const py::object& given, const py::object& set, const py::o
         if (is_whole) result = run.finish();
     }
     interruption.raise();
-    return {scenario, std::move(*result), std::move(rows), true};
+    return {scenario, std::move(*result), std::move(rows), false};
 }
 
 }  // namespace rovernet::python

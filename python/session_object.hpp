@@ -54,8 +54,8 @@ class RecordCallback {
 
 /// Scenario that a program drives step by step: what `rovernet.Session` is.
 ///
-/// A step runs without Python's lock. Until it is over, the session refuses everything, but from
-/// callbacks, while which the simulation stands still.
+/// A step runs without Python's lock. Meanwhile the session refuses everything that does not come
+/// from a callback, during which the simulation stands still.
 class SessionObject {
   public:
     SessionObject(const py::object& scenario, double step, const py::object& seed,
@@ -77,8 +77,11 @@ class SessionObject {
 
     void reset(const std::optional<std::uint64_t>& seed) {
         const Working working(*this);
-        const py::gil_scoped_release others_run;
-        run_.reset(seed);
+        {
+            const py::gil_scoped_release others_run;
+            run_.reset(seed);
+        }
+        interruption_.raise();
     }
     py::list step() {
         constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
@@ -100,7 +103,8 @@ class SessionObject {
         const Working working(*this);
         auto scenario = std::make_shared<const Scenario>(run_.scenario());
         RunResult result = run_.finish();
-        return {std::move(scenario), std::move(result), kept_, false};
+        interruption_.raise();
+        return {std::move(scenario), std::move(result), kept_, true};
     }
     /// Calls `function` with each record of a kind from now on, or none if it is None.
     void on_record(const std::string& name, const py::object& function) {
@@ -132,14 +136,16 @@ class SessionObject {
     const py::tuple& names() const { return names_; }
     py::array records(const std::string& name) {
         check_idle();
-        return records_in(kept_.get(), name);
+        const KindMask kind = record_named(name);
+        if (!kept_ || (kept_->kinds() & kind) == 0) throw not_kept(name);
+        return to_array(kept_->table(kind));
     }
     /// Calls visit(function) for each callback: Python's collector of garbage asks.
     template <class Visit>
     void for_each_callback(Visit visit) const {
         for (const auto& [kind, each] : callbacks_) visit(each.callback->function());
     }
-
+    /// Ends all callbacks: it breaks circles.
     void forget_callbacks() {
         for (const auto& [kind, each] : callbacks_) {
             if (!run_.is_over()) run_.session().network().remove_sink(each.sink);
@@ -156,8 +162,7 @@ class SessionObject {
     class Working {
       public:
         explicit Working(SessionObject& session) : session_(session) {
-            if (session_.works_)
-                throw RunError("the session is in a step, or another thread has it");
+            if (session_.works_) throw RunError("the session is in a step already");
             session_.works_ = true;
         }
         ~Working() { session_.works_ = false; }

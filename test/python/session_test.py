@@ -306,6 +306,18 @@ class Callbacks(unittest.TestCase):
         session.step()
         self.assertEqual(session.t_ns, 1_500_000_000)
 
+    def test_an_error_while_it_begins_or_ends_is_raised_there(self):
+        session = rn.Session(ROW)
+
+        def fail(row):
+            raise ZeroDivisionError
+        session.on_record("moved", fail)
+        for use in session.reset, session.finish, session.reset:
+            with self.assertRaises(ZeroDivisionError):
+                use()
+        session.on_record("moved", None)
+        session.step()
+
     def test_the_session_refuses_to_step_within_a_step(self):
         session = rn.Session(ROW, step=1)
         for use in (session.step, session.reset, session.finish, lambda: session.on_record("sent", None)):
