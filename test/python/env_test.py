@@ -2,6 +2,7 @@
 """rovernet.ParallelEnv and Env: the shapes that programs for reinforcement learning expect."""
 import inspect
 import unittest
+import warnings
 
 import numpy as np
 
@@ -69,8 +70,10 @@ class Shapes(unittest.TestCase):
             from pettingzoo.test import parallel_api_test
         except ImportError:
             self.skipTest("neither gymnasium nor pettingzoo is installed")
-        check_env(rn.Env(ROW, lambda session, heard: 0), skip_render_check=True)
-        parallel_api_test(rn.ParallelEnv(ROW, nothing), num_cycles=100)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # advice
+            check_env(rn.Env(ROW, lambda session, heard: 0), skip_render_check=True)
+            parallel_api_test(rn.ParallelEnv(ROW, nothing), num_cycles=100)
 
 
 class ParallelEnv(unittest.TestCase):
