@@ -31,6 +31,12 @@ void check(const GoalCommand& goal, const std::string& robot) {
     check("speed", robot, goal.speed.value, goal_speeds);
 }
 void check(const StopCommand&, const std::string&) {}
+void check(const PlaceCommand& place, const std::string& robot) {
+    for (const double at : {place.at.x, place.at.y, place.at.z}) {
+        check("place", robot, at, goal_places);
+    }
+    check("heading", robot, place.heading.value, any);
+}
 void check(const SendCommand& send, const std::string& robot) {
     const std::size_t size = std::max<std::size_t>(send.payload.size(), send.size.value_or(0));
     if (size > longest_message) {
@@ -83,7 +89,6 @@ void SteppedRun::begin() {
     messages_.clear();
     poses_.resize(3 * robots_.size());
     steps_ = 0;
-    is_cut_ = false;
     look();
 }
 
@@ -138,12 +143,6 @@ void SteppedRun::drive(std::span<const double> velocities, std::optional<Duratio
     }
 }
 
-/// Serves what a step that was cut has left of the present time: commands come after all of it.
-void SteppedRun::settle() {
-    if (is_cut_) session().step(session().network().now());
-    is_cut_ = false;
-}
-
 void SteppedRun::carry_out() {
     Session& session = run().session();
     std::stable_sort(messages_.begin(), messages_.end(), [this](const auto& a, const auto& b) {
@@ -165,18 +164,16 @@ void SteppedRun::carry_out() {
 bool SteppedRun::step(std::uint64_t most_events, const std::function<bool()>& go_on) {
     Session& session = run().session();
     if (is_done()) throw RunError("the run is at its end; expected reset or finish");
-    settle();
     ++steps_;
     carry_out();
     const Time now = session.network().now();
     const Time end = now + std::min(settings_.step, session.end() - now);
-    while (!session.advance(end, most_events)) {
-        if (go_on()) continue;
-        is_cut_ = true;
-        break;
-    }
+    bool is_whole = false;
+    do {
+        is_whole = session.advance(end, most_events);
+    } while (!is_whole && go_on());
     look();
-    return !is_cut_;
+    return is_whole;
 }
 
 /// Notes where the robots are.
@@ -192,8 +189,8 @@ void SteppedRun::look() {
 }
 
 RunResult SteppedRun::finish() {
-    settle();
     session().detach(client_);
+    session().step(session().network().now());  // all of that time, as a replay does
     RunResult result = run().finish();
     if (log_) log_->finish(result.simulated, result.fingerprint);
     log_.reset();

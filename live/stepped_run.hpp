@@ -93,7 +93,6 @@ class SteppedRun {
 
   private:
     void begin();
-    void settle();
     void carry_out();
     void look();
     ScenarioRun& run() const;
@@ -112,7 +111,6 @@ class SteppedRun {
     std::vector<std::pair<std::size_t, SendCommand>> messages_;  // with their rows
     std::vector<double> poses_;
     std::uint64_t steps_ = 0;
-    bool is_cut_ = false;  // the last step was
 };
 
 }  // namespace rovernet
