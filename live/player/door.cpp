@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -24,6 +25,10 @@ std::vector<std::string> robot_names(const Scenario& scenario) {
     std::vector<std::string> names;
     for (const RobotTable& table : scenario.robots) {
         for (int i = 0; i < table.count.value_or(1); ++i) names.push_back(table.name_of(i));
+    }
+    const std::set<std::string> in_tables(names.begin(), names.end());
+    for (const FileRobot& robot : scenario.movement.robots) {
+        if (!in_tables.contains(robot.name)) names.push_back(robot.name);
     }
     return names;
 }

@@ -18,7 +18,7 @@ inline constexpr std::string_view player_address = "127.0.0.1:6665";
 /// Robots that have ports of their own, at most.
 inline constexpr std::size_t most_player_ports = 100;
 
-/// Names of a scenario's robots, in their order.
+/// Names of a scenario's robots in their order, those of its movement file last.
 std::vector<std::string> robot_names(const Scenario& scenario);
 
 /// Player server with a port for each robot: the first robot's at `first`, and so on. With port 0

@@ -202,6 +202,9 @@ void PlayerFront::join(PlacedDevice& device, Client& client) {
 void PlayerFront::leave(PlacedDevice& device, Client& client) {
     if (std::erase(device.users, client.connection) == 0) return;
     --client.subscriptions;
+    std::erase_if(deferred_, [&](const Deferred& each) {
+        return each.device == &device && each.from == client.connection;
+    });
     if (device.users.empty()) device.device->let_go();
 }
 

@@ -112,4 +112,27 @@ TEST_CASE("player doors: a port for each robot, one for all, or those of a confi
     CHECK_THROWS_AS(player_ports({"127.0.0.1", 65535}, {"a", "b"}, {}), std::invalid_argument);
 }
 
+TEST_CASE("player doors: robots of tables, of a count and of a movement file") {
+    const TemporaryFolder folder;
+    folder.write("m.tcl", R"($node_(0) set X_ 1
+$node_(0) set Y_ 2
+$node_(0) set Z_ 0
+$node_(1) set X_ 3
+$node_(1) set Y_ 4
+$node_(1) set Z_ 0
+$ns_ at 1.0 "$node_(0) setdest 5 6 1"
+)");
+    const Scenario scenario = load_scenario(folder.write("s.toml", R"([movement]
+file = "m.tcl"
+[[robot]]
+name = "r"
+count = 2
+at = ["0 m", "0 m"]
+[[robot]]
+name = "n1"
+)"),
+                                            {});
+    CHECK(robot_names(scenario) == std::vector<std::string>{"r0", "r1", "n1", "n0"});
+}
+
 }  // namespace config_test

@@ -529,6 +529,19 @@ TEST_CASE(
     CHECK(once == run(true));
 }
 
+TEST_CASE("player: in lock-step a client that leaves takes its commands with it") {
+    PlayerTalk talk(player_scenario(pair), {.is_lockstep = true});
+    const auto a = talk.come(0), b = talk.come(1);
+    for (const auto client : {a, b}) talk.say(client, mode(pull) + device(4, 0));
+    talk.say(a, drive(1, 0));
+    talk.go(a);
+    talk.say(b, drive(0, 1) + device(4, 0, 2) + device(4, 0) + ask());
+    talk.run_for(10s);
+    CHECK(talk.session.network().now() == start_of_run + 100ms);
+    CHECK(talk.session.network().position(NodeId{0}) == Vec3{-3, 0, 0});
+    CHECK(talk.session.network().heading(NodeId{1}).value == 0);
+}
+
 TEST_CASE("player: malformed messages are refused or end their connection, and disturb nobody") {
     PlayerTalk talk(player_scenario(pair));
     const auto bystander = talk.come();
