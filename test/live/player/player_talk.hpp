@@ -5,6 +5,7 @@
 #include "scenario/scenario.hpp"
 #include "test/live/player/wire.hpp"
 #include "test/scene/temporary_folder.hpp"
+#include "traces/fingerprint.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -30,6 +31,7 @@ class PlayerTalk {
           front(placed(std::move(settings)),
                 {.send = [this](auto to, auto bytes) { told_[to] += bytes; },
                  .close = [this](auto which) { closed.insert(which); }}) {
+        session.network().add_sink(fingerprint);
         session.step(start_of_run);
         front.begin(session, scenario_);
     }
@@ -85,6 +87,7 @@ class PlayerTalk {
     std::set<Front::Connection> closed;
     Session session;
     PlayerFront front;
+    const std::shared_ptr<Fingerprint> fingerprint = std::make_shared<Fingerprint>();
 };
 
 }  // namespace rovernet::test
