@@ -73,7 +73,7 @@ class CellMaterials {
 }  // namespace
 
 const Faces::Made& Faces::made() const {
-    std::call_once(once_, [this] { make(); });
+    once_([this] { make(); });
     return made_;
 }
 
@@ -122,7 +122,7 @@ void Faces::add_map(std::span<const WallsOfMap> walls) const {
     const MapFrame& frame = walls.front().frame;
     const CellMaterials material(walls);
     const int columns = walls.front().walls->columns(), rows = walls.front().walls->rows();
-    std::vector<std::vector<Run>> by_line(static_cast<std::size_t>(columns + rows + 2));
+    Lines lines{frame, columns, rows};
     for (const Outline& outline : outlines(columns, rows, material)) {
         const auto sides = straight_sides(outline, frame.cell_width(), frame.cell_height());
         const std::size_t first_face = made_.faces.size();
@@ -133,18 +133,16 @@ void Faces::add_map(std::span<const WallsOfMap> walls) const {
                 const bool upright = e.u0 == e.u1;
                 const auto [low, high] =
                     upright ? std::minmax(e.v0, e.v1) : std::minmax(e.u0, e.u1);
-                by_line[static_cast<std::size_t>(upright ? e.u0 : columns + 1 + e.v0)].push_back(
-                    {low, high, first_face + s});
+                lines.runs.push_back(
+                    {lines.number(upright, upright ? e.u0 : e.v0, low), high, first_face + s});
             }
         }
     }
-    Lines lines{frame, columns, rows, {}, {}};
-    for (auto& runs : by_line) {
-        std::sort(runs.begin(), runs.end(), [](Run a, Run b) { return a.low < b.low; });
-        lines.first.push_back(lines.runs.size());
-        lines.runs.insert(lines.runs.end(), runs.begin(), runs.end());
-    }
-    lines.first.push_back(lines.runs.size());
+    std::sort(lines.runs.begin(), lines.runs.end(),
+              [](const Run& a, const Run& b) { return a.edge < b.edge; });
+    std::vector<std::size_t> begins;
+    for (const Run& run : lines.runs) begins.push_back(run.edge);
+    lines.begins = CountedBits(lines.number(false, rows, columns), begins);
     made_.maps.push_back(std::move(lines));
 }
 
@@ -174,18 +172,25 @@ void Faces::add_outline(const Outline& outline, const std::vector<OutlineSide>& 
     }
 }
 
-std::optional<std::size_t> Faces::on_line(const Lines& map, std::size_t line, double along,
+std::size_t Faces::Lines::number(bool upright, int line, int along) const {
+    const auto u = static_cast<std::size_t>(columns), v = static_cast<std::size_t>(rows);
+    const auto i = static_cast<std::size_t>(line), k = static_cast<std::size_t>(along);
+    return (upright ? 0 : (u + 1) * v) + i * (upright ? v : u) + k;
+}
+
+std::optional<std::size_t> Faces::on_line(const Lines& map, bool upright, int line, double along,
                                           std::size_t material) const {
     constexpr double tolerance = 1e-6;  // [cells]
-    const auto begin = map.runs.begin() + static_cast<std::ptrdiff_t>(map.first[line]);
-    const auto end = map.runs.begin() + static_cast<std::ptrdiff_t>(map.first[line + 1]);
+    if (along + tolerance < 0) return std::nullopt;
+    const double last = (upright ? map.rows : map.columns) - 1;
+    const int edge = static_cast<int>(std::min(along + tolerance, last));
+    const std::size_t first = map.begins.below(map.number(upright, line, 0));
     // From the last run that begins before the point: it, or the one before, if they touch there.
-    auto run = std::upper_bound(begin, end, along + tolerance,
-                                [](double x, const Run& r) { return x < r.low; });
-    for (int tries = 0; tries < 2 && run != begin; ++tries) {
-        --run;
-        if (run->high < along - tolerance) break;
-        if (made_.faces[run->face].material == material) return run->face;
+    std::size_t i = map.begins.below(map.number(upright, line, edge) + 1);
+    for (int tries = 0; tries < 2 && i != first; ++tries) {
+        const Run& run = map.runs[--i];
+        if (run.end < along - tolerance) break;
+        if (made_.faces[run.face].material == material) return run.face;
     }
     return std::nullopt;
 }
@@ -201,18 +206,17 @@ std::optional<std::size_t> Faces::find(Vec3 p, std::size_t material) const {
         const CellPoint c = map.frame.to_cells(p);
         const double u = std::floor(c.u + 0.5), v = std::floor(c.v + 0.5);
         const double off_u = std::abs(c.u - u), off_v = std::abs(c.v - v);
-        const auto upright = [&]() -> std::optional<std::size_t> {
-            if (off_u > tolerance || u < 0 || u > map.columns) return std::nullopt;
-            return on_line(map, static_cast<std::size_t>(u), c.v, material);
+        // By direction, level and upright, without branches that would be mispredicted.
+        const std::array<double, 2> line{v, u}, off{off_v, off_u}, along{c.u, c.v};
+        const std::array<int, 2> last{map.rows, map.columns};
+        const auto on = [&](bool upright) -> std::optional<std::size_t> {
+            if (off[upright] > tolerance || line[upright] < 0 || line[upright] > last[upright])
+                return std::nullopt;
+            return on_line(map, upright, static_cast<int>(line[upright]), along[upright], material);
         };
-        const auto level = [&]() -> std::optional<std::size_t> {
-            if (off_v > tolerance || v < 0 || v > map.rows) return std::nullopt;
-            return on_line(map,
-                           static_cast<std::size_t>(map.columns + 1) + static_cast<std::size_t>(v),
-                           c.u, material);
-        };
-        auto found = off_u <= off_v ? upright() : level();
-        if (!found) found = off_u <= off_v ? level() : upright();
+        const bool upright_first = off_u <= off_v;
+        auto found = on(upright_first);
+        if (!found) found = on(!upright_first);
         if (found) return found;
     }
     return std::nullopt;

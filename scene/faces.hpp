@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/counted_bits.hpp"
 #include "scene/map_frame.hpp"
+#include "scene/once.hpp"
 #include "scene/outline.hpp"
 #include "scene/wall_index.hpp"
 #include "sim/geometry.hpp"
@@ -9,7 +11,6 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -74,17 +75,21 @@ class Faces {
     std::optional<std::size_t> at(Vec3 p, std::size_t material) const;
 
   private:
-    /// Edges of outlines on one grid line: cells [low, high) of it.
+    /// Edges of an outline in a row on one grid line.
     struct Run {
-        int low, high;
+        std::size_t edge;  // the first one's number
+        int end;           // behind the last one along the line [cells]
         std::size_t face;
     };
-    /// Grid lines of one map: u = 0 ... columns, then v = 0 ... rows.
+    /// Edges of one map's grid between two points side by side. They are numbered, line by line: on
+    /// u = 0 ... columns, then on v = 0 ... rows.
     struct Lines {
         MapFrame frame;
         int columns, rows;
-        std::vector<std::size_t> first;  // runs of a line, by line; one more at the end
-        std::vector<Run> runs;           // ascending along their line
+        std::vector<Run> runs = {};  // in the order of their numbers
+        CountedBits begins = {};     // numbers of edges with which runs begin
+
+        std::size_t number(bool upright, int line, int along) const;
     };
     struct Made {
         std::vector<Face> faces;
@@ -97,11 +102,11 @@ class Faces {
     std::optional<std::size_t> find(Vec3 p, std::size_t material) const;
     void add_map(std::span<const WallsOfMap> walls) const;
     void add_outline(const Outline&, const std::vector<OutlineSide>&, const MapFrame&) const;
-    std::optional<std::size_t> on_line(const Lines&, std::size_t line, double along,
+    std::optional<std::size_t> on_line(const Lines&, bool upright, int line, double along,
                                        std::size_t material) const;
 
     std::vector<WallsOfMap> walls_;
-    mutable std::once_flag once_;
+    mutable Once once_;
     mutable Made made_;
 };
 

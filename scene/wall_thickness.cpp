@@ -16,7 +16,7 @@ WallThickness::WallThickness(const MapFrame& frame, std::shared_ptr<const WallIn
 double WallThickness::at(CellPoint p) const {
     const bool inside = p.u >= 0 && p.v >= 0 && p.u < walls_->columns() && p.v < walls_->rows();
     if (!inside) return 0;
-    std::call_once(measured_, [this] { measure(); });
+    measured_([this] { measure(); });
     const auto column = static_cast<std::size_t>(p.u), row = static_cast<std::size_t>(p.v);
     return thickness_[row * static_cast<std::size_t>(walls_->columns()) + column];
 }

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "scene/map_frame.hpp"
+#include "scene/once.hpp"
 #include "scene/wall_index.hpp"
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
 namespace rovernet {
@@ -29,7 +29,7 @@ class WallThickness {
 
     double cell_width_, cell_height_;  // [m]
     std::shared_ptr<const WallIndex> walls_;
-    mutable std::once_flag measured_;
+    mutable Once measured_;
     mutable std::vector<float> thickness_;  // [m] by cell
 };
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rovernet {
+
+/// Set of whole numbers that tells at once how many of its members are below a number: a bit for
+/// each number, and a count for every 64 of them.
+class CountedBits {
+  public:
+    CountedBits() = default;
+    /// @param members  each below `end`
+    CountedBits(std::size_t end, std::span<const std::size_t> members)
+        : bits_(end / 64 + 1), before_(bits_.size()) {
+        for (const std::size_t n : members) bits_[n / 64] |= std::uint64_t{1} << n % 64;
+        for (std::size_t i = 1; i < bits_.size(); ++i)
+            before_[i] = before_[i - 1] + static_cast<std::uint32_t>(std::popcount(bits_[i - 1]));
+    }
+    /// Number of members below `n`.
+    /// @param n  at most `end`
+    std::size_t below(std::size_t n) const {
+        const std::uint64_t lower = (std::uint64_t{1} << n % 64) - 1;
+        return before_[n / 64] + static_cast<std::size_t>(std::popcount(bits_[n / 64] & lower));
+    }
+
+  private:
+    std::vector<std::uint64_t> bits_;
+    std::vector<std::uint32_t> before_;  // members before each 64
+};
+
+}  // namespace rovernet
