@@ -216,20 +216,18 @@ double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
     const double length = distance(a, b);
     const auto thickness_at = [&](double share) { return wall_thickness(a + share * (b - a)); };
     double sum = 0;
-    for (std::size_t i = 0; i < scratch.size() && sum <= enough;) {
-        const Crossing& wall = scratch[i];
-        double end = wall.exit, inside = 0;
+    for (auto part = scratch.begin(); part != scratch.end() && sum <= enough;) {
+        const std::size_t material = part->material;
+        double end = part->exit, inside = 0;
         bool heavy = false;
-        for (; i < scratch.size() && scratch[i].material == wall.material &&
-               scratch[i].entry - end <= step;
-             ++i) {
-            const Crossing& part = scratch[i];
+        for (; part != scratch.end() && part->material == material && part->entry - end <= step;
+             ++part) {
             heavy = heavy ||
-                    thickness_at((part.entry + part.exit) / (2 * length)) >= rates.thinnest_heavy;
-            end = part.exit;
-            inside += part.length;
+                    thickness_at((part->entry + part->exit) / (2 * length)) >= rates.thinnest_heavy;
+            end = part->exit;
+            inside += part->length;
         }
-        const WallRate& rate = (heavy ? rates.heavy : rates.light)[wall.material];
+        const WallRate& rate = (heavy ? rates.heavy : rates.light)[material];
         sum += rate.per_crossing + rate.per_metre * inside;
     }
     return sum;
