@@ -53,14 +53,11 @@ RayFactor RayMaterials::factor(const RayHit& hit) const {
                : crossed(hit.material, hit.thickness, hit.cosine, hit.length);
 }
 
-double RayMaterials::loss(const RayHit& hit) const {
-    const Entry& entry = entries_[hit.material];
-    if (!entry.slab) return factor(hit).loss();
-    const SlabPowers powers =
-        entry.slab->powers(entry.thickness.value_or(hit.thickness), hit.cosine);
-    const bool mirror = hit.kind == RayHit::Kind::reflection;
-    return decibels(mirror ? powers.reflected : powers.transmitted) +
-           (mirror ? 0 : db_per_neper * powers.decay);
+HitLosses RayMaterials::losses_at_slab(std::size_t material, double thickness,
+                                       double cosine) const {
+    const Entry& entry = entries_[material];
+    const SlabPowers powers = entry.slab->powers(entry.thickness.value_or(thickness), cosine);
+    return {decibels(powers.transmitted) + db_per_neper * powers.decay, decibels(powers.reflected)};
 }
 
 double RayMaterials::least_reflection_loss(std::size_t material, double cosine) const {

@@ -22,6 +22,11 @@ struct RayFactor {
     double loss() const;  ///< [dB], finite
 };
 
+/// Losses of a wave that meets a slab [dB]: of what passes through it, and of what it reflects.
+struct HitLosses {
+    double crossing, reflection;
+};
+
 /// Coefficients of a scene's materials at one frequency.
 ///
 /// A material of ITU-R P.2040 is a slab of its own thickness, at the path's angle, in the
@@ -35,8 +40,8 @@ class RayMaterials {
     RayFactor factor(const RayHit& hit) const;
     /// The material is a slab: what it takes depends on thickness and angle, not on a length.
     bool is_slab(std::size_t material) const { return entries_[material].slab.has_value(); }
-    /// Loss of a hit [dB]: that of its factor, to rounding.
-    double loss(const RayHit& hit) const;
+    /// Losses of a slab: those of the factors of such hits, to rounding.
+    HitLosses losses_at_slab(std::size_t material, double thickness, double cosine) const;
     /// Loss that no reflection by the material at that angle falls short of [dB].
     double least_reflection_loss(std::size_t material, double cosine) const;
     /// Field around an edge over that in free space at the way's length.

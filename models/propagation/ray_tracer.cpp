@@ -55,14 +55,14 @@ void RayTracer::trace(Vec3 to, const RayLimit* limit, RayPaths& out) {
     a_ = forward ? from_ : to;
     b_ = forward ? to : from_;
     best_ = std::numeric_limits<double>::infinity();
-    plan({});
-    add({}, limit, out);
+    points_.clear();
+    reflections_.clear();
+    add(*plan({}, limit), limit, out);
     if (!edges_.all().empty()) add_diffracted(limit, out);
     propose(to, limit);
     for (const Candidate& c : candidates_) {
-        if (limit && c.bound > best_ + limit->faintest) break;
-        plan(chain_of(c));
-        add(chain_of(c), limit, out);
+        if (limit && c.least_loss > best_ + limit->faintest) break;
+        add(c, limit, out);
     }
     if (!limit) return;
     std::size_t kept = 0;
@@ -79,47 +79,60 @@ void RayTracer::trace(Vec3 to, const RayLimit* limit, RayPaths& out) {
 /// in an order that is the same in both directions.
 void RayTracer::propose(Vec3 to, const RayLimit* limit) {
     candidates_.clear();
-    chains_.clear();
     const bool forward = a_ == from_;
     images_.seen_from(to, [&](std::span<const std::uint32_t> chain) {
-        const std::size_t first = chains_.size();
-        chains_.insert(chains_.end(), chain.begin(), chain.end());
-        const auto begin = chains_.begin() + static_cast<std::ptrdiff_t>(first);
-        if (forward) std::reverse(begin, chains_.end());
-        Candidate candidate{0, first, chain.size()};
-        if (plan(chain_of(candidate))) {
-            if (limit) candidate.bound = bound(chain_of(candidate), *limit);
-            candidates_.push_back(candidate);
-        } else {
-            chains_.erase(begin, chains_.end());
-        }
+        chain_.assign(chain.begin(), chain.end());
+        if (forward) std::reverse(chain_.begin(), chain_.end());
+        if (const auto candidate = plan(chain_, limit)) candidates_.push_back(*candidate);
     });
     std::sort(candidates_.begin(), candidates_.end(), [&](const Candidate& p, const Candidate& q) {
-        if (p.bound != q.bound) return p.bound < q.bound;
+        if (p.least_loss != q.least_loss) return p.least_loss < q.least_loss;
         if (p.count != q.count) return p.count < q.count;
-        const auto p_chain = chain_of(p), q_chain = chain_of(q);
-        return std::lexicographical_compare(p_chain.begin(), p_chain.end(), q_chain.begin(),
-                                            q_chain.end());
+        return std::ranges::lexicographical_compare(reflections_of(p), reflections_of(q), {},
+                                                    &RayHit::face, &RayHit::face);
     });
 }
 
-/// Finds the points of the path by these faces; false if it does not exist.
-bool RayTracer::plan(std::span<const std::uint32_t> chain) {
+/// Finds the path by these faces; nothing if it does not exist.
+std::optional<RayTracer::Candidate> RayTracer::plan(std::span<const std::uint32_t> chain,
+                                                    const RayLimit* limit) {
     mirrored_.assign(1, in_plan(a_));
     for (const std::uint32_t number : chain) {
         const Face& face = faces_[number];
         const double before = face.in_front(mirrored_.back());
-        if (!(before > 0)) return false;
+        if (!(before > 0)) return std::nullopt;
         mirrored_.push_back(mirrored_.back() - 2 * before * face.normal);
     }
-    const Vec3 image = mirrored_.back();
-    const double flat = distance(image, in_plan(b_)), rise = b_.z - a_.z;
-    length_ = std::sqrt(flat * flat + rise * rise);
-    points_.assign(chain.size() + 2, b_);
+    const double flat = distance(mirrored_.back(), in_plan(b_)), rise = b_.z - a_.z;
+    Candidate path{.length = std::sqrt(flat * flat + rise * rise),
+                   .first_point = points_.size(),
+                   .first = reflections_.size(),
+                   .count = chain.size()};
+    points_.resize(path.first_point + chain.size() + 2, b_);
+    const auto points = std::span(points_).subspan(path.first_point);
+    if (!place(chain, flat, points)) {
+        points_.resize(path.first_point);
+        return std::nullopt;
+    }
+    if (limit) path.free_space = path.least_loss = free_space(path.length, limit->frequency);
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+        reflections_.push_back(reflection(points[k], points[k + 1], chain[k]));
+        const RayHit& hit = reflections_.back();
+        if (limit)
+            path.least_loss += limit->materials.least_reflection_loss(hit.material, hit.cosine);
+    }
+    return path;
+}
+
+/// Fills in all points of a path but the last, from that back; false if one is not on its face.
+/// @param flat  length of the path in plan [m]
+bool RayTracer::place(std::span<const std::uint32_t> chain, double flat,
+                      std::span<Vec3> points) const {
+    const double rise = b_.z - a_.z;
     double left = flat;  // of the way in plan, from b back
     for (std::size_t k = chain.size(); k > 0; --k) {
         const Face& face = faces_[chain[k - 1]];
-        const Vec3 p = points_[k + 1];
+        const Vec3 p = points[k + 1];
         const double front = face.in_front(p), behind = -face.in_front(mirrored_[k]);
         if (!(front > 0)) return false;
         const Vec3 way = mirrored_[k] - in_plan(p);
@@ -129,35 +142,31 @@ bool RayTracer::plan(std::span<const std::uint32_t> chain) {
         left -= distance(in_plan(p), at);
         at.z = a_.z + rise * (left / flat);
         if (at.z > face.height) return false;
-        points_[k] = at;
+        points[k] = at;
     }
-    points_[0] = a_;
+    points[0] = a_;
     return true;
 }
 
-double RayTracer::bound(std::span<const std::uint32_t> chain, const RayLimit& limit) const {
-    double loss = free_space(length_, limit.frequency);
-    for (std::size_t k = 0; k < chain.size(); ++k) {
-        const RayHit hit = reflection(k, chain[k]);
-        loss += limit.materials.least_reflection_loss(hit.material, hit.cosine);
-    }
-    return loss;
-}
-
-/// Adds the planned path with the walls in its way, unless it is too faint.
-void RayTracer::add(std::span<const std::uint32_t> chain, const RayLimit* limit, RayPaths& out) {
-    Draft draft{out, limit, out.all_hits.size(), 0};
-    if (limit) draft.loss = free_space(length_, limit->frequency);
-    for (std::size_t k = 0; limit && k < chain.size(); ++k)
-        draft.loss += loss_of(reflection(k, chain[k]), limit->materials);
+/// Adds the path with the walls in its way, unless it is too faint.
+void RayTracer::add(const Candidate& path, const RayLimit* limit, RayPaths& out) {
+    Draft draft{out, limit, out.all_hits.size(), path.free_space};
+    const auto reflections = reflections_of(path);
+    const auto points = std::span(points_).subspan(path.first_point, path.count + 2);
+    for (const RayHit& hit : reflections)
+        if (limit) draft.loss += loss_of(hit, limit->materials);
     bool bright = !is_faint(draft);
-    for (std::size_t leg = 0; bright && leg <= chain.size(); ++leg) {
-        if (leg > 0) out.all_hits.push_back(reflection(leg - 1, chain[leg - 1]));
-        const Vec3 p = points_[leg], q = points_[leg + 1];
-        bright = pass(p, q, leg > 0 ? among_steps(faces_[chain[leg - 1]], p, q) : 0,
-                      leg < chain.size() ? among_steps(faces_[chain[leg]], p, q) : 0, draft);
+    for (std::size_t leg = 0; bright && leg <= path.count; ++leg) {
+        const Vec3 p = points[leg], q = points[leg + 1];
+        double begin = 0, end = 0;
+        if (leg > 0) {
+            out.all_hits.push_back(reflections[leg - 1]);
+            begin = among_steps(faces_[reflections[leg - 1].face], p, q);
+        }
+        if (leg < path.count) end = among_steps(faces_[reflections[leg].face], p, q);
+        bright = pass(p, q, begin, end, draft);
     }
-    finish(draft, bright, length_, std::nullopt);
+    finish(draft, bright, path.length, std::nullopt);
 }
 
 bool RayTracer::is_faint(const Draft& draft) const {
@@ -176,14 +185,18 @@ void RayTracer::finish(const Draft& draft, bool bright, double length,
 
 /// Loss of a hit [dB]; those of a few slabs are remembered.
 double RayTracer::loss_of(const RayHit& hit, const RayMaterials& materials) {
-    if (!materials.is_slab(hit.material)) return materials.loss(hit);
-    for (const auto& [known, loss] : known_)
-        if (known.cosine == hit.cosine && known.thickness == hit.thickness &&
-            known.kind == hit.kind && known.material == hit.material)
-            return loss;
-    auto& place = known_[next_known_++ % known_.size()];
-    place = {hit, materials.loss(hit)};
-    return place.second;
+    if (!materials.is_slab(hit.material)) return materials.factor(hit).loss();
+    const auto is_this = [&](const KnownSlab& known) {
+        return known.cosine == hit.cosine && known.thickness == hit.thickness &&
+               known.material == hit.material;
+    };
+    auto known = std::find_if(known_.begin(), known_.end(), is_this);
+    if (known == known_.end()) {
+        known = known_.begin() + static_cast<std::ptrdiff_t>(next_known_++ % known_.size());
+        *known = {hit.material, hit.thickness, hit.cosine,
+                  materials.losses_at_slab(hit.material, hit.thickness, hit.cosine)};
+    }
+    return hit.kind == RayHit::Kind::reflection ? known->losses.reflection : known->losses.crossing;
 }
 
 /// A way by one of the edge's corners is longer than the straight path by less than this [m], in
@@ -240,12 +253,11 @@ void RayTracer::add_around(const WallEdge& edge, const WayAround& way, const Ray
     finish(draft, bright, way.length, way.edge);
 }
 
-/// The k-th reflection of the planned path.
-RayHit RayTracer::reflection(std::size_t k, std::uint32_t number) const {
+/// The reflection by a face of what comes from p and meets it at q.
+RayHit RayTracer::reflection(Vec3 p, Vec3 q, std::uint32_t number) const {
     const Face& face = faces_[number];
-    const Vec3 way = points_[k + 1] - points_[k];
-    const double length = distance(points_[k + 1], points_[k]);
-    const double cosine = length > 0 ? std::abs(dot(way, face.normal)) / length : 1;
+    const double length = distance(q, p);
+    const double cosine = length > 0 ? std::abs(dot(q - p, face.normal)) / length : 1;
     return {RayHit::Kind::reflection, number, face.material, thickness_of(face.thickness),
             cosine_of(cosine),        0};
 }

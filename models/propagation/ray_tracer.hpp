@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -65,8 +64,11 @@ class RayTracer {
   private:
     /// Path whose walls are not looked for yet.
     struct Candidate {
-        double bound;              // least loss [dB]
-        std::size_t first, count;  // its faces among chains_, in the order of the path
+        double length;             // [m]
+        std::size_t first_point;   // its points, from end to end: two more than reflections
+        std::size_t first, count;  // its reflections
+        double free_space = 0;     // loss without walls [dB]
+        double least_loss = 0;     // that and the least that reflections take [dB]
     };
     /// Path whose walls are being looked for.
     struct Draft {
@@ -75,22 +77,29 @@ class RayTracer {
         std::size_t first;  // of its hits
         double loss;        // so far [dB], reflections included
     };
+    /// Slab that a wave met at an angle. A path meets walls side by side and square to one another:
+    /// with few of these.
+    struct KnownSlab {
+        std::size_t material;
+        double thickness, cosine;
+        HitLosses losses;
+    };
     void propose(Vec3 to, const RayLimit* limit);
-    bool plan(std::span<const std::uint32_t> chain);
-    double bound(std::span<const std::uint32_t> chain, const RayLimit& limit) const;
-    void add(std::span<const std::uint32_t> chain, const RayLimit* limit, RayPaths& out);
+    std::optional<Candidate> plan(std::span<const std::uint32_t> chain, const RayLimit* limit);
+    bool place(std::span<const std::uint32_t> chain, double flat, std::span<Vec3> points) const;
+    void add(const Candidate& path, const RayLimit* limit, RayPaths& out);
     void add_diffracted(const RayLimit* limit, RayPaths& out);
     void add_around(const WallEdge& edge, const WayAround& way, const RayLimit* limit,
                     RayPaths& out);
     double loss_of(const RayHit& hit, const RayMaterials& materials);
     bool is_near(const WallEdge& edge, double detour) const;
-    RayHit reflection(std::size_t k, std::uint32_t face) const;
+    RayHit reflection(Vec3 p, Vec3 q, std::uint32_t face) const;
     bool pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft);
     bool is_faint(const Draft& draft) const;
     void finish(const Draft& draft, bool bright, double length, const std::optional<RayEdge>& edge);
     std::optional<RayHit> crossing(const Crossing& c, Vec3 from, Vec3 along);
-    std::span<const std::uint32_t> chain_of(const Candidate& c) const {
-        return std::span(chains_).subspan(c.first, c.count);
+    std::span<const RayHit> reflections_of(const Candidate& c) const {
+        return std::span(reflections_).subspan(c.first, c.count);
     }
 
     const Scene& scene_;
@@ -101,17 +110,17 @@ class RayTracer {
     RayEdges edges_;
     // Ends of the link that is traced, the first by its coordinates first; then its state:
     Vec3 a_, b_;
-    double length_ = 0;  // of the path that is planned [m]
-    double best_ = 0;    // loss of the strongest path so far [dB]
+    double best_ = 0;  // loss of the strongest path so far [dB]
     std::vector<double> losses_;
-    std::vector<std::uint32_t> chains_;
     std::vector<Candidate> candidates_;
-    std::vector<Vec3> mirrored_, points_;
+    std::vector<RayHit> reflections_;  // of the candidates
+    std::vector<Vec3> points_;         // of the candidates
+    std::vector<std::uint32_t> chain_;
+    std::vector<Vec3> mirrored_;
     std::vector<Crossing> crossings_;
     std::vector<std::size_t> crossed_;  // faces of the last leg's walls
     std::vector<char> stands_;          // by face: in the way of the straight path
-    // Losses of the last hits, for the same materials.
-    std::array<std::pair<RayHit, double>, 6> known_{};
+    std::array<KnownSlab, 6> known_{};  // the last ones, of the same materials
     std::size_t next_known_ = 0;
 };
 
