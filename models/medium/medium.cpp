@@ -139,22 +139,24 @@ Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
                  Db{std::numeric_limits<double>::infinity()})};
 }
 
-/// Path loss [dB] from `from` here to `to` there.
+/// Path loss [dB] from `from` here to `to` there; a frame sees it faded.
 double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
                     Db give_up) const {
     const Db most = fades_ ? give_up + fades_->most() : give_up;
-    const auto seen = [&](double loss_db) {
-        return fades_ ? faded(loss_db, from, to, here, there, frame) : loss_db;
-    };
-    if (!recent_.empty()) {
-        if (const auto known = recent_.find({from, to, here, there}, most)) return seen(*known);
-    }
+    const auto known = recent_.find({from, to, here, there}, most);
+    const double mean = known ? *known : computed_loss(from, to, here, there, t, frame, most);
+    return faded(mean, from, to, here, there, frame);
+}
+
+/// Path loss [dB] by the model, the local mean.
+double Medium::computed_loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t,
+                             std::uint64_t frame, Db give_up) const {
     LinkBatch link = batch(from, here, t, frame);
     link.to = {&there, 1};
     link.to_keys = {&keys_[to.index()], 1};
     double db = 0;
-    model(from).loss(link, most, {&db, 1});
-    return seen(db);
+    model(from).loss(link, give_up, {&db, 1});
+    return db;
 }
 
 /// Loss [dB] that a frame sees; the local mean has no frame.

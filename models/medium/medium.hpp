@@ -259,9 +259,12 @@ class Medium {
     Propagation shadowed(const Propagation& model);
     // Links of a transmitter, as a model is asked for them.
     LinkBatch batch(NodeId from, Vec3 origin, Time t, std::uint64_t frame) const;
-    // Path loss [dB] from `from` here to `to` there.
+    // Path loss [dB] from `from` here to `to` there, as a frame sees it.
     double loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
                 Db give_up) const;
+    // Path loss [dB] by the model, the local mean; above `give_up` it says no more than that.
+    double computed_loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
+                         Db give_up) const;
     // Loss [dB] that a frame sees where the link's is `loss_db`; that one if frames do not fade.
     double faded(double loss_db, NodeId from, NodeId to, Vec3 here, Vec3 there,
                  std::uint64_t frame) const;

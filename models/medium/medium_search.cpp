@@ -248,8 +248,8 @@ std::optional<Arrival> Medium::arrival_from(const Emission& frame, double d2, No
 Dbm Medium::level(const Arrival& arrival, NodeId to) const {
     // Distance and pair decide the level: it is the link's, whichever frame it is of.
     const Vec3 there{std::sqrt(arrival.squared_distance), 0, 0};
-    const Db lost{loss(arrival.from, to, {}, there, arrival.begin, 0,
-                       Db{std::numeric_limits<double>::infinity()})};
+    const Db lost{computed_loss(arrival.from, to, {}, there, arrival.begin, 0,
+                                Db{std::numeric_limits<double>::infinity()})};
     return received_power(kinds_.radio(kind(arrival.from)), kinds_.radio(kind(to)), lost);
 }
 

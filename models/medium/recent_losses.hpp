@@ -27,8 +27,6 @@ class RecentLosses {
         friend bool operator==(const Link&, const Link&) = default;
     };
 
-    /// No loss was ever kept.
-    bool empty() const { return !slots_; }
     /// Takes note of a loss [dB]; above `give_up` it says no more than that.
     void keep(const Link& link, Db give_up, double loss_db) {
         if (!slots_) slots_ = std::make_unique<Slots>();
