@@ -124,7 +124,7 @@ void EquivalenceTest::add(double difference) {
     if (verdict_ != Equivalence::undecided) return;
     if (std::min(log_most_[not_above], log_most_[not_below]) >= log_within_) {
         verdict_ = Equivalence::within;
-    } else if (std::max(log_most_[above], log_most_[below]) >= log_outside_) {
+    } else if (std::max(log_most_[above], log_most_[beneath]) >= log_outside_) {
         verdict_ = Equivalence::outside;
     }
 }

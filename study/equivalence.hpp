@@ -48,7 +48,7 @@ class EquivalenceTest {
         not_above,  ///< D < margin
         not_below,  ///< D > -margin
         above,      ///< D > margin
-        below       ///< D < -margin
+        beneath     ///< D < -margin
     };
 
     /// @param  margin  [-], above 0 and below 1

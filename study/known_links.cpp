@@ -31,7 +31,6 @@ struct RobotPair {
     Time at;
     NodeId a, b;
     Vec3 from, to;
-    friend bool operator==(const RobotPair&, const RobotPair&) = default;
 };
 
 /// Every k-th of many, with k the least power of two that leaves few enough.

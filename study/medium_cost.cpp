@@ -11,7 +11,7 @@
 namespace rovernet {
 namespace {
 
-constexpr std::uint64_t most_frames = 200'000;
+constexpr std::uint64_t most_recorded_frames = 200'000;
 constexpr std::size_t most_events = 2'000'000;
 
 double thread_cpu_s() {
@@ -30,7 +30,7 @@ class MediumRecorder {
                kind_of<AirSent>() | kind_of<Transmitted>() | kind_of<Received>();
     }
     void on(const Record& record, const RecordContext& context) {
-        if (record_->frames == most_frames) return;
+        if (record_->frames == most_recorded_frames) return;
         if (const auto* moved = std::get_if<Moved>(&record)) {
             add(moved->time, moved->node, moved->leg);
         } else if (const auto* arrived = std::get_if<Arrived>(&record)) {
@@ -93,7 +93,9 @@ MediumRecord record_medium(const Scenario& scenario, const std::function<bool()>
     network.add_sink(MediumRecorder(record));
     const Time end = start_of_run + scenario.scenario.duration;
     while (!network.advance(end, events_a_slice)) {
-        if (record.frames == most_frames || record.events.size() > most_events || stopped()) break;
+        if (record.frames == most_recorded_frames || record.events.size() > most_events ||
+            stopped())
+            break;
     }
     return record;
 }
