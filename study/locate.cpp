@@ -156,10 +156,11 @@ Located locate_robots(const Scenario& scenario, const std::vector<std::string>& 
     }
     const auto [low, high] = area_of(network.scene(), seen, question.margin);
     const NodeId first = known.front();
+    const NetworkSettings& settings = network.settings();
     return locate(std::move(places),
                   {.model = scenario.propagation.make(),
-                   .scene = network.settings().scene,
-                   .floor_height = network.settings().floor_height,
+                   .scene = settings.scene ? settings.scene : std::make_shared<Scene>(),
+                   .floor_height = settings.floor_height,
                    .frequency = network.medium().radio(first).frequency,
                    .low = low,
                    .high = high,

@@ -65,21 +65,12 @@ const Locator::Grid& Locator::grid_of(Vec3 anchor, double z) {
     return at->second;
 }
 
-double Locator::misfit(std::span<const AnchorLoss> losses,
-                       std::span<const double> predicted) const {
-    double mean = 0, squares = 0;
-    for (std::size_t i = 0; i < losses.size(); ++i) {
-        const double error = losses[i].loss - predicted[i];
-        mean += error / static_cast<double>(losses.size());
-        squares += error * error;
-    }
-    return settings_.knows_power ? squares
-                                 : squares - static_cast<double>(losses.size()) * mean * mean;
+double Locator::misfit(std::size_t losses, double squares, double sum) const {
+    return settings_.knows_power ? squares : squares - sum * sum / static_cast<double>(losses);
 }
 
 std::vector<Vec3> Locator::valleys(std::span<const AnchorLoss> losses, double z) {
     std::vector<double> squares(grid_side * grid_side), sums(grid_side * grid_side);
-    const auto n = static_cast<double>(losses.size());
     for (const AnchorLoss& each : losses) {
         const Grid& predicted = grid_of(each.anchor, z);
         for (std::size_t k = 0; k < predicted.size(); ++k) {
@@ -92,7 +83,7 @@ std::vector<Vec3> Locator::valleys(std::span<const AnchorLoss> losses, double z)
         if (i < 0 || j < 0 || i >= grid_side || j >= grid_side)
             return std::numeric_limits<double>::infinity();
         const auto k = static_cast<std::size_t>(j * grid_side + i);
-        return settings_.knows_power ? squares[k] : squares[k] - sums[k] * sums[k] / n;
+        return misfit(losses.size(), squares[k], sums[k]);
     };
     std::vector<Vec3> out;
     for (int j = 0; j < grid_side; ++j) {
@@ -108,11 +99,16 @@ std::vector<Vec3> Locator::valleys(std::span<const AnchorLoss> losses, double z)
 }
 
 std::pair<double, Vec3> Locator::refined(std::span<const AnchorLoss> losses, Vec3 from) const {
-    std::vector<double> predicted(losses.size());
     const auto misfit_at = [&](Vec3 at) {
-        for (std::size_t k = 0; k < losses.size(); ++k)
-            losses_from(losses[k].anchor, {&at, 1}, {&predicted[k], 1});
-        return misfit(losses, predicted);
+        double squares = 0, sum = 0;
+        for (const AnchorLoss& each : losses) {
+            double predicted = 0;
+            losses_from(each.anchor, {&at, 1}, {&predicted, 1});
+            const double error = each.loss - predicted;
+            squares += error * error;
+            sum += error;
+        }
+        return misfit(losses.size(), squares, sum);
     };
     const double width = settings_.high.x - settings_.low.x,
                  depth = settings_.high.y - settings_.low.y;

@@ -6,6 +6,7 @@
 #include "sim/geometry.hpp"
 #include "sim/units.hpp"
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -73,7 +74,8 @@ class Locator {
     const Grid& grid_of(Vec3 anchor, double z);
     std::vector<Vec3> valleys(std::span<const AnchorLoss> losses, double z);
     std::pair<double, Vec3> refined(std::span<const AnchorLoss> losses, Vec3 from) const;
-    double misfit(std::span<const AnchorLoss> losses, std::span<const double> predicted) const;
+    /// Sum of squared errors of so many losses, less that of their mean if the power is not known.
+    double misfit(std::size_t losses, double squares, double sum) const;
     Vec3 point(int i, int j, double z) const;
 
     LocatorSettings settings_;

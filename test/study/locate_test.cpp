@@ -21,8 +21,10 @@ using test::TemporaryFolder;
 const std::vector<std::string> corners{"SW", "SE", "NE", "NW"};
 
 /// One robot for each of many places, all at once.
-Scenario hall(const std::string& shadowing) {
+Scenario hall(const std::string& shadowing, const std::string& set = {}) {
     const TemporaryFolder folder;
+    ScenarioOptions options;
+    if (!set.empty()) options.set.push_back(set);
     return load_scenario(folder.write("hall.toml", R"(
 scenario = { name = "hall", duration = "10 s", seed = 3 }
 propagation = { model = "log_distance", exponent = 2, sigma = "0 dB" }
@@ -34,16 +36,19 @@ robot = [
   { name = "R", count = 400, place = { area = [["3 m", "3 m"], ["7 m", "7 m"]] } },
 ]
 )" + shadowing),
-                         {});
+                         options);
 }
 
 }  // namespace
 
-TEST_CASE("locate: without shadowing robots are found where they are") {
-    const Located located = locate_robots(hall(""), corners, {start_of_run}, {.sigma = Db{4}});
-    REQUIRE(located.fixes.size() == 400);
-    for (const Fix& fix : located.fixes) CHECK(*fix.error() <= 2e-3);
-    CHECK(located.too_few == 0);
+TEST_CASE("locate: without shadowing robots are found where they are, also by a model of walls") {
+    for (const char* model : {"", "propagation.model=multi_wall"}) {
+        const Located located =
+            locate_robots(hall("", model), corners, {start_of_run}, {.sigma = Db{4}});
+        REQUIRE(located.fixes.size() == 400);
+        for (const Fix& fix : located.fixes) CHECK(*fix.error() <= 2e-3);
+        CHECK(located.too_few == 0);
+    }
 }
 
 TEST_CASE("locate: under shadowing the error is about as large as the bound") {
