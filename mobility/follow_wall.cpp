@@ -36,22 +36,24 @@ Step FollowWall::next_leg(Mover& mover) {
         progress.begun = true;
     }
     const double sign = side == WallSide::left ? 1 : -1;  // of the turn to the wall
-    const double wanted = keep.value + mover.radius.value;
+    const double away = -sign * 15 * LookRound::step;
+    double gap = keep.value + mover.radius.value;  // from its middle to the wall
     const LookRound look(mover, range);
-    const auto nearest = look.nearest();
-    constexpr double away = 15 * LookRound::step;
-    if (!nearest) {
-        const double way = std::max(stride.value, (range.value - wanted) / 2);
-        return leg_along(mover, mover.heading, way, speed, -sign * away);
+    const auto wall = look.nearest(side == WallSide::left);
+    if (!wall) {
+        const double way = std::max(stride.value, (range.value - gap) / 2);
+        return leg_along(mover, mover.heading, way, speed, away);
     }
-    const double error = look.way(*nearest) - wanted;
+    const double across = look.way_towards(look.direction(*wall) + 2 * quarter);
+    gap = std::min(gap, (look.way(*wall) + across) / 2);  // the middle of a narrow way
+    const double error = look.way(*wall) - gap;
     const double to_wall = std::atan2(error, stride.value);
-    const double along = look.direction(*nearest) - sign * (quarter - to_wall);
+    const double along = look.direction(*wall) - sign * (quarter - to_wall);
     const double most = std::max(stride.value, error / 2);
-    const double before_next = look.way_towards(along) - wanted;  // to the wall at an inner corner
+    const double before_next = look.way_towards(along) - gap;  // to the wall at a corner
     if (before_next > least_leg)
-        return leg_along(mover, along, std::min(most, before_next), speed, -sign * away);
-    return leg_along(mover, along - sign * quarter, stride.value, speed, -sign * away);
+        return leg_along(mover, along, std::min(most, before_next), speed, away);
+    return leg_along(mover, along - sign * quarter, stride.value, speed, away);
 }
 
 }  // namespace rovernet

@@ -16,9 +16,10 @@ struct EnumNames<WallSide> {
     static constexpr std::array<std::string_view, 2> values = {"left", "right"};
 };
 
-/// A robot that goes along the walls, by what its range finder measures: it has the nearest wall on
-/// its `side`, `keep` away from its body, goes round corners and never arrives. A robot that has no
-/// wall within `range` goes straight ahead until it has.
+/// A robot that goes along the walls, by what its range finder measures: it has the nearest wall of
+/// its `side` there, `keep` away from its body, goes round corners and never arrives. Where the way
+/// is too narrow for that it keeps to the middle. A robot that has no wall on that side within
+/// `range` goes straight ahead until it has.
 ///
 /// Each `stride` it looks again and goes along the wall that is nearest then, corrected by the
 /// error of the distance. On a straight wall there is no error; round a corner that points at it

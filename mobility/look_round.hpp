@@ -4,7 +4,6 @@
 #include "mobility/movement.hpp"
 #include "scene/range_finder.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -35,11 +34,15 @@ class LookRound {
         const double beam = std::round((direction - heading_) / step);
         return ways_[static_cast<std::size_t>(std::fmod(beam + 4 * beams, beams))];
     }
-    /// Beam that measures least; nothing if none measures less than the range.
-    std::optional<std::size_t> nearest() const {
-        const auto least = std::min_element(ways_.begin(), ways_.end());
-        if (*least >= range_) return std::nullopt;
-        return static_cast<std::size_t>(least - ways_.begin());
+    /// Beam that measures least of those from straight ahead to straight behind, on the left or on
+    /// the right; nothing if none of them measures less than the range.
+    std::optional<std::size_t> nearest(bool on_the_left) const {
+        std::size_t least = 0;
+        for (std::size_t i = 1; i <= beams / 2; ++i) {
+            const std::size_t beam = on_the_left ? i : beams - i;
+            if (ways_[beam] < ways_[least]) least = beam;
+        }
+        return ways_[least] < range_ ? std::optional(least) : std::nullopt;
     }
 
   private:

@@ -13,10 +13,12 @@
 namespace rovernet {
 namespace {
 
-/// Free way of the body ahead [m]: as far as `most`, less what it keeps.
-double way_ahead(const Mover& mover, double heading, double most, double keep) {
-    const Vec3 far = mover.position + (most + keep) * direction_of(heading);
-    return std::min(most, distance(mover.position, straight_stop(mover, far)) - keep);
+constexpr Duration shortest_look{10'000'000};  // a robot that is stuck looks no more often
+
+/// Way [m] that the body can go straight ahead, up to `most`.
+double free_way(const Mover& mover, double most) {
+    const Vec3 far = mover.position + most * direction_of(mover.heading);
+    return distance(mover.position, straight_stop(mover, far));
 }
 
 }  // namespace
@@ -50,7 +52,9 @@ Step Wander::next_leg(Mover& mover) {
     }
     if (has_turned) {
         has_turned = false;
-        const double way = way_ahead(mover, mover.heading, run.value, keep.value);
+        const double free = free_way(mover, run.value + keep.value);
+        // In a place too narrow for `keep` it feels its way: half of what is free.
+        const double way = free > keep.value + least_leg ? free - keep.value : free / 2;
         if (way > least_leg) {
             const Vec3 to = mover.position + way * direction_of(mover.heading);
             return straight_leg(mover, to, speed);
@@ -58,9 +62,10 @@ Step Wander::next_leg(Mover& mover) {
     }
     has_turned = true;
     const double angle = turn(mover);
+    const Duration time = std::max(from_seconds(std::abs(angle) / turn_rate.value), shortest_look);
     Leg leg = standing_leg(mover);
-    leg.turning = std::copysign(turn_rate.value, angle);
-    leg.end = mover.now + std::max(from_seconds(std::abs(angle) / turn_rate.value), Duration{1});
+    leg.turning = angle / seconds(time);
+    leg.end = mover.now + time;
     return leg;
 }
 
