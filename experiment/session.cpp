@@ -165,9 +165,11 @@ ClientId Session::attach(const std::vector<NodeId>& robots, std::string name) {
 }
 
 void Session::hear(ClientId client, NodeId robot, const Message& message, const Heard& how) {
+    const auto frame = ears_->take(robot, message.uid);
+    if (!clients_.at(client).hears) return;
     HeardMessage heard{network_->now(), robot,           message.origin,
                        how.hops,        message.payload, message.origin};
-    if (const auto frame = ears_->take(robot, message.uid)) {
+    if (frame) {
         heard.last_hop = frame->sender;
         heard.level = frame->level;
     }
@@ -260,6 +262,11 @@ std::vector<HeardMessage> Session::heard(ClientId client) {
         return a.time != b.time ? a.time < b.time : a.at < b.at;
     });
     return heard;
+}
+
+void Session::set_hearing(ClientId client, bool hears) {
+    client_of(client).hears = hears;
+    if (!hears) client_of(client).heard.clear();
 }
 
 const Session::Driving* Session::driving(NodeId robot) const {

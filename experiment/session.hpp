@@ -107,6 +107,9 @@ class Session {
     /// Messages that the client's robots heard since it asked last, in order of time and then of
     /// robot.
     std::vector<HeardMessage> heard(ClientId client);
+    /// Says whether messages are kept for heard(), as they are from attach() on: a client that
+    /// never asks would fill the memory.
+    void set_hearing(ClientId client, bool hears);
     /// The robot was told to drive ahead and cannot.
     bool is_stalled(NodeId robot) const;
     /// Speed of a robot: as it is driven, or else that of its leg.
@@ -128,6 +131,7 @@ class Session {
         std::vector<NodeId> robots;
         std::vector<Subscription> subscriptions;
         std::vector<HeardMessage> heard;
+        bool hears = true;
     };
     /// Robot that is driven by a velocity.
     struct Driving {

@@ -184,9 +184,7 @@ class Replayed {
             line.fail("out_of_range", "this input is before the one above it");
         }
         run_to(input.time);
-        const auto driver = session_.driver(input.robot);
-        session_.carry_out(driver ? *driver : session_.attach({input.robot}), input.robot,
-                           input.command);
+        session_.carry_out(driver_of(input.robot), input.robot, input.command);
         ++result.inputs;
         return false;
     }
@@ -194,6 +192,13 @@ class Replayed {
     std::string fingerprint() const { return fingerprint_->text(); }
 
   private:
+    ClientId driver_of(NodeId robot) {
+        if (const auto driver = session_.driver(robot)) return *driver;
+        const ClientId driver = session_.attach({robot});
+        session_.set_hearing(driver, false);
+        return driver;
+    }
+
     void run_to(Time time) {
         constexpr std::uint64_t events_a_slice = 4096;
         while (!session_.advance(time, events_a_slice)) {

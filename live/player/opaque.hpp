@@ -35,7 +35,8 @@ class PlayerRadio : public PlayerDevice {
     std::vector<std::string> data() override;
     std::optional<std::string> answer(std::uint32_t, XdrReader) override { return std::nullopt; }
     void command(std::uint32_t subtype, XdrReader payload) override;
-    void taken() override { robot_.heard(); }
+    void taken() override { robot_.listen(true); }
+    void let_go() override { robot_.listen(false); }
 
   private:
     PlayerRobot& robot_;

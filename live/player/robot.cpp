@@ -13,7 +13,10 @@ PlayerRobot::PlayerRobot(Session& session, NodeId robot)
 
 /// Becomes the robot's driver. @return whether it is
 bool PlayerRobot::take() {
-    if (!client_ && !session_.driver(id_)) client_ = session_.attach({id_}, "player");
+    if (!client_ && !session_.driver(id_)) {
+        client_ = session_.attach({id_}, "player");
+        session_.set_hearing(*client_, listens_);
+    }
     return client_.has_value();
 }
 
@@ -34,10 +37,14 @@ void PlayerRobot::let_go() {
     }
 }
 
+void PlayerRobot::listen(bool listens) {
+    listens_ = listens;
+    if (listens) take();
+    if (client_) session_.set_hearing(*client_, listens);
+}
+
 std::vector<HeardMessage> PlayerRobot::heard() {
-    if (!take()) return {};
-    listens_ = true;
-    return session_.heard(*client_);
+    return take() ? session_.heard(*client_) : std::vector<HeardMessage>{};
 }
 
 Pose2d PlayerRobot::pose() const {

@@ -25,9 +25,11 @@ class PlayerRobot {
 
     /// Carries out a command, unless another program drives the robot.
     void carry_out(const RobotCommand& command);
-    /// Nobody is there any more who drove it: it stops.
+    /// Stops, as the last client that drove it has left.
     void let_go();
-    /// Messages that it heard since the last call; the first call only begins to listen.
+    /// Begins or ends to keep the messages that it hears, unless another program drives the robot.
+    void listen(bool listens);
+    /// Messages that it heard since the last call, while it listens.
     std::vector<HeardMessage> heard();
 
     /// Pose in the world.

@@ -227,6 +227,19 @@ at = ["300 m", "0 m"]
     const auto later = session.heard(client);
     REQUIRE(later.size() == 2);
     CHECK(later[0].port + later[1].port == 9);
+    // What comes while it does not hear is not kept, nor is what it had not asked for.
+    const auto say = [&](const char* payload, Duration until) {
+        session.carry_out(client, {1}, SendCommand{.to = NodeId{2}, .payload = payload});
+        session.step(start_of_run + until);
+    };
+    say("not asked for", 3s);
+    session.set_hearing(client, false);
+    say("not heard", 4s);
+    session.set_hearing(client, true);
+    say("heard again", 5s);
+    const auto last = session.heard(client);
+    REQUIRE(last.size() == 1);
+    CHECK(last[0].payload == "heard again");
 }
 
 TEST_CASE("session: whoever asks is told of every command, the stop of a client that leaves too") {
