@@ -54,7 +54,8 @@ struct ReplayArguments {
     std::vector<std::string> with;   ///< radios, each "path=value" or several of them after ";"
     std::optional<std::string> map;  ///< map of these
     std::optional<double> speed;
-    // Of an ns-2 trace: its radio, as one of `with`, and "flood" or "direct".
+    // Radio of an ns-2 trace, as one of `with`; routing of its messages, "flood" or "direct"; file
+    // of the movements that moved its robots.
     std::optional<std::string> as, routing, movements;
     std::optional<std::string> store;
     bool json = false;

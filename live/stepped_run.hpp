@@ -58,9 +58,8 @@ class SteppedRun {
     /// @param row  of the robot
     void command(std::size_t row, RobotCommand command);
     /// Drives each robot by its row of `velocities`.
-    /// @param velocities  speed [m/s] and turn rate [rad/s] of each robot, one behind the other;
-    /// two
-    ///                    that are not a number leave their robot as it is
+    /// @param velocities  speed [m/s] and turn rate [rad/s] of each robot, by row; a robot whose
+    ///                    two are not a number goes on as it was told
     /// @param timeout     as that of DriveCommand
     void drive(std::span<const double> velocities, std::optional<Duration> timeout = {});
 

@@ -189,7 +189,7 @@ class ScenarioFile {
 /// Commands that need one scenario call it.
 /// @throws InputError as ScenarioFile, and for the map
 Scenario load_scenario(const std::string& path, const ScenarioOptions& options);
-/// The same for a file that was read before.
+/// Scenario of a file that was read before; else as above.
 /// @param settings  values by path, see ScenarioFile::scenario()
 Scenario load_scenario(const ScenarioFile& file, const Table& settings = {});
 

@@ -80,9 +80,8 @@ class Sink {
               if constexpr (FinishesWithRun<T>) static_cast<T*>(p)->finish();
           }),
           self_(std::move(sink)) {}
-    /// Moves the sink into the handle, for sinks that nobody asks for a result. Moves the sink into
-    /// the handle, for sinks that nobody asks for a result. Its type needs no base class and no
-    /// registration:
+    /// Moves the sink into the handle, for sinks that nobody asks for a result. Its type needs no
+    /// base class and no registration:
     ///
     ///   network.add_sink(Sink{Losses{}});
     template <RecordSink T>

@@ -22,7 +22,7 @@ std::int32_t count(std::uint32_t n) { return static_cast<std::int32_t>(n); }
 
 CodeCell code(std::string_view letters) {
     CodeCell cell{};
-    std::copy(letters.begin(), letters.end(), cell.begin());
+    std::copy_n(letters.begin(), std::min(letters.size(), cell.size()), cell.begin());
     return cell;
 }
 CodeCell code(AirFrame::Kind kind) {

@@ -49,7 +49,7 @@ class RowSink {
     const std::vector<Row>& of() const {
         return std::get<std::vector<Row>>(rows_);
     }
-    /// The same for a kind that is known by its bit only: one of the record kinds.
+    /// Rows of the kind whose bit is set in `kind`, one of the record kinds.
     Table table(KindMask kind) const;
     /// Forgets all rows.
     void clear();

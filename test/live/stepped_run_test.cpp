@@ -29,7 +29,8 @@ bool step(SteppedRun& run) {
     return run.step(256, [] { return true; });
 }
 
-/// The same commands as by_lines(): 15 steps of 100 ms, robots and messages out of order.
+/// Fingerprint of 15 steps of 100 ms with the commands of by_lines(), robots and messages out of
+/// order.
 std::string by_steps(const Scenario& scenario, std::optional<std::uint64_t> seed,
                      std::optional<std::string> folder = {}) {
     SteppedRun run(scenario, {.folder = std::move(folder)});
