@@ -90,6 +90,30 @@ void join(std::vector<Crossing>& crossings) {
     });
 }
 
+/// Sum of what the walls take that a segment crosses [dB], see Scene::wall_loss.
+/// @param crossings     in order along the segment
+/// @param step          gap that does not end a wall [m]
+/// @param thickness_at  drawn thickness at a point that far along the segment [m]
+template <class ThicknessAt>
+double loss_of_walls(std::span<const Crossing> crossings, const WallRates& rates, double step,
+                     double enough, ThicknessAt thickness_at) {
+    double sum = 0;
+    for (auto part = crossings.begin(); part != crossings.end() && sum <= enough;) {
+        const std::size_t material = part->material;
+        double end = part->exit, inside = 0;
+        bool heavy = false;
+        for (; part != crossings.end() && part->material == material && part->entry - end <= step;
+             ++part) {
+            heavy = heavy || thickness_at((part->entry + part->exit) / 2) >= rates.thinnest_heavy;
+            end = part->exit;
+            inside += part->length;
+        }
+        const WallRate& rate = (heavy ? rates.heavy : rates.light)[material];
+        sum += rate.per_crossing + rate.per_metre * inside;
+    }
+    return sum;
+}
+
 }  // namespace
 
 Scene::Scene(OccupancyGrid grid, std::vector<Material> materials)
@@ -152,23 +176,26 @@ void Scene::bound(const OccupancyGrid& grid, const MapFrame& frame) {
     }
 }
 
+const WallLayer* Scene::only_layer() const {
+    const bool is_one = layers_.size() == 1 && !std::isfinite(layers_.front().height);
+    return is_one ? &layers_.front() : nullptr;
+}
+
 void Scene::crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const {
     out.clear();
     if (layers_.empty() || a == b) return;
-    const WallLayer& first = layers_.front();
-    if (layers_.size() == 1 && !std::isfinite(first.height)) {
-        first.walls->crossings(first.frame.to_cells(a), first.frame.to_cells(b), distance(a, b),
-                               out);
-        for (Crossing& c : out) c.material = first.material;
-        return;
+    if (const WallLayer* only = only_layer()) {
+        only->crossings(only->frame.to_cells(a), only->frame.to_cells(b), distance(a, b), out);
+    } else {
+        merged_crossings(a, b, out);
     }
-    merged_crossings(a, b, out);
 }
 
 void Scene::merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const {
     const bool reversed = comes_before(b, a);
     if (reversed) std::swap(a, b);
-    for (const WallLayer& layer : layers_) layer.crossings(a, b, out);
+    out.clear();
+    for (const WallLayer& layer : layers_) layer.append_crossings(a, b, out);
     join(out);
     if (!reversed) return;
     const double length = distance(a, b);
@@ -184,9 +211,8 @@ std::vector<Crossing> Scene::crossings(Vec3 a, Vec3 b) const {
 
 double Scene::wall_length(Vec3 a, Vec3 b, double enough) const {
     if (layers_.empty() || a == b) return 0;
-    const WallLayer& first = layers_.front();
-    if (layers_.size() == 1 && !std::isfinite(first.height)) {
-        return first.walls->solid_length(first.frame.to_cells(a), first.frame.to_cells(b),
+    if (const WallLayer* only = only_layer()) {
+        return only->walls->solid_length(only->frame.to_cells(a), only->frame.to_cells(b),
                                          distance(a, b), enough);
     }
     if (comes_before(b, a)) std::swap(a, b);  // sums in one order
@@ -209,28 +235,23 @@ double Scene::wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double 
 
 double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                         std::vector<Crossing>& scratch) const {
+    if (layers_.empty() || a == b) return 0;
     if (comes_before(b, a)) std::swap(a, b);
-    crossings(a, b, scratch);
-    if (scratch.empty()) return 0;
     const double step = widest_step * std::max(frame_.cell_width(), frame_.cell_height());
     const double length = distance(a, b);
-    const auto thickness_at = [&](double share) { return wall_thickness(a + share * (b - a)); };
-    double sum = 0;
-    for (auto part = scratch.begin(); part != scratch.end() && sum <= enough;) {
-        const std::size_t material = part->material;
-        double end = part->exit, inside = 0;
-        bool heavy = false;
-        for (; part != scratch.end() && part->material == material && part->entry - end <= step;
-             ++part) {
-            heavy = heavy ||
-                    thickness_at((part->entry + part->exit) / (2 * length)) >= rates.thinnest_heavy;
-            end = part->exit;
-            inside += part->length;
-        }
-        const WallRate& rate = (heavy ? rates.heavy : rates.light)[material];
-        sum += rate.per_crossing + rate.per_metre * inside;
+    const WallLayer* only = only_layer();
+    if (!only) {
+        merged_crossings(a, b, scratch);
+        return loss_of_walls(scratch, rates, step, enough, [&](double middle) {
+            return wall_thickness(a + middle / length * (b - a));
+        });
     }
-    return sum;
+    const CellPoint from = only->frame.to_cells(a), to = only->frame.to_cells(b);
+    const double u = (to.u - from.u) / length, v = (to.v - from.v) / length;
+    only->crossings(from, to, length, scratch);
+    return loss_of_walls(scratch, rates, step, enough, [&](double middle) {
+        return Meters{only->thickness->at({from.u + middle * u, from.v + middle * v})};
+    });
 }
 
 Meters Scene::wall_thickness(Vec3 p) const {

@@ -118,6 +118,8 @@ class Scene {
   private:
     void add_map(const OccupancyGrid& grid);
     void bound(const OccupancyGrid& grid, const MapFrame& frame);
+    // The walls, if they are of one material, on one map and infinitely high; null if not.
+    const WallLayer* only_layer() const;
     void merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
 
     OccupancyGrid grid_;

@@ -23,14 +23,13 @@ Part below(double height, Vec3 a, Vec3 b, double length) {
 
 }  // namespace
 
-void WallLayer::crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const {
+void WallLayer::append_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const {
     const double length = distance(a, b);
     const Part low = below(height, a, b, length);
     if (!(low.from < low.to)) return;
     std::vector<Crossing> all;
-    walls->crossings(frame.to_cells(a), frame.to_cells(b), length, all);
+    crossings(frame.to_cells(a), frame.to_cells(b), length, all);
     for (Crossing c : all) {
-        c.material = material;
         if (c.entry < low.from || c.exit > low.to) {
             c.entry = std::max(c.entry, low.from);
             c.exit = std::min(c.exit, low.to);

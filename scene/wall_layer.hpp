@@ -23,8 +23,15 @@ struct WallLayer {
     double height =
         std::numeric_limits<double>::infinity();  ///< [m] the walls stand from 0 to here
 
+    /// Writes the crossings of a segment that is `length` [m] long, in order from a, as if the
+    /// walls were infinitely high.
+    /// @param out  emptied first
+    void crossings(CellPoint a, CellPoint b, double length, std::vector<Crossing>& out) const {
+        walls->crossings(a, b, length, out);
+        for (Crossing& c : out) c.material = material;
+    }
     /// Appends the crossings of the segment, in order from a.
-    void crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
+    void append_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
 };
 
 }  // namespace rovernet

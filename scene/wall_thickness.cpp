@@ -13,14 +13,6 @@ WallThickness::WallThickness(const MapFrame& frame, std::shared_ptr<const WallIn
       cell_height_(frame.cell_height()),
       walls_(std::move(walls)) {}
 
-double WallThickness::at(CellPoint p) const {
-    const bool inside = p.u >= 0 && p.v >= 0 && p.u < walls_->columns() && p.v < walls_->rows();
-    if (!inside) return 0;
-    measured_([this] { measure(); });
-    const auto column = static_cast<std::size_t>(p.u), row = static_cast<std::size_t>(p.v);
-    return thickness_[row * static_cast<std::size_t>(walls_->columns()) + column];
-}
-
 /// Walks every line of cells in each of four directions; a run of solid cells is as thick as it is
 /// long.
 void WallThickness::measure() const {

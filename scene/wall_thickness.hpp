@@ -5,6 +5,7 @@
 #include "scene/once.hpp"
 #include "scene/wall_index.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -22,7 +23,13 @@ class WallThickness {
     WallThickness(const MapFrame& frame, std::shared_ptr<const WallIndex> walls);
 
     /// [m] At the cell that holds the point; 0 where there is no wall.
-    double at(CellPoint p) const;
+    double at(CellPoint p) const {
+        const int columns = walls_->columns();
+        if (!(p.u >= 0 && p.v >= 0 && p.u < columns && p.v < walls_->rows())) return 0;
+        measured_([this] { measure(); });
+        const auto column = static_cast<std::size_t>(p.u), row = static_cast<std::size_t>(p.v);
+        return thickness_[row * static_cast<std::size_t>(columns) + column];
+    }
 
   private:
     void measure() const;
