@@ -119,7 +119,7 @@ void Capturing::add_received(const AirFrame& air, const Reception& reception) {
     found.air.frame.message = air.frame.message;  // behind a broken chunk its slot may be another
     add_packet(reception.node, reception.time, PcapngWriter::Way::in, found,
                RadiotapFacts::Signal{Dbm{air_.arrival(found, reception.node).level_dbm},
-                                     air_.medium().noise(reception.node)});
+                                     air_.medium().stations().noise(reception.node)});
 }
 
 /// Adds a frame to the interface of a robot that sends or receives it.
@@ -128,7 +128,7 @@ void Capturing::add_packet(NodeId at, Time time, PcapngWriter::Way way, const Re
     const AirFrame& air = frame.air;
     bytes_.clear();
     append_radiotap({.rate = frame.rate,
-                     .frequency = air_.medium().radio(air.frame.sender).frequency,
+                     .frequency = air_.medium().stations().radio(air.frame.sender).frequency,
                      .signal = signal},
                     bytes_);
     if (air.kind == AirFrame::data) {

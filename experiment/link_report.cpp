@@ -87,11 +87,11 @@ void keep_others_still(Network& network, const Scenario& scenario,
 double loss_by(const Propagation& model, const Scene& scene, const Network& network, NodeId from,
                NodeId to, Vec3 here, Vec3 there) {
     const Medium& medium = network.medium();
-    const std::uint64_t to_key = medium.key(to);
-    const LinkBatch batch{.frequency = medium.radio(from).frequency,
+    const std::uint64_t to_key = medium.stations().key(to);
+    const LinkBatch batch{.frequency = medium.stations().radio(from).frequency,
                           .from = here,
                           .to = {&there, 1},
-                          .from_key = medium.key(from),
+                          .from_key = medium.stations().key(from),
                           .to_keys = {&to_key, 1},
                           .scene = &scene,
                           .floor_height = network.settings().floor_height,
@@ -107,7 +107,7 @@ double loss_by(const Propagation& model, const Scene& scene, const Network& netw
 std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, const LinkReport& link,
                             Vec3 here, Vec3 there) {
     const double without_walls =
-        loss_by(network.medium().model(from), Scene(), network, from, to, here, there);
+        loss_by(network.medium().stations().model(from), Scene(), network, from, to, here, there);
 
     const auto& materials = network.scene().materials();
     std::vector<Db> losses;
@@ -130,9 +130,9 @@ std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, cons
 std::string why_down(const Network& network, NodeId from, NodeId to, const LinkReport& link) {
     const Medium& medium = network.medium();
     for (const NodeId node : {from, to}) {
-        if (!medium.is_on(node)) return network.name(node) + " is off";
+        if (!medium.stations().is_on(node)) return network.name(node) + " is off";
     }
-    if (!medium.may_link(from, to)) {
+    if (!medium.stations().may_link(from, to)) {
         const Radio &a = link.sender, &b = link.receiver;
         const std::string gate = "they are in different networks: ";
         if (a.frequency != b.frequency) {
@@ -160,11 +160,11 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
     play_until(network, at, tell);
 
     const Medium& medium = network.medium();
-    const Pose here = medium.pose(a, at, network.legs());
-    const Pose there = medium.pose(b, at, network.legs());
+    const Pose here = medium.stations().pose(a, at, network.legs());
+    const Pose there = medium.stations().pose(b, at, network.legs());
     const Vec3 pa = here.antenna, pb = there.antenna;
-    const Shadowed* shadowed = medium.model(a).as<Shadowed>();
-    const Propagation& model = shadowed ? shadowed->base() : medium.model(a);
+    const Shadowed* shadowed = medium.stations().model(a).as<Shadowed>();
+    const Propagation& model = shadowed ? shadowed->base() : medium.stations().model(a);
     LinkReport report{.from = from,
                       .to = to,
                       .model = std::string(model.name()),
@@ -174,25 +174,25 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
                       .materials = {},
                       .wall_losses = {},
                       .wall_m = network.scene().wall_length(pa, pb),
-                      .sender = medium.radio(a),
-                      .receiver = medium.radio(b),
-                      .path_loss = medium.path_loss(a, b, at, network.legs()),
+                      .sender = medium.stations().radio(a),
+                      .receiver = medium.stations().radio(b),
+                      .path_loss = medium.links().path_loss(a, b, at, network.legs()),
                       .shadowing = {},
-                      .sender_pattern = pattern_gain(medium.radio(a), here, pb),
-                      .receiver_pattern = pattern_gain(medium.radio(b), there, pa),
-                      .received = medium.level(a, b, at, network.legs()),
-                      .margin = medium.margin(a, b, at, network.legs()),
+                      .sender_pattern = pattern_gain(medium.stations().radio(a), here, pb),
+                      .receiver_pattern = pattern_gain(medium.stations().radio(b), there, pa),
+                      .received = medium.links().level(a, b, at, network.legs()),
+                      .margin = medium.links().margin(a, b, at, network.legs()),
                       .up = false,
                       .why_down = {},
                       .rays = {}};
-    report.up = medium.link_up(a, b, at, network.legs());
+    report.up = medium.links().is_up(a, b, at, network.legs());
     if (!report.up) report.why_down = why_down(network, a, b, report);
     if (shadowed) {
         report.shadowing =
             report.path_loss - Db{loss_by(model, network.scene(), network, a, b, pa, pb)};
     }
     if (const Rays* rays = model.as<Rays>()) {
-        report.rays = rays->paths({.frequency = medium.radio(a).frequency,
+        report.rays = rays->paths({.frequency = medium.stations().radio(a).frequency,
                                    .from = pa,
                                    .to = {&pb, 1},
                                    .to_keys = {},

@@ -30,7 +30,8 @@ class Addresses {
               Make make)
         : given_(given), make_(make) {
         for (std::uint32_t i = 0; i < robots; ++i) {
-            if (const auto& address = medium.radio(NodeId{i}).*given) taken_.insert(*address);
+            if (const auto& address = medium.stations().radio(NodeId{i}).*given)
+                taken_.insert(*address);
         }
     }
 
@@ -94,7 +95,7 @@ std::vector<Device> devices(const Medium& medium, const std::vector<std::string>
     Addresses macs(medium, names.size(), &Radio::mac, mac_of);
     std::vector<Device> all;
     for (std::uint32_t i = 0; i < names.size(); ++i) {
-        const Radio& radio = medium.radio(NodeId{i});
+        const Radio& radio = medium.stations().radio(NodeId{i});
         all.push_back({names[i], ips.of(radio, NodeId{i}), macs.of(radio, NodeId{i}), radio.essid,
                        radio.frequency, radio.mode, radio.encryption});
     }

@@ -94,7 +94,7 @@ void Account::begin(const RecordedFrame& frame) {
                       .level = {arrival.level_dbm},
                       .margin = {},
                       .others = {}};
-    here.margin = here.level - air_.medium().radio(robot_).sensitivity;
+    here.margin = here.level - air_.medium().stations().radio(robot_).sensitivity;
     for (const Crossing& wall : air_.walls(frame, robot_)) {
         ++here.walls;
         here.wall_m += wall.length;
@@ -112,15 +112,16 @@ void Account::meet(Open& open, const RecordedFrame& other) const {
     if (other.begin > open.arrival.end) return;
     const Arrival arrival = air_.arrival(other, robot_);
     if (!arrival.overlaps(open.arrival)) return;
-    if (!arrival.own && !air_.medium().may_link(other.air.frame.sender, robot_)) return;
+    if (!arrival.own && !air_.medium().stations().may_link(other.air.frame.sender, robot_)) return;
     open.frame.others.push_back({arrival.from, other.air.kind, {arrival.level_dbm}});
 }
 
 /// What is certain of a frame as it begins.
 std::optional<Outcome> Account::outcome_at_begin(const RecordedFrame& frame, Db margin) const {
     const NodeId to = frame.air.frame.next_hop;
-    if (!air_.medium().is_on(robot_)) return Outcome::off;
-    if (!air_.medium().may_link(frame.air.frame.sender, robot_)) return Outcome::other_network;
+    if (!air_.medium().stations().is_on(robot_)) return Outcome::off;
+    if (!air_.medium().stations().may_link(frame.air.frame.sender, robot_))
+        return Outcome::other_network;
     if (margin < Db{0}) return Outcome::too_weak;
     if (to != everyone && to != robot_) return Outcome::for_another;
     return std::nullopt;

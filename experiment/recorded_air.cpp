@@ -110,7 +110,8 @@ void RecordedAir::add(const RecordedFrame& frame, Time now) {
     frames_.push_back(frame);
     RecordedFrame& added = frames_.back();
     added.rate = rate_of(added.air);
-    added.end = now + phy_.airtime(medium_.radio(from).preamble, added.rate, added.bytes);
+    added.end =
+        now + phy_.airtime(medium_.stations().radio(from).preamble, added.rate, added.bytes);
 }
 
 void RecordedAir::place(NodeId node, const Leg& leg) {
@@ -123,10 +124,10 @@ void RecordedAir::place(NodeId node, const Leg& leg) {
 
 /// Bit rate of a frame, as Mac has it.
 BitRate RecordedAir::rate_of(const AirFrame& air) const {
-    const BitRate sender = medium_.radio(air.frame.sender).rate;
+    const BitRate sender = medium_.stations().radio(air.frame.sender).rate;
     if (access_->own_rates().empty()) return sender;
     const NodeId to = air.frame.next_hop;
-    return access_->rate(air, sender, to == everyone ? sender : medium_.radio(to).rate);
+    return access_->rate(air, sender, to == everyone ? sender : medium_.stations().radio(to).rate);
 }
 
 const RecordedFrame* RecordedAir::frame_of(const AirFrame& air, std::uint64_t uid,
@@ -153,7 +154,7 @@ Pose RecordedAir::pose(NodeId node, const RecordedFrame& frame) const {
     });
     const Leg leg = held == legs.rend() ? Leg{} : held->leg;
     Vec3 antenna = leg.position(frame.begin);
-    antenna.z += medium_.radio(node).antenna_height.value;
+    antenna.z += medium_.stations().radio(node).antenna_height.value;
     return {antenna, Radians{leg.heading_at(frame.begin)}};
 }
 
@@ -161,21 +162,22 @@ Duration RecordedAir::delay(const RecordedFrame& frame, NodeId to) const {
     const NodeId from = frame.air.frame.sender;
     if (from == to) return Duration{0};
     const Vec3 here = pose(from, frame).antenna, there = pose(to, frame).antenna;
-    return medium_.delay(std::sqrt(squared_distance(here, there)));
+    return medium_.arrivals().delay(std::sqrt(squared_distance(here, there)));
 }
 
 Arrival RecordedAir::arrival(const RecordedFrame& frame, NodeId to) const {
     const NodeId from = frame.air.frame.sender;
     if (from == to) return own_frame(to, frame.begin, frame.end);
     const Pose here = pose(from, frame), there = pose(to, frame);
-    const LinkGain gain = LinkGain::of(medium_.radio(from), medium_.radio(to), [&] {
-        return std::pair{here, there};
-    });
+    const LinkGain gain =
+        LinkGain::of(medium_.stations().radio(from), medium_.stations().radio(to), [&] {
+            return std::pair{here, there};
+        });
     const Db lost = loss(frame, to, here.antenna, there.antenna);
     const Duration late = delay(frame, to);
     return {.begin = frame.begin + late,
             .end = frame.end + late,
-            .level_dbm = received_power(medium_.radio(from), lost, gain).value,
+            .level_dbm = received_power(medium_.stations().radio(from), lost, gain).value,
             .squared_distance = squared_distance(here.antenna, there.antenna),
             .from = from};
 }
@@ -183,14 +185,15 @@ Arrival RecordedAir::arrival(const RecordedFrame& frame, NodeId to) const {
 Db RecordedAir::loss(const RecordedFrame& frame, NodeId to, Vec3 here, Vec3 there) const {
     const NodeId from = frame.air.frame.sender;
     const MediumSettings& settings = medium_.settings();
-    const std::uint64_t to_key = medium_.key(to);
+    const std::uint64_t to_key = medium_.stations().key(to);
     // The key by which Medium draws for a frame.
-    const std::uint64_t key = combine(
-        medium_.key(from), static_cast<std::uint64_t>((frame.begin - start_of_run).count()));
-    const LinkBatch link{.frequency = medium_.radio(from).frequency,
+    const std::uint64_t key =
+        combine(medium_.stations().key(from),
+                static_cast<std::uint64_t>((frame.begin - start_of_run).count()));
+    const LinkBatch link{.frequency = medium_.stations().radio(from).frequency,
                          .from = here,
                          .to = {&there, 1},
-                         .from_key = medium_.key(from),
+                         .from_key = medium_.stations().key(from),
                          .to_keys = {&to_key, 1},
                          .scene = scene_.get(),
                          .floor_height = settings.floor_height,
@@ -199,7 +202,8 @@ Db RecordedAir::loss(const RecordedFrame& frame, NodeId to, Vec3 here, Vec3 ther
                          .at = frame.begin,
                          .frame = key};
     double db = 0;
-    medium_.model(from).loss(link, Db{std::numeric_limits<double>::infinity()}, {&db, 1});
+    medium_.stations().model(from).loss(link, Db{std::numeric_limits<double>::infinity()},
+                                        {&db, 1});
     if (!fades_) return {db};
     const Db fade = fades_->gain(
         {.key = key, .receiver = to_key, .from = here, .to = there, .frequency = link.frequency});

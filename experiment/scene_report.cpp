@@ -56,8 +56,8 @@ struct Links {
 
     explicit Links(const Network& network) {
         const auto hears = [&](std::uint32_t to, std::uint32_t from) {
-            return network.medium().link_up(NodeId{from}, NodeId{to}, network.now(),
-                                            network.legs());
+            return network.medium().links().is_up(NodeId{from}, NodeId{to}, network.now(),
+                                                  network.legs());
         };
         for (std::uint32_t i = 0; i < network.size(); ++i) {
             for (std::uint32_t j = 0; j < i; ++j) {

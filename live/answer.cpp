@@ -154,7 +154,7 @@ void AnswerWriter::put_robot(NodeId robot) {
     put(",\"w\":");
     put(twist.turn_rate);
     put(",\"on\":");
-    put_truth(network.medium().is_on(robot));
+    put_truth(network.medium().stations().is_on(robot));
     put(",\"stalled\":");
     put_truth(session_.is_stalled(robot));
     put("}");
@@ -185,7 +185,8 @@ void AnswerWriter::put_columns(const std::vector<NodeId>& robots) {
     put(",");
     put_column("w", robots, [&](NodeId robot) { put(session_.twist(robot).turn_rate); });
     put(",");
-    put_column("on", robots, [&](NodeId robot) { put_truth(network.medium().is_on(robot)); });
+    put_column("on", robots,
+               [&](NodeId robot) { put_truth(network.medium().stations().is_on(robot)); });
     put(",");
     put_column("stalled", robots, [&](NodeId robot) { put_truth(session_.is_stalled(robot)); });
     put("}");
@@ -207,7 +208,7 @@ void AnswerWriter::put_heard(const HeardMessage& heard) {
     put(",\"rssi\":");
     heard.level ? put(heard.level->value) : put("null");
     put(",\"noise\":");
-    put(session_.network().medium().noise(heard.at).value);
+    put(session_.network().medium().stations().noise(heard.at).value);
     put(",\"data\":\"");
     put(base64(heard.payload));
     put("\"}");

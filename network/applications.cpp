@@ -36,7 +36,7 @@ std::optional<std::uint32_t> Applications::reachable(NodeId from, NodeId to) {
     }
     if (!w.records.wants(kind_reachable | kind_cheap_reachable)) return std::nullopt;
     if (to != everyone) return reachability_.reaches(w.medium, from, to, w.now, w.legs) ? 1 : 0;
-    if (w.settings.reference) return w.medium.reachable(from, w.now, w.legs);
+    if (w.settings.reference) return Reachability::count_anew(w.medium, from, w.now, w.legs);
     return reachability_.count(w.medium, from, w.now, w.legs);
 }
 
@@ -54,7 +54,7 @@ void Applications::send(NodeId id, NodeId to, std::string payload, Outgoing what
     if (to != everyone && !router->traits().routes_unicasts) {
         throw std::invalid_argument("the routing protocol brings messages to everyone only");
     }
-    if (!world_.medium.is_on(id)) return;
+    if (!world_.medium.stations().is_on(id)) return;
     const MessageId message = new_message(id, to, std::move(payload), what, true);
     const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
     world_.emit(Sent{world_.now, id, message, router->initial_ttl(), robots, reachable(id, to)});
@@ -64,7 +64,7 @@ void Applications::send(NodeId id, NodeId to, std::string payload, Outgoing what
 
 void Applications::send_one_hop(NodeId id, NodeId to, std::string payload, Outgoing what) {
     check_destination(id, to);
-    if (!world_.medium.is_on(id)) return;
+    if (!world_.medium.stations().is_on(id)) return;
     const MessageId message = new_message(id, to, std::move(payload), what, false);
     const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
     world_.emit(Sent{world_.now, id, message, 1, robots, reachable(id, to)});
@@ -123,7 +123,7 @@ void Applications::react(NodeId id, std::uint64_t handed_over) {
     const Heard how{static_cast<int>(handed_over >> 32)};
     const Message heard = world_.messages[message];  // a copy: reactions may send
     world_.release(message);
-    if (!world_.medium.is_on(id)) return;
+    if (!world_.medium.stations().is_on(id)) return;
     // The list is looked up anew each time: a reaction may add callbacks.
     for (std::size_t i = 0; i < on_receive_[id.index()].size(); ++i) {
         const auto reaction = on_receive_[id.index()][i];

@@ -83,7 +83,7 @@ std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending&
     flight.levels.clear();
     if (world_.levels_wanted) find_levels(flight, end);
     if (interference_) put_on_air(slot, how);
-    const bool errors = world_.medium.radio(frame.sender).success_rate < 1;
+    const bool errors = world_.medium.stations().radio(frame.sender).success_rate < 1;
     if (errors) garble(flight);
     flight.error_free = !errors && !interference_;
     const std::span<const Reception> all = flight.receivers.all();
@@ -110,7 +110,7 @@ void Channel::find_sensors(Flight& flight, Time end) {
         sensed_.push_back({r.node, r.time - airtime, r.time});
     }
     for (const Medium::Found& s : sensors) {
-        const Duration delay = medium.delay(std::sqrt(s.squared_distance));
+        const Duration delay = medium.arrivals().delay(std::sqrt(s.squared_distance));
         sensed_.push_back({s.node, now + delay, end + delay});
     }
     user_.sensed(sensed_);
@@ -130,11 +130,12 @@ void Channel::find_levels(Flight& flight, Time end) {
         const Vec3 there = medium.position(r.node, world_.now, world_.legs);
         const Headings headings{{world_.legs.leg(sender).heading_at(world_.now)},
                                 {world_.legs.leg(r.node).heading_at(world_.now)}};
-        const auto arrives = medium.is_directional()
-                                 ? medium.arrival(frame, r.node, there, headings)
-                                 : medium.arrival(frame, r.node, there);
+        const auto arrives = medium.stations().is_directional()
+                                 ? medium.arrivals().of(frame, r.node, there, headings)
+                                 : medium.arrivals().of(frame, r.node, there);
         const bool open = std::isnan(arrives->level_dbm);
-        flight.levels.push_back(open ? medium.level(*arrives, r.node) : Dbm{arrives->level_dbm});
+        flight.levels.push_back(open ? medium.arrivals().level(*arrives, r.node)
+                                     : Dbm{arrives->level_dbm});
     }
 }
 
@@ -178,14 +179,14 @@ std::optional<Db> Channel::interference_left_out() const {
     if (!interference_ || !interference_->rule().interference_cut()) return std::nullopt;
     // One of the frames on air is the one that is received.
     const std::size_t most = interference_->rule().most_on_air();
-    return world_.medium.left_out(std::max<std::size_t>(most, 1) - 1);
+    return world_.medium.stations().kinds().left_out(std::max<std::size_t>(most, 1) - 1);
 }
 
 /// Decides which receivers get the frame with errors, by its sender's success rate.
 void Channel::garble(Flight& flight) const {
     if (flight.air.kind != AirFrame::data) return;
     const Frame& frame = flight.air.frame;
-    const double success = world_.medium.radio(frame.sender).success_rate;
+    const double success = world_.medium.stations().radio(frame.sender).success_rate;
     for (Reception& r : flight.receivers.all()) {
         if (!is_decoded(r.fate)) continue;
         const double draw = world_.draw(Purpose::link_success,

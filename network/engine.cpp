@@ -69,7 +69,7 @@ RunInfo Engine::run_info() const {
 }
 
 void Engine::switch_robot(NodeId id, bool on) {
-    if (world.medium.is_on(id) == on) return;
+    if (world.medium.stations().is_on(id) == on) return;
     channel.before_change(id, !on);
     world.medium.switch_radio(id, on);
     if (!on) mac.switch_off(id);

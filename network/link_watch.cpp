@@ -51,7 +51,7 @@ void LinkWatch::look_at(NodeId node, Time now) {
 /// a change now.
 void LinkWatch::look_at(NodeId from, NodeId to, Time now) {
     if (from == to) return;
-    if (settings_.medium->link_up(from, to, now, *settings_.legs) != is_up(from, to))
+    if (settings_.medium->links().is_up(from, to, now, *settings_.legs) != is_up(from, to))
         expect(from, to, now, true);
     else
         search(from, to, now);
@@ -62,14 +62,14 @@ void LinkWatch::search(NodeId from, NodeId to, Time after) {
     const Legs& legs = *settings_.legs;
     const Time ends = std::min(legs.leg(from).end, legs.leg(to).end);
     Time until = ends;
-    if (settings_.medium->shape(from, to, after, legs) == LossShape::unknown) {
+    if (settings_.medium->links().shape(from, to, after, legs) == LossShape::unknown) {
         const Duration most = never - after;
         const Duration dwell = settings_.search.min_dwell;
         if (dwell < most / most_looks) until = std::min(until, after + dwell * most_looks);
     }
     const auto change = next_link_change(*settings_.medium, legs, walls_for(from), from, to, after,
                                          until, settings_.search);
-    const bool moving = settings_.medium->may_change(from, to, after, legs);
+    const bool moving = settings_.medium->links().may_change(from, to, after, legs);
     if (change)
         expect(from, to, *change, true);
     else
@@ -129,7 +129,7 @@ void LinkWatch::advance(Time now, const Tell& tell) {
 }
 
 const WallPassages& LinkWatch::walls_for(NodeId from) {
-    if (settings_.medium->model(from).shape() != LossShape::by_walls) return no_walls_;
+    if (settings_.medium->stations().model(from).shape() != LossShape::by_walls) return no_walls_;
     if (!walls_) walls_.emplace(*settings_.scene);
     return *walls_;
 }

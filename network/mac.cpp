@@ -25,8 +25,8 @@ Time Mac::transmit(const AirFrame& air) {
     if (world_.records.wants<AirSent>()) world_.emit(AirSent{world_.now, air, bytes(air)});
     const BitRate rate = rate_of(air);
     const Channel::Sending how{
-        .airtime =
-            world_.phy.airtime(world_.medium.radio(air.frame.sender).preamble, rate, bytes(air)),
+        .airtime = world_.phy.airtime(world_.medium.stations().radio(air.frame.sender).preamble,
+                                      rate, bytes(air)),
         .rate = rate,
         .is_sensed = listens_};
     const auto receptions = channel_.transmit(air, how);
@@ -53,14 +53,15 @@ std::uint32_t Mac::bytes(const AirFrame& frame) const {
 }
 
 BitRate Mac::rate_of(const AirFrame& frame) const {
-    const BitRate sender = world_.medium.radio(frame.frame.sender).rate;
+    const BitRate sender = world_.medium.stations().radio(frame.frame.sender).rate;
     if (!has_own_rates_) return sender;
     const NodeId to = frame.frame.next_hop;
-    return access_->rate(frame, sender, to == everyone ? sender : world_.medium.radio(to).rate);
+    return access_->rate(frame, sender,
+                         to == everyone ? sender : world_.medium.stations().radio(to).rate);
 }
 
 Duration Mac::airtime(const AirFrame& frame) const {
-    const Radio& radio = world_.medium.radio(frame.frame.sender);
+    const Radio& radio = world_.medium.stations().radio(frame.frame.sender);
     return world_.phy.airtime(radio.preamble, rate_of(frame), bytes(frame));
 }
 
@@ -83,13 +84,13 @@ void Mac::tell_stations(const AirFrame& frame, std::span<const Reception> recept
     const Medium& medium = world_.medium;
     if (air.kind != AirFrame::data && world_.records.wants<ControlReceived>()) {
         for (const Reception& r : receptions) {
-            if (r.node != air.frame.next_hop || !medium.is_on(r.node)) continue;
+            if (r.node != air.frame.next_hop || !medium.stations().is_on(r.node)) continue;
             world_.emit(ControlReceived{air, r, bytes(air)});
         }
     }
     for (const Reception& r : receptions) {
         world_.now = r.time;
-        if (!medium.is_on(r.node)) continue;
+        if (!medium.stations().is_on(r.node)) continue;
         if (is_decoded(r.fate)) {
             access_->received(*this, r.node, air);
         } else {

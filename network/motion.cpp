@@ -80,7 +80,7 @@ void Motion::begin_all() {
     beginning_ = true;
     while (begun_ < nodes_.size()) {
         const NodeId id{static_cast<std::uint32_t>(begun_++)};
-        if (world_.medium.is_on(id)) {
+        if (world_.medium.stations().is_on(id)) {
             next_leg(id);
         } else {
             take(id, standing_leg(mover(id)));
@@ -158,7 +158,7 @@ void Motion::take(NodeId id, const Leg& leg) {
 }
 
 void Motion::put(NodeId id, const Leg& leg) {
-    channel_.before_change(id, world_.medium.is_on(id));
+    channel_.before_change(id, world_.medium.stations().is_on(id));
     channel_.goes(id, leg);
     world_.legs.replace(id, leg);
     world_.medium.moved(id, world_.legs);
@@ -177,7 +177,7 @@ void Motion::end_movement(NodeId id) {
 void Motion::move(NodeId id, Movement movement) {
     end_movement(id);
     nodes_[id.index()].movement = std::move(movement);
-    if (world_.running && world_.medium.is_on(id)) next_leg(id);
+    if (world_.running && world_.medium.stations().is_on(id)) next_leg(id);
 }
 
 void Motion::place(NodeId id, Vec3 at, std::optional<Radians> heading) {

@@ -132,7 +132,7 @@ Radians Network::heading(NodeId node) const {
 RobotState Network::robot(NodeId node) const {
     const Medium& medium = engine_->world.medium;
     Presence presence = Presence::on;
-    if (!medium.is_on(engine_->known(node))) {
+    if (!medium.stations().is_on(engine_->known(node))) {
         const auto away = engine_->away.find(node);
         presence = away == engine_->away.end() ? Presence::off : away->second;
     }
@@ -141,8 +141,8 @@ RobotState Network::robot(NodeId node) const {
             .heading = heading(node),
             .radius = engine_->motion.body(node).radius,
             .presence = presence,
-            .radio = medium.radio(node),
-            .propagation = medium.model(node)};
+            .radio = medium.stations().radio(node),
+            .propagation = medium.stations().model(node)};
 }
 const NetworkSettings& Network::settings() const { return engine_->world.settings; }
 

@@ -85,7 +85,7 @@ void Routing::on_switched(NodeId node, bool on) {
 Time Routing::now() const { return world_.now; }
 std::size_t Routing::size() const { return world_.size(); }
 const Message& Routing::message(MessageId id) const { return world_.messages[id]; }
-bool Routing::is_on(NodeId node) const { return world_.medium.is_on(node); }
+bool Routing::is_on(NodeId node) const { return world_.medium.stations().is_on(node); }
 std::uint64_t Routing::key(NodeId node) const { return world_.key(node); }
 Vec3 Routing::position(NodeId node) const { return world_.legs.position(node, world_.now); }
 void Routing::hold(MessageId id) { world_.messages.hold(id); }
@@ -147,7 +147,7 @@ void Routing::on_send(SendHandle handle) {
 /// Sends a frame whose message is held for it.
 void Routing::send_now(const QueuedFrame& frame) {
     const NodeId sender = frame.frame.sender;
-    if (world_.medium.is_on(sender)) return mac_.send(frame);
+    if (world_.medium.stations().is_on(sender)) return mac_.send(frame);
     drop(sender, as_received(frame), DropReason::off);
     tell(frame.frame, SendResult::off);
     world_.release(frame.frame.message);
@@ -187,7 +187,7 @@ void Routing::arrived(const AirFrame& frame, const Arriving& part) {
 }
 
 void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
-    if (part.error_free && world_.medium.all_are_on()) {
+    if (part.error_free && world_.medium.stations().all_are_on()) {
         hand_up(air.frame, part.receptions, part.levels);
     } else {
         hand_up_heard(air.frame, part);
@@ -224,7 +224,7 @@ void Routing::hand_up_heard(const Frame& frame, const Arriving& part) {
     places_.resize(receptions.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < receptions.size(); ++i) {
-        const bool on = world_.medium.is_on(receptions[i].node);
+        const bool on = world_.medium.stations().is_on(receptions[i].node);
         heard_[count] = receptions[i];
         places_[count] = i;
         count += on & is_decoded(receptions[i].fate);
@@ -245,7 +245,7 @@ void Routing::receive_unicast(const AirFrame& air, const Arriving& part) {
         const auto level = part.levels.empty() ? part.levels : part.levels.subspan(i, 1);
         if (r.node == air.frame.next_hop) {
             receive_unicast(air, r, level);
-        } else if (overhears && is_decoded(r.fate) && world_.medium.is_on(r.node)) {
+        } else if (overhears && is_decoded(r.fate) && world_.medium.stations().is_on(r.node)) {
             Reception overheard = r;
             hand_up(air.frame, {&overheard, 1}, level);
         }
@@ -254,7 +254,7 @@ void Routing::receive_unicast(const AirFrame& air, const Arriving& part) {
 
 /// Hands a frame to the one that it is for.
 void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const Dbm> level) {
-    if (!world_.medium.is_on(r.node)) {
+    if (!world_.medium.stations().is_on(r.node)) {
         r.fate = Fate::off;
     } else if (is_decoded(r.fate)) {
         if (mac_.is_repeated(r.node, air)) {

@@ -49,7 +49,7 @@ struct World {
         return messages.add(std::move(message));
     }
     /// Key of a robot, XXH64 of its name: draws and orders depend on it, not on the robot's number.
-    std::uint64_t key(NodeId node) const { return medium.key(node); }
+    std::uint64_t key(NodeId node) const { return medium.stations().key(node); }
     /// Uniform draw in (0, 1) of this run. The order of draws decides nothing: each is a function
     /// of its key.
     /// @param a, b   what it is about, see Purpose

@@ -226,8 +226,9 @@ void add_commands(SessionClass& session) {
 /// What a session knows of its robots.
 void add_robots(SessionClass& session) {
     const auto on = [](SessionObject& self) {
-        return by_robot<bool>(
-            self, [](Session& s, NodeId robot) { return s.network().medium().is_on(robot); });
+        return by_robot<bool>(self, [](Session& s, NodeId robot) {
+            return s.network().medium().stations().is_on(robot);
+        });
     };
     const auto stalled = [](SessionObject& self) {
         return by_robot<bool>(self, [](Session& s, NodeId robot) { return s.is_stalled(robot); });

@@ -94,7 +94,8 @@ class SessionObject {
         interruption_.raise();
         py::list all;
         for (HeardMessage& message : run_.heard()) {
-            const double noise = run_.session().network().medium().noise(message.at).value;
+            const double noise =
+                run_.session().network().medium().stations().noise(message.at).value;
             all.append(HeardObject{std::move(message), noise, names_});
         }
         return all;

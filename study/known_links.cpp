@@ -97,12 +97,14 @@ void add_pairs(const Network& network, std::uint32_t replication, const Propagat
     std::vector<std::pair<NodeId, Vec3>> on;
     for (std::uint32_t i = 0; i < network.size(); ++i) {
         if (network.robot(NodeId{i}).presence != Presence::on) continue;
-        on.emplace_back(NodeId{i}, medium.antenna(NodeId{i}, network.now(), network.legs()));
+        on.emplace_back(NodeId{i},
+                        medium.stations().antenna(NodeId{i}, network.now(), network.legs()));
     }
     for (std::size_t i = 0; i < on.size(); ++i) {
-        const Radio& sender = medium.radio(on[i].first);
+        const Radio& sender = medium.stations().radio(on[i].first);
         for (std::size_t j = i + 1; j < on.size(); ++j) {
-            const Db budget = link_budget(sender, medium.radio(on[j].first)) + beyond_budget;
+            const Db budget =
+                link_budget(sender, medium.stations().radio(on[j].first)) + beyond_budget;
             const Meters reach = reference.reach(budget, sender.frequency);
             if (distance(on[i].second, on[j].second) > reach.value) continue;
             out.add(
@@ -201,12 +203,13 @@ KnownLink LinkSample::State::link(const RobotPair& pair) const {
             size.replications > 1 ? fmt::format(", replication {}", replication) : ""),
         .from = pair.from,
         .to = pair.to,
-        .frequency = medium.radio(pair.a).frequency,
-        .from_key = medium.key(pair.a),
-        .to_key = medium.key(pair.b),
+        .frequency = medium.stations().radio(pair.a).frequency,
+        .from_key = medium.stations().key(pair.a),
+        .to_key = medium.stations().key(pair.b),
         .replication = replication,
         .group = pair.replication,
-        .budget = link_budget(medium.radio(pair.a), medium.radio(pair.b)).value};
+        .budget =
+            link_budget(medium.stations().radio(pair.a), medium.stations().radio(pair.b)).value};
 }
 
 LinkSample::LinkSample(const Scenario& scenario, Propagation reference, const SampleSize& size)

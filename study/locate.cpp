@@ -85,10 +85,12 @@ std::vector<NodeId> anchors_in(const Network& network, const std::vector<std::st
         const auto robot = network.find(name);
         if (!robot) throw InputError(typed, fmt::format("no robot {}", name));
         const Medium& medium = network.medium();
-        if (medium.radio(*robot).is_directional())
+        if (medium.stations().radio(*robot).is_directional())
             throw InputError(typed, "a directional antenna; expected an isotropic one");
-        if (!out.empty() && (medium.model(*robot) != medium.model(out.front()) ||
-                             medium.radio(*robot).frequency != medium.radio(out.front()).frequency))
+        if (!out.empty() &&
+            (medium.stations().model(*robot) != medium.stations().model(out.front()) ||
+             medium.stations().radio(*robot).frequency !=
+                 medium.stations().radio(out.front()).frequency))
             throw InputError(typed,
                              "another propagation model or frequency than that of the "
                              "first anchor");
@@ -101,14 +103,15 @@ std::vector<NodeId> anchors_in(const Network& network, const std::vector<std::st
 HeardPlace heard_by(const Network& network, const std::vector<NodeId>& anchors, NodeId robot) {
     const Medium& medium = network.medium();
     const auto antenna = [&](NodeId of) {
-        return medium.antenna(of, network.now(), network.legs());
+        return medium.stations().antenna(of, network.now(), network.legs());
     };
     HeardPlace out{
         .fix = {.name = network.name(robot), .at = network.now(), .truth = network.position(robot)},
         .antenna = antenna(robot)};
     for (const Neighbour& each : network.links(robot, network.now())) {
         if (std::find(anchors.begin(), anchors.end(), each.node) == anchors.end()) continue;
-        const Dbm unlost = received_power(medium.radio(each.node), medium.radio(robot), Db{0});
+        const Dbm unlost = received_power(medium.stations().radio(each.node),
+                                          medium.stations().radio(robot), Db{0});
         out.losses.push_back({antenna(each.node), (unlost - each.level).value});
     }
     return out;
@@ -161,7 +164,7 @@ Located locate_robots(const Scenario& scenario, const std::vector<std::string>& 
                   {.model = scenario.propagation.make(),
                    .scene = settings.scene ? settings.scene : std::make_shared<Scene>(),
                    .floor_height = settings.floor_height,
-                   .frequency = network.medium().radio(first).frequency,
+                   .frequency = network.medium().stations().radio(first).frequency,
                    .low = low,
                    .high = high,
                    .knows_power = question.knows_power},

@@ -107,7 +107,7 @@ MediumReplay::MediumReplay(const Scenario& scenario)
 
 MediumReplay::Answers MediumReplay::answer(const MediumRecord& record, std::uint64_t most_frames,
                                            double most_s) const {
-    const Medium& robots = network_->medium();
+    const Stations& robots = network_->medium().stations();
     Legs legs = network_->legs();
     Medium medium(network_->medium().settings());
     medium.reserve(network_->size());

@@ -64,16 +64,17 @@ class Search {
           from_(from),
           to_(to),
           settings_(settings),
-          reach_(medium.model(from)
-                     .reach(link_budget(medium.radio(from), medium.radio(to)),
-                            medium.radio(from).frequency)
+          reach_(medium.stations()
+                     .model(from)
+                     .reach(link_budget(medium.stations().radio(from), medium.stations().radio(to)),
+                            medium.stations().radio(from).frequency)
                      .value) {}
 
     std::optional<Time> next_change(Time after, Time until);
 
   private:
-    bool is_up(Time t) const { return medium_.link_up(from_, to_, t, legs_); }
-    double margin(Time t) const { return medium_.margin(from_, to_, t, legs_).value; }
+    bool is_up(Time t) const { return medium_.links().is_up(from_, to_, t, legs_); }
+    double margin(Time t) const { return medium_.links().margin(from_, to_, t, legs_).value; }
     bool changed(double some_margin) const { return (some_margin >= 0) != up_; }
     bool out_of_reach(Time t) const;
     StraightMotion motion(NodeId node, Time t) const;
@@ -109,13 +110,13 @@ class Search {
 constexpr double slack = 1 + 1e-9;
 
 bool Search::out_of_reach(Time t) const {
-    return distance(medium_.antenna(from_, t, legs_), medium_.antenna(to_, t, legs_)) >
-           reach_ * slack;
+    return distance(medium_.stations().antenna(from_, t, legs_),
+                    medium_.stations().antenna(to_, t, legs_)) > reach_ * slack;
 }
 
 StraightMotion Search::motion(NodeId node, Time t) const {
     const Leg& leg = legs_.leg(node);
-    return {medium_.antenna(node, t, legs_), t < leg.end ? leg.velocity : Vec3{}};
+    return {medium_.stations().antenna(node, t, legs_), t < leg.end ? leg.velocity : Vec3{}};
 }
 
 /// The ends in an order of their own, so that the way back has its changes at the same times.
@@ -130,7 +131,7 @@ Piece Search::piece(Time begin, Time end) const {
 
 /// by_distance, by_walls or unknown: the pair is one and the same.
 LossShape Search::shape(const Piece& piece) const {
-    const LossShape shape = medium_.shape(from_, to_, piece.begin, legs_);
+    const LossShape shape = medium_.links().shape(from_, to_, piece.begin, legs_);
     const bool clear = shape == LossShape::by_walls && walls_.empty();
     return clear || shape == LossShape::by_pair ? LossShape::by_distance : shape;
 }
@@ -149,7 +150,7 @@ std::optional<Time> Search::next_change(Time after, Time until) {
 }
 
 std::optional<Time> Search::change_in(const Piece& all) {
-    if (!medium_.may_change(from_, to_, all.begin, legs_)) return std::nullopt;
+    if (!medium_.links().may_change(from_, to_, all.begin, legs_)) return std::nullopt;
     std::optional<Bracket> found;
     Time looked = all.begin;
     if (const auto piece = in_reach(all)) {
@@ -287,8 +288,8 @@ std::optional<Time> next_link_change(const Medium& medium, const Legs& legs,
     if (search.tolerance < instant || search.min_dwell < instant)
         throw std::invalid_argument("LinkSearch: tolerance and min_dwell must be at least 1 ns");
     if (until == never) until -= instant;  // at `never` itself a leg without end has ended
-    if (from == to || until <= after || !medium.is_on(from) || !medium.is_on(to) ||
-        !medium.may_link(from, to))
+    if (from == to || until <= after || !medium.stations().is_on(from) ||
+        !medium.stations().is_on(to) || !medium.stations().may_link(from, to))
         return std::nullopt;
     return Search(medium, legs, walls, from, to, search).next_change(after, until);
 }
@@ -296,7 +297,7 @@ std::optional<Time> next_link_change(const Medium& medium, const Legs& legs,
 std::optional<Time> next_link_change(const Medium& medium, const Legs& legs, const Scene& scene,
                                      NodeId from, NodeId to, Time after, Time until,
                                      const LinkSearch& search) {
-    const bool by_walls = medium.model(from).shape() == LossShape::by_walls;
+    const bool by_walls = medium.stations().model(from).shape() == LossShape::by_walls;
     return next_link_change(medium, legs, by_walls ? WallPassages(scene) : WallPassages(), from, to,
                             after, until, search);
 }

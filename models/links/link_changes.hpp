@@ -24,7 +24,7 @@ class Scene;
 /// `after`, on the legs as they are now; none if there is no such time. Neither leg may end before
 /// `until` other than by coming to rest. Who is on and may link does not change meanwhile.
 ///
-/// The state is Medium::link_up at whole nanoseconds, and it is the new one at the time returned.
+/// The state is LinkLosses::is_up at whole nanoseconds, and it is the new one at the time returned.
 /// Where the link would be down without any wall (Propagation::reach) nothing is looked at.
 /// - By distance: exact to the nanosecond; a state of less than a nanosecond may be missed. About
 ///   45 looks at the link, often 8; none for a pair that stays out of reach.

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "models/medium/medium.hpp"
 
-#include "models/medium/shadowed.hpp"
-#include "sim/math.hpp"
+#include "models/propagation/shadowed_range.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -17,158 +16,255 @@ std::shared_ptr<const Fades> fades_of(const MediumSettings& settings) {
     return std::make_shared<Fades>(settings.fading, settings.seed, settings.replication);
 }
 
+/// Stays where it is until its leg is replaced.
+bool rests(const Leg& leg, Time t) { return leg.velocity == Vec3{} && t < leg.end; }
+
 }  // namespace
 
-Medium::Medium(const Settings& settings)
+Medium::Medium(const Settings& settings) : Medium(settings, fades_of(settings)) {}
+
+Medium::Medium(const Settings& settings, const std::shared_ptr<const Fades>& fades)
     : settings_(settings),
       draws_(shadowing_draws(settings.seed, settings.replication)),
-      fades_(fades_of(settings)),
-      kinds_(settings.interference_cut, fades_ ? std::optional<Db>(fades_->most()) : std::nullopt) {
-    check_fields(settings.shadowing, "shadowing");
-}
-
-Propagation Medium::shadowed(const Propagation& model) {
-    if (settings_.shadowing.model == ShadowingModel::none || model.as<Shadowed>()) return model;
-    for (const auto& [plain, with_shadowing] : shadowed_) {
-        if (plain == model) return with_shadowing;
-    }
-    const Propagation with_shadowing =
-        Shadowed(model, settings_.shadowing, settings_.seed, settings_.replication);
-    shadowed_.emplace_back(model, with_shadowing);
-    return with_shadowing;
-}
+      stations_(settings_, fades ? std::optional(fades->most()) : std::nullopt),
+      links_(settings_, stations_, fades),
+      arrivals_(settings_, stations_, links_) {}
 
 void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propagation) {
-    check_fields(radio, "radio");
-    check_antenna(radio);
-    propagation.check_frequency(radio.frequency);
-    if (radios_.empty() || radios_.back() != radio) radios_.push_back(radio);
-    const Kind kind = kinds_.add(radio, shadowed(propagation));
-    keys_.push_back(key);
-    if (radios_.size() > 1 || kinds_.size() > 1 || !stations_.empty()) {
-        list_stations();
-        stations_.back().radio = static_cast<std::uint32_t>(radios_.size() - 1);
-        stations_.back().kind = kind & 0x7fffffff;
-    }
-    index_.add(kind);
+    index_.add(stations_.add(radio, key, propagation));
     ++changes_;
     cells_chosen_ = false;
 }
 
-/// Lists the stations that are not listed yet: they are as the first one, and on.
-void Medium::list_stations() {
-    stations_.reserve(keys_.capacity());
-    stations_.resize(keys_.size(), {.radio = 0, .kind = 0, .on = true});
-}
-
-void Medium::switch_radio(NodeId node, bool on) {
-    list_stations();
-    Station& station = stations_[node.index()];
-    off_ += static_cast<std::size_t>(station.on) - static_cast<std::size_t>(on);
-    station.on = on;
-    ++changes_;
-}
-
-Vec3 Medium::antenna(NodeId node, Time t, const Legs& legs) const {
-    Vec3 p = legs.position(node, t);
-    p.z += kinds_.height(kind(node));
-    return p;
-}
-
-Pose Medium::pose(NodeId node, Time t, const Legs& legs) const {
-    return {antenna(node, t, legs), Radians{legs.leg(node).heading_at(t)}};
-}
-
-LinkBatch Medium::batch(NodeId from, Vec3 origin, Time t, std::uint64_t frame) const {
-    return {.frequency = radio(from).frequency,
-            .from = origin,
-            .to = {},
-            .from_key = key(from),
-            .to_keys = {},
-            .scene = settings_.scene,
-            .floor_height = settings_.floor_height,
-            .seed = settings_.seed,
-            .replication = settings_.replication,
-            .at = t,
-            .frame = frame};
-}
-
-Db Medium::left_out(std::size_t frames) const {
-    assert(settings_.interference_cut);
-    Db most{0};
-    for (Kind each = 0; each < kinds_.size(); ++each) {
-        const Db above_noise = kinds_.weakest_interfering(kinds_.radio(each)) - kinds_.noise(each);
-        const double sum = 1 + static_cast<double>(frames) * math::exp10(above_noise.value / 10);
-        most = std::max(most, Db{10 * math::log10(sum)});
+/// Cells as wide as the reach of the median station: most queries then look at nine of them.
+void Medium::choose_cells() {
+    std::vector<std::pair<double, std::size_t>> reaches;
+    for (Kind k = 0; k < stations_.kinds().size(); ++k) {
+        const double reach2 = stations_.kinds().squared_reach(k, Strength::decodable);
+        reaches.emplace_back(std::sqrt(reach2), stations_.kinds().stations(k));
     }
-    return most;
+    std::sort(reaches.begin(), reaches.end());
+    std::size_t seen = 0, median = 0;
+    while (2 * (seen += reaches[median].second) < stations_.size()) ++median;
+    constexpr double widest = 1e9;  // [m] of models without a bound
+    const double size = settings_.all_pairs ? widest : 1.1 * reaches[median].first;
+    index_.set_cell_size(std::min(size, widest));
+    cells_chosen_ = true;
 }
 
-bool Medium::link_up(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    return from != to && is_on(from) && is_on(to) && may_link(from, to) &&
-           margin(from, to, t, legs) >= Db{0};
+/// Makes the index about `from` at `t`.
+void Medium::look_from(NodeId from, Time t, const Legs& legs) {
+    if (!cells_chosen_) {
+        stations_.measure(legs);
+        choose_cells();
+    }
+    index_.refresh(t, legs);
+    origin_ = index_.position_of(from, t, legs);
+    origin_.z += stations_.kinds().height(stations_.kind(from));
 }
 
-Dbm Medium::level(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    return received_power(radio(from), path_loss(from, to, t, legs), gain(from, to, t, legs));
-}
-
-Db Medium::margin(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    return link_budget(radio(from), radio(to), gain(from, to, t, legs)) -
-           path_loss(from, to, t, legs);
-}
-
-LossShape Medium::shape(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    const Leg a = legs.leg(from), b = legs.leg(to);
-    const bool by_heading = radio(from).is_directional() || radio(to).is_directional();
-    if (by_heading && may_change(from, to, t, legs)) return LossShape::unknown;
-    const auto velocity = [t](const Leg& leg) { return t < leg.end ? leg.velocity : Vec3{}; };
-    return shape_in_motion(model(from).shape(), velocity(a), velocity(b));
-}
-
-bool Medium::may_change(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    const bool by_heading = radio(from).is_directional() || radio(to).is_directional();
-    const auto goes_on = [&](const Leg& leg) {
-        return t < leg.end && (leg.velocity != Vec3{} || (by_heading && leg.turning != 0));
+/// For the index: calls use(entry, antenna, squared distance and, if the index tells it, place) for
+/// those within reach that are on and may link.
+template <class Use>
+auto Medium::within(NodeId from, double reach2, Use use) const {
+    return [=, this, mine = stations_.kind(from)](const Entry& e, Vec3 p, auto... place) {
+        p.z += stations_.kinds().height(e.label);
+        const double d2 = squared_distance(origin_, p);
+        if (d2 > reach2 || e.node == from || !stations_.is_on(e.node)) return;
+        if (!stations_.kinds().may_link(mine, e.label)) return;
+        use(e, p, d2, place...);
     };
-    return goes_on(legs.leg(from)) || goes_on(legs.leg(to));
 }
 
-Db Medium::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    return {loss(from, to, antenna(from, t, legs), antenna(to, t, legs), t, 0,
-                 Db{std::numeric_limits<double>::infinity()})};
+template <class Use>
+void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use) {
+    look_from(from, t, legs);
+    index_.visit(origin_, std::sqrt(std::max(reach2, 0.0)), t, legs, within(from, reach2, use));
 }
 
-/// Path loss [dB] from `from` here to `to` there; a frame sees it faded.
-double Medium::loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
-                    Db give_up) const {
-    const Db most = fades_ ? give_up + fades_->most() : give_up;
-    const auto known = recent_.find({from, to, here, there}, most);
-    const double mean = known ? *known : computed_loss(from, to, here, there, t, frame, most);
-    return faded(mean, from, to, here, there, frame);
+/// Those for whom a signal of `from` is strong enough: in found_ who can decode it, in sensors_ the
+/// others.
+void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame) {
+    const std::tuple search{from, strength, t, changes_};
+    // A message is sent where it was asked for; but that had no fade.
+    if (std::exchange(last_, search) == search && !links_.fades()) return;
+    found_.clear();
+    sensors_.clear();
+    stations_.kinds().prepare(stations_.kind(from));
+    switch (stations_.kinds().decision(stations_.kind(from))) {
+        case Decision::by_range:
+            return stations_.kinds().size() == 1 && strength == Strength::decodable
+                       ? find_alike(from, t, legs)
+                       : find_in_range(from, strength, t, legs);
+        case Decision::by_table: return find_in_table(from, strength, t, legs);
+        case Decision::by_loss: return find_in_reach(from, strength, t, legs, frame);
+    }
 }
 
-/// Path loss [dB] by the model, the local mean.
-double Medium::computed_loss(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t,
-                             std::uint64_t frame, Db give_up) const {
-    LinkBatch link = batch(from, here, t, frame);
-    link.to = {&there, 1};
-    link.to_keys = {&keys_[to.index()], 1};
-    double db = 0;
-    model(from).loss(link, give_up, {&db, 1});
-    return db;
+void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& legs) {
+    const Kind mine = stations_.kind(from);
+    const auto in_range = [&](const Entry& e, Strength s, double d2) {
+        return d2 <= stations_.kinds().squared_range(mine, e.label, s);
+    };
+    visit(from, stations_.kinds().squared_reach(mine, strength), t, legs,
+          [&](const Entry& e, Vec3, double d2) {
+              const bool decodes = in_range(e, Strength::decodable, d2);
+              if (!decodes && !in_range(e, strength, d2)) return;
+              (decodes ? found_ : sensors_).put({e.node, d2}, true);
+          });
 }
 
-/// Loss [dB] that a frame sees; the local mean has no frame.
-double Medium::faded(double loss_db, NodeId from, NodeId to, Vec3 here, Vec3 there,
-                     std::uint64_t frame) const {
-    if (!fades_ || frame == 0) return loss_db;
-    const Db gain = fades_->gain({.key = frame,
-                                  .receiver = key(to),
-                                  .from = here,
-                                  .to = there,
-                                  .frequency = radio(from).frequency});
-    return std::max(0.0, loss_db - gain.value);
+/// As find_in_range(), of stations that are all of one kind and so in one network, for those that
+/// decode.
+void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
+    look_from(from, t, legs);
+    const Kind mine = stations_.kind(from);
+    const double range2 = stations_.kinds().squared_range(mine, mine, Strength::decodable);
+    const auto places = index_.near(origin_, std::sqrt(std::max(range2, 0.0)), t);
+    Found* next = found_.room(places.size() + index_.apart());
+    // Copies, which nothing that is written here can change.
+    const auto visit = [&next, from, range2, origin = origin_,
+                        height = stations_.kinds().height(mine),
+                        switches = Stations::Switches(stations_)](const Entry& e, Vec3 p) {
+        p.z += height;
+        const double d2 = squared_distance(origin, p);
+        *next = {e.node, d2};
+        next += (d2 <= range2) & (e.node != from) & switches.is_on(e.node);
+    };
+    index_.visit(places, t, legs, visit);
+    found_.keep_to(next);
+}
+
+void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& legs) {
+    look_from(from, t, legs);
+    const Kind mine = stations_.kind(from);
+    const std::uint64_t share = draws_.share(stations_.key(from));
+    const auto use = [&](const Entry& e, Vec3, double d2, std::uint32_t place) {
+        const std::uint64_t theirs =
+            place == NeighbourIndex::nowhere ? draws_.share(stations_.key(e.node)) : shares_[place];
+        const std::uint64_t bits = PairDraws::bits_of_shares(share, theirs);
+        const auto in_range = [&](Strength s) {
+            return stations_.kinds().table(mine, e.label, s).in_range(d2, bits);
+        };
+        if (!in_range(strength)) return;
+        // Who can decode it senses it, too.
+        const bool decodes = strength == Strength::decodable || in_range(Strength::decodable);
+        (decodes ? found_ : sensors_).put({e.node, d2}, true);
+    };
+    // Their draws rule out most before anything else about them is looked at.
+    if (std::exchange(shares_of_bin_, index_.bins()) != index_.bins()) share_draws();
+    const FirstLook& look = stations_.kinds().first_look(mine, strength);
+    const auto passes = [share, &look, shares = shares_.data()](std::uint32_t place,
+                                                                float at_least) {
+        return look.passes(at_least, PairDraws::bits_of_shares(share, shares[place]));
+    };
+    const double reach2 = stations_.kinds().squared_reach(mine, strength);
+    index_.visit_if(origin_, std::sqrt(reach2), t, legs, passes, within(from, reach2, use));
+}
+
+/// Fills shares_.
+void Medium::share_draws() {
+    shares_.clear();
+    for (const Entry& e : index_.entries()) shares_.push_back(draws_.share(stations_.key(e.node)));
+}
+
+void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs,
+                           std::uint64_t frame) {
+    stations_.measure(legs);  // the reach depends on it
+    const Radio& mine = stations_.kinds().radio(stations_.kind(from));
+    const bool fixed = settings_.keep_losses && !settings_.all_pairs && rests(legs.leg(from), t);
+    candidates_.clear();
+    visit(from, stations_.kinds().squared_reach(stations_.kind(from), strength), t, legs,
+          [&](const Entry& e, Vec3 p, double d2) {
+              const Db budget =
+                  stations_.kinds().budget(strength, mine, stations_.kinds().radio(e.label),
+                                           stations_.gain(from, e.node, t, legs));
+              candidates_.add({.node = e.node,
+                               .rests = fixed && !e.moves,
+                               .key = stations_.key(e.node),
+                               .antenna = p,
+                               .squared_distance = d2,
+                               .budget_db = budget.value});
+          });
+    const Db told =
+        candidates_.compute_losses(stations_.model(from), links_.batch(from, origin_, t, frame),
+                                   from, pairs_, links_.most_fade());
+    const bool keeps = links_.keeps(stations_.model(from).shape());
+    for (const Candidate& c : candidates_.all()) {
+        if (keeps) links_.keep({from, c.node, origin_, c.antenna}, told, c.loss_db);
+        const double loss_db = links_.faded(c.loss_db, from, c.node, origin_, c.antenna, frame);
+        if (loss_db > c.budget_db) continue;
+        const auto budget = [&] {
+            return link_budget(mine, stations_.kinds().radio(stations_.kind(c.node)),
+                               stations_.gain(from, c.node, t, legs));
+        };
+        const bool decodes = strength == Strength::decodable || loss_db <= budget().value;
+        (decodes ? found_ : sensors_).put({c.node, c.squared_distance}, true);
+    }
+}
+
+void Medium::find_receivers(NodeId from, Time start, Time end, const Legs& legs, Receivers& out) {
+    find(from, Strength::decodable, start, legs, links_.frame_key(from, start));
+    tell_arrivals(end, out);
+}
+
+std::span<const Medium::Found> Medium::find_sensors(NodeId from, Time start, Time end,
+                                                    const Legs& legs, Receivers& out) {
+    find(from, Strength::detectable, start, legs, links_.frame_key(from, start));
+    tell_arrivals(end, out);
+    return sensors_.kept();
+}
+
+/// Tells when a frame that ends at `end` ends at those found.
+void Medium::tell_arrivals(Time end, Receivers& out) const {
+    const std::span<const Found> found = found_.kept();
+    out.sieved.clear();
+    double nearest2 = std::numeric_limits<double>::infinity(), farthest2 = 0;
+    Reception* const receptions = out.sieved.room(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const double d2 = found[i].squared_distance;
+        Reception& reception = receptions[i];
+        reception.node = found[i].node;
+        reception.time = end + arrivals_.delay(std::sqrt(d2));
+        reception.fate = Fate::waiting;
+        reception.delivered = false;
+        nearest2 = std::min(d2, nearest2);  // in this order it takes one instruction
+        farthest2 = std::max(d2, farthest2);
+    }
+    out.sieved.keep_to(receptions + found.size());
+    if (found.empty()) return;
+    out.first = end + arrivals_.delay(std::sqrt(nearest2));
+    out.last = end + arrivals_.delay(std::sqrt(farthest2));
+}
+
+double Medium::heard_within() {
+    double squared = 0;
+    for (const Found& f : found_.kept()) squared = std::max(squared, f.squared_distance);
+    return std::sqrt(squared);
+}
+
+bool Medium::hears(NodeId from, NodeId to, Time t, const Legs& legs) {
+    if (from == to || !stations_.is_on(to) || !stations_.may_link(from, to)) return false;
+    const Kind mine = stations_.kind(from), theirs = stations_.kind(to);
+    Vec3 here = index_.position_of(from, t, legs), there = index_.position_of(to, t, legs);
+    here.z += stations_.kinds().height(mine);
+    there.z += stations_.kinds().height(theirs);
+    const double d2 = squared_distance(here, there);
+    stations_.measure(legs);  // the reach depends on it
+    if (d2 > stations_.kinds().squared_reach(mine, Strength::decodable)) return false;
+    stations_.kinds().prepare(mine);
+    switch (stations_.kinds().decision(mine)) {
+        case Decision::by_range:
+            return d2 <= stations_.kinds().squared_range(mine, theirs, Strength::decodable);
+        case Decision::by_table:
+            return stations_.kinds()
+                .table(mine, theirs, Strength::decodable)
+                .in_range(d2, draws_.bits(stations_.key(from), stations_.key(to)));
+        case Decision::by_loss: break;
+    }
+    const Db budget = link_budget(stations_.kinds().radio(mine), stations_.kinds().radio(theirs),
+                                  stations_.gain(from, to, t, legs));
+    return links_.of_frame(from, to, here, there, t, 0, budget) <= budget.value;
 }
 
 }  // namespace rovernet

@@ -17,11 +17,11 @@ std::vector<Neighbour> neighbours(const Medium& medium, const Legs& legs, NodeId
     std::vector<Neighbour> heard;
     for (std::uint32_t i = 0; i < legs.size(); ++i) {
         const NodeId from{i};
-        if (!medium.link_up(from, node, t, legs)) continue;
+        if (!medium.links().is_up(from, node, t, legs)) continue;
         heard.push_back({.node = from,
-                         .level = medium.level(from, node, t, legs),
-                         .noise = noise_floor(medium.radio(node)),
-                         .quality = link_quality(medium.margin(from, node, t, legs))});
+                         .level = medium.links().level(from, node, t, legs),
+                         .noise = noise_floor(medium.stations().radio(node)),
+                         .quality = link_quality(medium.links().margin(from, node, t, legs))});
     }
     return heard;
 }

@@ -87,6 +87,16 @@ Dbm RadioKinds::weakest_interfering(const Radio& to) const {
     return std::max(to.sensitivity - *interference_cut_, noise_floor(to) - below_noise);
 }
 
+Db RadioKinds::left_out(std::size_t frames) const {
+    Db most{0};
+    for (const Alike& each : kinds_) {
+        const Db above_noise = weakest_interfering(each.radio) - each.noise;
+        const double sum = 1 + static_cast<double>(frames) * math::exp10(above_noise.value / 10);
+        most = std::max(most, Db{10 * math::log10(sum)});
+    }
+    return most;
+}
+
 double RadioKinds::squared_reach(Kind from, Strength strength) {
     constexpr double slack = 1 + 1e-9;  // rounding of the model's inverse
     double& reach2 = kinds_[from].reach2[strength];

@@ -86,6 +86,9 @@ class RadioKinds {
     }
     /// Weakest signal [dBm] that interferes at `to`; there must be a cut.
     Dbm weakest_interfering(const Radio& to) const;
+    /// Ratio by which `frames` that the cut left out may raise a receiver's noise; there must be a
+    /// cut.
+    Db left_out(std::size_t frames) const;
     /// Sets the height [m] that no antenna of any station exceeds or has exceeded; it must not
     /// decrease.
     void set_highest(Meters z) {

@@ -19,7 +19,7 @@ bool rests(const Leg& leg, bool by_heading) {
 bool Reachability::is_at_rest(const Now& now) {
     if (std::exchange(answers_of_, now.medium.changes()) == now.medium.changes()) return at_rest_;
     answers_.clear();
-    const bool by_heading = now.medium.is_directional();
+    const bool by_heading = now.medium.stations().is_directional();
     const auto moves = [&](NodeId node) { return !rests(now.legs.leg(node), by_heading); };
     at_rest_ = mover_.index() >= now.legs.size() || !moves(mover_);
     for (NodeId n{0}; at_rest_ && n.index() < now.legs.size(); ++n.value) {
@@ -38,7 +38,7 @@ std::uint32_t Reachability::count(Medium& medium, NodeId from, Time t, const Leg
     search(now);
     const auto others = static_cast<std::uint32_t>(reached_.size() - 1);
     if (!keeps) return others;
-    if (medium.all_are_alike() && medium.is_on(from)) {  // links go both ways
+    if (medium.stations().all_are_alike() && medium.stations().is_on(from)) {  // links go both ways
         for (const NodeId node : reached_) answers_[node.index()] = others;
     }
     return answers_[from.index()] = others;
@@ -66,13 +66,14 @@ void Reachability::search(const Now& now) {
     reach(now.from);
     expand(now, now.from);
     ++expanded_;
-    const std::size_t all = now.medium.on() + (now.medium.is_on(now.from) ? 0 : 1);
+    const std::size_t all =
+        now.medium.stations().on() + (now.medium.stations().is_on(now.from) ? 0 : 1);
     if (reached_.size() == all) return;
     follow_parents(now);
     if (reached_.size() == all) return;
     list_open(now);
     while (expanded_ < reached_.size() && reached_.size() < all) {
-        if (now.medium.all_are_alike() && open_.size() < reached_.size() - expanded_) {
+        if (now.medium.stations().all_are_alike() && open_.size() < reached_.size() - expanded_) {
             return look_back(now);
         }
         expand(now, reached_[expanded_++]);
@@ -102,7 +103,7 @@ void Reachability::follow_parents(const Now& now) {
 void Reachability::list_open(const Now& now) {
     open_.clear();
     for (NodeId n{0}; n.index() < parents_.size(); ++n.value) {
-        if (state(n) != State::reached && now.medium.is_on(n)) open_.push_back(n);
+        if (state(n) != State::reached && now.medium.stations().is_on(n)) open_.push_back(n);
     }
 }
 
@@ -163,6 +164,20 @@ void Reachability::join(NodeId reached, NodeId node, NodeId first) {
         if (node == first) return;
         parent = std::exchange(node, next);
     }
+}
+
+std::uint32_t Reachability::count_anew(Medium& medium, NodeId from, Time t, const Legs& legs) {
+    std::vector<bool> seen(legs.size());
+    std::vector<NodeId> frontier{from};
+    seen[from.index()] = true;
+    for (std::size_t next = 0; next < frontier.size(); ++next) {
+        for (const auto [node, squared_distance] : medium.hearers(frontier[next], t, legs)) {
+            if (seen[node.index()]) continue;
+            seen[node.index()] = true;
+            frontier.push_back(node);
+        }
+    }
+    return static_cast<std::uint32_t>(frontier.size() - 1);
 }
 
 }  // namespace rovernet

@@ -18,8 +18,8 @@ namespace rovernet {
 
 class Medium;
 
-/// Number of robots that a chain of links joins to a sender: that of Medium::reachable(), found
-/// with less work, for when it is asked for with every message. Applications have one.
+/// Number of robots that a chain of links joins to a sender, for when it is asked for with every
+/// message. Applications have one.
 ///
 /// While nobody moves, answers are kept until a robot moves, is switched or added. Otherwise every
 /// robot remembers from whom a chain reached it last: that link is looked at first, and only robots
@@ -36,6 +36,8 @@ class Reachability {
     /// decrease.
     /// @param medium, legs  always the same
     std::uint32_t count(Medium& medium, NodeId from, Time t, const Legs& legs);
+    /// The same number, searched for anew: slow, for tests.
+    static std::uint32_t count_anew(Medium& medium, NodeId from, Time t, const Legs& legs);
     /// Whether a chain of links joins `to` to `from` at `t`, which must not decrease. Their own
     /// link is looked at first.
     bool reaches(Medium& medium, NodeId from, NodeId to, Time t, const Legs& legs);

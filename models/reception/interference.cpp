@@ -4,7 +4,7 @@
 namespace rovernet {
 
 void Interference::goes(NodeId node, const Leg& leg) {
-    on_air_.goes(leg, settings_.medium->radio(node).antenna_height);
+    on_air_.goes(leg, settings_.medium->stations().radio(node).antenna_height);
 }
 
 std::uint64_t Interference::add(Emission frame, BitRate rate,
@@ -12,10 +12,10 @@ std::uint64_t Interference::add(Emission frame, BitRate rate,
     Medium& medium = *settings_.medium;
     frame.origin = medium.origin();
     frame.heard_within = medium.heard_within();
-    frame.squared_reach = medium.squared_reach(frame.from);
+    frame.squared_reach = medium.arrivals().squared_reach(frame.from);
     const std::uint64_t serial = on_air_.add(frame);
-    judge_->begins(
-        {on_air_[serial], *settings_.phy, rate, medium.radio(frame.from).preamble, receptions});
+    judge_->begins({on_air_[serial], *settings_.phy, rate,
+                    medium.stations().radio(frame.from).preamble, receptions});
     return serial;
 }
 
@@ -33,7 +33,7 @@ void Interference::judge(std::uint64_t serial, std::span<Reception> receptions, 
     }
     all_.clear();
     for (Reception& r : receptions) {
-        if (!settings_.medium->is_on(r.node)) continue;
+        if (!settings_.medium->stations().is_on(r.node)) continue;
         const bool near = !all_frames && !on_air_.has_changed(r.node);
         if (!near && all_.empty()) {
             for (const Emission& e : on_air_.frames()) {
@@ -48,15 +48,15 @@ void Interference::judge(std::uint64_t serial, std::span<Reception> receptions, 
 std::optional<Arrival> Interference::arrival(const Emission& frame, NodeId node) {
     if (frame.from == node) return own_frame(node, frame.begin, frame.end);
     Medium& medium = *settings_.medium;
-    if (medium.is_directional()) [[unlikely]]
+    if (medium.stations().is_directional()) [[unlikely]]
         return directional_arrival(frame, node);
     if (on_air_.has_changed(node)) {
         if (const OnAir::Before* before = on_air_.before(node, frame)) {
             if (!before->on) return std::nullopt;
-            return medium.arrival(frame, node, before->leg.position(frame.begin));
+            return medium.arrivals().of(frame, node, before->leg.position(frame.begin));
         }
     }
-    return medium.arrival(frame, node, medium.position(node, frame.begin, *settings_.legs));
+    return medium.arrivals().of(frame, node, medium.position(node, frame.begin, *settings_.legs));
 }
 
 /// As arrival(), with the headings of both ends when the frame began.
@@ -72,7 +72,7 @@ std::optional<Arrival> Interference::directional_arrival(const Emission& frame, 
     const Leg leg = leg_of(node);
     const Headings headings{{leg_of(frame.from).heading_at(frame.begin)},
                             {leg.heading_at(frame.begin)}};
-    return settings_.medium->arrival(frame, node, leg.position(frame.begin), headings);
+    return settings_.medium->arrivals().of(frame, node, leg.position(frame.begin), headings);
 }
 
 double Interference::draw(Purpose purpose, NodeId from, NodeId to, std::uint64_t number) const {

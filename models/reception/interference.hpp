@@ -89,19 +89,19 @@ class Interference {
     std::optional<Arrival> arrival(const Emission& frame, NodeId node);
     /// Received power [dBm] at `node` of a frame whose level was left open.
     Dbm level(const Arrival& arrival, NodeId node) const {
-        return settings_.medium->level(arrival, node);
+        return settings_.medium->arrivals().level(arrival, node);
     }
     /// Whether the level of `frame` at `node` exceeds that of `other` by `by` or more. It may find
     /// out by bounds, without the levels: these stay open then.
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId node) {
-        return settings_.medium->is_stronger(frame, other, by, node);
+        return settings_.medium->arrivals().is_stronger(frame, other, by, node);
     }
     /// Longest delay [ns] of any frame to anybody.
-    Duration longest_delay() const { return settings_.medium->delay(on_air_.reach()); }
+    Duration longest_delay() const { return settings_.medium->arrivals().delay(on_air_.reach()); }
     /// Uniform draw in (0, 1) of a pair and of the sender's `number`-th frame.
     double draw(Purpose purpose, NodeId from, NodeId to, std::uint64_t number) const;
     /// Key of a node, for orders that do not depend on its number.
-    std::uint64_t key(NodeId node) const { return settings_.medium->key(node); }
+    std::uint64_t key(NodeId node) const { return settings_.medium->stations().key(node); }
 
   private:
     // Frame as it arrives at a node that is not its sender, where antennas are directional.

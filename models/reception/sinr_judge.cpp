@@ -89,7 +89,7 @@ void SinrJudge::judge(Interference& air, const Emission& judged, Frames others,
     for (const Emission* frame : others) add(*frame);
     const Sent& sent = sent_[judged.flight];
     SinrFrame frame = sent.frame;
-    frame.noise = air.medium().noise(node);
+    frame.noise = air.medium().stations().noise(node);
     const Fate fate = receiver_.judge(
         arrivals_.front(), arrivals_, frame,
         [&](const Arrival& a) { return air.level(a, node).value; },

@@ -40,9 +40,9 @@ CoverageMap empty_map(Vec3 low, Vec3 high, int cells) {
 
 Transmitter transmitter(const Network& network, NodeId robot, Time at) {
     const NetworkSettings& settings = network.settings();
-    return {.model = network.medium().model(robot).median(),
-            .radio = network.medium().radio(robot),
-            .antenna = network.medium().antenna(robot, at, network.legs()),
+    return {.model = network.medium().stations().model(robot).median(),
+            .radio = network.medium().stations().radio(robot),
+            .antenna = network.medium().stations().antenna(robot, at, network.legs()),
             .heading = Radians{network.legs().leg(robot).heading_at(at)},
             .key = name_key(network.name(robot)),
             .scene = &network.scene(),

@@ -40,14 +40,15 @@ std::size_t grade_of(double margin) {
 /// Margin of the link from `from` to `to` [dB]; none if `to` cannot hear.
 std::optional<double> link_margin(const Network& network, NodeId from, NodeId to, Time at) {
     const Medium& medium = network.medium();
-    const Radio& sender = medium.radio(from);
-    const Db budget = link_budget(sender, medium.radio(to));
+    const Radio& sender = medium.stations().radio(from);
+    const Db budget = link_budget(sender, medium.stations().radio(to));
     constexpr double slack = 1 + 1e-9;  // rounding of the model's inverse
-    const double d =
-        distance(medium.antenna(from, at, network.legs()), medium.antenna(to, at, network.legs()));
-    if (d > slack * medium.model(from).reach(budget, sender.frequency).value) return std::nullopt;
-    if (!medium.link_up(from, to, at, network.legs())) return std::nullopt;
-    return medium.margin(from, to, at, network.legs()).value;
+    const double d = distance(medium.stations().antenna(from, at, network.legs()),
+                              medium.stations().antenna(to, at, network.legs()));
+    if (d > slack * medium.stations().model(from).reach(budget, sender.frequency).value)
+        return std::nullopt;
+    if (!medium.links().is_up(from, to, at, network.legs())) return std::nullopt;
+    return medium.links().margin(from, to, at, network.legs()).value;
 }
 
 void stroke(Svg& svg, const std::string& data, std::size_t grade, bool dashed, bool seam) {

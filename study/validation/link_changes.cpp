@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -30,12 +31,22 @@ constexpr Duration passing{20'000'000'000};  // of two robots, straight past one
 using Changes = std::vector<Time>;
 
 /// Two robots on their way, and the medium between them.
-struct Pass {
+class Pass {
+  public:
+    Pass(const Scene& scene, const Propagation& model, const Leg& from, const Leg& to)
+        : medium({.scene = &scene}) {
+        const Radio radio{.power = Dbm{10}, .sensitivity = Dbm{-80}};
+        std::uint64_t key = 0;
+        for (const Leg& leg : {from, to}) {
+            legs.add(leg);
+            medium.add(radio, ++key, model);
+        }
+    }
+    bool up(Time t) const { return medium.links().is_up(a, b, t, legs); }
+
     Legs legs;
     Medium medium;
-    NodeId a, b;
-
-    bool up(Time t) const { return medium.link_up(a, b, t, legs); }
+    static constexpr NodeId a{0}, b{1};
 };
 
 /// Scene with passes of robots through it.
@@ -44,7 +55,7 @@ struct Passes {
     std::shared_ptr<const Scene> scene;
     Propagation model;
     WallPassages walls;
-    std::vector<Pass> all;
+    std::deque<Pass> all;
     double range = 0;  // [m] of a link, where it goes by distance
 
     double link_seconds() const { return seconds(passing) * static_cast<double>(all.size()); }
@@ -57,18 +68,6 @@ Leg straight(Vec3 from, Vec3 to) {
             .to = to};
 }
 
-Pass pass_between(const Passes& where, const Leg& a, const Leg& b) {
-    Pass pass{
-        .legs = {}, .medium = Medium({.scene = where.scene.get()}), .a = NodeId{0}, .b = NodeId{1}};
-    const Radio radio{.power = Dbm{10}, .sensitivity = Dbm{-80}};
-    std::uint64_t key = 0;
-    for (const Leg& leg : {a, b}) {
-        pass.legs.add(leg);
-        pass.medium.add(radio, ++key, where.model);
-    }
-    return pass;
-}
-
 /// @param width, depth  [m] of the area that the robots cross
 Passes passes_in(std::string title, std::shared_ptr<const Scene> scene, Propagation model,
                  double width, double depth, std::size_t n) {
@@ -79,8 +78,8 @@ Passes passes_in(std::string title, std::shared_ptr<const Scene> scene, Propagat
                     depth * validation_draw("link_changes", i, 1)};
     };
     for (std::uint64_t i = 0; i < n; ++i) {
-        out.all.push_back(pass_between(out, straight(point(4 * i), point(4 * i + 1)),
-                                       straight(point(4 * i + 2), point(4 * i + 3))));
+        out.all.emplace_back(*out.scene, out.model, straight(point(4 * i), point(4 * i + 1)),
+                             straight(point(4 * i + 2), point(4 * i + 3)));
     }
     return out;
 }

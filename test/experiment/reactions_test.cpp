@@ -110,7 +110,7 @@ TEST_CASE("movement file: makes the robots that it names, and moves those that a
     const auto network = network_at(s, start_of_run + from_seconds(9));
     REQUIRE(network->size() == 2);
     const NodeId n0 = *network->find("n0");
-    CHECK(network->medium().radio(n0).power == Dbm{3});
+    CHECK(network->medium().stations().radio(n0).power == Dbm{3});
     // At 7 s it was at (1, 5); from there 2 s at 2 m/s.
     CHECK(distance(network->position(n0), {5, 5, 0}) < 1e-9);
     CHECK(run_scenario(s, {.folder = folder.path("out"), .speed = {}}).metrics.messages == 1);
@@ -129,7 +129,7 @@ TEST_CASE("movement file: a vehicle is silent before it appears and after it is 
     const Scenario s = load_scenario(folder.path("fcd.xml"), {});
     const auto at = [&](double t) { return network_at(s, start_of_run + from_seconds(t)); };
     const auto on = [](const Network& net, const char* name) {
-        return net.medium().is_on(*net.find(name));
+        return net.medium().stations().is_on(*net.find(name));
     };
     CHECK(on(*at(0.5), "car"));
     CHECK_FALSE(on(*at(0.5), "bus"));

@@ -101,9 +101,9 @@ TEST_CASE("the air of a recorded run: levels and times of all receptions are tho
         {"fading by place", "[fading]\nmodel = \"rician\"\ncoherence = \"place\"\n"},
         {"csma", "[access]\nmodel = \"csma\"\n[reception]\nmodel = \"sinr\"\n"},
         {"no delay", "[medium]\npropagation_delay = false\n"}};
-    for (const auto& [name, more] : radios) {
-        CAPTURE(name);
-        const Run run(more);
+    for (const auto& radio : radios) {
+        CAPTURE(radio.first);
+        const Run run(radio.second);
         RecordedReader trace(run.recorded);
         RecordedAir air(trace.run(), run.recorded);
         std::size_t compared = 0;
@@ -137,11 +137,11 @@ TEST_CASE("the air of a recorded run knows who is off, and forgets frames that a
     while (const Record* record = trace.next()) {
         air.take(*record, trace.context());
         most = std::max(most, air.frames().size());
-        was_off = was_off || !air.medium().is_on(NodeId{3});
+        was_off = was_off || !air.medium().stations().is_on(NodeId{3});
     }
     CHECK(air.robots() == 4);
     CHECK(was_off);
-    CHECK(air.medium().is_on(NodeId{3}));
+    CHECK(air.medium().stations().is_on(NodeId{3}));
     CHECK(most >= 2);
     CHECK(most < 20);
 }

@@ -77,7 +77,7 @@ TEST_CASE("network: a robot that is taken away is silent until it is switched on
     CHECK(net.robot(a).radius.value == 0.7);
     net.take_away(a, Presence::not_departed);
     CHECK(net.robot(a).presence == Presence::not_departed);
-    CHECK_FALSE(net.medium().is_on(a));
+    CHECK_FALSE(net.medium().stations().is_on(a));
     net.switch_on(a);
     CHECK(net.robot(a).presence == Presence::on);
     net.switch_off(a);

@@ -62,11 +62,12 @@ TEST_CASE("link gain: the medium's level and margin are those of the path loss b
         legs.add({.from = {x, 0}});
     }
     const NodeId a{0}, b{1};
-    const Db loss = medium.path_loss(a, b, start_of_run, legs);
-    CHECK(near(medium.level(a, b, start_of_run, legs).value, 20 + 5 - 2 + 3 - 0.5 - loss.value,
-               tolerance));
-    CHECK(near(medium.margin(a, b, start_of_run, legs).value, 115.5 - loss.value, tolerance));
-    CHECK(medium.pose(b, start_of_run, legs).antenna == Vec3{30, 0, 1});
+    const Db loss = medium.links().path_loss(a, b, start_of_run, legs);
+    CHECK(near(medium.links().level(a, b, start_of_run, legs).value,
+               20 + 5 - 2 + 3 - 0.5 - loss.value, tolerance));
+    CHECK(
+        near(medium.links().margin(a, b, start_of_run, legs).value, 115.5 - loss.value, tolerance));
+    CHECK(medium.stations().pose(b, start_of_run, legs).antenna == Vec3{30, 0, 1});
 }
 
 TEST_CASE("link gain: a loss of 10,000 dB leaves a level, not minus infinity (S10)") {

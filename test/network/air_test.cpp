@@ -62,7 +62,7 @@ struct Log {
     void on(const Record& record, const RecordContext& context) {
         if (const auto* sent = std::get_if<Transmitted>(&record)) {
             const Frame& frame = sent->frame;
-            const Radio& radio = net->medium().radio(frame.sender);
+            const Radio& radio = net->medium().stations().radio(frame.sender);
             const Message& message = context.messages[frame.message];
             Sending sending{frame.sender,
                             sent->time,
@@ -70,8 +70,8 @@ struct Log {
                             {}};
             for (std::uint32_t i = 0; i < context.legs.size(); ++i) {
                 sending.robots.push_back(
-                    {net->medium().antenna(NodeId{i}, sent->time, context.legs),
-                     net->medium().is_on(NodeId{i})});
+                    {net->medium().stations().antenna(NodeId{i}, sent->time, context.legs),
+                     net->medium().stations().is_on(NodeId{i})});
             }
             by_frame[{frame.sender, combine(message.uid, frame.path)}] = sendings.size();
             sendings.push_back(sending);

@@ -53,7 +53,7 @@ struct Harness {
     void check(Time t) const {
         for (std::uint32_t i = 0; i < legs.size(); ++i)
             for (std::uint32_t j = 0; j < legs.size(); ++j)
-                CHECK(watch.is_up({i}, {j}) == medium.link_up({i}, {j}, t, legs));
+                CHECK(watch.is_up({i}, {j}) == medium.links().is_up({i}, {j}, t, legs));
     }
 };
 
@@ -293,10 +293,10 @@ TEST_CASE("link watch: a directional antenna that turns in place changes links, 
     const auto told = network.take();
     REQUIRE(told.size() == 4);  // both ways, in and out
     for (const LinkChange& change : told) {
-        CHECK(network.medium.link_up(change.from, change.to, change.time, network.legs) ==
+        CHECK(network.medium.links().is_up(change.from, change.to, change.time, network.legs) ==
               change.up);
-        CHECK(network.medium.link_up(change.from, change.to, change.time - 1us, network.legs) !=
-              change.up);
+        CHECK(network.medium.links().is_up(change.from, change.to, change.time - 1us,
+                                           network.legs) != change.up);
     }
     // Another heading at rest is a change at once.
     Leg ahead = resting({}, begin + 1001s);

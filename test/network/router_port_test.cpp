@@ -328,7 +328,7 @@ TEST_CASE("router port: nodes start with the run in the order of their keys, or 
     row.net.run_for(1s);
     std::vector<std::uint32_t> order{0, 1, 2, 3, 4};
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return row.net.medium().key({a}) < row.net.medium().key({b});
+        return row.net.medium().stations().key({a}) < row.net.medium().stations().key({b});
     });
     Lines expected;
     for (const std::uint32_t i : order) expected.push_back("start " + std::to_string(i));

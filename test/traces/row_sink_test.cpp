@@ -101,7 +101,7 @@ TEST_CASE("rows: a table tells the places of its cells") {
     CHECK(text(cell<CodeCell>(received, 0, "reason")) == "TTL");
     // Free space at 100 m and 2450 MHz: 20 log10(4 pi d f / c) = 80.23 dB.
     constexpr double half_a_digit = 0.005;
-    const double level = network.medium().radio(sender).power.value - 80.23;
+    const double level = network.medium().stations().radio(sender).power.value - 80.23;
     CHECK(std::abs(cell<double>(received, 0, "level") - level) < half_a_digit);
     const RowSink::Table moved = rows->table(kind_of<Moved>());
     REQUIRE(moved.size() == 2);

@@ -98,7 +98,7 @@ TEST_CASE("link changes: a link for a moment between two corners, where the loss
         MovingPair probe{&scene};
         for (const Leg& leg : legs) probe.add(Raytrace2007{}, leg);
         for (Time t = start_of_run; t <= start_of_run + 10s; t += 1ms)
-            if (const Db loss = probe.medium.path_loss(a, b, t, probe.legs); loss < least)
+            if (const Db loss = probe.medium.links().path_loss(a, b, t, probe.legs); loss < least)
                 std::tie(least, when) = std::tuple(loss, t);
         if (when == start_of_run || when == start_of_run + 10s) continue;
         MovingPair pair{&scene};

@@ -28,7 +28,9 @@ struct MovingPair {
             all.push_back(after = *t);
         return all;
     }
-    bool up(NodeId from, NodeId to, Time t) const { return medium.link_up(from, to, t, legs); }
+    bool up(NodeId from, NodeId to, Time t) const {
+        return medium.links().is_up(from, to, t, legs);
+    }
 };
 
 inline Leg resting(Vec3 at) { return {.from = at, .to = at}; }

@@ -96,7 +96,7 @@ struct Twins {
             case 2: return put(node, rest(there, now));
             case 3: return put(node, {.start = now, .end = now + 2s, .from = here, .to = there});
             case 4: {
-                const bool on = !keeping.is_on(node);
+                const bool on = !keeping.stations().is_on(node);
                 keeping.switch_radio(node, on);
                 return plain.switch_radio(node, on);
             }
@@ -188,17 +188,17 @@ TEST_CASE("medium: who judges a frame gets the losses that its receivers were fo
                          .end = twins.now + 1ms,
                          .origin = twins.keeping.origin(),
                          .from = NodeId{0},
-                         .squared_reach = twins.keeping.squared_reach(NodeId{0})};
+                         .squared_reach = twins.keeping.arrivals().squared_reach(NodeId{0})};
     REQUIRE(heard.all().size() > 3);
     for (const Reception& reception : heard.all()) {
         const Vec3 there = twins.legs.position(reception.node, frame.begin);
         const std::size_t before = *counted.rays;
-        const auto kept = twins.keeping.arrival(frame, reception.node, there);
+        const auto kept = twins.keeping.arrivals().of(frame, reception.node, there);
         CHECK(*counted.rays == before);
-        const auto computed = twins.plain.arrival(frame, reception.node, there);
+        const auto computed = twins.plain.arrivals().of(frame, reception.node, there);
         REQUIRE((kept && computed));
         CHECK(kept->level_dbm == computed->level_dbm);
-        twins.keeping.arrival(frame, reception.node, there + Vec3{0.01, 0, 0});
+        twins.keeping.arrivals().of(frame, reception.node, there + Vec3{0.01, 0, 0});
         CHECK(*counted.rays == before + 2);
     }
 }

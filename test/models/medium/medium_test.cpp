@@ -2,6 +2,7 @@
 #include "models/medium/medium.hpp"
 
 #include "models/link_gain.hpp"
+#include "models/medium/reachability.hpp"
 #include "models/propagation/list.hpp"
 #include "test/scene/drawn_map.hpp"
 
@@ -83,15 +84,16 @@ struct Crowd {
     }
     NodeId node(std::size_t i) const { return {static_cast<std::uint32_t>(i)}; }
     bool link(std::size_t i, std::size_t j, Time t) const {
-        return medium.path_loss(node(i), node(j), t, legs) <= link_budget(radios[i], radios[j]);
+        return medium.links().path_loss(node(i), node(j), t, legs) <=
+               link_budget(radios[i], radios[j]);
     }
     /// What find_receivers() must say.
     std::vector<Reception> brute_force(std::size_t i, Time start, Time end) const {
         std::vector<Reception> all;
         for (std::size_t j = 0; j < radios.size(); ++j) {
-            if (j == i || !medium.is_on(node(j)) || !link(i, j, start)) continue;
-            const double d = distance(medium.antenna(node(i), start, legs),
-                                      medium.antenna(node(j), start, legs));
+            if (j == i || !medium.stations().is_on(node(j)) || !link(i, j, start)) continue;
+            const double d = distance(medium.stations().antenna(node(i), start, legs),
+                                      medium.stations().antenna(node(j), start, legs));
             all.push_back({end + from_seconds(d / speed_of_light), node(j)});
         }
         std::stable_sort(all.begin(), all.end(),
@@ -119,9 +121,9 @@ struct Crowd {
     void check_sensors(std::size_t i, Time t) {
         std::vector<NodeId> expected, sensing;
         for (std::size_t j = 0; j < radios.size(); ++j) {
-            const bool senses =
-                medium.path_loss(node(i), node(j), t, legs) <= sensing_budget(radios[i], radios[j]);
-            if (j != i && medium.is_on(node(j)) && senses && !link(i, j, t)) {
+            const bool senses = medium.links().path_loss(node(i), node(j), t, legs) <=
+                                sensing_budget(radios[i], radios[j]);
+            if (j != i && medium.stations().is_on(node(j)) && senses && !link(i, j, t)) {
                 expected.push_back(node(j));
             }
         }
@@ -180,7 +182,8 @@ TEST_CASE("medium: the transmitter's model rules where models are mixed") {
     for (std::size_t i = 0; i < robots; ++i) crowd.add(models[i % models.size()]);
     crowd.check(start_of_run + 1s);
     for (std::size_t i = 0; i < robots; ++i) {
-        CHECK(crowd.medium.model(crowd.node(i)).name() == models[i % models.size()].name());
+        CHECK(crowd.medium.stations().model(crowd.node(i)).name() ==
+              models[i % models.size()].name());
     }
 }
 
@@ -254,15 +257,15 @@ TEST_CASE("medium: a radio that is off neither hears nor joins others; on again 
     const auto heard_by = [&](std::uint32_t from) {
         return receivers(medium, {from}, start_of_run, start_of_run, legs).size();
     };
-    CHECK(medium.reachable({0}, start_of_run, legs) == 4);
+    CHECK(Reachability::count_anew(medium, {0}, start_of_run, legs) == 4);
     medium.switch_radio({2}, false);
     CHECK(heard_by(1) == 1);
     CHECK(heard_by(3) == 1);
-    CHECK(medium.reachable({0}, start_of_run, legs) == 1);
-    CHECK(medium.reachable({4}, start_of_run, legs) == 1);
+    CHECK(Reachability::count_anew(medium, {0}, start_of_run, legs) == 1);
+    CHECK(Reachability::count_anew(medium, {4}, start_of_run, legs) == 1);
     medium.switch_radio({2}, true);
     CHECK(heard_by(1) == 2);
-    CHECK(medium.reachable({0}, start_of_run, legs) == 4);
+    CHECK(Reachability::count_anew(medium, {0}, start_of_run, legs) == 4);
 }
 
 TEST_CASE("medium: random radios switched off are as if they were not there") {
@@ -291,7 +294,7 @@ TEST_CASE("medium: robots reachable are the sender's component of Boost.Graph, l
         connected_components(graph, component.data());
         for (std::size_t i = 0; i < robots; ++i) {
             const auto size = std::count(component.begin(), component.end(), component[i]);
-            CHECK(crowd.medium.reachable(crowd.node(i), t, crowd.legs) == size - 1);
+            CHECK(Reachability::count_anew(crowd.medium, crowd.node(i), t, crowd.legs) == size - 1);
         }
     }
 }
@@ -378,16 +381,17 @@ TEST_CASE("medium: which of two frames is stronger is what their levels say, how
             const double d2 = std::pow(10, draw.uniform(-1, 9)), ratio = draw.uniform(0.1, 30);
             Arrival a = arrival(d2), b = arrival(d2 * ratio);
             const Db by{draw.uniform(0, 20)};
-            const double level_a = medium.level(a, NodeId{0}).value;
-            const double level_b = medium.level(b, NodeId{0}).value;
+            const double level_a = medium.arrivals().level(a, NodeId{0}).value;
+            const double level_b = medium.arrivals().level(b, NodeId{0}).value;
             const bool is = level_a >= level_b + by.value;
-            REQUIRE(medium.is_stronger(a, b, by, NodeId{0}) == is);
+            REQUIRE(medium.arrivals().is_stronger(a, b, by, NodeId{0}) == is);
             stronger += is;
             plain += std::isnan(a.level_dbm);
             // Once levels are known they decide, to the last bit.
             a.level_dbm = level_a;
             b.level_dbm = level_a - by.value;
-            REQUIRE(medium.is_stronger(a, b, by, NodeId{0}) == (level_a >= b.level_dbm + by.value));
+            REQUIRE(medium.arrivals().is_stronger(a, b, by, NodeId{0}) ==
+                    (level_a >= b.level_dbm + by.value));
         }
     }
     CHECK(stronger > 10'000);
@@ -401,12 +405,14 @@ TEST_CASE("medium: what is left out adds to the noise what the weakest that is t
     medium.add({}, 1, Friis{});
     const double noise = noise_floor(Radio{}).value;
     const double each = std::pow(10, (-95 - noise) / 10);
-    CHECK(medium.left_out(0) == Db{0});
-    CHECK(medium.left_out(3).value == doctest::Approx(10 * std::log10(1 + 3 * each)).epsilon(1e-9));
+    CHECK(medium.stations().kinds().left_out(0) == Db{0});
+    CHECK(medium.stations().kinds().left_out(3).value ==
+          doctest::Approx(10 * std::log10(1 + 3 * each)).epsilon(1e-9));
     // No lower than 10 dB below the noise.
     Medium wide{{.scene = &field, .interference_cut = Db{60}}};
     wide.add({}, 1, Friis{});
-    CHECK(wide.left_out(10).value == doctest::Approx(10 * std::log10(2.0)).epsilon(1e-9));
+    CHECK(wide.stations().kinds().left_out(10).value ==
+          doctest::Approx(10 * std::log10(2.0)).epsilon(1e-9));
 }
 
 TEST_CASE(
@@ -426,14 +432,15 @@ TEST_CASE(
                                  .origin = {0, 0, radio.antenna_height.value},
                                  .from = NodeId{0},
                                  .heard_within = 0,
-                                 .squared_reach = medium.squared_reach(NodeId{0}),
+                                 .squared_reach = medium.arrivals().squared_reach(NodeId{0}),
                                  .flight = 0};
-            const auto arrival = medium.arrival(frame, NodeId{1}, {d, 0, 0});
+            const auto arrival = medium.arrivals().of(frame, NodeId{1}, {d, 0, 0});
             REQUIRE(arrival.has_value() == (below < (cut ? cut->value : 0)));
             if (!arrival) continue;
             const double level = radio.sensitivity.value - below;
-            CHECK(medium.level(*arrival, NodeId{1}).value == doctest::Approx(level).epsilon(1e-9));
-            CHECK(arrival->end == frame.end + medium.delay(d));
+            CHECK(medium.arrivals().level(*arrival, NodeId{1}).value ==
+                  doctest::Approx(level).epsilon(1e-9));
+            CHECK(arrival->end == frame.end + medium.arrivals().delay(d));
         }
     }
 }

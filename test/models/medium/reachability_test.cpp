@@ -98,7 +98,7 @@ class RandomWorld {
             medium_.moved(NodeId{n}, legs_);
         }
         const NodeId one{static_cast<std::uint32_t>(below(size()))};
-        if (below(3) == 0) medium_.switch_radio(one, !medium_.is_on(one));
+        if (below(3) == 0) medium_.switch_radio(one, !medium_.stations().is_on(one));
         if (below(20) == 0) add();
         if (below(10) == 0) {  // put somewhere else
             const Vec3 there{coordinate(), coordinate(), 0};
@@ -108,12 +108,12 @@ class RandomWorld {
     }
     void check_one(NodeId from) {
         CHECK(reachability_.count(medium_, from, now_, legs_) ==
-              medium_.reachable(from, now_, legs_));
+              Reachability::count_anew(medium_, from, now_, legs_));
         const NodeId to{static_cast<std::uint32_t>(below(size()))};
         if (to == from) return;
         const bool reached = reachability_.reaches(medium_, from, to, now_, legs_);
-        const bool was_on = medium_.is_on(to);
-        const auto all = medium_.reachable(from, now_, legs_);
+        const bool was_on = medium_.stations().is_on(to);
+        const auto all = Reachability::count_anew(medium_, from, now_, legs_);
         if (!was_on) {
             CHECK_FALSE(reached);
             return;
@@ -121,7 +121,7 @@ class RandomWorld {
         // It is reached if and only if fewer are without it, unless others are reached by it only.
         if (!reached) {
             medium_.switch_radio(to, false);
-            CHECK(medium_.reachable(from, now_, legs_) == all);
+            CHECK(Reachability::count_anew(medium_, from, now_, legs_) == all);
             medium_.switch_radio(to, true);
         }
     }

@@ -57,7 +57,8 @@ struct Ground {
             for (const auto& f : medium.hearers(NodeId{i}, now, legs)) found.push_back(f.node);
             std::sort(found.begin(), found.end());
             for (std::uint32_t k = 0; k < legs.size(); ++k) {
-                if (medium.link_up(NodeId{i}, NodeId{k}, now, legs)) each.push_back(NodeId{k});
+                if (medium.links().is_up(NodeId{i}, NodeId{k}, now, legs))
+                    each.push_back(NodeId{k});
             }
             CHECK(found == each);
             links += each.size();
@@ -94,7 +95,7 @@ TEST_CASE("two-ray: over 4 km of flat ground only those nearby are looked at") {
         legs.add({.from = at, .to = at});
     }
     CHECK(medium.hearers(NodeId{20}, start_of_run, legs).size() == 4);
-    const double reach2 = medium.squared_reach(NodeId{20});
+    const double reach2 = medium.arrivals().squared_reach(NodeId{20});
     CHECK(std::sqrt(reach2) == doctest::Approx(250).epsilon(1e-3));
 }
 

@@ -126,10 +126,10 @@ std::vector<NodeId> receivers(Medium& medium, NodeId from, Time t, const Legs& l
 Emission frame_of(Medium& medium, NodeId from, Time t, const Legs& legs) {
     return {.begin = t,
             .end = t + 1ms,
-            .origin = medium.antenna(from, t, legs),
+            .origin = medium.stations().antenna(from, t, legs),
             .from = from,
             .heard_within = medium.heard_within(),
-            .squared_reach = medium.squared_reach(from)};
+            .squared_reach = medium.arrivals().squared_reach(from)};
 }
 
 }  // namespace
@@ -154,14 +154,15 @@ TEST_CASE("variation: who hears is who a search over all pairs finds, and whose 
                     const Headings headings{{twins.legs.leg(from).heading_at(t)},
                                             {twins.legs.leg(to).heading_at(t)}};
                     const Vec3 at = twins.legs.position(to, t);
-                    const auto arrives = v.directional ? twins.fast.arrival(frame, to, at, headings)
-                                                       : twins.fast.arrival(frame, to, at);
+                    const auto arrives = v.directional
+                                             ? twins.fast.arrivals().of(frame, to, at, headings)
+                                             : twins.fast.arrivals().of(frame, to, at);
                     const bool hears = std::binary_search(heard.begin(), heard.end(), to);
                     if (!arrives) CHECK_FALSE(hears);
                     if (!arrives) continue;
                     const bool open = std::isnan(arrives->level_dbm);
                     const Dbm level =
-                        open ? twins.fast.level(*arrives, to) : Dbm{arrives->level_dbm};
+                        open ? twins.fast.arrivals().level(*arrives, to) : Dbm{arrives->level_dbm};
                     const Db margin = level - twins.radios[to.index()].sensitivity;
                     if (std::abs(margin.value) > 1e-9) CHECK(hears == (margin > Db{0}));
                 }
@@ -184,8 +185,8 @@ TEST_CASE("variation: shadowing of links is log_distance's sigma over any model"
         over.add({}, i, LogDistance{.exponent = 3, .sigma = Db{0}});
     }
     for (NodeId to{1}; to.value < 20; ++to.value) {
-        CHECK(own.path_loss(a, to, start_of_run, legs).value ==
-              over.path_loss(a, to, start_of_run, legs).value);
+        CHECK(own.links().path_loss(a, to, start_of_run, legs).value ==
+              over.links().path_loss(a, to, start_of_run, legs).value);
     }
 }
 
@@ -240,7 +241,7 @@ TEST_CASE("variation: links are local means, which no frame's fade is in") {
         const Time t = start_of_run + i * 1s;
         for (NodeId to{1}; to.value < 5; ++to.value) {
             CHECK(medium.hears(a, to, t, legs) == plain.hears(a, to, t, legs));
-            CHECK(medium.margin(a, to, t, legs) == plain.margin(a, to, t, legs));
+            CHECK(medium.links().margin(a, to, t, legs) == plain.links().margin(a, to, t, legs));
         }
         CHECK(medium.hearers(a, t, legs).size() == 3);
         const auto heard = receivers(medium, a, t, legs);
@@ -268,7 +269,7 @@ TEST_CASE(
     }
     for (NodeId to{1}; to.value < places.size(); ++to.value) {
         CAPTURE(places[to.index()]);
-        const double margin = medium.margin(a, to, start_of_run, legs).value;
+        const double margin = medium.links().margin(a, to, start_of_run, legs).value;
         const double p = std::exp(-std::pow(10, -margin / 10));
         const double four_sigma = 4 * std::sqrt(p * (1 - p) / frames);
         CHECK(test::near(heard[to.index()] / double{frames}, p, four_sigma));
@@ -285,7 +286,7 @@ TEST_CASE("variation: where places have fades, a robot that comes back is heard 
     const auto level = [&](Time t) {
         Emission frame = frame_of(medium, a, t, legs);
         frame.squared_reach = 1e12;
-        const auto arrives = medium.arrival(frame, b, legs.position(b, t));
+        const auto arrives = medium.arrivals().of(frame, b, legs.position(b, t));
         return arrives ? arrives->level_dbm : -1000;
     };
     const double before = level(start_of_run + 2s), later = level(start_of_run + 3s);
@@ -307,7 +308,7 @@ TEST_CASE("antennas: a sector hears in front, not behind; its link has the patte
         medium.add(legs.size() == 1 ? sector : Radio{}, legs.size(), Friis{});
     }
     const auto gain = [&](std::uint32_t to) {
-        return medium.gain(a, {to}, start_of_run, legs).sender.value;
+        return medium.stations().gain(a, {to}, start_of_run, legs).sender.value;
     };
     constexpr double tolerance = 1e-9;
     CHECK(test::near(gain(1), 0, tolerance));
@@ -316,10 +317,10 @@ TEST_CASE("antennas: a sector hears in front, not behind; its link has the patte
     const double n = -3 / (20 * std::log10(std::cos(15 * degree)));
     CHECK(test::near(gain(3), std::max(-25.0, 20 * n * std::log10(std::cos(45 * degree))),
                      tolerance));
-    CHECK((medium.level(a, {1}, start_of_run, legs) - medium.level(a, {2}, start_of_run, legs)) >
-          Db{24.9});
-    CHECK(test::near(medium.level({2}, a, start_of_run, legs).value,
-                     medium.level(a, {2}, start_of_run, legs).value, tolerance));
+    CHECK((medium.links().level(a, {1}, start_of_run, legs) -
+           medium.links().level(a, {2}, start_of_run, legs)) > Db{24.9});
+    CHECK(test::near(medium.links().level({2}, a, start_of_run, legs).value,
+                     medium.links().level(a, {2}, start_of_run, legs).value, tolerance));
 }
 
 TEST_CASE("antennas: a robot that turns in place gets links, and loses them, on time") {
@@ -363,13 +364,13 @@ TEST_CASE("shadowing field: link changes are found within min_dwell, those of a 
                    next_link_change(medium, legs, scene, a, b, after, start_of_run + 90s, search))
             found.push_back(after = *t);
         const bool by_field = shadowing.model == ShadowingModel::field;
-        CHECK(medium.shape(a, b, start_of_run, legs) ==
+        CHECK(medium.links().shape(a, b, start_of_run, legs) ==
               (by_field ? LossShape::unknown : LossShape::by_pair));
         if (by_field) CHECK(found.size() >= 2);
         if (!by_field) CHECK(found.size() == 2);
         for (const Time t : found) {
-            CHECK(medium.link_up(a, b, t, legs) !=
-                  medium.link_up(a, b, t - (by_field ? 1us : 1ns), legs));
+            CHECK(medium.links().is_up(a, b, t, legs) !=
+                  medium.links().is_up(a, b, t - (by_field ? 1us : 1ns), legs));
         }
     }
 }

@@ -63,9 +63,11 @@ TEST_CASE("coverage: a cell has the level that the medium gives a robot there, w
         Built with_probe(both);
         const NodeId probe = *with_probe.network.find("probe");
         const Medium& medium = with_probe.network.medium();
-        const Db loss = medium.path_loss(first, probe, start_of_run, with_probe.network.legs());
+        const Db loss =
+            medium.links().path_loss(first, probe, start_of_run, with_probe.network.legs());
         CHECK(map.at(i % map.columns, i / map.columns) ==
-              received_power(medium.radio(first), medium.radio(probe), loss).value);
+              received_power(medium.stations().radio(first), medium.stations().radio(probe), loss)
+                  .value);
         ++compared;
         walled += with_probe.network.scene().wall_length(a.antenna, p) > 0;
     }
@@ -114,9 +116,9 @@ TEST_CASE("coverage: shadowing is off, whatever sigma is") {
             .dbm;
     };
     CHECK(map(a) == map(b));
-    const Propagation random = a.network.medium().model(first);
+    const Propagation random = a.network.medium().stations().model(first);
     CHECK(random.is_random());
-    CHECK_FALSE(b.network.medium().model(first).is_random());
+    CHECK_FALSE(b.network.medium().stations().model(first).is_random());
     CHECK_FALSE(random.median().is_random());
     CHECK(random.median().as<LogDistance>()->exponent == random.as<LogDistance>()->exponent);
     CHECK(random.as<Friis>() == nullptr);
@@ -126,7 +128,7 @@ TEST_CASE("coverage: a sigma of a model that is not chosen is no shadowing") {
     Built built(
         field("[propagation]\nmodel = \"friis\"\nsigma = \"8 dB\"\n[[robot]]\nname = \"A\"\nat = "
               "[\"0 m\", \"0 m\"]\n"));
-    CHECK_FALSE(built.network.medium().model(first).is_random());
+    CHECK_FALSE(built.network.medium().stations().model(first).is_random());
 }
 
 TEST_CASE("coverage: a robot's own model and radio rule, also of one of many") {
@@ -139,7 +141,7 @@ TEST_CASE("coverage: a robot's own model and radio rule, also of one of many") {
     for (std::uint32_t i = 0; i < 5; ++i) {
         const Transmitter t = transmitter(built.network, NodeId{i}, start_of_run);
         CHECK(t.model.name() == (i < 3 ? "friis" : "disc"));
-        CHECK(t.radio.power == built.network.medium().radio(NodeId{i}).power);
+        CHECK(t.radio.power == built.network.medium().stations().radio(NodeId{i}).power);
         CHECK(t.antenna.z == 1);
     }
 }

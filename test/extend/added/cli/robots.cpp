@@ -22,7 +22,7 @@ void robots(const RobotsArguments& arguments) {
     Array rows;
     for (NodeId node{0}; node.index() < network.size(); ++node.value) {
         const Vec3 at = network.position(node);
-        const double power = network.medium().radio(node).power.value;
+        const double power = network.medium().stations().radio(node).power.value;
         if (!arguments.json) {
             fmt::print("{:12} {:9.2f} {:9.2f} m {:6.1f} dBm\n", network.name(node), at.x, at.y,
                        power);

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "models/medium/stations.hpp"
+
+#include "models/medium/shadowed.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace rovernet {
+
+Stations::Stations(const MediumSettings& settings, std::optional<Db> most_fade)
+    : shadowing_(settings.shadowing),
+      seed_(settings.seed),
+      replication_(settings.replication),
+      kinds_(settings.interference_cut, most_fade) {
+    check_fields(shadowing_, "shadowing");
+}
+
+Propagation Stations::shadowed(const Propagation& model) {
+    if (shadowing_.model == ShadowingModel::none || model.as<Shadowed>()) return model;
+    for (const auto& [plain, with_shadowing] : shadowed_) {
+        if (plain == model) return with_shadowing;
+    }
+    const Propagation with_shadowing = Shadowed(model, shadowing_, seed_, replication_);
+    shadowed_.emplace_back(model, with_shadowing);
+    return with_shadowing;
+}
+
+Stations::Kind Stations::add(const Radio& radio, std::uint64_t key,
+                             const Propagation& propagation) {
+    check_fields(radio, "radio");
+    check_antenna(radio);
+    propagation.check_frequency(radio.frequency);
+    if (radios_.empty() || radios_.back() != radio) radios_.push_back(radio);
+    const Kind kind = kinds_.add(radio, shadowed(propagation));
+    keys_.push_back(key);
+    if (radios_.size() > 1 || kinds_.size() > 1 || !stations_.empty()) {
+        list_stations();
+        stations_.back().radio = static_cast<std::uint32_t>(radios_.size() - 1);
+        stations_.back().kind = kind & 0x7fffffff;
+    }
+    return kind;
+}
+
+void Stations::list_stations() {
+    stations_.reserve(keys_.capacity());
+    stations_.resize(keys_.size(), {.radio = 0, .kind = 0, .on = true});
+}
+
+void Stations::switch_radio(NodeId node, bool on) {
+    list_stations();
+    Station& station = stations_[node.index()];
+    off_ += static_cast<std::size_t>(station.on) - static_cast<std::size_t>(on);
+    station.on = on;
+}
+
+Vec3 Stations::antenna(NodeId node, Time t, const Legs& legs) const {
+    Vec3 p = legs.position(node, t);
+    p.z += height(node);
+    return p;
+}
+
+Pose Stations::pose(NodeId node, Time t, const Legs& legs) const {
+    return {antenna(node, t, legs), Radians{legs.leg(node).heading_at(t)}};
+}
+
+/// Takes note of how high the antennas of nodes `begin` to `end` get on their legs, if heights
+/// matter.
+void Stations::measure(std::size_t begin, std::size_t end, const Legs& legs) {
+    if (!kinds_.heights_matter()) return;
+    for (std::size_t i = begin; i < end; ++i) {
+        const NodeId node{static_cast<std::uint32_t>(i)};
+        const Leg leg = legs.leg(node);
+        const bool climbs_on = leg.end == never && leg.velocity.z > 0;
+        const double top = climbs_on ? std::numeric_limits<double>::infinity()
+                                     : std::max(leg.from.z, leg.to.z) + height(node);
+        if (top > kinds_.highest().value) kinds_.set_highest({top});
+    }
+    measured_ = std::max(measured_, end);
+}
+
+}  // namespace rovernet

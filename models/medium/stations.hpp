@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/link_gain.hpp"
+#include "models/medium/medium_settings.hpp"
+#include "models/medium/radio_kinds.hpp"
+#include "models/propagation/propagation.hpp"
+#include "models/radio.hpp"
+#include "sim/geometry.hpp"
+#include "sim/ids.hpp"
+#include "sim/legs.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace rovernet {
+
+/// Stations of a medium, by node: the radio of each, the model of what it transmits, and whether it
+/// is on. Where they stand is in Legs.
+class Stations {
+    // Node: its radio, its kind, and whether it is on.
+    struct Station {
+        // Index into radios_.
+        std::uint32_t radio;
+        std::uint32_t kind : 31;
+        std::uint32_t on : 1;
+    };
+
+  public:
+    using Kind = RadioKinds::Kind;
+
+    /// Makes an empty list. `most_fade` is the gain of the luckiest fade; none: frames do not fade.
+    /// @throws std::invalid_argument if the settings' shadowing has a parameter out of its range
+    Stations(const MediumSettings& settings, std::optional<Db> most_fade);
+
+    /// Adds the next node. @return its kind
+    /// @param key          of the robot, for random draws
+    /// @param propagation  model of what it transmits; with the shadowing of the settings over it
+    /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot
+    /// work at the radio's frequency
+    Kind add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
+    /// Makes room for `nodes` nodes.
+    void reserve(std::size_t nodes) { keys_.reserve(nodes); }
+    /// Number of nodes.
+    std::size_t size() const { return keys_.size(); }
+    /// Prefetches the state of `node`.
+    void prefetch(NodeId node) const { __builtin_prefetch(keys_.data() + node.index()); }
+
+    /// Switches a node's radio; a node that is off neither sends nor receives.
+    void switch_radio(NodeId node, bool on);
+    /// Whether a node's radio is on.
+    bool is_on(NodeId node) const { return all_are_on() || stations_[node.index()].on; }
+    /// Whether no node is off.
+    bool all_are_on() const { return off_ == 0; }
+    /// Number of nodes that are on.
+    std::size_t on() const { return keys_.size() - off_; }
+
+    /// Whether all are of one kind, with antennas that have no direction: links go both ways then.
+    bool all_are_alike() const { return kinds_.size() == 1 && !is_directional(); }
+    /// Whether some antenna is directional: then headings count.
+    bool is_directional() const { return kinds_.is_directional(); }
+    /// Kind of a node; where all are alike, without a look at the station.
+    Kind kind(NodeId node) const {
+        return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
+    }
+    /// What the stations of a kind have in common; it computes more when it is asked.
+    const RadioKinds& kinds() const { return kinds_; }
+    RadioKinds& kinds() { return kinds_; }
+
+    /// Key of the robot, as add() was given it.
+    std::uint64_t key(NodeId node) const { return keys_[node.index()]; }
+    /// Radio of a node, with its labels and addresses.
+    const Radio& radio(NodeId node) const {
+        return radios_.size() == 1 ? radios_.front() : radios_[stations_[node.index()].radio];
+    }
+    /// Model that rules what `node` transmits.
+    const Propagation& model(NodeId node) const { return kinds_.model(kind(node)); }
+    /// Noise floor of a node's receiver [dBm].
+    Dbm noise(NodeId node) const { return kinds_.noise(kind(node)); }
+    /// Whether the gates of both let them have a link: one of them is open, or they share a
+    /// network.
+    bool may_link(NodeId a, NodeId b) const { return kinds_.may_link(kind(a), kind(b)); }
+
+    /// Height of a node's antenna above the robot's z [m].
+    double height(NodeId node) const { return kinds_.height(kind(node)); }
+    /// Position of a node's antenna at `t` [m].
+    Vec3 antenna(NodeId node, Time t, const Legs& legs) const;
+    /// Pose of a node's antenna at `t`.
+    Pose pose(NodeId node, Time t, const Legs& legs) const;
+    /// Gain of the antennas and cables between two nodes at `t`.
+    LinkGain gain(NodeId from, NodeId to, Time t, const Legs& legs) const {
+        return LinkGain::of(radio(from), radio(to), [&] {
+            return std::pair{pose(from, t, legs), pose(to, t, legs)};
+        });
+    }
+    /// Takes note of how high the antenna of `node` gets on its leg, if heights matter and
+    /// measure() has looked at it before.
+    void moved(NodeId node, const Legs& legs) {
+        if (node.index() < measured_) measure(node.index(), node.index() + 1, legs);
+    }
+    /// Takes note of the heights of all that were added since it was called last: to be called
+    /// before the reach of a kind is asked for.
+    void measure(const Legs& legs) { measure(measured_, keys_.size(), legs); }
+
+    /// Switches of all nodes as they are now, in two words: for loops that write to memory.
+    class Switches {
+      public:
+        explicit Switches(const Stations& stations)
+            : some_off_(stations.all_are_on() ? nullptr : stations.stations_.data()) {}
+        bool is_on(NodeId node) const { return !some_off_ || some_off_[node.index()].on; }
+
+      private:
+        const Station* some_off_;
+    };
+
+  private:
+    // Lists the stations that are not listed yet: they are as the first one, and on.
+    void list_stations();
+    // Model with the shadowing of the settings over it; the same for copies of one handle.
+    Propagation shadowed(const Propagation& model);
+    void measure(std::size_t begin, std::size_t end, const Legs& legs);
+
+    // Shadowing over all models, and the draws of this run.
+    Shadowing shadowing_;
+    std::uint64_t seed_;
+    std::uint32_t replication_;
+    // Keys of robots, by node.
+    std::vector<std::uint64_t> keys_;
+    // Stations by node; none as long as all are alike and on.
+    std::vector<Station> stations_;
+    // Radios that differ.
+    std::vector<Radio> radios_;
+    // Nodes that are off.
+    std::size_t off_ = 0;
+    RadioKinds kinds_;
+    // Models as they were given, and with shadowing, if there is some.
+    std::vector<std::pair<Propagation, Propagation>> shadowed_;
+    // Nodes whose heights the kinds know, if heights matter.
+    std::size_t measured_ = 0;
+};
+
+}  // namespace rovernet
