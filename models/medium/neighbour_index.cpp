@@ -73,9 +73,9 @@ void NeighbourIndex::moved(NodeId node, const Legs& legs) {
         was = was + seconds(std::min(leg.start, end) - start) * velocity;
     }
     const double jump = distance(was, leg.from);
-    if (length(leg.velocity) > top_speed_ || jump > 1e-3 * rows_.width())
+    if (length(leg.velocity) > drift_.top_speed || jump > 1e-3 * rows_.width())
         return keep_apart(node, leg);
-    jumped_ += jump;
+    drift_.jumped += jump;
     binned_.put(place, node, label(node), leg);
 }
 
@@ -197,16 +197,15 @@ void NeighbourIndex::bin(Time t, const Legs& legs) {
     lay_grid(all, t, legs);
     std::vector<double> speeds(nodes);
     for (std::uint32_t i = 0; i < nodes; ++i) speeds[i] = length(all.motion(i).velocity);
-    top_speed_ = choose_top_speed(speeds);
-    top_speed_per_ns_ = top_speed_ * (1e-9 * (1 + 1e-12));
-    binned_at_ = t;
-    jumped_ = 0;
+    const double top_speed = choose_top_speed(speeds);
+    drift_ = {
+        .since = t, .top_speed = top_speed, .top_speed_per_ns = top_speed * (1e-9 * (1 + 1e-12))};
     looked_at_ = 0;
     apart_ = {};
     first_.assign(columns_.cells() * rows_.cells() + 1, 0);
     std::vector<std::uint32_t> cell(nodes);
     for (std::uint32_t i = 0; i < nodes; ++i) {
-        if (speeds[i] > top_speed_) continue;
+        if (speeds[i] > top_speed) continue;
         cell[i] = static_cast<std::uint32_t>(cell_at(all.position(i, t, legs)));
         ++first_[cell[i]];
     }
@@ -217,7 +216,7 @@ void NeighbourIndex::bin(Time t, const Legs& legs) {
     y_.resize(end + PointSieve<false>::at_once);
     for (std::uint32_t i = nodes; i-- > 0;) {
         const Entry& entry = all.entries[i];
-        if (speeds[i] > top_speed_) {
+        if (speeds[i] > top_speed) {
             apart_.put(add_apart(entry.node), entry, all.motion(i));
             continue;
         }

@@ -151,10 +151,21 @@ class NeighbourIndex {
             visit(apart_.entries[i], apart_.position(i, t, legs));
         }
     }
-    /// Distance that a node may be from where it was binned [m].
-    double slack(Time t) const {
-        return top_speed_per_ns_ * static_cast<double>((t - binned_at_).count()) + jumped_;
-    }
+    /// How far nodes may have gone since they were binned.
+    struct Drift {
+        Time since = start_of_run;
+        /// Top speed of the entries [m/s]; in [m/ns], and a little more.
+        double top_speed = 0;
+        double top_speed_per_ns = 0;
+        /// Sum of what legs did not continue exactly [m].
+        double jumped = 0;
+
+        /// Distance that a node may be from where it was binned [m].
+        double at(Time t) const {
+            return top_speed_per_ns * static_cast<double>((t - since).count()) + jumped;
+        }
+    };
+    double slack(Time t) const { return drift_.at(t); }
     // Whether it is time to bin the nodes anew.
     bool is_stale(Time t) const {
         return stale_ || apart_.entries.size() > allowed_apart_ ||
@@ -209,12 +220,7 @@ class NeighbourIndex {
     WrappedAxis columns_, rows_;
     // Height of the cells that was asked for [m].
     double wanted_cell_ = 1;
-    // Top speed of the entries [m/s]; in [m/ns], and a little more.
-    double top_speed_ = 0;
-    double top_speed_per_ns_ = 0;
-    // Sum of what legs did not continue exactly [m].
-    double jumped_ = 0;
-    Time binned_at_ = start_of_run;
+    Drift drift_;
     // Entries and cells that were looked at since then.
     std::size_t looked_at_ = 0;
     // Nodes that may be kept apart until all are binned anew.
