@@ -142,6 +142,7 @@ template Option Command::add_option(const char*, std::vector<std::string>&, cons
 template Option Command::add_option(const char*, int&, const char*) const;
 template Option Command::add_option(const char*, std::uint64_t&, const char*) const;
 template Option Command::add_option(const char*, std::optional<std::uint64_t>&, const char*) const;
+template Option Command::add_option(const char*, std::optional<std::uint32_t>&, const char*) const;
 template Option Command::add_option(const char*, std::vector<std::uint32_t>&, const char*) const;
 template Option Command::add_option(const char*, double&, const char*) const;
 template Option Command::add_option(const char*, std::optional<double>&, const char*) const;
