@@ -174,6 +174,7 @@ void Session::hear(ClientId client, NodeId robot, const Message& message, const 
         heard.level = frame->level;
     }
     heard.port = ears_->port(message.uid);
+    heard.is_for_everyone = message.to == everyone;
     clients_.at(client).heard.push_back(std::move(heard));
 }
 

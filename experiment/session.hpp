@@ -32,6 +32,7 @@ struct HeardMessage {
     std::optional<Dbm> level = {};  ///< level of that frame here [dBm]; none: on its way already
                                     ///< when the first client came
     std::uint16_t port = 0;
+    bool is_for_everyone = true;  ///< otherwise it was sent to `at`
     friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
 };
 
