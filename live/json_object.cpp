@@ -3,6 +3,9 @@
 
 #include "sim/error.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 namespace rovernet {
 
 using simdjson::dom::element_type;
@@ -21,7 +24,33 @@ std::string found(const simdjson::dom::element& value) {
     }
 }
 
+constexpr std::size_t deepest = 32;  // levels of brackets
+
+[[noreturn]] void fail_text(simdjson::error_code error) {
+    switch (error) {
+        case simdjson::DEPTH_ERROR:
+            throw RequestError("too_deep", "",
+                               fmt::format("expected {} levels of brackets at most", deepest));
+        case simdjson::UTF8_ERROR: throw RequestError("bad_utf8", "", "the text is not UTF-8");
+        default:
+            throw RequestError(
+                "bad_json", "",
+                fmt::format("expected one JSON object: {}", simdjson::error_message(error)));
+    }
+}
+
 }  // namespace
+
+simdjson::dom::element JsonParser::parse(std::string_view text) {
+    constexpr std::size_t first_capacity = 4096;
+    if (parser_.capacity() == 0) (void)!parser_.allocate(first_capacity, deepest);
+    padded_.resize(std::max(padded_.size(), text.size() + simdjson::SIMDJSON_PADDING));
+    std::memcpy(padded_.data(), text.data(), text.size());
+    simdjson::dom::element document;
+    const auto error = parser_.parse(padded_.data(), text.size(), false).get(document);
+    if (error != simdjson::SUCCESS) fail_text(error);
+    return document;
+}
 
 std::string JsonPath::text() const {
     if (!above) return std::string(key);

@@ -19,6 +19,18 @@
 
 namespace rovernet {
 
+/// Parser of JSON documents, which keeps its memory.
+class JsonParser {
+  public:
+    /// Document that a text is. Good until the next one.
+    /// @throws RequestError "bad_json", "bad_utf8"; "too_deep" beyond 32 levels of brackets
+    simdjson::dom::element parse(std::string_view text);
+
+  private:
+    simdjson::dom::parser parser_;
+    std::vector<char> padded_;  // simdjson reads beyond the end
+};
+
 /// Place in a JSON document: a chain of keys and indices, of which a text is made for errors only.
 struct JsonPath {
     const JsonPath* above = nullptr;

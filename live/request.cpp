@@ -7,14 +7,12 @@
 #include "scenario/quantity.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace rovernet {
 namespace {
 
 namespace dom = simdjson::dom;
 
-constexpr std::size_t deepest = 32;                               // levels of brackets
 constexpr std::size_t most_items = 100'000;                       // of a list
 constexpr std::size_t longest_name = 64;                          // [bytes]
 constexpr std::uint64_t largest_count = std::uint64_t{1} << 53U;  // whole in every program
@@ -282,36 +280,9 @@ StepRequest read_step(const JsonElement& line, const Robots& robots) {
     return step;
 }
 
-[[noreturn]] void fail_text(simdjson::error_code error) {
-    switch (error) {
-        case simdjson::DEPTH_ERROR:
-            throw RequestError("too_deep", "",
-                               fmt::format("expected {} levels of brackets at most", deepest));
-        case simdjson::UTF8_ERROR: throw RequestError("bad_utf8", "", "the text is not UTF-8");
-        default:
-            throw RequestError(
-                "bad_json", "",
-                fmt::format("expected one JSON object a line: {}", simdjson::error_message(error)));
-    }
-}
-
 }  // namespace
 
-struct RequestReader::Parser {
-    dom::parser parser;
-    std::vector<char> padded;  // simdjson reads beyond the end
-
-    dom::element parse(std::string_view line) {
-        constexpr std::size_t first_capacity = 4096;
-        if (parser.capacity() == 0) (void)!parser.allocate(first_capacity, deepest);
-        padded.resize(std::max(padded.size(), line.size() + simdjson::SIMDJSON_PADDING));
-        std::memcpy(padded.data(), line.data(), line.size());
-        dom::element document;
-        const auto error = parser.parse(padded.data(), line.size(), false).get(document);
-        if (error != simdjson::SUCCESS) fail_text(error);
-        return document;
-    }
-};
+struct RequestReader::Parser : JsonParser {};
 
 RequestReader::RequestReader() : parser_(std::make_unique<Parser>()) {}
 RequestReader::RequestReader(RequestReader&&) noexcept = default;
