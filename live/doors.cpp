@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/doors.hpp"
 
+#include "live/acceptor.hpp"
 #include "live/child.hpp"
 #include "live/loopback.hpp"
 #include "sim/error.hpp"
@@ -38,7 +39,6 @@ constexpr std::size_t much_waiting = std::size_t{256} << 10U;  // [bytes] then i
 constexpr int stream_buffer = 256 << 10;  // [bytes] of the system: what it holds gets old
 constexpr std::size_t portion = 16'384;   // [bytes] that one read takes
 constexpr auto first_line_within = std::chrono::seconds(60);
-constexpr auto accepts_again_after = std::chrono::milliseconds(100);
 
 /// Has what was received acknowledged at once. A client that writes a command and a request, and
 /// has not switched off Nagle's algorithm, would wait 40 ms for that in each round.
@@ -89,17 +89,9 @@ struct Doors::State {
 
     template <class Acceptor>
     void accept(Acceptor& acceptor, const Streams* streams = nullptr) {
-        acceptor.async_accept([this, &acceptor, streams](error_code error, auto socket) {
-            if (error == asio::error::operation_aborted) return;
-            if (!error) {
-                prepare(socket, streams);
-                add(std::move(socket), streams);
-                return accept(acceptor, streams);
-            }
-            // No descriptor is free, say: that passes.
-            auto timer = std::make_shared<asio::steady_timer>(io, accepts_again_after);
-            timer->async_wait(
-                [this, &acceptor, streams, timer](error_code) { accept(acceptor, streams); });
+        accept_all(acceptor, [this, streams](auto socket) {
+            prepare(socket, streams);
+            add(std::move(socket), streams);
         });
     }
     static void prepare(asio::ip::tcp::socket& socket, const Streams* streams) {
@@ -246,12 +238,7 @@ struct Doors::State {
     /// Listens on an address. @return it, with its port
     std::string listen(const std::string& address, std::optional<Streams> streams) {
         const Loopback own = read_loopback(address);
-        const asio::ip::tcp::endpoint endpoint(asio::ip::make_address(own.host), own.port);
-        try {
-            gates.push_back({asio::ip::tcp::acceptor(io, endpoint), std::move(streams)});
-        } catch (const boost::system::system_error& fault) {
-            throw RunError(fmt::format("{}: {}", address, fault.code().message()));
-        }
+        gates.push_back({listen_on(io, own), std::move(streams)});
         Gate& gate = gates.back();
         accept(gate.acceptor, gate.streams ? &*gate.streams : nullptr);
         return Loopback{own.host, gate.acceptor.local_endpoint().port()}.text();
@@ -357,6 +344,8 @@ void Doors::close(Connection which) {
 std::size_t Doors::connections() const { return state_->links.size(); }
 bool Doors::listens() const { return !state_->gates.empty() || state_->local; }
 
+boost::asio::io_context& Doors::io() { return state_->io; }
+
 void Doors::wait(std::chrono::milliseconds most) {
     // One event at a time: a question is answered before its asker is seen to have gone.
     state_->io.run_one_for(most);
@@ -364,14 +353,14 @@ void Doors::wait(std::chrono::milliseconds most) {
 }
 
 std::vector<std::string> Doors::close(std::chrono::milliseconds most) {
-    const auto until = Clock::now() + most;
-    while (state_->has_output() && Clock::now() < until) {
-        state_->io.run_one_for(std::chrono::milliseconds(10));
-    }
     state_->users = {
         .line = [](auto, auto) {}, .refuse = [](auto, auto&) {}, .closed = [](auto) {}};
     for (State::Gate& gate : state_->gates) {
         if (gate.streams) gate.streams = {[](auto) {}, [](auto, auto) {}, [](auto) {}};
+    }
+    const auto until = Clock::now() + most;
+    while (state_->has_output() && Clock::now() < until) {
+        state_->io.run_one_for(std::chrono::milliseconds(10));
     }
     while (!state_->links.empty()) {
         const State::Shared link = state_->links.begin()->second;  // close() takes it off the table

@@ -12,6 +12,10 @@
 #include <string_view>
 #include <vector>
 
+namespace boost::asio {
+class io_context;
+}
+
 namespace rovernet {
 
 /// Carrier of lines and bytes between programs outside and this process: TCP on this machine, Unix
@@ -78,8 +82,11 @@ class Doors {
     bool listens() const;
     /// Waits for something to happen, at most so long, and tells of it: of one thing only.
     void wait(std::chrono::milliseconds most);
+    /// What wait() serves, for other carriers of this process.
+    boost::asio::io_context& io();
     /// Waits until all lines are out, at most so long, then closes everything and waits for the
-    /// programs that it started, as long again; those who are still there are ended.
+    /// programs that it started, as long again; those who are still there are ended. Users are told
+    /// of nothing any more.
     /// @return what programs came to no good end: "python3 x.py ended with 1"
     std::vector<std::string> close(std::chrono::milliseconds most);
 

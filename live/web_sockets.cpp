@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "live/web_sockets.hpp"
+
+#include "live/acceptor.hpp"
+#include "live/admission.hpp"
+
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include <algorithm>
+#include <deque>
+#include <list>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+using websocket::close_code;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t longest_request = 8U << 10U;          // [bytes]
+constexpr std::size_t longest_input = std::size_t{1} << 20U;  // [bytes] of a client
+constexpr std::size_t most_input = std::size_t{64} << 20U;    // [bytes] of all clients
+constexpr std::size_t most_connections = 500;
+constexpr std::size_t most_messages = 1'024;                   // that wait for a client
+constexpr std::size_t most_waiting = std::size_t{4} << 20U;    // [bytes] the same
+constexpr std::size_t much_waiting = std::size_t{256} << 10U;  // [bytes] then it is not read
+constexpr int system_buffer = 256 << 10;  // [bytes] of the system: what it holds gets old
+constexpr std::size_t portion = 16'384;   // [bytes] that one read takes
+
+struct Message {
+    std::string bytes;
+    bool is_text;
+};
+
+/// An address, the rule of who may come in there, and who is told of those who do.
+struct Gate {
+    asio::ip::tcp::acceptor acceptor;
+    Admission admission;
+    Doors::Streams users;
+};
+
+/// One client's connection.
+struct Client {
+    Client(asio::ip::tcp::socket socket, WebSockets::Connection number, const Gate& entered)
+        : stream(std::move(socket)), id(number), gate(entered) {}
+
+    websocket::stream<beast::tcp_stream> stream;
+    WebSockets::Connection id;
+    const Gate& gate;
+    http::request_parser<http::empty_body> request = {};
+    http::response<http::string_body> refusal = {};
+    beast::flat_buffer input = {};
+    std::deque<Message> output = {};  // the first is being written
+    std::size_t waiting = 0;          // [bytes] of those behind the first
+    bool is_open = false;             // its users know it
+    bool is_reading = false;
+    bool is_closing = false;                  // no message goes out any more
+    std::optional<close_code> farewell = {};  // it is closed once all is out
+};
+
+}  // namespace
+
+struct WebSockets::State {
+    State(asio::io_context& context, Patience given) : io(context), patience(given) {}
+
+    using Shared = std::shared_ptr<Client>;
+
+    void add(asio::ip::tcp::socket socket, const Gate& gate) {
+        if (clients.size() >= most_connections) return;
+        error_code ignored;
+        socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+        socket.set_option(asio::socket_base::send_buffer_size(system_buffer), ignored);
+        const auto client = std::make_shared<Client>(std::move(socket), next++, gate);
+        clients[client->id] = client;
+        client->request.header_limit(longest_request);
+        client->stream.next_layer().expires_after(patience.for_request);
+        http::async_read(client->stream.next_layer(), client->input, client->request,
+                         [this, client](error_code error, std::size_t) {
+                             error ? remove(client) : answer(client);
+                         });
+    }
+
+    /// Lets a client in, or tells it why not.
+    void answer(const Shared& client) {
+        const auto& request = client->request.get();
+        if (!websocket::is_upgrade(request)) {
+            return refuse(client, http::status::upgrade_required,
+                          "this address is one for WebSockets");
+        }
+        const auto text = [](boost::string_view view) {
+            return std::string_view(view.data(), view.size());
+        };
+        WebRequest asked{text(request.target()), text(request[http::field::host])};
+        if (const auto origin = request.find(http::field::origin); origin != request.end()) {
+            asked.origin = text(origin->value());
+        }
+        const std::string why = client->gate.admission.refusal(asked);
+        if (!why.empty()) return refuse(client, http::status::forbidden, why);
+        // It has to wait for the answer before it sends a message (RFC 6455, 4.1).
+        client->input.clear();
+        client->stream.next_layer().expires_never();
+        client->stream.set_option(
+            websocket::stream_base::timeout{patience.for_request, patience.for_silence, true});
+        client->stream.read_message_max(longest_input);
+        client->stream.auto_fragment(false);
+        client->stream.async_accept(request, [this, client](error_code error) {
+            if (error) return remove(client);
+            client->is_open = true;
+            client->gate.users.opened(client->id);
+            read(client);
+        });
+    }
+
+    void refuse(const Shared& client, http::status status, const std::string& why) {
+        auto& response = client->refusal;
+        response.result(status);
+        response.set(http::field::content_type, "text/plain");
+        response.set(http::field::connection, "close");
+        if (status == http::status::upgrade_required) {
+            response.set(http::field::upgrade, "websocket");
+        }
+        response.body() = why + "\n";
+        response.prepare_payload();
+        http::async_write(client->stream.next_layer(), response,
+                          [this, client](error_code, std::size_t) { remove(client); });
+    }
+
+    void read(const Shared& client) {
+        const bool is_busy = client->waiting > much_waiting;
+        if (client->is_reading || client->is_closing || is_busy) return;
+        client->is_reading = true;
+        client->stream.async_read_some(
+            client->input, portion,
+            [this, client](error_code error, std::size_t) { take_in(client, error); });
+    }
+
+    void take_in(const Shared& client, error_code error) {
+        client->is_reading = false;
+        if (error) return remove(client);
+        beast::flat_buffer& input = client->input;
+        if (client->is_closing) return;
+        if (!client->stream.is_message_done()) {
+            const bool is_too_much = input.size() > portion && input_of_all() > most_input;
+            return is_too_much ? say_goodbye(client, close_code::try_again_later) : read(client);
+        }
+        client->gate.users.received(client->id,
+                                    {static_cast<const char*>(input.cdata().data()), input.size()});
+        input.clear();
+        if (input.capacity() > portion) input.shrink_to_fit();
+        read(client);
+    }
+
+    std::size_t input_of_all() const {
+        std::size_t bytes = 0;
+        for (const auto& [id, client] : clients) bytes += client->input.size();
+        return bytes;
+    }
+
+    void send(Connection to, Message message) {
+        const auto found = clients.find(to);
+        if (found == clients.end()) return;
+        const Shared client = found->second;
+        if (!client->is_open || client->is_closing || client->farewell) return;
+        if (!client->output.empty()) client->waiting += message.bytes.size();
+        client->output.push_back(std::move(message));
+        if (client->output.size() > most_messages || client->waiting > most_waiting) {
+            return say_goodbye(client, close_code::try_again_later);
+        }
+        if (client->output.size() == 1) write(client);
+    }
+
+    void write(const Shared& client) {
+        client->stream.text(client->output.front().is_text);
+        client->stream.async_write(asio::buffer(client->output.front().bytes),
+                                   [this, client](error_code error, std::size_t) {
+                                       error ? remove(client) : go_on_writing(client);
+                                   });
+    }
+
+    void go_on_writing(const Shared& client) {
+        client->output.pop_front();
+        if (!client->output.empty()) {
+            client->waiting -= client->output.front().bytes.size();
+            write(client);
+        } else if (client->farewell) {
+            say_goodbye(client, *client->farewell);
+        }
+        read(client);
+    }
+
+    /// Closes a connection once all is out.
+    void leave(const Shared& client, close_code why) {
+        client->farewell = why;
+        if (client->output.empty()) say_goodbye(client, why);
+    }
+
+    /// Closes a connection once the message that is being written is out. Its users are told soon.
+    void say_goodbye(const Shared& client, close_code why) {
+        if (std::exchange(client->is_closing, true)) return;
+        while (client->output.size() > 1) client->output.pop_back();
+        client->waiting = 0;
+        asio::post(io, [this, client] { tell_closed(*client); });
+        client->stream.async_close(why, [this, client](error_code) { remove(client); });
+    }
+
+    void tell_closed(Client& client) {
+        if (std::exchange(client.is_open, false)) client.gate.users.closed(client.id);
+    }
+
+    /// @param client  not the one in `clients`, which goes
+    void remove(const Shared& client) {
+        clients.erase(client->id);
+        client->is_closing = true;
+        client->stream.next_layer().close();
+        tell_closed(*client);
+    }
+
+    asio::io_context& io;
+    const Patience patience;
+    std::string token = random_token();
+    std::list<Gate> gates;  // clients refer to them
+    std::map<Connection, Shared> clients;
+    Connection next = 0;
+};
+
+WebSockets::WebSockets(Doors& doors, Patience patience)
+    : state_(std::make_unique<State>(doors.io(), patience)) {}
+WebSockets::~WebSockets() = default;
+
+std::string WebSockets::listen(const std::string& address, Doors::Streams users) {
+    Loopback own = read_loopback(address);
+    auto acceptor = listen_on(state_->io, own);
+    own.port = acceptor.local_endpoint().port();
+    Gate& gate = state_->gates.emplace_back(
+        Gate{std::move(acceptor), Admission(own, state_->token), std::move(users)});
+    accept_all(gate.acceptor, [state = state_.get(), &gate](asio::ip::tcp::socket socket) {
+        state->add(std::move(socket), gate);
+    });
+    return own.text();
+}
+
+const std::string& WebSockets::token() const { return state_->token; }
+
+void WebSockets::send(Connection to, std::string_view text) {
+    state_->send(to, {std::string(text), true});
+}
+
+void WebSockets::send_binary(Connection to, std::string_view bytes) {
+    state_->send(to, {std::string(bytes), false});
+}
+
+void WebSockets::close(Connection which) {
+    const auto found = state_->clients.find(which);
+    if (found != state_->clients.end()) state_->leave(found->second, close_code::normal);
+}
+
+void WebSockets::close(std::chrono::milliseconds most) {
+    for (Gate& gate : state_->gates) {
+        gate.acceptor.close();
+        gate.users = {[](auto) {}, [](auto, auto) {}, [](auto) {}};
+    }
+    const auto clients = state_->clients;  // remove() takes them off the table
+    for (const auto& [id, client] : clients) {
+        client->is_open ? state_->leave(client, close_code::going_away) : state_->remove(client);
+    }
+    const auto until = Clock::now() + most;
+    while (!state_->clients.empty() && Clock::now() < until) {
+        state_->io.run_one_for(std::chrono::milliseconds(10));
+    }
+    for (const auto& [id, client] : clients) state_->remove(client);
+}
+
+}  // namespace rovernet
