@@ -35,6 +35,8 @@ class Front {
         std::function<void(Connection to, std::string_view message)> send;
         /// Ends a connection, once all that was sent is out.
         std::function<void(Connection which)> close;
+        /// Sends one message that is no text, where clients tell one from the other.
+        std::function<void(Connection to, std::string_view message)> send_binary = {};
     };
 
     virtual ~Front() = default;
@@ -42,7 +44,7 @@ class Front {
     /// The run begins. Both live as long as the front does.
     virtual void begin(Session& session, const Scenario& scenario) = 0;
     virtual void opened(Connection client, Entrance at) = 0;
-    /// Bytes came from a client: any part of what it sends, in order.
+    /// Bytes came from a client: any part of what it sends, in order; of a WebSocket one message.
     virtual void received(Connection from, std::string_view bytes) = 0;
     virtual void closed(Connection gone) = 0;
 

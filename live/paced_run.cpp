@@ -3,6 +3,7 @@
 
 #include "live/doors.hpp"
 #include "live/loopback.hpp"
+#include "live/web_sockets.hpp"
 
 #include <fmt/format.h>
 
@@ -38,14 +39,25 @@ class PacedServer {
         }
     }
 
-    void close() { doors_.close(400ms); }
+    void close() {
+        web_.close(300ms);
+        doors_.close(300ms);
+    }
 
   private:
     void open(const FrontDoor& door) {
-        fronts_.push_back(
-            door.make({.send = [this](auto to, auto message) { doors_.send(to, message); },
-                       .close = [this](auto which) { doors_.close(which); }}));
+        fronts_.push_back(door.make(door.is_web ? web_carrier() : carrier()));
         for (std::size_t i = 0; i < door.addresses.size(); ++i) listen(*fronts_.back(), door, i);
+    }
+
+    Front::Carrier carrier() {
+        return {.send = [this](auto to, auto message) { doors_.send(to, message); },
+                .close = [this](auto which) { doors_.close(which); }};
+    }
+    Front::Carrier web_carrier() {
+        return {.send = [this](auto to, auto message) { web_.send(to, message); },
+                .close = [this](auto which) { web_.close(which); },
+                .send_binary = [this](auto to, auto message) { web_.send_binary(to, message); }};
     }
 
     /// A client's words count from the time that they come in: the run goes on to there first.
@@ -65,9 +77,12 @@ class PacedServer {
             front.closed(gone);
         };
         const auto& [text, what] = door.addresses[number];
-        const std::string address = doors_.listen(text, std::move(streams));
+        const std::string address = door.is_web ? web_.listen(text, std::move(streams))
+                                                : doors_.listen(text, std::move(streams));
         entrance->port = read_loopback(address).port;
         options_.say(fmt::format("listening on {} ({})", address, what));
+        if (!door.is_web) return;
+        options_.say(fmt::format("for a page: ws://{}/?token={}", address, web_.token()));
     }
 
     Time now() const { return session_->network().now(); }
@@ -85,16 +100,31 @@ class PacedServer {
                from_seconds(std::min(wall.count() * *options_.speed, seconds(session_->end())));
     }
 
+    /// Time beyond which fronts do not let the run go.
+    Time limit() const {
+        Time limit = never;
+        for (const auto& each : fronts_) limit = std::min(limit, each->limit());
+        return limit;
+    }
+
     /// Time up to which the run can go before a front has something to say.
     Time next_stop() const {
-        Time stop = session_->end();
-        for (const auto& each : fronts_) stop = std::min({stop, each->next(), each->limit()});
+        Time stop = std::min(session_->end(), limit());
+        for (const auto& each : fronts_) stop = std::min(stop, each->next());
         return stop;
+    }
+
+    /// Sets the clock back to the limit of the fronts: the run does not make up for what they held.
+    void hold_clock() {
+        if (!options_.speed || by_clock() <= limit()) return;
+        const std::chrono::duration<double> run_for(seconds(limit()) / *options_.speed);
+        started_ = Clock::now() - std::chrono::duration_cast<Clock::duration>(run_for);
     }
 
     /// Runs on to the time of the clock or to the next stop, for a slice of events at most, and to
     /// the end of all events of one time.
     void catch_up() {
+        hold_clock();
         const Time until = std::min(by_clock(), next_stop());
         is_behind_ = until > now() && !session_->advance(until, events_a_slice);
         if (is_behind_) session_->step(now());
@@ -115,6 +145,7 @@ class PacedServer {
 
     const PacedOptions& options_;
     Doors doors_;
+    WebSockets web_{doors_};
     std::vector<std::unique_ptr<Front>> fronts_;
     Session* session_ = nullptr;
     Clock::time_point started_;

@@ -23,6 +23,7 @@ struct FrontDoor {
 
     std::vector<Address> addresses;
     std::function<std::unique_ptr<Front>(Front::Carrier)> make;
+    bool is_web = false;  ///< clients speak WebSocket: the front gets and sends whole messages
 };
 
 /// How a scenario is run by the clock, while clients come and go.
@@ -37,7 +38,8 @@ struct PacedOptions {
 
 /// Runs a scenario by the clock, and lets clients take part in it. It ends with the scenario, when
 /// a front is done, or when it is told to; then its results and the log of inputs are written, as
-/// by run_live(). The clock decides only at which simulated time an input is accepted.
+/// by run_live(). The clock decides only at which simulated time an input is accepted. It stands
+/// still while a front's limit() holds the run.
 /// @throws InputError, RunError; std::invalid_argument for an address
 LiveResult run_paced(Scenario scenario, const PacedOptions& options);
 

@@ -162,6 +162,17 @@ TEST_CASE("paced run: without a speed it goes as fast as its front lets it, the 
     CHECK(fingerprints[0] == fingerprints[1]);
 }
 
+TEST_CASE("paced run: what a front holds is not made up for by the clock") {
+    Paced<Patient> paced(2, three_in_a_row());
+    LineClient client(paced.port());
+    client.line();                        // the port
+    std::this_thread::sleep_for(1100ms);  // the scenario would be over
+    client.send_bytes(std::string(20, 'a'));
+    CHECK(client.line() == "100");
+    paced.stop();
+    CHECK(paced.end().run.simulated < 2s);
+}
+
 TEST_CASE("paced run: a client that does not read is closed, and others are served") {
     Paced<Parrot> paced(2, three_in_a_row(), std::size_t{1} << 20U);
     LineClient deaf(paced.port());
