@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/rosbridge/request.hpp"
+#include "live/rosbridge/writer.hpp"
+
+namespace rovernet {
+
+/// Services of rosapi, by which ROS clients ask what there is: one node, rovernet, which has all
+/// topics and services.
+class RosApi {
+  public:
+    /// @param session  has to live as long
+    explicit RosApi(Session& session) : session_(session) {}
+
+    /// Writes the answer to a call of a service of rosapi, as an object.
+    void write(RosWriter& out, const RosCall& call) const;
+
+  private:
+    enum class Direction { in, out, both };
+
+    /// Writes the names of topics of one type, or of all if it is empty.
+    void write_topics(RosWriter& out, std::string_view key, Direction direction,
+                      std::string_view type = {}) const;
+    void write_types(RosWriter& out) const;
+    void write_services(RosWriter& out, std::string_view type = {}) const;
+    void write_parameter(RosWriter& out, const std::string& name) const;
+    void write_raw_types(RosWriter& out) const;
+    void write_node(RosWriter& out, const std::string& node) const;
+    void write_users(RosWriter& out, std::string_view key, const std::string& topic,
+                     bool is_input) const;
+
+    Session& session_;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#include "live/rosbridge/front.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+constexpr std::size_t most_subscriptions = 256;
+constexpr int aborted = 6;  // action_msgs/GoalStatus
+
+/// The first multiple of a period after a time.
+Time multiple_after(Time time, Duration period) {
+    return start_of_run + (time.time_since_epoch() / period + 1) * period;
+}
+
+void put_pair(RosWriter& out, std::string_view key, std::string_view value) {
+    out.key(key);
+    out.text(value);
+}
+
+}  // namespace
+
+struct RosbridgeFront::Client {
+    Connection connection = 0;
+    std::map<std::string, RosStream> streams = {};  // by topic, as the client wrote it
+    RosPieces pieces = {};
+    RosLevel level = RosLevel::error;
+    std::set<NodeId> warned = {};  // of robots, that some of their velocity counts for nothing
+};
+
+RosbridgeFront::RosbridgeFront(Carrier carrier) : carrier_(std::move(carrier)) {}
+RosbridgeFront::~RosbridgeFront() = default;
+
+void RosbridgeFront::begin(Session& session, const Scenario&) {
+    session_ = &session;
+    robots_.emplace(session);
+    messages_.emplace(session, *robots_);
+    api_.emplace(session);
+}
+
+void RosbridgeFront::opened(Connection client, Entrance) { clients_[client].connection = client; }
+
+void RosbridgeFront::closed(Connection gone) {
+    clients_.erase(gone);
+    robots_->left(gone);
+    go_on();
+}
+
+void RosbridgeFront::received(Connection from, std::string_view message) {
+    handle(clients_.at(from), message);
+    go_on();
+}
+
+void RosbridgeFront::handle(Client& client, std::string_view message) {
+    try {
+        std::visit([&](const auto& request) { carry_out(client, request); },
+                   reader_.read(message, *session_));
+    } catch (const RequestError& fault) {
+        const std::string at = fault.at().empty() ? "" : fault.at() + ": ";
+        refuse(client, at + fault.what());
+    }
+}
+
+/// Tells a client what is wrong with its last operation.
+void RosbridgeFront::refuse(Client& client, const std::string& why) {
+    const RosOperation& operation = reader_.operation();
+    const bool is_call = operation.name == "call_service";
+    if (!is_call && operation.name != "send_action_goal") {
+        return tell_status(client, RosLevel::error, why);
+    }
+    buffer_.clear();
+    RosJsonWriter out(buffer_);
+    out.open_object();
+    put_pair(out, "op", is_call ? "service_response" : "action_result");
+    if (operation.id) put_pair(out, "id", *operation.id);
+    put_pair(out, is_call ? "service" : "action", operation.target);
+    put_pair(out, "values", why);
+    if (!is_call) {
+        out.key("status");
+        out.whole(aborted);
+    }
+    out.key("result");
+    out.truth(false);
+    out.close_object();
+    carrier_.send(client.connection, buffer_);
+}
+
+void RosbridgeFront::tell_status(const Client& client, RosLevel level, std::string_view text) {
+    if (level < client.level) return;
+    buffer_.clear();
+    RosJsonWriter out(buffer_);
+    out.open_object();
+    put_pair(out, "op", "status");
+    put_pair(out, "level", level == RosLevel::error ? "error" : "warning");
+    put_pair(out, "msg", text);
+    if (reader_.operation().id) put_pair(out, "id", *reader_.operation().id);
+    out.close_object();
+    carrier_.send(client.connection, buffer_);
+}
+
+void RosbridgeFront::respond(Connection client, const RosOperation& call,
+                             const std::function<void(RosWriter&)>& put_values) {
+    buffer_.clear();
+    RosJsonWriter out(buffer_);
+    out.open_object();
+    put_pair(out, "op", "service_response");
+    if (call.id) put_pair(out, "id", *call.id);
+    put_pair(out, "service", call.target);
+    out.key("values");
+    put_values(out);
+    out.key("result");
+    out.truth(true);
+    out.close_object();
+    carrier_.send(client, buffer_);
+}
+
+void RosbridgeFront::carry_out(Client& client, const RosSubscribe& request) {
+    std::size_t subscriptions = 0;
+    for (const auto& [name, each] : client.streams) subscriptions += each.subscriptions();
+    if (subscriptions >= most_subscriptions) {
+        throw RequestError("too_many", "topic",
+                           fmt::format("expected {} subscriptions at most", most_subscriptions));
+    }
+    const auto& source = request.source;
+    const bool is_of_radio = source && (source->kind() == RosTopicKind::received ||
+                                        source->kind() == RosTopicKind::neighbors);
+    if (is_of_radio) robots_->take(source->robot);
+    RosStream& stream = client.streams[request.topic];
+    stream.source = source;
+    stream.add(reader_.operation().id.value_or(""), request.delivery);
+    if (!source) return;
+    if (period(*source) > Duration{0}) {
+        stream.due = multiple_after(now(), period(*source));
+    } else if (source->kind() != RosTopicKind::received) {
+        publish(client, request.topic, stream,
+                [&](RosWriter& out) { messages_->write(out, *source); });
+    }
+}
+
+void RosbridgeFront::carry_out(Client& client, const RosUnsubscribe& request) {
+    const auto found = client.streams.find(request.topic);
+    if (found == client.streams.end()) return;
+    const auto& id = reader_.operation().id;
+    if (id) found->second.remove(*id);
+    if (!id || found->second.subscriptions() == 0) client.streams.erase(found);
+}
+
+void RosbridgeFront::carry_out(Client& client, const RosPublish& request) {
+    robots_->carry_out(request.robot, request.command, client.connection);
+    if (!request.warning.empty() && client.warned.insert(request.robot).second) {
+        tell_status(client, RosLevel::warning, request.warning);
+    }
+}
+
+void RosbridgeFront::carry_out(Client& client, const RosFragment& piece) {
+    const auto whole = client.pieces.add(*reader_.operation().id, piece, now());
+    if (whole) handle(client, *whole);
+}
+
+void RosbridgeFront::carry_out(Client& client, RosLevel level) { client.level = level; }
+
+void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
+    const auto& [text, robot, command, time] = call.arguments;
+    std::optional<std::uint64_t> uid;
+    if (command) uid = robots_->carry_out(*robot, *command, client.connection);
+    switch (call.service.kind()) {
+        case RosServiceKind::step:
+            limit_ = now() + std::min(time, session_->end() - now());
+            steps_.push_back({client.connection, reader_.operation()});
+            return;
+        case RosServiceKind::pause: limit_ = now(); break;
+        case RosServiceKind::unpause: limit_ = never; break;
+        default: break;
+    }
+    end_steps();
+    respond(client.connection, reader_.operation(), [&](RosWriter& out) {
+        if (call.service.type->name.starts_with("rosapi/")) return api_->write(out, call);
+        out.open_object();
+        if (call.service.kind() == RosServiceKind::radio_send) {
+            out.key("accepted");
+            out.truth(uid.has_value());
+            out.key("uid");
+            uid ? out.whole(static_cast<std::int64_t>(*uid)) : out.null();
+        }
+        out.close_object();
+    });
+}
+
+/// Answers calls of steps that are over, or that a pause or its end has overtaken.
+void RosbridgeFront::end_steps() {
+    if (limit_ > now() && limit_ != never) return;
+    for (const PendingStep& each : std::exchange(steps_, {})) {
+        if (!clients_.contains(each.client)) continue;
+        respond(each.client, each.call, [&](RosWriter& out) {
+            out.open_object();
+            out.key("time");
+            write_time(out, now());
+            out.close_object();
+        });
+    }
+}
+
+/// Time between two messages of a topic; 0 if it has none.
+Duration RosbridgeFront::period(const RosTopic& topic) const {
+    if (topic.kind() == RosTopicKind::scan) return session_->range_finder(topic.robot)->every;
+    return topic.type->period;
+}
+
+/// Writes a message and sends it to a subscriber, or holds it back.
+void RosbridgeFront::publish(Client& client, const std::string& name, RosStream& stream,
+                             const PutMessage& put_message) {
+    const RosDelivery rules = stream.delivery();
+    buffer_.clear();
+    RosJsonWriter json(buffer_);
+    RosCborWriter cbor(buffer_);
+    RosWriter& out = rules.encoding == RosEncoding::cbor ? static_cast<RosWriter&>(cbor) : json;
+    out.open_object();
+    put_pair(out, "op", "publish");
+    put_pair(out, "topic", name);
+    out.key("msg");
+    put_message(out);
+    out.close_object();
+    stream.take(buffer_, now(), [&](std::string_view message) { send(client, rules, message); });
+}
+
+/// Sends a message in the encoding and the pieces that its subscriber wants.
+void RosbridgeFront::send(const Client& client, const RosDelivery& rules,
+                          std::string_view message) {
+    if (rules.encoding == RosEncoding::cbor) {
+        return carrier_.send_binary(client.connection, message);
+    }
+    std::string picture;
+    if (rules.encoding == RosEncoding::png) message = picture = in_picture(message);
+    if (!rules.fragment_size || message.size() <= *rules.fragment_size) {
+        return carrier_.send(client.connection, message);
+    }
+    send_in_pieces(message, *rules.fragment_size, std::to_string(pieces_sent_++),
+                   [&](std::string_view piece) { carrier_.send(client.connection, piece); });
+}
+
+void RosbridgeFront::tell() {
+    const std::vector<HeardMessage> heard = robots_->heard();
+    for (auto& [connection, client] : clients_) tell(client, heard);
+    end_steps();
+    go_on();
+}
+
+/// Tells a client what its subscriptions are due now.
+void RosbridgeFront::tell(Client& client, const std::vector<HeardMessage>& heard) {
+    for (auto& [name, stream] : client.streams) {
+        if (!stream.source) continue;
+        const RosTopic& topic = *stream.source;
+        const bool is_step_end = topic.kind() == RosTopicKind::clock && now() == limit_;
+        if (stream.due <= now() || is_step_end) {
+            publish(client, name, stream, [&](RosWriter& out) { messages_->write(out, topic); });
+            stream.due = multiple_after(now(), period(topic));
+        }
+        for (const HeardMessage& each : heard) {
+            if (topic.kind() != RosTopicKind::received || each.at != topic.robot) continue;
+            publish(client, name, stream, [&](RosWriter& out) { messages_->write(out, each); });
+        }
+        stream.go_on(now(), [&, rules = stream.delivery()](std::string_view message) {
+            send(client, rules, message);
+        });
+    }
+}
+
+/// Finds out what comes next, after anything has changed.
+void RosbridgeFront::go_on() {
+    next_ = robots_->any() ? multiple_after(now(), ros_tick) : never;
+    if (!steps_.empty()) next_ = std::min(next_, limit_);
+    for (const auto& [connection, client] : clients_) {
+        for (const auto& [name, stream] : client.streams) {
+            next_ = std::min({next_, stream.due, stream.next()});
+        }
+    }
+}
+
+}  // namespace rovernet

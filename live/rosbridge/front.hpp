@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/front.hpp"
+#include "live/rosbridge/api.hpp"
+#include "live/rosbridge/messages.hpp"
+#include "live/rosbridge/packing.hpp"
+#include "live/rosbridge/request.hpp"
+#include "live/rosbridge/robots.hpp"
+#include "live/rosbridge/stream.hpp"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rovernet {
+
+/// Server of the rosbridge protocol, version 2, for ROS clients such as roslib. docs/live.md has
+/// its topics and services. What it receives and sends are whole messages.
+///
+/// A fault is answered: of a call by its result, of anything else by a status, with the id that the
+/// client gave. The connection goes on.
+class RosbridgeFront : public Front {
+  public:
+    explicit RosbridgeFront(Carrier carrier);
+    ~RosbridgeFront() override;
+
+    void begin(Session& session, const Scenario& scenario) override;
+    void opened(Connection client, Entrance at) override;
+    void received(Connection from, std::string_view message) override;
+    void closed(Connection gone) override;
+    Time next() const override { return next_; }
+    void tell() override;
+    Time limit() const override { return limit_; }
+
+  private:
+    struct Client;
+    /// Call of a step that is not over.
+    struct PendingStep {
+        Connection client;
+        RosOperation call;
+    };
+
+    void handle(Client& client, std::string_view message);
+    void carry_out(Client& client, const RosSubscribe& request);
+    void carry_out(Client& client, const RosUnsubscribe& request);
+    void carry_out(Client& client, const RosPublish& request);
+    void carry_out(Client& client, const RosCall& call);
+    void carry_out(Client& client, const RosFragment& piece);
+    void carry_out(Client& client, RosLevel level);
+    void carry_out(Client&, RosNothing) {}
+
+    void refuse(Client& client, const std::string& why);
+    void tell_status(const Client& client, RosLevel level, std::string_view text);
+    void respond(Connection client, const RosOperation& call,
+                 const std::function<void(RosWriter&)>& put_values);
+    void end_steps();
+
+    using PutMessage = std::function<void(RosWriter&)>;
+    void publish(Client& client, const std::string& name, RosStream& stream,
+                 const PutMessage& put_message);
+    void tell(Client& client, const std::vector<HeardMessage>& heard);
+    void send(const Client& client, const RosDelivery& rules, std::string_view message);
+    void go_on();
+    Duration period(const RosTopic& topic) const;
+    Time now() const { return session_->network().now(); }
+
+    Carrier carrier_;
+    Session* session_ = nullptr;
+    std::optional<RosRobots> robots_;
+    std::optional<RosMessages> messages_;
+    std::optional<RosApi> api_;
+    RosRequestReader reader_;
+    std::map<Connection, Client> clients_;
+    std::vector<PendingStep> steps_;
+    std::string buffer_;  // message that is written
+    std::uint64_t pieces_sent_ = 0;
+    Time limit_ = never;  // earlier: it is paused there
+    Time next_ = never;
+};
+
+}  // namespace rovernet

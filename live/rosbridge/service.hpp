@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/robot_command.hpp"
+#include "sim/ids.hpp"
+#include "sim/time.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+// Services of a run: what ROS clients may call.
+
+namespace rovernet {
+
+enum class RosServiceKind {
+    radio_send,
+    pause,
+    unpause,
+    step,
+    set_pose,
+    topics,
+    services,
+    nodes,
+    topics_for_type,
+    services_for_type,
+    topic_type,
+    service_type,
+    message_details,
+    topics_and_raw_types,
+    parameter,
+    parameter_names,
+    publishers,
+    subscribers,
+    node_details,
+    time,
+    action_servers,
+};
+
+/// Service of the world, or one that each robot has.
+struct RosServiceType {
+    RosServiceKind kind;
+    std::string_view name;  ///< without the leading "/"; of a robot's service what follows its name
+    std::string_view type;
+    std::string_view argument = {};  ///< name of its only argument, a text; empty: it has none
+    bool is_of_robot = false;
+};
+
+inline constexpr std::array<RosServiceType, 21> ros_services = {{
+    {RosServiceKind::radio_send, "radio/send", "rovernet_msgs/SendMessage", "", true},
+    {RosServiceKind::pause, "simulation/pause", "std_srvs/Empty"},
+    {RosServiceKind::unpause, "simulation/unpause", "std_srvs/Empty"},
+    {RosServiceKind::step, "simulation/step", "rovernet_msgs/Step"},
+    {RosServiceKind::set_pose, "simulation/set_pose", "rovernet_msgs/SetPose"},
+    {RosServiceKind::topics, "rosapi/topics", "rosapi_msgs/Topics"},
+    {RosServiceKind::services, "rosapi/services", "rosapi_msgs/Services"},
+    {RosServiceKind::nodes, "rosapi/nodes", "rosapi_msgs/Nodes"},
+    {RosServiceKind::topics_for_type, "rosapi/topics_for_type", "rosapi_msgs/TopicsForType",
+     "type"},
+    {RosServiceKind::services_for_type, "rosapi/services_for_type", "rosapi_msgs/ServicesForType",
+     "type"},
+    {RosServiceKind::topic_type, "rosapi/topic_type", "rosapi_msgs/TopicType", "topic"},
+    {RosServiceKind::service_type, "rosapi/service_type", "rosapi_msgs/ServiceType", "service"},
+    {RosServiceKind::message_details, "rosapi/message_details", "rosapi_msgs/MessageDetails",
+     "type"},
+    {RosServiceKind::topics_and_raw_types, "rosapi/topics_and_raw_types",
+     "rosapi_msgs/TopicsAndRawTypes"},
+    {RosServiceKind::parameter, "rosapi/get_param", "rosapi_msgs/GetParam", "name"},
+    {RosServiceKind::parameter_names, "rosapi/get_param_names", "rosapi_msgs/GetParamNames"},
+    {RosServiceKind::publishers, "rosapi/publishers", "rosapi_msgs/Publishers", "topic"},
+    {RosServiceKind::subscribers, "rosapi/subscribers", "rosapi_msgs/Subscribers", "topic"},
+    {RosServiceKind::node_details, "rosapi/node_details", "rosapi_msgs/NodeDetails", "node"},
+    {RosServiceKind::time, "rosapi/get_time", "rosapi_msgs/GetTime"},
+    {RosServiceKind::action_servers, "rosapi/action_servers", "rosapi_msgs/GetActionServers"},
+}};
+
+/// Service as a client may name it.
+struct RosService {
+    const RosServiceType* type;
+    NodeId robot = {};  ///< if it is a robot's
+
+    RosServiceKind kind() const { return type->kind; }
+};
+
+/// Arguments of a call, as its service has them.
+struct RosArguments {
+    std::string text = {};  ///< the only argument of those that have one
+    std::optional<NodeId> robot = {};
+    std::optional<RobotCommand> command = {};  ///< of that robot
+    Duration time = {};                        ///< that a step goes on
+};
+
+class Network;
+/// Service of that name; none if there is none.
+std::optional<RosService> find_service(std::string_view name, const Network& network);
+
+}  // namespace rovernet
