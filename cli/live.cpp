@@ -7,6 +7,7 @@
 #include "live/input_log.hpp"
 #include "live/live_run.hpp"
 #include "live/player/door.hpp"
+#include "live/rosbridge/door.hpp"
 #include "scenario/quantity.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ struct LiveArguments : FileArguments {
     std::vector<std::string> controllers;
     std::optional<std::uint64_t> wait_for;
     std::string on_loss = "end";
-    std::optional<std::string> player;
+    std::optional<std::string> player, rosbridge;
     std::optional<double> speed;
     bool one_port = false, lockstep = false;
     bool json = false;
@@ -76,9 +77,9 @@ FrontDoor player_door(const LiveArguments& a, const std::optional<PlayerConfig>&
 }
 
 /// Runs FILE by the clock, or the world that it names if it is a configuration of Player.
-LiveResult run_player(LiveArguments a) {
+LiveResult run_by_clock(LiveArguments a) {
     std::optional<PlayerConfig> config;
-    if (a.file.ends_with(".cfg")) {
+    if (a.player && a.file.ends_with(".cfg")) {
         config = read_player_config(a.file);
         a.file = config->world;
     }
@@ -87,7 +88,8 @@ LiveResult run_player(LiveArguments a) {
     options.folder = folder_of(a, scenario);
     if (a.speed) options.speed = a.speed;
     if (a.lockstep) options.speed.reset();
-    options.fronts.push_back(player_door(a, config, scenario));
+    if (a.player) options.fronts.push_back(player_door(a, config, scenario));
+    if (a.rosbridge) options.fronts.push_back(rosbridge_door(read_loopback(*a.rosbridge)));
     options.go_on = goes_on;
     options.say = say;
     return run_paced(scenario, options);
@@ -99,11 +101,16 @@ LiveResult run_lockstep(const LiveArguments& a) {
 }
 
 void run_live(const LiveArguments& a) {
-    if (a.controllers.empty() && !a.listen && !a.unix_path && !a.player) {
-        throw CommandEnd(usage, "live: expected --controller, --listen-json, --unix or --player");
+    const bool is_by_clock = a.player || a.rosbridge;
+    if (!is_by_clock && a.controllers.empty() && !a.listen && !a.unix_path) {
+        throw CommandEnd(
+            usage, "live: expected --controller, --listen-json, --unix, --player or --rosbridge");
+    }
+    if (!is_by_clock && a.speed) {
+        throw CommandEnd(usage, "live: --speed needs --player or --rosbridge");
     }
     const HeldStop serving;
-    const LiveResult result = a.player ? run_player(a) : run_lockstep(a);
+    const LiveResult result = is_by_clock ? run_by_clock(a) : run_lockstep(a);
     print_run(result.scenario, result.run, a.json);
     if (!result.fault.empty()) throw CommandEnd(failed, result.fault);
 }
@@ -127,15 +134,21 @@ void add_lockstep(Command live, LiveArguments& a) {
 }
 
 /// Options of runs by the clock.
-void add_player(Command live, LiveArguments& a) {
+void add_by_clock(Command live, LiveArguments& a) {
     const Option player =
         live.add_option(
                 "--player", a.player,
                 "serve Player clients, at 127.0.0.1:PORT and the ports that follow, one for "
                 "each robot; port 0: any that is free (default: 6665)")
             .usually(player_address.data());
+    const Option rosbridge =
+        live.add_option("--rosbridge", a.rosbridge,
+                        "serve ROS clients by the rosbridge protocol, at 127.0.0.1:PORT; port 0: "
+                        "any that is free (default: 9090)")
+            .usually(rosbridge_address.data());
     for (const char* other : {"--controller", "--listen-json", "--unix"}) {
         player.excludes(live.option(other));
+        rosbridge.excludes(live.option(other));
     }
     live.add_flag("--player-one-port", a.one_port,
                   "all robots at one port: the devices of the first have index 0, and so on")
@@ -143,10 +156,11 @@ void add_player(Command live, LiveArguments& a) {
     const Option lockstep =
         live.add_flag("--player-lockstep", a.lockstep,
                       "time goes on by 0.1 s once all clients that pull have asked for data")
-            .needs(player);
-    live.add_option("--speed", a.speed, "simulated per real time, with --player (default: 1)")
+            .needs(player)
+            .excludes(rosbridge);
+    live.add_option("--speed", a.speed,
+                    "simulated per real time, with --player or --rosbridge (default: 1)")
         .check(above_zero())
-        .needs(player)
         .excludes(lockstep);
 }
 
@@ -158,10 +172,11 @@ void add_live(Command app) {
     live.add_examples(
         {"rovernet live examples/search/search.toml --controller \"python3 "
          "examples/search/search.py\"",
-         "rovernet live examples/rescue/rescue.toml --player"});
+         "rovernet live examples/rescue/rescue.toml --player",
+         "rovernet live examples/rescue/rescue.toml --rosbridge"});
     add_file(live, a, any_file);
     add_lockstep(live, a);
-    add_player(live, a);
+    add_by_clock(live, a);
     live.add_option("--wait-for", a.wait_for,
                     "controllers with which a run in lock-step begins (default: those started, or "
                     "1)")

@@ -3,6 +3,7 @@
 #include "test/cli/process.hpp"
 #include "test/live/line_client.hpp"
 #include "test/live/player/wire.hpp"
+#include "test/live/web_client.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -62,12 +63,13 @@ class Live {
         const std::string words = "listening on 127.0.0.1:";
         return std::stoi(said(words).substr(words.size()));
     }
-    /// The line of standard output that begins so.
-    std::string said(const std::string& words) const {
+    /// The line of standard output that begins and ends so.
+    std::string said(const std::string& words, const std::string& last_words = {}) const {
         for (int i = 0; i < 2000; ++i, std::this_thread::sleep_for(5ms)) {
             std::ifstream out(folder.path("stdout"));
             for (std::string line; std::getline(out, line);) {
-                if (line.starts_with(words) && !out.eof()) return line;
+                const bool is_it = line.starts_with(words) && line.ends_with(last_words);
+                if (is_it && !out.eof()) return line;
             }
         }
         FAIL("it does not say " << words << ": " << content(folder.path("stderr")));
@@ -406,6 +408,48 @@ TEST_CASE("live: Player clients by the clock, until Ctrl-C or the scenario's end
     CHECK(short_run.wait().exit == 0);
     CHECK(Json::parse(content(short_run.folder.path("out/summary.json"))).at("sim_s") == 2);
     CHECK(short_run.replay().exit == 0);
+}
+
+TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs the token") {
+    const Live live({"--rosbridge", "127.0.0.1:0", "--player", "127.0.0.1:0"}, long_scenario());
+    const auto port_of = [](const std::string& line) {
+        return std::stoi(line.substr(line.find("127.0.0.1:") + 10));
+    };
+    LineClient player(live.port());
+    begin(player);
+    round(player);
+    const std::string door = live.said("listening on 127.0.0.1:", "(rosbridge)");
+    WebClient client(port_of(door));
+    CHECK(WebClient(port_of(door), "Origin: null\r\n").answer().starts_with("HTTP/1.1 403 "));
+    const std::string told = content(live.folder.path("stderr"));
+    const std::string token = told.substr(told.find("/?token="), 40);
+    CHECK(WebClient(port_of(door), "Origin: null\r\n", token).is_in());
+    const auto publish = [&](const std::string& topic) {
+        client.send(R"({"op":"publish","id":"x","msg":{},"topic":")" + topic + R"("})");
+        client.send(R"({"op":"call_service","id":"y","service":"rosapi/get_time"})");
+        return client.message();
+    };
+    CHECK(publish("/B/cmd_vel").find(R"("id":"y")") != std::string::npos);
+    CHECK(publish("/A/cmd_vel").find("robot A is driven by other programs") != std::string::npos);
+    live.process().interrupt();
+    CHECK(client.reason() == 1001);
+    CHECK(live.wait().exit == 0);
+    CHECK(live.replay().exit == 0);
+
+    const TemporaryFolder folder;
+    const auto error = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"live", folder.write("row.toml", scenario)};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = command(folder, words);
+        CHECK(ended.exit == 2);
+        return ended.err;
+    };
+    CHECK(error({"--speed", "2"}).find("--speed needs --player or --rosbridge") !=
+          std::string::npos);
+    CHECK(error({"--rosbridge", "0.0.0.0:9090"}).find("an address of this machine") !=
+          std::string::npos);
+    CHECK(error({"--rosbridge", "--listen-json", "127.0.0.1:0"}).find("--rosbridge") !=
+          std::string::npos);
 }
 
 TEST_CASE("live: a configuration of Player names world and ports") {
