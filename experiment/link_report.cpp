@@ -147,6 +147,64 @@ std::string why_down(const Network& network, NodeId from, NodeId to, const LinkR
     return "the received power is below the receiver's sensitivity";
 }
 
+/// What the model's parts take of a link's path loss: shadowing, walls, rays.
+void add_parts(LinkReport& report, const Network& network, NodeId from, NodeId to, Vec3 here,
+               Vec3 there) {
+    const Propagation& used = network.medium().stations().model(from);
+    const Shadowed* shadowed = used.as<Shadowed>();
+    const Propagation& model = shadowed ? shadowed->base() : used;
+    report.model = std::string(model.name());
+    if (shadowed) {
+        report.shadowing =
+            report.path_loss - Db{loss_by(model, network.scene(), network, from, to, here, there)};
+    }
+    if (const Rays* rays = model.as<Rays>()) {
+        report.rays = rays->paths({.frequency = report.sender.frequency,
+                                   .from = here,
+                                   .to = {&there, 1},
+                                   .to_keys = {},
+                                   .scene = &network.scene()});
+    }
+    if (model.shape() == LossShape::by_walls) {
+        report.wall_losses = wall_losses(network, from, to, report, here, there);
+    }
+    for (const Crossing& wall : report.walls) {
+        report.materials.push_back(network.scene().materials()[wall.material].name);
+    }
+}
+
+/// The link as it is at a time.
+LinkReport report_at(const Network& network, NodeId from, NodeId to, Time at) {
+    const Legs& legs = network.legs();
+    const Stations& stations = network.medium().stations();
+    const LinkLosses& links = network.medium().links();
+    const Pose here = stations.pose(from, at, legs), there = stations.pose(to, at, legs);
+    const Vec3 a = here.antenna, b = there.antenna;
+    LinkReport report{.from = std::string(network.name(from)),
+                      .to = std::string(network.name(to)),
+                      .model = {},
+                      .at = at,
+                      .distance_m = distance(a, b),
+                      .walls = network.scene().crossings(a, b),
+                      .materials = {},
+                      .wall_losses = {},
+                      .wall_m = network.scene().wall_length(a, b),
+                      .sender = stations.radio(from),
+                      .receiver = stations.radio(to),
+                      .path_loss = links.path_loss(from, to, at, legs),
+                      .shadowing = {},
+                      .sender_pattern = pattern_gain(stations.radio(from), here, b),
+                      .receiver_pattern = pattern_gain(stations.radio(to), there, a),
+                      .received = links.level(from, to, at, legs),
+                      .margin = links.margin(from, to, at, legs),
+                      .up = links.is_up(from, to, at, legs),
+                      .why_down = {},
+                      .rays = {}};
+    if (!report.up) report.why_down = why_down(network, from, to, report);
+    add_parts(report, network, from, to, a, b);
+    return report;
+}
+
 }  // namespace
 
 LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
@@ -158,53 +216,7 @@ LinkReport report_link(const Scenario& scenario, const std::string& from, const 
     if (a == b) throw std::invalid_argument("a link needs two robots, got \"" + from + "\" twice");
     keep_others_still(network, played, {from, to});
     play_until(network, at, tell);
-
-    const Medium& medium = network.medium();
-    const Pose here = medium.stations().pose(a, at, network.legs());
-    const Pose there = medium.stations().pose(b, at, network.legs());
-    const Vec3 pa = here.antenna, pb = there.antenna;
-    const Shadowed* shadowed = medium.stations().model(a).as<Shadowed>();
-    const Propagation& model = shadowed ? shadowed->base() : medium.stations().model(a);
-    LinkReport report{.from = from,
-                      .to = to,
-                      .model = std::string(model.name()),
-                      .at = at,
-                      .distance_m = distance(pa, pb),
-                      .walls = network.scene().crossings(pa, pb),
-                      .materials = {},
-                      .wall_losses = {},
-                      .wall_m = network.scene().wall_length(pa, pb),
-                      .sender = medium.stations().radio(a),
-                      .receiver = medium.stations().radio(b),
-                      .path_loss = medium.links().path_loss(a, b, at, network.legs()),
-                      .shadowing = {},
-                      .sender_pattern = pattern_gain(medium.stations().radio(a), here, pb),
-                      .receiver_pattern = pattern_gain(medium.stations().radio(b), there, pa),
-                      .received = medium.links().level(a, b, at, network.legs()),
-                      .margin = medium.links().margin(a, b, at, network.legs()),
-                      .up = false,
-                      .why_down = {},
-                      .rays = {}};
-    report.up = medium.links().is_up(a, b, at, network.legs());
-    if (!report.up) report.why_down = why_down(network, a, b, report);
-    if (shadowed) {
-        report.shadowing =
-            report.path_loss - Db{loss_by(model, network.scene(), network, a, b, pa, pb)};
-    }
-    if (const Rays* rays = model.as<Rays>()) {
-        report.rays = rays->paths({.frequency = medium.stations().radio(a).frequency,
-                                   .from = pa,
-                                   .to = {&pb, 1},
-                                   .to_keys = {},
-                                   .scene = &network.scene()});
-    }
-    if (model.shape() == LossShape::by_walls) {
-        report.wall_losses = wall_losses(network, a, b, report, pa, pb);
-    }
-    for (const Crossing& wall : report.walls) {
-        report.materials.push_back(network.scene().materials()[wall.material].name);
-    }
-    return report;
+    return report_at(network, a, b, at);
 }
 
 }  // namespace rovernet
