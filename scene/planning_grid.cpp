@@ -112,7 +112,7 @@ OccupancyGrid planning_grid(const std::vector<OccupancyGrid>& maps) {
         all = extent(maps, MapFrame(grid));
     }
     const double left = std::floor(all.left + shrink), bottom = std::floor(all.bottom + shrink);
-    grid.origin = MapFrame(grid).to_world({left, bottom});
+    grid.origin = MapFrame(grid).to_world({left, bottom}, grid.origin.z);
     grid.columns = std::max(1, static_cast<int>(std::ceil(all.right - shrink) - left));
     grid.rows = std::max(1, static_cast<int>(std::ceil(all.top - shrink) - bottom));
     grid.cells.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows),

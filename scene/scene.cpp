@@ -8,18 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace rovernet {
 namespace {
 
-/// Gaps and pieces of wall up to this length [m] are none.
-constexpr double shortest = 1e-9;
+constexpr double endless = WallLayer::endless;
 
 void check(const OccupancyGrid& grid, std::size_t materials) {
     const auto refuse = [](const std::string& what) {
@@ -40,14 +39,16 @@ void check(const OccupancyGrid& grid, std::size_t materials) {
         if (grid.material_of(i) >= materials)
             refuse(fmt::format("there is no material number {}", grid.material_of(i)));
     constexpr double most_turned = 1e9;  // what math::sincos takes
-    if (!std::isfinite(grid.origin.x + grid.origin.y) || !(std::abs(grid.yaw) <= most_turned))
+    if (!std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z) ||
+        !(std::abs(grid.yaw) <= most_turned))
         refuse("origin [m] must be finite and yaw [rad] within 1e9");
 }
 
 std::array<Vec3, 4> corners_of(const CellRectangle& r, const MapFrame& frame) {
     const double left = r.column0, bottom = r.row0, right = r.column1, top = r.row1;
-    return {frame.to_world({left, bottom}), frame.to_world({right, bottom}),
-            frame.to_world({right, top}), frame.to_world({left, top})};
+    const double z = frame.floor();
+    return {frame.to_world({left, bottom}, z), frame.to_world({right, bottom}, z),
+            frame.to_world({right, top}, z), frame.to_world({left, top}, z)};
 }
 
 bool has_unknown(const OccupancyGrid& grid) {
@@ -62,76 +63,74 @@ std::set<std::uint8_t> materials_of(const OccupancyGrid& grid) {
     return found;
 }
 
-/// A gap no wider than this [cells] does not end a wall: one that stands askew to the cells is
-/// drawn in steps, and a ray leaves it at each.
-constexpr double widest_step = 2;
-
-bool comes_before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
-
-/// Joins crossings of one material that overlap or touch; leaves them in order of entry.
-void join(std::vector<Crossing>& crossings) {
-    std::sort(crossings.begin(), crossings.end(), [](const Crossing& p, const Crossing& q) {
-        return std::tie(p.material, p.entry, p.exit) < std::tie(q.material, q.entry, q.exit);
-    });
-    std::size_t kept = 0;
-    for (const Crossing& c : crossings) {
-        Crossing* last = kept > 0 ? &crossings[kept - 1] : nullptr;
-        if (last && last->material == c.material && c.entry - last->exit <= shortest) {
-            if (c.exit <= last->exit) continue;
-            last->exit = c.exit;
-            last->length = last->exit - last->entry;
-        } else {
-            crossings[kept++] = c;
-        }
-    }
-    crossings.resize(kept);
-    std::sort(crossings.begin(), crossings.end(), [](const Crossing& p, const Crossing& q) {
-        return std::tie(p.entry, p.exit, p.material) < std::tie(q.entry, q.exit, q.material);
-    });
-}
-
-/// Sum of what the walls take that a segment crosses [dB], see Scene::wall_loss.
-/// @param crossings     in order along the segment
-/// @param step          gap that does not end a wall [m]
-/// @param thickness_at  drawn thickness at a point that far along the segment [m]
-template <class ThicknessAt>
-double loss_of_walls(std::span<const Crossing> crossings, const WallRates& rates, double step,
-                     double enough, ThicknessAt thickness_at) {
-    double sum = 0;
-    for (auto part = crossings.begin(); part != crossings.end() && sum <= enough;) {
-        const std::size_t material = part->material;
-        double end = part->exit, inside = 0;
-        bool heavy = false;
-        for (; part != crossings.end() && part->material == material && part->entry - end <= step;
-             ++part) {
-            heavy = heavy || thickness_at((part->entry + part->exit) / 2) >= rates.thinnest_heavy;
-            end = part->exit;
-            inside += part->length;
-        }
-        const WallRate& rate = (heavy ? rates.heavy : rates.light)[material];
-        sum += rate.per_crossing + rate.per_metre * inside;
-    }
-    return sum;
-}
-
 }  // namespace
 
 Scene::Scene(OccupancyGrid grid, std::vector<Material> materials)
     : Scene(std::vector<OccupancyGrid>{std::move(grid)}, std::move(materials)) {}
 
-Scene::Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials)
-    : materials_(std::move(materials)) {
+Scene::Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials,
+             std::vector<Material> ceilings)
+    : materials_(std::move(materials)), ceilings_(std::move(ceilings)) {
     if (materials_.empty()) materials_.push_back({});
     for (const OccupancyGrid& map : maps) check(map, materials_.size());
     std::erase_if(maps, [](const OccupancyGrid& map) { return map.columns == 0; });
-    if (maps.empty()) return;
+    std::map<double, std::vector<OccupancyGrid>> floors;
+    for (OccupancyGrid& map : maps) floors[map.origin.z].push_back(std::move(map));
+    if (ceilings_.empty() && !floors.empty())
+        ceilings_.assign(floors.size() - 1, {.name = "ceiling"});
+    if (ceilings_.size() + 1 != std::max<std::size_t>(floors.size(), 1))
+        throw std::invalid_argument(fmt::format(
+            "Scene: there must be a ceiling for each storey but the highest, got {} for {} storeys",
+            ceilings_.size(), floors.size()));
+    if (floors.empty()) return;
+    if (floors.size() == 1) {
+        build(std::move(floors.begin()->second), {-endless, endless});
+        return;
+    }
+    double bottom = -endless;
+    for (auto floor = floors.begin(); floor != floors.end();) {
+        const auto& [height, here] = *floor++;
+        const double top = floor == floors.end() ? endless : floor->first;
+        add_storey(here, {bottom, top});
+        bottom = top;
+    }
+}
+
+/// Adds the storey above those that there are.
+void Scene::add_storey(const std::vector<OccupancyGrid>& maps, Heights heights) {
+    const auto plan = std::make_shared<Scene>();
+    plan->materials_ = materials_;
+    plan->build(maps, heights);
+    if (storeys_.empty()) {
+        grid_ = plan->grid_;
+        frame_ = plan->frame_;
+        obstacle_cells_ = plan->obstacle_cells_;
+        faces_ = plan->faces_;
+        lower_left_ = plan->lower_left_;
+        upper_right_ = plan->upper_right_;
+    }
+    for (const WallLayer& layer : plan->layers_) {
+        layers_.push_back(layer);
+        layers_.back().storey = storeys_.size();
+    }
+    plain_ = false;
+    occupied_cells_ += plan->occupied_cells_;
+    const Vec3 low = plan->lower_left_, high = plan->upper_right_;
+    lower_left_ = {std::min(lower_left_.x, low.x), std::min(lower_left_.y, low.y), 0};
+    upper_right_ = {std::max(upper_right_.x, high.x), std::max(upper_right_.y, high.y), 0};
+    storeys_.push_back({heights.bottom, plan});
+}
+
+/// Makes a scene of one storey.
+/// @param maps  on one floor, at least one
+void Scene::build(std::vector<OccupancyGrid> maps, Heights heights) {
     std::vector<WallsOfMap> walls;
     for (std::size_t i = 0; i < maps.size(); ++i) {
         const std::size_t before = layers_.size();
-        add_map(maps[i]);
+        add_map(maps[i], heights);
         for (std::size_t k = before; k < layers_.size(); ++k) {
             const WallLayer& layer = layers_[k];
-            walls.push_back({layer.frame, layer.walls, layer.material, layer.height, i});
+            walls.push_back({layer.frame, layer.walls, layer.material, layer.top, i});
         }
     }
     faces_ = std::make_shared<const Faces>(std::move(walls));
@@ -139,11 +138,11 @@ Scene::Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials)
     frame_ = MapFrame(grid_);
     obstacle_cells_ = solid_rectangles(grid_, Solid::obstacles);
     plain_ = std::all_of(layers_.begin(), layers_.end(), [&](const WallLayer& layer) {
-        return materials_[layer.material].follows_model() && !std::isfinite(layer.height);
+        return materials_[layer.material].follows_model() && layer.is_endless();
     });
 }
 
-void Scene::add_map(const OccupancyGrid& grid) {
+void Scene::add_map(const OccupancyGrid& grid, Heights heights) {
     const MapFrame frame(grid);
     const auto index = [&](const std::vector<CellRectangle>& rectangles) {
         return std::make_shared<const WallIndex>(grid.columns, grid.rows, rectangles);
@@ -152,9 +151,14 @@ void Scene::add_map(const OccupancyGrid& grid) {
     for (const std::uint8_t material : used) {
         const auto walls = solid_rectangles(grid, WallsOf{material});
         const auto indexed = index(walls);
-        layers_.push_back({frame, walls, indexed,
-                           std::make_shared<const WallThickness>(frame, indexed), material,
-                           materials_[material].height.value});
+        layers_.push_back(
+            {.frame = frame,
+             .rectangles = walls,
+             .walls = indexed,
+             .thickness = std::make_shared<const WallThickness>(frame, indexed),
+             .material = material,
+             .bottom = heights.bottom,
+             .top = std::min(grid.origin.z + materials_[material].height.value, heights.top)});
     }
     const bool walls_are_all = used.size() == 1 && !has_unknown(grid);
     obstacles_.emplace_back(frame, walls_are_all ? layers_.back().walls
@@ -176,93 +180,20 @@ void Scene::bound(const OccupancyGrid& grid, const MapFrame& frame) {
     }
 }
 
-const WallLayer* Scene::only_layer() const {
-    const bool is_one = layers_.size() == 1 && !std::isfinite(layers_.front().height);
-    return is_one ? &layers_.front() : nullptr;
+/// Number of the highest storey that does not begin above z [m].
+std::size_t Scene::storey_below(double z) const {
+    std::size_t number = 0;
+    while (number + 1 < storeys_.size() && storeys_[number + 1].bottom <= z) ++number;
+    return number;
 }
 
-void Scene::crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const {
-    out.clear();
-    if (layers_.empty() || a == b) return;
-    if (const WallLayer* only = only_layer()) {
-        only->crossings(only->frame.to_cells(a), only->frame.to_cells(b), distance(a, b), out);
-    } else {
-        merged_crossings(a, b, out);
-    }
-}
-
-void Scene::merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const {
-    const bool reversed = comes_before(b, a);
-    if (reversed) std::swap(a, b);
-    out.clear();
-    for (const WallLayer& layer : layers_) layer.append_crossings(a, b, out);
-    join(out);
-    if (!reversed) return;
-    const double length = distance(a, b);
-    for (Crossing& c : out) c = {length - c.exit, length - c.entry, c.length, c.material};
-    std::reverse(out.begin(), out.end());
-}
-
-std::vector<Crossing> Scene::crossings(Vec3 a, Vec3 b) const {
-    std::vector<Crossing> out;
-    crossings(a, b, out);
-    return out;
-}
-
-double Scene::wall_length(Vec3 a, Vec3 b, double enough) const {
-    if (layers_.empty() || a == b) return 0;
-    if (const WallLayer* only = only_layer()) {
-        return only->walls->solid_length(only->frame.to_cells(a), only->frame.to_cells(b),
-                                         distance(a, b), enough);
-    }
-    if (comes_before(b, a)) std::swap(a, b);  // sums in one order
-    double sum = 0;
-    for (const Crossing& c : crossings(a, b)) sum += c.length;
-    return sum;
-}
-
-double Scene::wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
-                        std::vector<Crossing>& scratch) const {
-    if (comes_before(b, a)) std::swap(a, b);
-    crossings(a, b, scratch);
-    double sum = 0;
-    for (const Crossing& c : scratch) {
-        sum += rates[c.material].per_crossing + rates[c.material].per_metre * c.length;
-        if (sum > enough) break;
-    }
-    return sum;
-}
-
-double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
-                        std::vector<Crossing>& scratch) const {
-    if (layers_.empty() || a == b) return 0;
-    if (comes_before(b, a)) std::swap(a, b);
-    const double step = widest_step * std::max(frame_.cell_width(), frame_.cell_height());
-    const double length = distance(a, b);
-    const WallLayer* only = only_layer();
-    if (!only) {
-        merged_crossings(a, b, scratch);
-        return loss_of_walls(scratch, rates, step, enough, [&](double middle) {
-            return wall_thickness(a + middle / length * (b - a));
-        });
-    }
-    const CellPoint from = only->frame.to_cells(a), to = only->frame.to_cells(b);
-    const double u = (to.u - from.u) / length, v = (to.v - from.v) / length;
-    only->crossings(from, to, length, scratch);
-    return loss_of_walls(scratch, rates, step, enough, [&](double middle) {
-        return Meters{only->thickness->at({from.u + middle * u, from.v + middle * v})};
-    });
-}
-
-Meters Scene::wall_thickness(Vec3 p) const {
-    double most = 0;
-    for (const WallLayer& layer : layers_) {
-        most = std::max(most, layer.thickness->at(layer.frame.to_cells(p)));
-    }
-    return {most};
+std::span<const Material> Scene::ceilings_between(double z0, double z1) const {
+    const auto [first, last] = std::minmax({storey_number(z0), storey_number(z1)});
+    return std::span(ceilings_).subspan(first, last - first);
 }
 
 bool Scene::occupied(Vec3 p) const {
+    if (!storeys_.empty()) return storey_at(p.z).occupied(p);
     return std::any_of(layers_.begin(), layers_.end(), [&](const WallLayer& layer) {
         return layer.walls->holds(layer.frame.to_cells(p));
     });
@@ -270,32 +201,54 @@ bool Scene::occupied(Vec3 p) const {
 
 bool Scene::inside_map(Vec3 p) const {
     if (open_field()) return true;
+    if (!storeys_.empty()) return storey_at(p.z).inside_map(p);
     const CellPoint c = frame_.to_cells(p);
     return c.u >= 0 && c.u <= grid_.columns && c.v >= 0 && c.v <= grid_.rows;
 }
 
 double Scene::clearance(Vec3 p) const {
+    if (!storeys_.empty()) return storey_at(p.z).clearance(p);
     double nearest = std::numeric_limits<double>::infinity();
     for (const Obstacles& map : obstacles_) nearest = std::min(nearest, map.clearance(p));
     return nearest;
 }
 
 bool Scene::passable(Vec3 a, Vec3 b, Meters radius) const {
+    if (!storeys_.empty())
+        return passable_by_storeys(a.z <= b.z ? a : b, a.z <= b.z ? b : a, radius);
     return std::all_of(obstacles_.begin(), obstacles_.end(),
                        [&](const Obstacles& map) { return map.passable(a, b, radius); });
+}
+
+/// passable() between several storeys; a is not above b.
+bool Scene::passable_by_storeys(Vec3 a, Vec3 b, Meters radius) const {
+    Vec3 from = a;
+    const std::size_t last = storey_number(b.z);
+    for (std::size_t i = storey_number(a.z); i <= last; ++i) {
+        Vec3 to = b;
+        if (i < last) to = a + ((storeys_[i + 1].bottom - a.z) / (b.z - a.z)) * (b - a);
+        if (!storey(i).passable(from, to, radius)) return false;
+        from = to;
+    }
+    return true;
 }
 
 std::vector<WallRectangle> Scene::wall_rectangles() const {
     std::vector<WallRectangle> all;
     for (const WallLayer& layer : layers_)
         for (const CellRectangle& r : layer.rectangles)
-            all.push_back({corners_of(r, layer.frame), layer.material});
+            all.push_back({corners_of(r, layer.frame), layer.material, layer.bottom, layer.top});
     return all;
 }
 
 std::vector<OccupancyGrid> Scene::maps() const {
-    if (obstacles_.size() == 1) return {grid_};
     std::vector<OccupancyGrid> all;
+    for (const Storey& storey : storeys_) {
+        const auto here = storey.plan->maps();
+        all.insert(all.end(), here.begin(), here.end());
+    }
+    if (!storeys_.empty()) return all;
+    if (obstacles_.size() == 1) return {grid_};
     for (const WallLayer& layer : layers_) {
         OccupancyGrid map = layer.frame.map(layer.walls->columns(), layer.walls->rows());
         map.material = static_cast<std::uint8_t>(layer.material);
@@ -308,6 +261,13 @@ std::vector<OccupancyGrid> Scene::maps() const {
         all.push_back(std::move(map));
     }
     return all;
+}
+
+Scene Scene::without_walls() const {
+    Scene out = *this;
+    out.layers_.clear();
+    out.occupied_cells_ = 0;
+    return out;
 }
 
 Scene Scene::with_walls_of(const Scene& other) const {

@@ -23,8 +23,9 @@ namespace rovernet {
 
 /// A rectangular piece of wall.
 struct WallRectangle {
-    std::array<Vec3, 4> corners;  ///< [m], counter-clockwise
+    std::array<Vec3, 4> corners;  ///< [m], counter-clockwise, on the floor of its map
     std::size_t material;         ///< index into the scene's materials
+    double bottom, top;           ///< heights [m] between which it stands; infinite: endless
 };
 
 /// The world's walls: what radio, motion and pictures read. Never changes once built.
@@ -37,6 +38,12 @@ struct WallRectangle {
 /// radio, but obstacles for robots; beyond the maps there is nothing. Coordinates and lengths
 /// within 1e-9 of a cell are equal: a point that near to a grid line lies on it, a gap that short
 /// is closed, a crossing that short is none.
+///
+/// Storeys: maps whose origins have different heights are floors one above the other. A storey goes
+/// from its floor to below the next one; the lowest has no end downwards, the highest none upwards.
+/// Its walls stand in it alone, from its floor to its ceiling or to their material's height above
+/// its floor. A wall that goes on in the storey above is one wall. Ceilings are thin and have no
+/// holes; what they take from a signal is up to the propagation model.
 class Scene {
   public:
     Scene() = default;
@@ -44,10 +51,28 @@ class Scene {
     ///         material that it names is not there
     explicit Scene(OccupancyGrid grid, std::vector<Material> materials = {Material{}});
     /// Several maps, each in its place; they may overlap.
-    Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials);
+    /// @param ceilings  of all storeys but the highest, from below; none: all follow the model
+    Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials,
+          std::vector<Material> ceilings = {});
 
     /// There is no map.
     bool open_field() const { return grid_.columns == 0; }
+
+    /// Number of storeys: 1 if all maps lie at one height, or there is none.
+    std::size_t storeys() const { return storeys_.empty() ? 1 : storeys_.size(); }
+    /// Number of the storey at a height z [m]; the lowest is 0.
+    std::size_t storey_number(double z) const { return storeys_.empty() ? 0 : storey_below(z); }
+    /// Storey as a scene of its own: its map, and its walls; this scene if it has one only.
+    /// @param number  below storeys()
+    const Scene& storey(std::size_t number) const {
+        return storeys_.empty() ? *this : *storeys_[number].plan;
+    }
+    /// Storey at a height z [m].
+    const Scene& storey_at(double z) const { return storey(storey_number(z)); }
+    /// Height of a storey's floor [m]; 0 on an open field.
+    double floor_height(std::size_t number) const { return storey(number).grid_.origin.z; }
+    /// Ceilings between two heights [m], from below, whichever of the two is higher.
+    std::span<const Material> ceilings_between(double z0, double z1) const;
 
     /// Walls between two points; lengths [m] are along the 3-D segment from a.
     ///
@@ -77,10 +102,10 @@ class Scene {
     /// directions as above.
     double wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                      std::vector<Crossing>& scratch) const;
-    /// Drawn thickness of the walls at a point, whatever their height [m]; 0 outside of walls. See
-    /// WallThickness.
+    /// Drawn thickness of the walls of its storey at a point, whatever their height [m]; 0 outside
+    /// of walls. See WallThickness.
     Meters wall_thickness(Vec3 p) const;
-    /// The walls as straight faces; null on an open field.
+    /// The walls as straight faces; null on an open field; of several storeys, those of the lowest.
     const Faces* faces() const { return faces_.get(); }
     /// What its walls are made of; at least one.
     const std::vector<Material>& materials() const { return materials_; }
@@ -95,7 +120,8 @@ class Scene {
     double clearance(Vec3 p) const;
     /// A disc of that radius [m] can move straight from a to b; touching an obstacle is allowed.
     ///
-    /// Exact: the distance from the segment to each obstacle, less 1e-9 m, against the radius.
+    /// Exact: the distance from the segment to each obstacle, less 1e-9 m, against the radius. From
+    /// one storey to another, each part of the way is held against the obstacles of its storey.
     bool passable(Vec3 a, Vec3 b, Meters radius) const;
 
     /// Corners of the smallest upright box around the maps [m]; both (0, 0) on an open field.
@@ -108,7 +134,10 @@ class Scene {
     std::vector<OccupancyGrid> maps() const;
     /// This scene with the walls of another for radio; robots keep to the obstacles of this one.
     Scene with_walls_of(const Scene& other) const;
-    /// The map; of several, a grid around them all where a cell is free if no obstacle enters it.
+    /// This scene without walls for radio: its ceilings alone.
+    Scene without_walls() const;
+    /// The map; of several, a grid around them all where a cell is free if no obstacle enters it;
+    /// of several storeys, that of the lowest.
     const OccupancyGrid& grid() const { return grid_; }
     const MapFrame& frame() const { return frame_; }
     /// Where robots must not go, in cells of grid().
@@ -116,9 +145,22 @@ class Scene {
     std::size_t occupied_cells() const { return occupied_cells_; }  ///< of all maps
 
   private:
-    void add_map(const OccupancyGrid& grid);
+    struct Storey {
+        double bottom;  // [m], -infinity for the lowest
+        std::shared_ptr<const Scene> plan;
+    };
+    /// Heights between which a storey's walls may stand [m].
+    struct Heights {
+        double bottom, top;
+    };
+
+    std::size_t storey_below(double z) const;
+    void build(std::vector<OccupancyGrid> maps, Heights heights);
+    void add_storey(const std::vector<OccupancyGrid>& maps, Heights heights);
+    void add_map(const OccupancyGrid& grid, Heights heights);
     void bound(const OccupancyGrid& grid, const MapFrame& frame);
-    // The walls, if they are of one material, on one map and infinitely high; null if not.
+    bool passable_by_storeys(Vec3 a, Vec3 b, Meters radius) const;
+    // The walls, if they are of one material, on one map and endless; null if not.
     const WallLayer* only_layer() const;
     void merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
 
@@ -126,6 +168,8 @@ class Scene {
     MapFrame frame_;
     std::vector<CellRectangle> obstacle_cells_;
     std::vector<Material> materials_ = {Material{}};
+    std::vector<Material> ceilings_;  // as many as storeys, less one
+    std::vector<Storey> storeys_;     // from below; empty: one
     std::vector<WallLayer> layers_;
     std::vector<Obstacles> obstacles_;
     std::shared_ptr<const Faces> faces_;

@@ -12,27 +12,27 @@ struct Part {
     double to;
 };
 
-/// The part of a segment of that length that runs below `height`; empty if from >= to.
-Part below(double height, Vec3 a, Vec3 b, double length) {
-    const bool low_a = a.z < height, low_b = b.z < height;
-    if (low_a && low_b) return {0, length};
-    if (!low_a && !low_b) return {0, 0};
-    const double top = (height - a.z) / (b.z - a.z) * length;
-    return low_a ? Part{0, top} : Part{top, length};
+/// The part of a segment of that length that runs between two heights, the upper one left out;
+/// empty if from >= to.
+Part between(double bottom, double top, Vec3 a, Vec3 b, double length) {
+    if (a.z == b.z) return {0, a.z >= bottom && a.z < top ? length : 0};
+    const auto way_to = [&](double z) { return (z - a.z) / (b.z - a.z) * length; };
+    const auto [lower, upper] = std::minmax({way_to(bottom), way_to(top)});
+    return {std::max(lower, 0.0), std::min(upper, length)};
 }
 
 }  // namespace
 
 void WallLayer::append_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const {
     const double length = distance(a, b);
-    const Part low = below(height, a, b, length);
-    if (!(low.from < low.to)) return;
+    const Part inside = between(bottom, top, a, b, length);
+    if (!(inside.from < inside.to)) return;
     std::vector<Crossing> all;
     crossings(frame.to_cells(a), frame.to_cells(b), length, all);
     for (Crossing c : all) {
-        if (c.entry < low.from || c.exit > low.to) {
-            c.entry = std::max(c.entry, low.from);
-            c.exit = std::min(c.exit, low.to);
+        if (c.entry < inside.from || c.exit > inside.to) {
+            c.entry = std::max(c.entry, inside.from);
+            c.exit = std::min(c.exit, inside.to);
             c.length = c.exit - c.entry;
         }
         if (c.length > 0) out.push_back(c);

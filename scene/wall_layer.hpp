@@ -15,16 +15,21 @@ namespace rovernet {
 
 /// The walls of one material on one map.
 struct WallLayer {
+    static constexpr double endless = std::numeric_limits<double>::infinity();
+
     MapFrame frame;
     std::vector<CellRectangle> rectangles;   ///< disjoint, as few as the map's cutting gives
     std::shared_ptr<const WallIndex> walls;  ///< of these rectangles
     std::shared_ptr<const WallThickness> thickness;  ///< of these walls
     std::size_t material = 0;                        ///< index into the scene's materials
-    double height =
-        std::numeric_limits<double>::infinity();  ///< [m] the walls stand from 0 to here
+    std::size_t storey = 0;                          ///< of the map, the lowest is 0
+    double bottom = -endless;                        ///< [m] the walls stand from here ...
+    double top = endless;                            ///< ... to here, which is above them
 
+    /// They stand at all heights.
+    bool is_endless() const { return bottom == -endless && top == endless; }
     /// Writes the crossings of a segment that is `length` [m] long, in order from a, as if the
-    /// walls were infinitely high.
+    /// walls stood at all heights.
     /// @param out  emptied first
     void crossings(CellPoint a, CellPoint b, double length, std::vector<Crossing>& out) const {
         walls->crossings(a, b, length, out);

@@ -174,16 +174,19 @@ struct WallPassages::Sight {
 WallPassages::WallPassages(const Scene& scene) : scene_(&scene) {
     const auto rectangles = scene.wall_rectangles();
     collect(rectangles);
-    for (const WallRectangle& r : rectangles) {
-        const double height = scene.materials()[r.material].height.value;
-        if (!std::isfinite(height)) continue;
-        Top top{r.corners};
-        for (Vec3& p : top.corners) p.z = height;
-        tops_.push_back(top);
-        heights_.push_back(height);
-    }
-    std::sort(heights_.begin(), heights_.end());
-    heights_.erase(std::unique(heights_.begin(), heights_.end()), heights_.end());
+    for (const WallRectangle& r : rectangles)
+        for (const double height : {r.bottom, r.top}) {
+            if (!std::isfinite(height)) continue;
+            End end{r.corners};
+            for (Vec3& p : end.corners) p.z = height;
+            ends_.push_back(end);
+            levels_.push_back(height);
+        }
+    for (std::size_t i = 1; i < scene.storeys(); ++i) levels_.push_back(scene.floor_height(i));
+    std::sort(levels_.begin(), levels_.end());
+    levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+    feet_.push_back(levels_.empty() ? 0 : levels_.front() - 1);
+    for (std::size_t i = 1; i < scene.storeys(); ++i) feet_.push_back(scene.floor_height(i));
 }
 
 void WallPassages::collect(const std::vector<WallRectangle>& rectangles) {
@@ -225,12 +228,15 @@ void WallPassages::times(const StraightMotion& a, const StraightMotion& b, doubl
     if (empty()) return;
     const Sight sight(a, b, duration);
     pass_corners(sight, out);
-    pass_edges(a, duration, out);
-    pass_edges(b, duration, out);
-    pass_tops(sight, out);
+    for (const double z : feet_) {
+        pass_edges(a, z, duration, out);
+        pass_edges(b, z, duration, out);
+    }
+    pass_levels(sight, out);
 }
 
 void WallPassages::pass_corners(const Sight& sight, std::vector<double>& out) const {
+    if (corners_.empty()) return;
     const double margin = beyond * tile_;
     const auto tile_at = [&](double offset, int tiles) {
         return static_cast<int>(std::clamp(std::floor(offset / tile_), 0.0, tiles - 1.0));
@@ -250,7 +256,7 @@ void WallPassages::pass_corners(const Sight& sight, std::vector<double>& out) co
     }
 }
 
-void WallPassages::pass_edges(const StraightMotion& end, double duration,
+void WallPassages::pass_edges(const StraightMotion& end, double z, double duration,
                               std::vector<double>& out) const {
     constexpr double around = 1;  // [m] about the maps
     const Vec3 low = scene_->lower_left(), high = scene_->upper_right();
@@ -259,7 +265,7 @@ void WallPassages::pass_edges(const StraightMotion& end, double duration,
     clip(end.from.y, end.velocity.y, low.y - around, high.y + around, first, last);
     if (!(first < last)) return;
     Vec3 p = end.at(first), q = end.at(last);
-    p.z = q.z = heights_.empty() ? 0 : heights_.front() - 1;  // below every top
+    p.z = q.z = z;
     const double length = distance(p, q);
     if (!(length > 0)) return;
     for (const Crossing& c : scene_->crossings(p, q))
@@ -269,22 +275,22 @@ void WallPassages::pass_edges(const StraightMotion& end, double duration,
         }
 }
 
-void WallPassages::pass_tops(const Sight& sight, std::vector<double>& out) const {
+void WallPassages::pass_levels(const Sight& sight, std::vector<double>& out) const {
     Interval z;
     for (const Vec3 p : sight.ends) z.add(p.z);
-    if (heights_.empty() || heights_.front() > z.high || heights_.back() < z.low) return;
+    if (levels_.empty() || levels_.front() > z.high || levels_.back() < z.low) return;
     if (!(z.low < z.high)) return;
-    for (const double height : heights_)
+    for (const double height : levels_)
         for (const StraightMotion& end : {sight.a, sight.b}) {
             const double t = (height - end.from.z) / end.velocity.z;
             if (sight.holds(t)) out.push_back(t);
         }
     const Box swept = box_of(sight.ends);
-    for (const Top& top : tops_) {
-        if (!(top.corners[0].z >= z.low && top.corners[0].z <= z.high)) continue;
-        if (!box_of(top.corners).meets(swept)) continue;
+    for (const End& end : ends_) {
+        if (!(end.corners[0].z >= z.low && end.corners[0].z <= z.high)) continue;
+        if (!box_of(end.corners).meets(swept)) continue;
         for (std::size_t i = 0; i < 4; ++i)
-            sight.visit_edge(top.corners[i], top.corners[(i + 1) % 4],
+            sight.visit_edge(end.corners[i], end.corners[(i + 1) % 4],
                              [&](double t) { out.push_back(t); });
     }
 }

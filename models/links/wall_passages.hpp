@@ -28,8 +28,8 @@ struct StraightMotion {
 ///
 /// At such a time the line of sight passes a corner of a wall, or a point where the edges of two
 /// overlapping walls meet; or one of its ends passes a wall's edge; or, for walls of finite height,
-/// it passes a top edge or an end passes the height of the top. The first and the third are roots
-/// of quadratics.
+/// it passes an edge of the top or an end passes the height of the top; likewise for the bottom of
+/// a wall on an upper floor, and for ceilings. The first and the third are roots of quadratics.
 ///
 /// It is built once for a scene; n rectangles take O(n log n) and memory of about 150 bytes each.
 class WallPassages {
@@ -39,8 +39,8 @@ class WallPassages {
     /// @param scene  outlives this
     explicit WallPassages(const Scene& scene);
 
-    /// Whether there are no walls.
-    bool empty() const { return corners_.empty(); }
+    /// Whether there are no walls and no ceilings.
+    bool empty() const { return corners_.empty() && levels_.empty(); }
 
     /// Appends the times [s] in (0, duration) for the line of sight from `a` to `b`: in no order,
     /// some more than once, and some at which nothing changes. It takes a look at the corners in
@@ -50,9 +50,9 @@ class WallPassages {
                std::vector<double>& out) const;
 
   private:
-    // Top of a wall of finite height.
-    struct Top {
-        /// Corners at the height of the top [m].
+    // Level end of a wall, its top or its bottom.
+    struct End {
+        /// Corners at their height [m].
         std::array<Vec3, 4> corners;
     };
     // Line of sight as it moves, for one call of times().
@@ -64,19 +64,22 @@ class WallPassages {
     void sort_into_tiles();
     // Appends the times at which the line of sight passes corners.
     void pass_corners(const Sight& sight, std::vector<double>& out) const;
-    // Appends the times at which an end passes an edge of a wall.
-    void pass_edges(const StraightMotion& end, double duration, std::vector<double>& out) const;
-    // Appends the times at which the line of sight, or an end, passes tops.
-    void pass_tops(const Sight& sight, std::vector<double>& out) const;
+    // Appends the times at which an end passes an edge of a wall that stands at height z [m].
+    void pass_edges(const StraightMotion& end, double z, double duration,
+                    std::vector<double>& out) const;
+    // Appends the times at which the line of sight, or an end, passes tops, bottoms or ceilings.
+    void pass_levels(const Sight& sight, std::vector<double>& out) const;
 
     const Scene* scene_ = nullptr;
     // Corners, z = 0, by tile, row by row.
     std::vector<Vec3> corners_;
     // Place of the first corner of each tile; one more than tiles.
     std::vector<std::size_t> first_;
-    std::vector<Top> tops_;
-    // Heights of the tops [m], ascending, each once.
-    std::vector<double> heights_;
+    std::vector<End> ends_;
+    // Heights of tops, bottoms and ceilings [m], ascending, each once.
+    std::vector<double> levels_;
+    // Heights of which each is below all tops of a storey [m], one for each storey.
+    std::vector<double> feet_;
     // Lower left corner of the tiles [m].
     Vec3 low_ = {};
     // Side of a tile [m], and number of tiles along each axis.

@@ -286,7 +286,7 @@ TEST_CASE("clearance: the distance to the nearest of all rectangles") {
         for (int i = 0; i < 50; ++i) {
             const Vec3 p{draw.uniform(-20, 60), draw.uniform(-20, 95), 0};
             double nearest = std::numeric_limits<double>::infinity();
-            for (const auto& [corners, material] : scene.wall_rectangles()) {
+            for (const auto& [corners, material, bottom, top] : scene.wall_rectangles()) {
                 const double dx = std::max({0.0, corners[0].x - p.x, p.x - corners[2].x});
                 const double dy = std::max({0.0, corners[0].y - p.y, p.y - corners[2].y});
                 nearest = std::min(nearest, std::sqrt(dx * dx + dy * dy));
@@ -343,7 +343,7 @@ TEST_CASE("passable: on a large map nothing near the way is overlooked") {
             const Vec3 b{draw.uniform(-9, 140), draw.uniform(-9, 110), 0};
             const double radius = draw.uniform(0.1, 12);
             double nearest = std::numeric_limits<double>::infinity();
-            for (const auto& [corners, material] : scene.wall_rectangles()) {
+            for (const auto& [corners, material, bottom, top] : scene.wall_rectangles()) {
                 const Vec3 low = corners[0], high = corners[2];
                 nearest = std::min(nearest, walked_distance(a, b, low.x, low.y, high.x, high.y));
             }

@@ -93,4 +93,21 @@ TEST_CASE("wall passages: an end that rises passes the height of the wall's top"
     CHECK_FALSE(passes_at(scene, level, beside, 4));
 }
 
+TEST_CASE("wall passages: between storeys it passes ceilings and the feet of walls above") {
+    OccupancyGrid ground = box(-50, -50, 1, 1), upper = box(4, -1, 2, 2);
+    ground.cells = {Cell::free};
+    upper.origin.z = 3;
+    const Scene scene({ground, upper}, {Material{}});
+    const StraightMotion through{{0, 0.5, 4}, {1, 0, 0}}, beside{{5, 9, 4}};
+    CHECK(passes_at(scene, through, beside, 4));
+    CHECK(passes_at(scene, beside, through, 6));
+    // The line from (0, 0) to (9, z) passes the ceiling at x = 27 / z, the wall's foot from x = 4.
+    const StraightMotion below{{0, 0, 0}}, rising{{9, 0, 4}, {0, 0, 0.5}};
+    CHECK(passes_at(scene, below, rising, 2 * (6.75 - 4)));
+    upper.cells = {Cell::free};
+    const Scene bare({ground, upper}, {Material{}});
+    CHECK_FALSE(WallPassages(bare).empty());
+    CHECK(passes_at(bare, below, {{9, 0, 1}, {0, 0, 0.5}}, 4));
+}
+
 }  // namespace wall_passages_test
