@@ -83,6 +83,7 @@ std::optional<Propagation> Builder::own_propagation(const RobotTable& table) con
     const Propagation model = located(where, [&] {
         auto made = given.make();
         made.check_frequency(table.radio.frequency);
+        made.check_scene(network_.scene());
         return made;
     });
     return table.propagation ? std::optional(model) : std::nullopt;

@@ -36,6 +36,7 @@ struct Displaced {
         return {(model.reach(loss, frequency, highest).value + 2 * by.value) * slack};
     }
     void check_frequency(Hertz frequency) const { model.check_frequency(frequency); }
+    void check_scene(const Scene& scene) const { model.check_scene(scene); }
 
     /// Fills out_db[i] [dB] for the i-th receiver; same size as the batch, which needs keys.
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {

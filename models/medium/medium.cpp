@@ -31,6 +31,7 @@ Medium::Medium(const Settings& settings, const std::shared_ptr<const Fades>& fad
       arrivals_(settings_, stations_, links_) {}
 
 void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propagation) {
+    propagation.check_scene(*settings_.scene);
     index_.add(stations_.add(radio, key, propagation));
     ++changes_;
     cells_chosen_ = false;

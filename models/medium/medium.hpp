@@ -52,7 +52,7 @@ class Medium {
     const Arrivals& arrivals() const { return arrivals_; }
     Arrivals& arrivals() { return arrivals_; }
 
-    /// Adds the next node, as Stations::add().
+    /// Adds the next node, as Stations::add(); the model must work in the scene, too.
     void add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
     /// Makes room for `nodes` nodes.
     void reserve(std::size_t nodes) {

@@ -37,6 +37,7 @@ class Shadowed {
         return base_.reach(loss + most(), frequency, highest);
     }
     void check_frequency(Hertz frequency) const { base_.check_frequency(frequency); }
+    void check_scene(const Scene& scene) const { base_.check_scene(scene); }
     /// Shape of the base, for each pair of robots; with a field: unknown.
     LossShape shape() const;
     /// Model without draws of pairs. A field stays: it is the same for all robots.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/itu_indoor.hpp"
 
+#include "models/propagation/floors_between.hpp"
 #include "sim/math.hpp"
 
 #include <fmt/format.h>
@@ -148,11 +149,15 @@ void ItuIndoor::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> o
     const double mhz = links.frequency.value / 1e6;
     const double N = coefficient_at(*this, mhz);
     const auto* row = environment ? nearest_row(floor_losses, *environment, mhz) : nullptr;
-    const auto storey = [&](const Vec3& p) { return std::floor(p.z / links.floor_height.value); };
+    const auto of_model = [&](int n) { return row ? floor_loss_db(*row, n) : 0; };
+    const auto of_floors = [&](std::size_t i) {
+        if (!environment) return 0.0;
+        if (floors) return of_model(*floors);
+        const FloorsBetween between = floors_between(links, i);
+        return of_model(static_cast<int>(std::min(between.of_model, 100.0))) + between.loss_db;
+    };
     for (std::size_t i = 0; i < out_db.size(); ++i) {
-        const double between = std::abs(storey(links.from) - storey(links.to[i]));
-        const int n = floors.value_or(static_cast<int>(std::min(between, 100.0)));
-        const double Lf = row ? floor_loss_db(*row, n) : 0;
+        const double Lf = of_floors(i);
         out_db[i] = std::max(0.0, itu_indoor_db(links.distance(i), links.frequency, N, Lf));
     }
 }

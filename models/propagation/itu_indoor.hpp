@@ -24,7 +24,9 @@ struct EnumNames<Environment> {
 /// N comes from `coefficient`, or from the row of the table for `environment` that is nearest in
 /// log frequency (at most a factor 1.5 away). Lf comes from the table likewise, and Lf(0) = 0; with
 /// a bare coefficient there is no floor term, as in the 2007 thesis. Beyond the last tabulated
-/// floor its value is held. Walls are inside N: add none.
+/// floor its value is held. Walls are inside N: add none. In a scene of several storeys n counts
+/// the ceilings between whose material gives no loss; the others add theirs, unless `floors` is
+/// given or there is no environment.
 ///
 /// Site-general, from 900 MHz to 100 GHz: a median over buildings, sigma 8-12 dB, not a prediction
 /// for one of them. With N = 30 at 2450 MHz `rovernet loss itu_indoor` prints

@@ -38,9 +38,9 @@ struct EnumNames<LineOfSight> {
 /// m (office; corridor 160 m, industrial 101 m), without line of sight from 4 m on, between
 /// terminals on one floor.
 ///
-/// Walls are inside the coefficients: what stands in the way only decides which row holds, so that
-/// the loss jumps where a wall comes between. The Recommendation's deviation of 3 to 9 dB is left
-/// to shadowing.
+/// Walls are inside the coefficients: what stands in the way, a wall or a ceiling, only decides
+/// which row holds, so that the loss jumps where a wall comes between. The Recommendation's
+/// deviation of 3 to 9 dB is left to shadowing.
 ///
 /// In an office with line of sight, at 2450 MHz, `rovernet loss itu_site_general` prints
 ///

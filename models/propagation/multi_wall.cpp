@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/multi_wall.hpp"
 
+#include "models/propagation/floors_between.hpp"
 #include "models/propagation/friis.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace rovernet {
@@ -45,13 +45,10 @@ void MultiWall::loss(const LinkBatch& links, Db give_up, std::span<double> out_d
     const WallRates walls{rates_with(links, light_wall), rates_with(links, heavy_wall),
                           thinnest_heavy_wall};
     std::vector<Crossing> scratch;
-    const auto storey = [&](Vec3 p) { return std::floor(p.z / links.floor_height.value); };
-    const double here = storey(links.from);
-    constexpr double most_floors = 1000;
     for (std::size_t i = 0; i < out_db.size(); ++i) {
-        const double between = std::min(std::abs(storey(links.to[i]) - here), most_floors);
+        const FloorsBetween floors = floors_between(links, i);
         const double way = at_1 + 10 * exponent * math::log10(std::max(links.distance(i), 1.0)) +
-                           floors_db(*this, between);
+                           (floors_db(*this, floors.of_model) + floors.loss_db);
         out_db[i] = std::max(0.0, way);
         if (way > give_up.value) continue;
         constexpr double slack = 1e-9;  // [dB] more than rounding takes

@@ -15,10 +15,11 @@ namespace rovernet {
 /// A wall takes what its material says. A wall whose material follows the model takes `light_wall`
 /// or `heavy_wall`, by its drawn thickness where the ray's middle in it lies: below 10 cm it is
 /// light. A gap of up to two cells is a step of a wall that stands askew to the cells, and does not
-/// end it. The sum does not grow with the angle at which a wall is crossed, unless its material has
-/// a rate per metre. The loss jumps where a wall comes between, and where the thickness under the
-/// ray's middle passes 10 cm. Reflection and diffraction are left out: behind many walls the loss
-/// is an upper estimate.
+/// end it. A ceiling of a scene of several storeys takes what its material says, or else counts in
+/// k; in another scene k counts the storeys of [scene] floor_height. The sum does not grow with the
+/// angle at which a wall is crossed, unless its material has a rate per metre. The loss jumps where
+/// a wall comes between, and where the thickness under the ray's middle passes 10 cm. Reflection
+/// and diffraction are left out: behind many walls the loss is an upper estimate.
 ///
 /// With the defaults at 2450 MHz `rovernet loss multi_wall` prints
 ///

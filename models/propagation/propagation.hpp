@@ -57,6 +57,8 @@ class Propagation {
     bool is_bounded_by_height() const { return self_->is_bounded_by_height(); }
     /// Checks a frequency. @throws std::invalid_argument if the model cannot work with it
     void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
+    /// Checks a scene. @throws std::invalid_argument if the model cannot work in it
+    void check_scene(const Scene& scene) const { self_->check_scene(scene); }
     /// Shape of the loss while the ends of a link move.
     LossShape shape() const { return self_->shape(); }
     /// Loss to build a ShadowedRange of; nothing if the model is not a ShadowedModel.
@@ -85,6 +87,7 @@ class Propagation {
         virtual Meters reach(Db, Hertz, Meters) const = 0;
         virtual bool is_bounded_by_height() const = 0;
         virtual void check_frequency(Hertz) const = 0;
+        virtual void check_scene(const Scene&) const = 0;
         virtual LossShape shape() const = 0;
         virtual std::optional<ShadowedLoss> shadowed_loss(Hertz) const = 0;
         virtual bool is_random() const = 0;
@@ -113,6 +116,9 @@ class Propagation {
         bool is_bounded_by_height() const override { return BoundedByHeight<T>; }
         void check_frequency(Hertz frequency) const override {
             if constexpr (FrequencyCheckedModel<T>) model.check_frequency(frequency);
+        }
+        void check_scene(const Scene& scene) const override {
+            if constexpr (SceneCheckedModel<T>) model.check_scene(scene);
         }
         LossShape shape() const override {
             if constexpr (ShapedModel<T>) return model.shape();

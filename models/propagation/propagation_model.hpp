@@ -135,4 +135,10 @@ concept FrequencyCheckedModel = requires(const T& model, Hertz frequency) {
     model.check_frequency(frequency);
 };
 
+/// Model that cannot work in every scene, and says so by std::invalid_argument.
+template <class T>
+concept SceneCheckedModel = requires(const T& model, const Scene& scene) {
+    model.check_scene(scene);
+};
+
 }  // namespace rovernet

@@ -6,11 +6,14 @@
 #include "sim/complex_math.hpp"
 #include "sim/math.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace rovernet {
@@ -100,6 +103,14 @@ class Summing {
 };
 
 }  // namespace
+
+void Rays::check_scene(const Scene& scene) const {
+    if (scene.storeys() == 1) return;
+    throw std::invalid_argument(
+        fmt::format("rays: found a scene of {} storeys, and paths are traced in one; expected a "
+                    "scene of one map, or another model, such as multi_wall",
+                    scene.storeys()));
+}
 
 Meters Rays::reach(Db loss, Hertz f) const { return Friis{}.reach(loss + Db{most_gain(*this)}, f); }
 

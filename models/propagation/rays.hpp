@@ -47,6 +47,8 @@ struct EnumNames<RaySum> {
 /// The loss is anything but monotone, and jumps where a path begins or ends: at the border of a
 /// wall's shadow by what the wall takes (not with edges), at the end of a mirror by what it adds.
 ///
+/// Paths are planned in plan and do not know storeys: a scene of several is refused.
+///
 /// Without walls it is free space. Source: the theory of images, for instance H. L. Bertoni, Radio
 /// Propagation for Modern Wireless Systems, 2000, chapter 3; slabs: ITU-R P.2040-3; edges:
 /// ITU-R P.526-15 and Kouyoumjian and Pathak 1974, see diffraction.hpp.
@@ -83,6 +85,9 @@ struct Rays {
     }
 
     LossShape shape() const { return LossShape::unknown; }
+
+    /// Checks a scene. @throws std::invalid_argument if it has several storeys
+    void check_scene(const Scene& scene) const;
 
     /// Distance [m] beyond which the loss is more than `loss`: no path is shorter than the straight
     /// one or stronger than in free space. So P paths add at most 10 log10 P dB to free space, 3 dB

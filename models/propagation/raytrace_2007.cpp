@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/raytrace_2007.hpp"
 
+#include "models/propagation/floors_between.hpp"
 #include "models/propagation/itu_indoor.hpp"
 #include "sim/math.hpp"
 
@@ -55,7 +56,7 @@ void Raytrace2007::loss_by_materials(const LinkBatch& links, Db give_up,
     std::vector<Crossing> scratch;
     const FreeLoss free_loss(links.frequency, coefficient);
     for (std::size_t i = 0; i < out_db.size(); ++i) {
-        const double free = free_loss(links.distance(i));
+        const double free = free_loss(links.distance(i)) + floors_between(links, i).loss_db;
         out_db[i] = free;
         if (free > give_up.value) continue;
         out_db[i] += links.scene->wall_loss(links.from, links.to[i], rates,

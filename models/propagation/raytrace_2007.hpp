@@ -16,7 +16,8 @@ namespace rovernet {
 /// The wall factor w is in dB per centimetre; real walls have 0.15 (wood) to 0.9 (chipboard), so
 /// that the values of old world files (6 to 100) suit walls drawn a few pixels thin only. N holds
 /// the walls of a usual building already: take N = 20 when the map shows them all. A wall whose
-/// material gives a loss of its own adds that instead of 100 w l.
+/// material gives a loss of its own adds that instead of 100 w l. A ceiling adds what its material
+/// gives, or nothing: the rule has no loss of a floor.
 ///
 /// `rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5` prints 115.80 dB at 2450
 /// MHz: 65.80 dB, and 50 dB of wall.

@@ -56,7 +56,8 @@ TEST_CASE("link gain: the medium's level and margin are those of the path loss b
     const Radio from{.power = 20_dBm, .antenna_gain = 5_dB, .cable_loss = 2_dB};
     const Radio to{.sensitivity = -90_dBm, .antenna_gain = 3_dB, .cable_loss = 0.5_dB};
     Legs legs;
-    Medium medium({});
+    const Scene field;
+    Medium medium({.scene = &field});
     for (const auto& [radio, x] : {std::pair{from, 0.0}, std::pair{to, 30.0}}) {
         medium.add(radio, 1, LogDistance{});
         legs.add({.from = {x, 0}});

@@ -214,6 +214,40 @@ TEST_CASE("link changes: what dense sampling sees is found, for every model and 
     }
 }
 
+TEST_CASE("link changes: between storeys, what dense sampling sees is found") {
+    constexpr auto time = 4s;
+    constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};
+    const std::vector<Propagation> models{MultiWall{.floor_loss = 6_dB},
+                                          Raytrace2007{.wall_factor = 0.05},
+                                          ItuIndoor{.environment = Environment::office}};
+    for (std::size_t m = 0; m < models.size(); ++m) {
+        test::Draw draw(static_cast<std::uint32_t>(200 + m));
+        int seen = 0;
+        for (int round = 0; round < 40; ++round) {
+            CAPTURE(m);
+            CAPTURE(round);
+            OccupancyGrid upper = test::random_map(draw, 24, 24, 6);
+            upper.origin.z = 2.5;
+            const bool low = round % 2 == 0;
+            const Scene scene({test::random_map(draw, 24, 24, 6), upper},
+                              {low ? Material{.height = 1.5_m} : Material{}},
+                              {round % 3 == 0 ? Material{} : Material{.per_crossing = 9_dB}});
+            MovingPair pair{&scene};
+            for (int i = 0; i < 2; ++i) {
+                Leg leg = random_leg(draw, 24, time);
+                leg.from.z = leg.to.z = draw.uniform(0, 5);
+                if (leg.velocity != Vec3{} && draw.below(2)) leg.to.z = draw.uniform(0, 5);
+                leg.velocity.z = (leg.to.z - leg.from.z) / seconds(time);
+                pair.add(models[m], leg, {.power = {draw.uniform(-22, -8)}, .sensitivity = {-80}});
+            }
+            check_against_sampling(pair, a, b, time, search, seen);
+            check_against_sampling(pair, b, a, time, search, seen);
+        }
+        MESSAGE(models[m].name() << ": " << seen << " changes");
+        CHECK(seen > 20);
+    }
+}
+
 TEST_CASE("link changes: between equal radios both ways change at the same time") {
     // So slow that rounding moves the times of passages by many nanoseconds.
     constexpr Duration time = 5'000'000'000s;
