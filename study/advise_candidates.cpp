@@ -117,9 +117,10 @@ Reference reference_for(const Scenario& scenario, const CandidateQuestion& quest
         const Value* of = said.table()->find(table);
         return of && of->table() ? of->table()->find(key) : nullptr;
     };
-    std::string model = !scenario.walls     ? "two_ray"
-                        : is_listed("rays") ? "rays"
-                                            : listed_models().back();
+    std::string model = !scenario.walls                 ? "two_ray"
+                        : scenario.walls->storeys() > 1 ? "multi_wall"
+                        : is_listed("rays")             ? "rays"
+                                                        : listed_models().back();
     const Value* named = told("propagation", "model");
     if (named) model = listed_models()[read_choice(*named, "propagation model", listed_models())];
     Reference out{propagation_with(scenario, model), {}, {scenario.file}};
@@ -250,7 +251,9 @@ std::string obstacle(const ScenarioFile& file, const Scenario& base, const Table
     try {
         Scenario scenario = file.scenario(settings);
         if (!scenario.walls) scenario.walls = base.walls;
-        scenario.propagation.make().check_frequency(scenario.radio.frequency);
+        const Propagation model = scenario.propagation.make();
+        model.check_frequency(scenario.radio.frequency);
+        if (scenario.walls) model.check_scene(*scenario.walls);
     } catch (const InputError& error) {
         return error.message();
     } catch (const std::invalid_argument& error) {

@@ -6,6 +6,7 @@
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
 #include "network/network.hpp"
+#include "scenario/located.hpp"
 #include "sim/random.hpp"
 
 #include <fmt/format.h>
@@ -187,6 +188,7 @@ void LinkSample::State::run(std::uint32_t replication) {
     played.scenario.replication = size.first_replication + replication;
     network = std::make_unique<Network>(network_settings(played));
     populate(*network, played);
+    located(played.propagation_where, [&] { reference.check_scene(network->scene()); });
     for (const Time at : sample_times(played, size.times)) {
         network->run_until(at);
         add_pairs(*network, replication, reference, pairs);

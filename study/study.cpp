@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -73,6 +74,7 @@ void check_differ(const Axis& axis) {
 
 /// The walls as bytes: where they are and what they are made of.
 std::string wall_bytes(const Scene& scene) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
     std::string bytes;
     const auto append = [&](double v) {
         bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
@@ -84,14 +86,19 @@ std::string wall_bytes(const Scene& scene) {
         }
         append(static_cast<double>(wall.material));
     }
-    for (const Cell cell : scene.grid().cells) bytes += static_cast<char>(cell);
-    for (const Material& m : scene.materials()) {  // some are of a file beside the map
+    for (std::size_t i = 0; i < scene.storeys(); ++i) {
+        if (i > 0) append(scene.floor_height(i));
+        for (const Cell cell : scene.storey(i).grid().cells) bytes += static_cast<char>(cell);
+    }
+    const auto append_material = [&](const Material& m) {
         append(m.per_crossing ? m.per_crossing->value : -1);
         append(m.per_metre ? m.per_metre->value : -1);
         append(m.slab ? static_cast<double>(*m.slab) : -1);
         append(m.thickness.value);
         append(m.height.value);
-    }
+    };
+    for (const Material& m : scene.materials()) append_material(m);  // some are of a file beside
+    for (const Material& m : scene.ceilings_between(-infinite, infinite)) append_material(m);
     return bytes;
 }
 
