@@ -98,21 +98,27 @@ RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& 
     RecordedScenario recorded;
     Table document = document_in(folder, scenario);
     const fs::path here = fs::path(scenario.file).parent_path();
-    const auto take = [&](const char* table, const char* key, const std::string& name,
+    const auto take = [&](Table& table, const char* key, const std::string& into,
                           std::vector<fs::path> paths) {
-        if (!attach(paths, key, recorded.files)) return;
-        const std::string attached = fmt::format("{}/{}", key, fs::path(name).filename().string());
-        document.find(table)->table()->set(key, attached);
+        if (!attach(paths, into, recorded.files)) return;
+        table.set(key, fmt::format("{}/{}", into, paths.front().filename().string()));
     };
-    if (const auto& map = scenario.scene.map) {
-        std::vector<fs::path> paths{here / *map};
+    const auto take_map = [&](Table& table, const std::string& into, const std::string& map) {
+        std::vector<fs::path> paths{here / map};
         const std::string ending = paths[0].extension().string();
         const bool names_picture = ending == ".yaml" || ending == ".yml";
         const auto picture = names_picture ? picture_of(paths[0]) : std::nullopt;
         if (picture) paths.push_back(paths[0].parent_path() / *picture);
-        if (picture || !names_picture) take("scene", "map", *map, std::move(paths));
+        if (picture || !names_picture) take(table, "map", into, std::move(paths));
+    };
+    Table& scene = *document.find("scene")->table();
+    if (scenario.scene.map) take_map(scene, "map", *scenario.scene.map);
+    for (std::size_t i = 0; i < scenario.scene.floors.size(); ++i) {
+        Table& floor = *(*scene.find("floor")->array())[i].table();
+        take_map(floor, fmt::format("floor{}", i), scenario.scene.floors[i].map);
     }
-    if (const auto& file = scenario.movement.file) take("movement", "file", *file, {here / *file});
+    if (const auto& file = scenario.movement.file)
+        take(*document.find("movement")->table(), "file", "file", {here / *file});
     recorded.text = to_toml(document);
     return recorded;
 }
@@ -141,6 +147,13 @@ ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& pa
         if (name) document.find(table)->table()->set(key, find_file(*name));
     }
     Value* scene = document.find("scene");
+    Value* floors = scene && scene->table() ? scene->table()->find("floor") : nullptr;
+    if (floors && floors->array()) {
+        for (Value& each : *floors->array()) {
+            const Value* map = each.table() ? each.table()->find("map") : nullptr;
+            if (map && map->string()) each.table()->set("map", find_file(*map->string()));
+        }
+    }
     Value* places = scene && scene->table() ? scene->table()->find("world_path") : nullptr;
     if (places && places->array()) {
         for (Value& each : *places->array()) {

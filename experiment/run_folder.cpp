@@ -88,6 +88,7 @@ Table document_in(const std::string& folder, Scenario scenario) {
     for (auto* path : {&scene.map, &scene.world, &scenario.movement.file}) {
         if (*path) rename(**path);
     }
+    for (FloorTable& floor : scene.floors) rename(floor.map);
     if (scene.world_path) std::for_each(scene.world_path->begin(), scene.world_path->end(), rename);
     return to_document(scenario);
 }

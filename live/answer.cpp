@@ -85,7 +85,11 @@ void AnswerWriter::put_map() {
     if (scene.open_field()) return put("null");
     const OccupancyGrid& grid = scene.grid();
     put("{\"image\":");
-    put(scenario_.scene.map ? to_json_line(Value(*scenario_.scene.map)) : "null");
+    const SceneTable& table = scenario_.scene;
+    const bool is_building = !table.floors.empty();
+    put(is_building ? to_json_line(Value(table.floors.front().map))
+        : table.map ? to_json_line(Value(*table.map))
+                    : "null");
     put(",\"resolution\":");
     put(grid.cell_width);
     put(",\"origin\":[");

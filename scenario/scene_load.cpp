@@ -33,21 +33,21 @@ std::vector<MaterialTable> sidecar(const fs::path& map) {
     return read_scene(Value(std::move(scene))).materials;
 }
 
-OccupancyGrid load_grid(const SceneTable& scene, const fs::path& path) {
+OccupancyGrid load_grid(const FloorTable& floor, const fs::path& path) {
     const auto extension = path.extension();
     const bool yaml = extension == ".yaml" || extension == ".yml";
-    if (yaml && scene.size) {
-        throw InputError(scene.map_where,
+    if (yaml && floor.size) {
+        throw InputError(floor.map_where,
                          "map: a map.yaml has its own size; leave out the key size");
     }
-    if (!yaml && fs::is_regular_file(path) && !scene.size) {
-        throw InputError(scene.map_where,
+    if (!yaml && fs::is_regular_file(path) && !floor.size) {
+        throw InputError(floor.map_where,
                          fmt::format("map: \"{}\" is a picture without a scale; expected a ROS "
                                      "map.yaml, or also size = [\"40 m\", \"20 m\"]",
-                                     *scene.map));
+                                     floor.map));
     }
     if (yaml) return read_ros_map(path.string());
-    const auto size = scene.size.value_or(std::vector<Meters>{{1}, {1}});
+    const auto size = floor.size.value_or(std::vector<Meters>{{1}, {1}});
     return image_map(path.string(), size[0], size[1]);
 }
 
@@ -78,49 +78,92 @@ void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view 
         material.where.text(), material.name, pixels.all - pixels.walls, pixels.all, map));
 }
 
-/// Gives each wall the first material that has its grey level; 0 is the usual one.
-void assign_materials(OccupancyGrid& grid, const std::vector<MaterialTable>& tables,
-                      std::string_view map, std::vector<std::string>& notices) {
-    if (tables.empty()) return;
+/// Materials of all maps of a scene, and the pixels that they have: those of the scenario first,
+/// then those of the file beside each map.
+class Palette {
+  public:
+    explicit Palette(const std::vector<MaterialTable>& of_scenario) : shared_(of_scenario.size()) {
+        append(of_scenario);
+    }
+
+    /// Gives each wall of a map the first material that has its grey level; 0 is the usual one.
+    /// @param name  of the map, for notices
+    void paint(OccupancyGrid& grid, const fs::path& map, const std::string& name);
+    /// Materials by their numbers.
+    std::vector<Material> materials(std::optional<Meters> usual_height) const;
+    /// Notices materials that make no wall, or not of all of their pixels.
+    /// @param shared_map  where those of the scenario were looked for
+    void note(std::string_view shared_map, std::vector<std::string>& notices) const;
+
+  private:
+    void append(const std::vector<MaterialTable>& more);
+
+    std::vector<MaterialTable> tables_;
+    std::size_t shared_;
+    std::vector<Pixels> pixels_ = {{}};   // by number
+    std::vector<std::string> maps_ = {};  // of the materials that are not shared
+};
+
+void Palette::append(const std::vector<MaterialTable>& more) {
+    tables_.insert(tables_.end(), more.begin(), more.end());
+    pixels_.resize(tables_.size() + 1);
+    constexpr std::size_t most = 254;
+    if (tables_.size() <= most) return;
+    throw InputError(tables_[most].where, "materials: expected at most 254 of them");
+}
+
+void Palette::paint(OccupancyGrid& grid, const fs::path& map, const std::string& name) {
+    const std::size_t own = tables_.size();
+    append(sidecar(map));
+    maps_.resize(tables_.size() - shared_, name);
+    if (tables_.empty()) return;
     std::vector<std::uint8_t> by_level(256, 0);
     for (int level = 0; level < 256; ++level) {
-        const auto found = std::find_if(tables.begin(), tables.end(),
-                                        [&](const auto& t) { return t.has_grey(level); });
-        if (found != tables.end()) {
-            by_level[static_cast<std::size_t>(level)] =
-                static_cast<std::uint8_t>(found - tables.begin() + 1);
+        for (std::size_t i = 0; i < tables_.size(); ++i) {
+            if ((i >= shared_ && i < own) || !tables_[i].has_grey(level)) continue;
+            by_level[static_cast<std::size_t>(level)] = static_cast<std::uint8_t>(i + 1);
+            break;
         }
     }
     grid.cell_materials.resize(grid.cells.size());
-    std::vector<Pixels> pixels(tables.size() + 1);
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
         const std::uint8_t material = by_level[grid.greys[i]];
         grid.cell_materials[i] = material;
-        ++pixels[material].all;
-        pixels[material].walls += grid.cells[i] == Cell::occupied;
-    }
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        note_pixels(tables[i], pixels[i + 1], map, notices);
+        ++pixels_[material].all;
+        pixels_[material].walls += grid.cells[i] == Cell::occupied;
     }
 }
 
-std::shared_ptr<const Scene> map_scene(const SceneTable& scene, const std::string& file,
-                                       std::vector<std::string>& notices) {
-    const fs::path path = fs::path(file).parent_path() / *scene.map;
-    std::vector<MaterialTable> tables = scene.materials;
-    for (const MaterialTable& more : sidecar(path)) tables.push_back(more);
-    constexpr std::size_t most = 254;
-    if (tables.size() > most) {
-        throw InputError(tables[most].where, "materials: expected at most 254 of them");
+std::vector<Material> Palette::materials(std::optional<Meters> usual_height) const {
+    std::vector<Material> all{made_of({}, usual_height)};
+    all.front().name = "wall";
+    for (const MaterialTable& table : tables_) all.push_back(made_of(table, usual_height));
+    return all;
+}
+
+void Palette::note(std::string_view shared_map, std::vector<std::string>& notices) const {
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+        note_pixels(tables_[i], pixels_[i + 1],
+                    i < shared_ ? shared_map : std::string_view(maps_[i - shared_]), notices);
     }
-    OccupancyGrid grid = load_grid(scene, path);
-    assign_materials(grid, tables, *scene.map, notices);
-    std::vector<Material> materials{made_of({}, scene.wall_height)};
-    materials.front().name = "wall";
-    for (const MaterialTable& table : tables) {
-        materials.push_back(made_of(table, scene.wall_height));
+}
+
+/// Runs load() for the map that a key of the scenario names.
+auto located_map(const Location& where, auto&& load) {
+    try {
+        return load();
+    } catch (const InputError& error) {
+        if (error.where().source == where.source) throw;
+        throw InputError(where, std::string("map: ") + error.what());
+    } catch (const std::invalid_argument& error) {
+        throw InputError(where, error.what());
     }
-    return std::make_shared<const Scene>(std::move(grid), std::move(materials));
+}
+
+Material made_of(const CeilingTable& table) {
+    Material ceiling{.name = "ceiling", .per_crossing = table.per_crossing, .slab = table.itu};
+    if (table.thickness) ceiling.thickness = *table.thickness;
+    return ceiling;
 }
 
 }  // namespace
@@ -140,15 +183,27 @@ WorldOptions world_options(const SceneTable& scene, const std::string& file) {
 
 std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file,
                                       std::vector<std::string>& notices) {
-    if (!scene.map) return nullptr;
-    try {
-        return map_scene(scene, file, notices);
-    } catch (const InputError& error) {
-        if (error.where().source == scene.map_where.source) throw;
-        throw InputError(scene.map_where, std::string("map: ") + error.what());
-    } catch (const std::invalid_argument& error) {
-        throw InputError(scene.map_where, error.what());
+    if (!scene.has_maps()) return nullptr;
+    std::vector<FloorTable> floors = scene.floors;
+    if (scene.map) floors = {{.map = *scene.map, .size = scene.size, .map_where = scene.map_where}};
+    Palette palette(scene.materials);
+    std::vector<OccupancyGrid> maps;
+    std::vector<Material> ceilings;
+    for (const FloorTable& floor : floors) {
+        const fs::path path = fs::path(file).parent_path() / floor.map;
+        located_map(floor.map_where, [&] {
+            maps.push_back(load_grid(floor, path));
+            maps.back().origin.z = floor.height.value;
+            palette.paint(maps.back(), path, floor.map);
+        });
+        ceilings.push_back(made_of(floor.ceiling.value_or(CeilingTable{})));
     }
+    ceilings.pop_back();
+    palette.note(scene.map ? *scene.map : "the maps", notices);
+    return located_map(floors.front().map_where, [&] {
+        return std::make_shared<const Scene>(std::move(maps), palette.materials(scene.wall_height),
+                                             std::move(ceilings));
+    });
 }
 
 std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::string& file,

@@ -46,12 +46,14 @@ void check_size(const SceneTable& scene, TableReader& table) {
         throw InputError(where,
                          "size: found a size without a map; expected also map = \"office.png\"");
     }
-    if (scene.size->size() != 2) {
-        throw InputError(where,
-                         "size: expected a width and a height, such as [\"40 m\", \"20 m\"]");
-    }
-    for (const Meters side : *scene.size) {
-        if (!positive.contains(side.value)) throw InputError(where, "size: expected lengths > 0");
+    check_map_size(*scene.size, where);
+}
+
+/// Checks that nothing else says what the floors say.
+void check_floors(const SceneTable& scene, TableReader& table) {
+    if (scene.floors.empty()) return;
+    for (const char* key : {"map", "size", "world", "floor_height"}) {
+        if (table.table().find(key)) table.only_one_of("floor", key);
     }
 }
 
@@ -78,8 +80,10 @@ SceneTable read_scene(const Value& value) {
     TableReader table(value, "[scene]");
     SceneTable scene;
     table.read_fields(scene);
+    if (const Value* floors = table.take("floor")) scene.floors = read_floors(*floors);
     const Value* materials = table.take("materials");
     table.reject_unknown();
+    check_floors(scene, table);
     const Value* source = table.table().find(scene.world ? "world" : "map");
     scene.map_where = source ? source->where : value.where;
     check_size(scene, table);
@@ -96,6 +100,10 @@ Table scene_document(const SceneTable& scene) {
     Table table;
     append_fields(table, scene);
     if (!scene.lenient) std::erase_if(table.entries, [](auto& e) { return e.key == "lenient"; });
+    if (!scene.floors.empty()) {
+        std::erase_if(table.entries, [](auto& e) { return e.key == "floor_height"; });
+        table.set("floor", floors_document(scene.floors));
+    }
     Table materials;
     for (const MaterialTable& material : scene.materials) {
         Table each;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scenario/floor_table.hpp"
 #include "scenario/value.hpp"
 #include "scene/material.hpp"
 #include "scene/scene.hpp"
@@ -65,13 +66,15 @@ struct MaterialTable {
     }
 };
 
-/// [scene]: the map or the Stage world, and what its walls are made of. Without either it is an
-/// open field.
+/// [scene]: the map, the floors or the Stage world, and what their walls are made of. Without any
+/// it is an open field.
 struct SceneTable {
     /// ROS map.yaml, or a picture with a `size`; relative to the scenario file.
     std::optional<std::string> map;
     /// Width and height of a picture [m]: two lengths > 0.
     std::optional<std::vector<Meters>> size;
+    /// Floors of a building of several storeys, from the lowest up; instead of a map.
+    std::vector<FloorTable> floors = {};
     /// Stage world, instead of a map; its robots join those of the file.
     std::optional<std::string> world;
     /// Folders where includes and bitmaps of the world are looked for, too; bitmaps by other names,
@@ -79,14 +82,18 @@ struct SceneTable {
     std::optional<std::vector<std::string>> world_path;
     std::optional<std::vector<std::string>> bitmaps;
     bool lenient = false;
-    /// Height of one storey [m], for losses by floor.
+    /// Height of one storey [m], for losses by floor; of no meaning with `floors`.
     Meters floor_height{3};
-    /// Height [m] of walls whose material has none; none: endless.
+    /// Height [m] of walls whose material has none, above their floor; none: endless, or up to the
+    /// ceiling.
     std::optional<Meters> wall_height;
     /// Materials in their order: the first that fits a wall counts.
     std::vector<MaterialTable> materials = {};
     /// Place of the key `map` or `world`.
     Location map_where = {};
+
+    /// Whether it has maps: one, or those of floors.
+    bool has_maps() const { return map || !floors.empty(); }
 
     static constexpr auto fields() {
         return describe(
@@ -116,10 +123,10 @@ Table scene_document(const SceneTable& scene);
 /// @param file  scenario file, whose folder theirs are relative to
 WorldOptions world_options(const SceneTable& scene, const std::string& file);
 
-/// Scene of the map; null for an open field. A file NAME.materials.toml beside it has materials,
-/// too, which come after those of the scenario.
-/// @param file     scenario file, whose folder the map is relative to
-/// @param notices  appended: materials that make no wall, though the map has their grey
+/// Scene of the map or of the floors; null for an open field. A file NAME.materials.toml beside a
+/// map has materials of that map, too, which come after those of the scenario.
+/// @param file     scenario file, whose folder the maps are relative to
+/// @param notices  appended: materials that make no wall, though a map has their grey
 /// @throws InputError naming the scenario's line, then the map's own error
 std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file,
                                       std::vector<std::string>& notices);

@@ -169,14 +169,15 @@ void note_places(Scenario& scenario, const Scene* scene) {
     Affected beyond, in_walls;
     for (const RobotTable& robot : scenario.robots) {
         for_each_start(robot, [&](Vec3 p, const Location& where) {
-            const double metres = distance(p, on_map(*scene, p));
-            if (!scenario.scene.map || metres == 0) return;  // a world has no border
+            const Scene& storey = scene->storey_at(p.z);
+            const double metres = distance(p, on_map(storey, p));
+            if (!scenario.scene.has_maps() || metres == 0) return;  // a world has no border
             beyond.add([&] {
                 return fmt::format(
                     "{}: robot \"{}\" starts at {}, {:.4g} m off the map, which goes "
                     "from {} to {}",
-                    where.text(), robot.name, shown(p), metres, shown(scene->lower_left()),
-                    shown(scene->upper_right()));
+                    where.text(), robot.name, shown(p), metres, shown(storey.lower_left()),
+                    shown(storey.upper_right()));
             });
         });
         if (!scenario.scene.lenient || !robot.at) continue;
