@@ -12,7 +12,10 @@
 namespace rovernet {
 namespace {
 
-std::string coordinates(Vec3 p) { return fmt::format("({}, {})", p.x, p.y); }
+std::string coordinates(Vec3 p) {
+    return p.z == 0 ? fmt::format("({}, {})", p.x, p.y)
+                    : fmt::format("({}, {}, {})", p.x, p.y, p.z);
+}
 
 }  // namespace
 
@@ -171,8 +174,17 @@ Movement MotionBuilder::make(Model model, const MoveTable& move, const RobotTabl
 
 void MotionBuilder::check_way(Vec3 from, Vec3 to, const RobotTable& robot, const Location& where) {
     if (network_.scene().open_field()) return;
-    if (network_.planners().of_radius(robot.radius).has_way(from, to)) return;
+    Planners& planners = network_.planners();
+    if (planners.has_way(from, to, robot.radius)) return;
     const bool fits_there = network_.scene().inside_map(to) && fits(to, robot.radius);
+    if (fits_there && !planners.is_level(from, to)) {
+        throw InputError(where,
+                         fmt::format("move: no stairs from {} m to {} m for a robot of "
+                                     "radius {} m: the way from one storey to another is "
+                                     "straight, and a wall stands in it; expected a place "
+                                     "before it from which it is free",
+                                     coordinates(from), coordinates(to), robot.radius.value));
+    }
     throw InputError(where, fmt::format("move: no way from {} m to {} m for a robot of radius {} "
                                         "m: {}; expected a place that can be reached",
                                         coordinates(from), coordinates(to), robot.radius.value,

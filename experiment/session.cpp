@@ -300,10 +300,13 @@ const RangeFinder* Session::range_finder(NodeId robot) const {
 std::vector<double> Session::scan(NodeId robot) const {
     const RangeFinder& finder = range_finders_.at(robot);
     std::vector<RoundBody> others;
+    const auto storey_of = [&](Vec3 at) { return network_->scene().storey_number(at.z); };
+    const std::size_t storey = storey_of(network_->position(robot));
     for (NodeId other{0}; other.index() < network_->size(); ++other.value) {
         const RobotState state = network_->robot(other);
         const bool is_there = state.presence == Presence::on || state.presence == Presence::off;
-        if (other != robot && is_there) others.push_back({state.at, state.radius});
+        if (other != robot && is_there && storey_of(state.at) == storey)
+            others.push_back({state.at, state.radius});
     }
     std::vector<double> ranges(static_cast<std::size_t>(finder.beams));
     finder.measure(network_->scene(), network_->position(robot), network_->heading(robot), others,

@@ -35,7 +35,8 @@ struct Mover {
     /// depend on.
     Key draws = {};
 
-    const Scene& scene() const { return planners.scene(); }
+    /// Its storey; the whole scene if that has one only.
+    const Scene& scene() const { return planners.scene().storey_at(position.z); }
     /// The key of the robot's draw `index` of this movement.
     Key key(std::uint64_t index) const {
         Key key = draws;

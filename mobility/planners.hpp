@@ -5,27 +5,54 @@
 #include "scene/scene.hpp"
 #include "sim/units.hpp"
 
+#include <cstddef>
 #include <map>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace rovernet {
 
-/// The planners of one scene, one for each radius of robot, made when first asked for.
+/// The planners of one scene, one for each storey and radius of robot, made when first asked for.
 ///
-/// A planner's answers do not depend on what it was asked before: runs in one scene may share its
-/// planners, one run after the other.
+/// Stairs are no part of a scene: a way from one storey to another is straight, wherever its ends
+/// are, as long as Scene::passable allows it. A planner's answers do not depend on what it was
+/// asked before: runs in one scene may share its planners, one run after the other.
 class Planners {
   public:
     /// The scene must outlive the planners.
     explicit Planners(const Scene& scene) : scene_(&scene) {}
 
     const Scene& scene() const { return *scene_; }
-    Planner& of_radius(Meters radius) {
-        return by_radius_.try_emplace(radius, *scene_, radius).first->second;
+    /// Corners of the way [m], both ends included; none if there is no way. See Planner.
+    std::optional<std::vector<Vec3>> shortest_path(Vec3 from, Vec3 to, Meters radius) {
+        if (is_level(from, to)) return planner(from.z, radius).shortest_path(from, to);
+        if (!has_stairs(from, to, radius)) return std::nullopt;
+        return std::vector{from, to};
+    }
+    /// Whether there is a way, without searching for it.
+    bool has_way(Vec3 from, Vec3 to, Meters radius) {
+        return is_level(from, to) ? planner(from.z, radius).has_way(from, to)
+                                  : has_stairs(from, to, radius);
+    }
+    /// Both places are on one storey.
+    bool is_level(Vec3 from, Vec3 to) const {
+        return scene_->storey_number(from.z) == scene_->storey_number(to.z);
     }
 
   private:
+    Planner& planner(double z, Meters radius) {
+        const std::size_t storey = scene_->storey_number(z);
+        return planners_.try_emplace({storey, radius}, scene_->storey(storey), radius)
+            .first->second;
+    }
+    bool has_stairs(Vec3 from, Vec3 to, Meters radius) const {
+        return scene_->inside_map(from) && scene_->inside_map(to) &&
+               scene_->passable(from, to, radius);
+    }
+
     const Scene* scene_;
-    std::map<Meters, Planner> by_radius_;
+    std::map<std::pair<std::size_t, Meters>, Planner> planners_;  // by storey and radius
 };
 
 }  // namespace rovernet

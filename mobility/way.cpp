@@ -11,7 +11,7 @@ std::optional<Way> Way::plan(Mover& mover, Vec3 to) {
     for (const double x : {to.x, to.y, to.z}) {
         if (!any.contains(x)) throw_out_of_range("waypoints", "a place", any.text, x);
     }
-    auto corners = mover.planners.of_radius(mover.radius).shortest_path(mover.position, to);
+    auto corners = mover.planners.shortest_path(mover.position, to, mover.radius);
     if (!corners) return std::nullopt;
     Way way;
     std::reverse(corners->begin(), corners->end());

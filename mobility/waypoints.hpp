@@ -18,7 +18,8 @@ struct TimedPoint {
 };
 
 /// Movement from place to place, around the walls where there are any: by timetable (`timed`), then
-/// along `path` at `speed`.
+/// along `path` at `speed`. Two places on different storeys are the ends of stairs: the way between
+/// them is straight. Speeds and lengths are those in space.
 ///
 /// Between two timed places the speed is constant. A timed place whose time has passed when its
 /// turn comes is left out.

@@ -5,6 +5,7 @@
 #include "experiment/run.hpp"
 #include "mobility/waypoints.hpp"
 #include "scenario/scenario.hpp"
+#include "test/scene/drawn_map.hpp"
 #include "test/scene/temporary_folder.hpp"
 #include "traces/fingerprint.hpp"
 
@@ -327,6 +328,21 @@ scan = { beams = 3, range = "20 m" }
     CHECK(sees(11.5, 20, 5.8));
     session.network().take_away({0}, Presence::left);
     CHECK(session.scan(d)[2] == 20);
+}
+
+TEST_CASE("session: a range finder sees the robots of its own storey") {
+    Scenario on_two = scenario("[[robot]]\nname = \"d\"\nat = [\"1 m\", \"1 m\"]\n"
+                               "scan = { beams = 1, from = \"0 deg\", to = \"0 deg\" }\n");
+    OccupancyGrid upper = test::drawn_map({"........", "........"});
+    upper.origin.z = 3;
+    on_two.walls = std::make_shared<const Scene>(
+        std::vector{test::drawn_map({"........", "........"}), upper}, std::vector{Material{}});
+    Session session(on_two);
+    const NodeId d = *session.network().find("d");
+    session.network().place({0}, {5, 1, 3});
+    CHECK(session.scan(d)[0] == 8);
+    session.network().place({0}, {5, 1, 0});
+    CHECK(session.scan(d)[0] == doctest::Approx(3.8));
 }
 
 }  // namespace session_test
