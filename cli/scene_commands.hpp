@@ -44,6 +44,7 @@ struct DrawArguments : FileArguments {
     bool links = false;
     bool trails = false;
     bool axes = false;
+    int storey = 1;
     int width = 1200;
     double font_size = 12;
     std::string out;

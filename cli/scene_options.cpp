@@ -57,6 +57,7 @@ void add_draw(Command app) {
     draw.add_option("--coverage", a.coverage, "robot whose received power is shown");
     draw.add_flag("--links", a.links, "show who hears whom");
     draw.add_flag("--trails", a.trails, "show where the robots have been");
+    draw.add_option("--storey", a.storey, "storey that is drawn, the lowest is 1").shows_default();
     draw.add_flag("--axes", a.axes, "show axes in metres");
     draw.add_option("--width", a.width,
                     "of the picture, in pixels (points of a PDF); all is scaled")

@@ -91,20 +91,8 @@ void print_list(std::string_view what, const Value& names) {
     fmt::print("{:<20} {}\n", what, line.empty() ? "none" : line);
 }
 
-void print_scene(const Table& report) {
-    const auto number = [&](std::string_view key) {
-        const std::string text = to_json(*report.find(key));
-        return text.substr(0, text.size() - 1);
-    };
-    const Array& size = *report.find("size_m")->array();
-    fmt::print("{:<20} {} x {} m\n", "size", std::get<double>(size[0].data),
-               std::get<double>(size[1].data));
-    fmt::print("{:<20} {}\n", "occupied cells", number("occupied_cells"));
-    fmt::print("{:<20} {}\n", "wall rectangles", number("wall_rectangles"));
-    if (const auto* free = std::get_if<double>(&report.find("free_area_m2")->data)) {
-        fmt::print("{:<20} {:.3f} m2\n", "free area", *free);
-    }
-    for (const Value& material : *report.find("materials")->array()) {
+void print_materials(const Array& materials) {
+    for (const Value& material : materials) {
         std::string line;
         for (const Entry& entry : material.table()->entries) {
             if (entry.key == "name") continue;
@@ -115,14 +103,42 @@ void print_scene(const Table& report) {
     }
 }
 
+void print_scene(const Table& report) {
+    const auto number = [&](std::string_view key) {
+        const std::string text = to_json(*report.find(key));
+        return text.substr(0, text.size() - 1);
+    };
+    const Array& size = *report.find("size_m")->array();
+    fmt::print("{:<20} {} x {} m\n", "size", std::get<double>(size[0].data),
+               std::get<double>(size[1].data));
+    if (const Value* floors = report.find("floors_m")) {
+        std::string heights;
+        for (const Value& height : *floors->array()) {
+            heights +=
+                fmt::format("{}{}", heights.empty() ? "" : ", ", std::get<double>(height.data));
+        }
+        fmt::print("{:<20} at {} m\n", "floors", heights);
+    }
+    fmt::print("{:<20} {}\n", "occupied cells", number("occupied_cells"));
+    fmt::print("{:<20} {}\n", "wall rectangles", number("wall_rectangles"));
+    if (const auto* free = std::get_if<double>(&report.find("free_area_m2")->data)) {
+        fmt::print("{:<20} {:.3f} m2\n", "free area", *free);
+    }
+    for (const char* key : {"materials", "ceilings"}) {
+        const Value* list = report.find(key);
+        if (list) print_materials(*list->array());
+    }
+}
+
 void print_robots(const Table& report) {
     for (const Value& robot : *report.find("robots")->array()) {
         const Table& r = *robot.table();
         const auto value = [&](std::string_view key) {
             return std::get<double>(r.find(key)->data);
         };
-        fmt::print("{:<20} {} at ({:.3f}, {:.3f}) m, {}, {:.2f} dBm, sensitivity {:.2f} dBm{}\n",
-                   "robot", *r.find("name")->string(), value("x_m"), value("y_m"),
+        const std::string z = value("z_m") == 0 ? "" : fmt::format(", {:.3f}", value("z_m"));
+        fmt::print("{:<20} {} at ({:.3f}, {:.3f}{}) m, {}, {:.2f} dBm, sensitivity {:.2f} dBm{}\n",
+                   "robot", *r.find("name")->string(), value("x_m"), value("y_m"), z,
                    *r.find("model")->string(), value("power_dbm"), value("sensitivity_dbm"),
                    presence_text(*r.find("presence")->string()));
     }
@@ -237,6 +253,7 @@ void draw(const DrawArguments& a) {
                                  .coverage = a.coverage,
                                  .links = a.links,
                                  .trails = a.trails,
+                                 .storey = a.storey,
                                  .axes = a.axes,
                                  .width = a.width,
                                  .font_size = a.font_size};

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace rovernet {
@@ -85,7 +86,7 @@ void keep_others_still(Network& network, const Scenario& scenario,
 
 /// Loss [dB] of a link by another model or in another scene than its own.
 double loss_by(const Propagation& model, const Scene& scene, const Network& network, NodeId from,
-               NodeId to, Vec3 here, Vec3 there) {
+               NodeId to, Vec3 here, Vec3 there, std::optional<Meters> floor_height = {}) {
     const Medium& medium = network.medium();
     const std::uint64_t to_key = medium.stations().key(to);
     const LinkBatch batch{.frequency = medium.stations().radio(from).frequency,
@@ -94,7 +95,7 @@ double loss_by(const Propagation& model, const Scene& scene, const Network& netw
                           .from_key = medium.stations().key(from),
                           .to_keys = {&to_key, 1},
                           .scene = &scene,
-                          .floor_height = network.settings().floor_height,
+                          .floor_height = floor_height.value_or(network.settings().floor_height),
                           .seed = network.settings().seed,
                           .replication = network.settings().replication};
     double db = 0;
@@ -107,7 +108,8 @@ double loss_by(const Propagation& model, const Scene& scene, const Network& netw
 std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, const LinkReport& link,
                             Vec3 here, Vec3 there) {
     const double without_walls =
-        loss_by(network.medium().stations().model(from), Scene(), network, from, to, here, there);
+        loss_by(network.medium().stations().model(from), network.scene().without_walls(), network,
+                from, to, here, there);
 
     const auto& materials = network.scene().materials();
     std::vector<Db> losses;
@@ -125,6 +127,16 @@ std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, cons
             losses[i].value = left * wall.length / plain_m;
     }
     return losses;
+}
+
+/// What the ceilings between the antennas take [dB].
+Db ceiling_loss(const Network& network, NodeId from, NodeId to, Vec3 here, Vec3 there) {
+    const Scene& scene = network.scene();
+    if (scene.ceilings_between(here.z, there.z).empty()) return Db{0};
+    const Propagation& model = network.medium().stations().model(from);
+    constexpr Meters no_floors{1e9};
+    return Db{loss_by(model, scene.without_walls(), network, from, to, here, there) -
+              loss_by(model, Scene(), network, from, to, here, there, no_floors)};
 }
 
 std::string why_down(const Network& network, NodeId from, NodeId to, const LinkReport& link) {
@@ -189,6 +201,8 @@ LinkReport report_at(const Network& network, NodeId from, NodeId to, Time at) {
                       .materials = {},
                       .wall_losses = {},
                       .wall_m = network.scene().wall_length(a, b),
+                      .ceilings = network.scene().ceilings_between(a.z, b.z).size(),
+                      .ceiling_loss = ceiling_loss(network, from, to, a, b),
                       .sender = stations.radio(from),
                       .receiver = stations.radio(to),
                       .path_loss = links.path_loss(from, to, at, legs),

@@ -143,6 +143,8 @@ struct LinkReport {
     std::vector<std::string> materials;  ///< materials of the walls, one each
     std::vector<Db> wall_losses;         ///< loss of each wall; part of the path loss
     double wall_m;
+    std::size_t ceilings;  ///< ceilings between the antennas
+    Db ceiling_loss;       ///< loss of all of them; part of the path loss
     Radio sender, receiver;
     Db path_loss;                         ///< all of it: walls and shadowing are in it
     std::optional<Db> shadowing;          ///< part of the path loss, if there is some

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace rovernet {
@@ -26,6 +27,7 @@ Table wall_document(const WallRectangle& wall, const Scene& scene) {
     Table table;
     table.set("corners", std::move(corners));
     table.set("material", scene.materials()[wall.material].name);
+    if (scene.storeys() > 1) table.set("floor_m", wall.corners[0].z);
     return table;
 }
 
@@ -44,9 +46,26 @@ Table material_document(const Material& material) {
 }
 
 double free_area(const Scene& scene) {
-    const OccupancyGrid& grid = scene.grid();
-    const auto cells = std::count(grid.cells.begin(), grid.cells.end(), Cell::free);
-    return static_cast<double>(cells) * grid.cell_width * grid.cell_height;
+    double area = 0;
+    for (std::size_t i = 0; i < scene.storeys(); ++i) {
+        const OccupancyGrid& grid = scene.storey(i).grid();
+        const auto cells = std::count(grid.cells.begin(), grid.cells.end(), Cell::free);
+        area += static_cast<double>(cells) * grid.cell_width * grid.cell_height;
+    }
+    return area;
+}
+
+/// Sets the heights of the floors and what the ceilings are made of, from below.
+void set_storeys(Table& table, const Scene& scene) {
+    if (scene.storeys() == 1) return;
+    Array floors, ceilings;
+    for (std::size_t i = 0; i < scene.storeys(); ++i) floors.emplace_back(scene.floor_height(i));
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    for (const Material& ceiling : scene.ceilings_between(-endless, endless)) {
+        ceilings.emplace_back(material_document(ceiling));
+    }
+    table.set("floors_m", std::move(floors));
+    table.set("ceilings", std::move(ceilings));
 }
 
 /// The links that work both ways, and how many work one way only.
@@ -124,6 +143,7 @@ Table scene_report(const Scene& scene, bool walls) {
         materials.emplace_back(material_document(material));
     }
     table.set("materials", std::move(materials));
+    set_storeys(table, scene);
     if (!walls) return table;
     Array list;
     for (const WallRectangle& wall : rectangles) list.emplace_back(wall_document(wall, scene));

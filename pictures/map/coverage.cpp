@@ -79,7 +79,8 @@ Vec3 CoverageMap::centre(int column, int row) const {
 }
 
 CoverageMap coverage(const Transmitter& transmitter, Vec3 low, Vec3 high, int cells) {
-    CoverageMap map = empty_map({low.x, low.y, transmitter.antenna.z}, high, cells);
+    CoverageMap map =
+        empty_map({low.x, low.y, transmitter.antenna.z + transmitter.receivers_above}, high, cells);
     std::vector<Vec3> antennas;
     antennas.reserve(map.dbm.size());
     for (int row = 0; row < map.rows; ++row) {

@@ -18,6 +18,7 @@ struct Transmitter {
     Propagation model;
     Radio radio = {};
     Vec3 antenna = {};             ///< [m]
+    double receivers_above = 0;    ///< [m] by which receivers' antennas are higher than its own
     Radians heading{0};            ///< [rad] of the robot, for a directional antenna
     std::uint64_t key = 0;         ///< key of the robot, for random draws
     const Scene* scene = nullptr;  ///< not null; outlives the transmitter
@@ -56,7 +57,8 @@ struct CoverageMap {
 /// The most cells that a map of the coverage may have.
 inline constexpr int most_coverage_cells = 4'000'000;
 
-/// Levels over the rectangle from `low` to `high` [m], for antennas as high as the transmitter's.
+/// Levels over the rectangle from `low` to `high` [m], for antennas `receivers_above` above the
+/// transmitter's.
 /// @param cells  about so many, nearly square
 /// @throws std::invalid_argument for an empty rectangle, or cells outside 1 to most_coverage_cells
 CoverageMap coverage(const Transmitter& transmitter, Vec3 low, Vec3 high, int cells);

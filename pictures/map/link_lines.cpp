@@ -87,18 +87,26 @@ LegendItem sample(std::string text, std::size_t grade, bool dashed) {
 
 }  // namespace
 
-LinkLines::LinkLines(const Network& network, Time at) {
+LinkLines::LinkLines(const Network& network, Time at, std::size_t storey) {
     const auto robots = static_cast<std::uint32_t>(network.size());
     if (robots > most_linked) {
         throw RunError(fmt::format("links of {} robots make no picture; expected at most {}",
                                    robots, most_linked));
     }
+    const auto is_here = [&](NodeId node) {
+        return network.scene().storey_number(network.legs().position(node, at).z) == storey;
+    };
     for (std::uint32_t i = 0; i < robots; ++i) {
+        const bool here = is_here(NodeId{i});
         for (std::uint32_t j = i + 1; j < robots; ++j) {
             const NodeId a{i}, b{j};
+            const bool there_too = is_here(b);
+            if (!here && !there_too) continue;
             const auto there = link_margin(network, a, b, at),
                        back = link_margin(network, b, a, at);
-            if (there && back) {
+            if (!here || !there_too) {
+                to_other_storeys_ += there || back;
+            } else if (there && back) {
                 lines_.push_back({a, b, std::min(*there, *back), true});
             } else if (there) {
                 lines_.push_back({a, b, *there, false});
@@ -157,6 +165,10 @@ void LinkLines::append_to(Legend& legend) const {
         first = false;
     }
     if (one_way) legend.add(sample("one way only", *one_way, true));
+    if (to_other_storeys_ == 0) return;
+    legend.add({fmt::format("{} link{} to other storeys", to_other_storeys_,
+                            to_other_storeys_ == 1 ? "" : "s"),
+                0, [](Svg&, PicturePoint) {}});
 }
 
 }  // namespace rovernet

@@ -14,9 +14,10 @@ namespace rovernet {
 /// dashed where only one end can hear the other, with an arrow head at the one that can.
 class LinkLines {
   public:
-    /// The links that are up at `at`.
+    /// The links that are up at `at`, between robots on one storey.
+    /// @param storey  its number
     /// @throws RunError for more than 5000 robots
-    LinkLines(const Network& network, Time at);
+    LinkLines(const Network& network, Time at, std::size_t storey);
 
     void draw(Svg& svg, const RobotMarks& robots, bool on_colors) const;
     /// Labels should not lie on the lines, if they are few enough to leave room.
@@ -31,6 +32,7 @@ class LinkLines {
     };
 
     std::vector<Line> lines_;
+    std::size_t to_other_storeys_ = 0;  // links that are not drawn
 };
 
 }  // namespace rovernet

@@ -77,6 +77,9 @@ class Painter {
 
   private:
     void run();
+    /// Number of the storey that is drawn; the lowest is 0.
+    std::size_t storey() const { return static_cast<std::size_t>(options_.storey - 1); }
+    void check_storey() const;
     Extent extent() const;
     Plot plot() const;
     /// Distance from the robot whose coverage is drawn up to which an open field is shown [m].
@@ -110,7 +113,17 @@ Painter::Painter(const Scenario& scenario, const PictureOptions& options)
     if (options.at < start_of_run) throw std::invalid_argument("picture: at must be >= 0 s");
 }
 
+void Painter::check_storey() const {
+    const std::size_t all = network_.scene().storeys();
+    if (options_.storey >= 1 && storey() < all) return;
+    throw std::invalid_argument(
+        all == 1
+            ? fmt::format("picture: the scene has one storey, got storey {}", options_.storey)
+            : fmt::format("picture: storey must be from 1 to {}, got {}", all, options_.storey));
+}
+
 void Painter::run() {
+    check_storey();
     if (options_.trails) network_.add_sink(trails_);
     populate(network_, scenario_);
     if (network_.size() > most_robots) {
@@ -120,12 +133,15 @@ void Painter::run() {
     if (options_.coverage) source_ = robot_named(network_, *options_.coverage);
     network_.run_until(options_.at);
 
-    map_.emplace(network_.scene());
-    if (source_) transmitter_ = transmitter(network_, *source_, options_.at);
-    if (options_.links) links_.emplace(network_, options_.at);
-    if (options_.trails) {
-        ways_.emplace(*trails_, static_cast<std::uint32_t>(network_.size()), options_.at);
+    const Scene& scene = network_.scene();
+    map_.emplace(scene.storey(storey()));
+    if (source_) {
+        transmitter_ = transmitter(network_, *source_, options_.at);
+        const std::size_t its_own = scene.storey_number(network_.position(*source_).z);
+        transmitter_->receivers_above = scene.floor_height(storey()) - scene.floor_height(its_own);
     }
+    if (options_.links) links_.emplace(network_, options_.at, storey());
+    if (options_.trails) ways_.emplace(*trails_, network_, options_.at, storey());
 }
 
 double Painter::shown_reach(const Extent& robots) const {
@@ -146,10 +162,11 @@ Extent Painter::extent() const {
         const RobotState robot = network_.robot(node);
         const bool there = robot.presence == Presence::on || robot.presence == Presence::off;
         if (!there && source_ != node) continue;
+        if (network_.scene().storey_number(robot.at.z) != storey()) continue;
         out.include(robot.at, robot.radius.value);
     }
     if (ways_) ways_->include_in(out);
-    const Scene& scene = network_.scene();
+    const Scene& scene = network_.scene().storey(storey());
     if (!scene.open_field()) {
         out.include(scene.lower_left());
         out.include(scene.upper_right());
@@ -192,7 +209,7 @@ void Painter::draw_world(Svg& svg, const Plot& plot, const RobotMarks& robots) c
     if (heat_) heat_->draw_levels(svg, plot);
     map_->draw(svg, plot, heat_.has_value());
     if (heat_) heat_->draw_contours(svg, plot);
-    if (ways_) ways_->draw(svg, plot, network_, heat_.has_value());
+    if (ways_) ways_->draw(svg, plot, heat_.has_value());
     if (links_) links_->draw(svg, robots, heat_.has_value());
     robots.draw(svg);
     svg.close();
@@ -224,10 +241,11 @@ std::string Painter::paint() {
     const double text_width = plot.right() + right - margin;
     const Time end = start_of_run + scenario_.scenario.duration;
     const Heading heading(shortened(scenario_.scenario.name, 100),
-                          picture_caption(network_, options_.at, end, source_), text_width);
+                          picture_caption(network_, options_.at, end, storey(), source_),
+                          text_width);
     plot.top = margin + heading.height();
 
-    RobotMarks robots(network_, source_, options_.trails, plot);
+    RobotMarks robots(network_, storey(), source_, options_.trails, plot);
     LabelPlaces places({plot.left, plot.top, plot.right(), plot.bottom()});
     if (links_) links_->keep_off(places, robots);
     robots.place_names(places);

@@ -14,8 +14,9 @@ namespace rovernet {
 /// Caption of a picture: the lines above it. They tell the time, the robots of the network that are
 /// not there, the models, and the robot whose coverage is drawn.
 /// @param end     end of the scenario's run: the caption tells that `at` is after it
+/// @param storey  number of the storey that is drawn
 /// @param source  robot whose coverage is drawn
 std::vector<std::string> picture_caption(const Network& network, Time at, Time end,
-                                         std::optional<NodeId> source);
+                                         std::size_t storey, std::optional<NodeId> source);
 
 }  // namespace rovernet

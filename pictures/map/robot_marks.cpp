@@ -81,8 +81,8 @@ LegendItem sample(std::string text, Presence presence, bool stands_out) {
 
 }  // namespace
 
-RobotMarks::RobotMarks(const Network& network, std::optional<NodeId> standing_out, bool colored,
-                       const Plot& plot) {
+RobotMarks::RobotMarks(const Network& network, std::size_t storey,
+                       std::optional<NodeId> standing_out, bool colored, const Plot& plot) {
     for (std::uint32_t i = 0; i < network.size(); ++i) {
         const NodeId node{i};
         RobotState robot = network.robot(node);
@@ -91,6 +91,7 @@ RobotMarks::RobotMarks(const Network& network, std::optional<NodeId> standing_ou
                           .radius = std::max(least_radius, robot.radius.value * plot.scale),
                           .heading = robot.heading.value,
                           .presence = robot.presence,
+                          .here = network.scene().storey_number(robot.at.z) == storey,
                           .stands_out = standing_out == node,
                           .rim = colored ? robot_color(node) : ink});
     }
@@ -147,6 +148,7 @@ void RobotMarks::place_names(LabelPlaces& places) {
 void RobotMarks::append_to(Legend& legend) const {
     bool some_off = false;
     for (const auto& robot : marks_) {
+        if (!robot.drawn()) continue;
         if (robot.stands_out) legend.add(sample("transmitter", robot.presence, true));
         some_off = some_off || robot.presence == Presence::off;
     }

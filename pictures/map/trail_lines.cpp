@@ -66,34 +66,55 @@ void draw_way(Svg& svg, const std::string& lines, Color color, double width) {
 
 }  // namespace
 
-TrailLines::TrailLines(const Trails& trails, std::uint32_t robots, Time at)
-    : trails_(trails), robots_(robots), at_(at), every_(dot_period(at)) {}
+TrailLines::TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey)
+    : trails_(trails),
+      network_(network),
+      robots_(static_cast<std::uint32_t>(network.size())),
+      storey_(storey),
+      at_(at),
+      every_(dot_period(at)) {}
+
+bool TrailLines::is_here(Vec3 p) const { return network_.scene().storey_number(p.z) == storey_; }
+
+/// Ways of a robot, without the parts from and to other storeys.
+std::vector<std::vector<Vec3>> TrailLines::ways(NodeId node) const {
+    std::vector<std::vector<Vec3>> parts;
+    for (const auto& way : trails_.ways(node, at_)) {
+        bool goes_on = false;
+        for (std::size_t i = 1; i < way.size(); ++i) {
+            const bool shown = is_here(way[i - 1]) || is_here(way[i]);
+            if (shown && !goes_on) parts.push_back({way[i - 1]});
+            if (shown) parts.back().push_back(way[i]);
+            goes_on = shown;
+        }
+    }
+    return parts;
+}
 
 void TrailLines::include_in(Extent& extent) const {
     for (std::uint32_t i = 0; i < robots_; ++i) {
-        for (const auto& way : trails_.ways(NodeId{i}, at_)) {
-            for (const Vec3 p : way) {
-                if (way.size() > 1) extent.include(p);
-            }
+        for (const auto& way : ways(NodeId{i})) {
+            for (const Vec3 p : way) extent.include(p);
         }
     }
 }
 
 TrailLines::Trail TrailLines::trail(NodeId node, const Plot& plot) const {
     SvgPath lines, dots, rings;
-    for (const auto& way : trails_.ways(node, at_)) {
+    for (const auto& way : ways(node)) {
         std::vector<PicturePoint> points;
         for (const Vec3 p : way) points.push_back(plot.at(p));
-        if (points.size() < 2) continue;
         append_way(lines, points);
         append_disc(rings, points.front(), ring_radius);
     }
     if (lines.empty()) return {};
-    for (const Vec3 p : trails_.marks(node, at_, every_)) append_disc(dots, plot.at(p), dot_radius);
+    for (const Vec3 p : trails_.marks(node, at_, every_)) {
+        if (is_here(p)) append_disc(dots, plot.at(p), dot_radius);
+    }
     return {lines.text(), dots.text(), rings.text()};
 }
 
-void TrailLines::draw(Svg& svg, const Plot& plot, const Network& network, bool on_colors) const {
+void TrailLines::draw(Svg& svg, const Plot& plot, bool on_colors) const {
     std::vector<Trail> all;
     for (std::uint32_t i = 0; i < robots_; ++i) all.push_back(trail(NodeId{i}, plot));
     for (const Trail& each : all) {
@@ -104,7 +125,7 @@ void TrailLines::draw(Svg& svg, const Plot& plot, const Network& network, bool o
         if (all[i].lines.empty()) continue;
         const Color color = robot_color(NodeId{i});
         svg.open("g", {{"class", "trail"}});
-        svg.title(network.name(NodeId{i}));
+        svg.title(network_.name(NodeId{i}));
         draw_way(svg, all[i].lines, color, line_width);
         svg.add("path", {{"d", all[i].dots}, {"fill", color}});
         svg.add("path", {{"d", all[i].rings},

@@ -16,12 +16,13 @@ namespace rovernet {
 /// the start, with dots at equal times.
 class TrailLines {
   public:
-    /// @param trails  of `robots` nodes; outlives the lines
-    TrailLines(const Trails& trails, std::uint32_t robots, Time at);
+    /// The parts of ways on one storey; of stairs all that begin or end there.
+    /// @param trails  of the network's robots; both outlive the lines
+    /// @param storey  its number
+    TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey);
 
     void include_in(Extent& extent) const;
-    /// @param network  of the robots, whose names it says
-    void draw(Svg& svg, const Plot& plot, const Network& network, bool on_colors) const;
+    void draw(Svg& svg, const Plot& plot, bool on_colors) const;
     void append_to(Legend& legend) const;
 
   private:
@@ -29,10 +30,14 @@ class TrailLines {
         std::string lines = {}, dots = {}, rings = {};  // data of paths
     };
 
+    bool is_here(Vec3 p) const;
+    std::vector<std::vector<Vec3>> ways(NodeId node) const;
     Trail trail(NodeId node, const Plot& plot) const;
 
     const Trails& trails_;
+    const Network& network_;
     std::uint32_t robots_;
+    std::size_t storey_;
     Time at_;
     Duration every_{0};  // between dots
 };

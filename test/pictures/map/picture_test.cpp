@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/picture.hpp"
 
+#include "experiment/build.hpp"
 #include "mobility/waypoints.hpp"
 #include "pictures/draw/picture_file.hpp"
+#include "pictures/map/coverage.hpp"
 #include "pictures/map/map_layer.hpp"
 #include "pictures/map/trail.hpp"
 #include "scenario/toml.hpp"
@@ -353,6 +355,78 @@ TEST_CASE("picture: it is as wide as asked for, or less for a tall world, and ne
     CHECK(size(1, 100).second < 1100);
     CHECK(size(50, 50).second < 1100);
     CHECK(size(0, 0).first <= 1200);
+}
+
+TEST_CASE("picture: of several storeys one is drawn, with its walls, robots, links and trails") {
+    Scenario s = scenario(robot("low", 1.5, 0.5) + robot("stays", 2.5, 0.5) +
+                          "[[robot]]\nname = \"high\"\nat = [\"1.5 m\", \"0.5 m\", \"3 m\"]\n"
+                          "move = { model = \"goal\", to = [\"4.5 m\", \"0.5 m\", \"3 m\"] }\n" +
+                          robot("climbs", 0.5, 1.5,
+                                "move = { model = \"goal\", to = [\"4.5 m\", \"1.5 m\", "
+                                "\"3 m\"], speed = \"100 m/s\" }\n"));
+    OccupancyGrid upper = test::drawn_map({"######", "......", "......"});
+    upper.origin.z = 3;
+    s.walls = std::make_shared<const Scene>(
+        std::vector{test::drawn_map({"......", "......", "......"}), upper},
+        std::vector{Material{}});
+    const PictureOptions options{.at = start_of_run + 2s, .links = true, .trails = true};
+    const auto of_storey = [&](int storey) {
+        PictureOptions one = options;
+        one.storey = storey;
+        return draw_svg(s, one);
+    };
+    const std::string below = of_storey(1), above = of_storey(2);
+    const auto has_robot = [](const std::string& svg, const char* name) {
+        return has(svg, fmt::format("<title>{}</title>", name));
+    };
+    CHECK(has(below, "storey 1 of 2, floor at 0 m"));
+    CHECK(has(above, "storey 2 of 2, floor at 3 m"));
+    CHECK(has_robot(below, "low"));
+    CHECK_FALSE(has_robot(below, "high"));
+    CHECK(has_robot(above, "high"));
+    CHECK_FALSE(has_robot(above, "low"));
+    CHECK(has_robot(below, "climbs"));  // its trail: the stairs are on both
+    CHECK(has_robot(above, "climbs"));
+    CHECK(count(below, "class=\"trail\"") == 1);
+    CHECK(count(above, "class=\"trail\"") == 2);
+    CHECK(has(below, "4 links to other storeys"));
+    CHECK(has(above, "4 links to other storeys"));
+    CHECK_FALSE(has(below, "id=\"walls0\""));
+    CHECK(has(above, "id=\"walls0\""));
+    CHECK(test::xml_fault(above) == "");
+    for (const int storey : {0, 3})
+        CHECK_THROWS_WITH_AS(of_storey(storey), doctest::Contains("storey must be from 1 to 2"),
+                             std::invalid_argument);
+    CHECK_THROWS_WITH_AS(draw_svg(scenario(robot("A", 0, 0)), {.storey = 2}),
+                         doctest::Contains("one storey"), std::invalid_argument);
+}
+
+TEST_CASE("picture: the coverage of another storey is that through the ceiling") {
+    Scenario s =
+        scenario(robot("A", 1.5, 0.5) +
+                 "[propagation]\nmodel = \"multi_wall\"\n[radio]\nantenna_height = \"1 m\"\n");
+    OccupancyGrid upper = test::drawn_map({"......", "......"});
+    upper.origin.z = 3;
+    s.walls = std::make_shared<const Scene>(
+        std::vector{test::drawn_map({"......", "......"}), upper}, std::vector{Material{}},
+        std::vector{Material{.per_crossing = 12_dB}});
+    Network network(network_settings(s));
+    populate(network, s);
+    Transmitter t = transmitter(network, {0}, start_of_run);
+    t.receivers_above = 3;
+    const CoverageMap map = coverage(t, {0, 0}, {6, 2}, 48);
+    const Vec3 p = map.centre(7, 1);
+    CHECK(p.z == 4);
+    double expected = 0;
+    received_levels(t, {&p, 1}, {&expected, 1});
+    CHECK(map.at(7, 1) == expected);
+    t.receivers_above = 0;
+    const Vec3 q{p.x, p.y, 1};
+    double below = 0;
+    received_levels(t, {&q, 1}, {&below, 1});
+    const double spread =
+        20 * std::log10(distance(p, t.antenna) / std::max(distance(q, t.antenna), 1.0));
+    CHECK(below - expected == doctest::Approx(12 + spread));
 }
 
 TEST_CASE("picture: an unknown robot and options out of range are the caller's fault") {
