@@ -155,6 +155,18 @@ TEST_CASE("a recorded trace is repeated without the files of its scenario") {
     CHECK_FALSE(verify_replay(run.trace, {}).difference);
 }
 
+TEST_CASE("a recorded trace of several storeys is repeated without their maps") {
+    TempFolder folder;
+    for (const char* name : {"storeys.toml", "ground.png", "upper.png"}) {
+        std::filesystem::copy(examples + "/storeys/" + name, folder / name);
+    }
+    const RecordedRunOf run(folder / "storeys.toml", {});
+    for (const char* name : {"storeys.toml", "ground.png", "upper.png"}) {
+        std::filesystem::remove(folder / name);
+    }
+    CHECK_FALSE(verify_replay(run.trace, {}).difference);
+}
+
 TEST_CASE("a reader in Python, written from docs/trace-format.md, reads the same records") {
     if (std::system("python3 --version > /dev/null && zstd --version > /dev/null") != 0) {
         MESSAGE("python3 or zstd is missing: not checked");
