@@ -5,9 +5,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <string_view>
 
 namespace rovernet {
+namespace {
+
+constexpr std::uint32_t no_text = ~std::uint32_t{0};  // number of a payload's words: there are none
+
+/// Whether a payload is for people to read: frames of emulated programs are not, say.
+bool is_text(std::string_view bytes) {
+    return std::none_of(bytes.begin(), bytes.end(), [](unsigned char c) {
+        const bool is_space = c == '\t' || c == '\n' || c == '\r';
+        return (c < ' ' && !is_space) || c == '\x7f';
+    });
+}
+
+}  // namespace
 
 bool Timeline::Pairs::add(std::uint32_t words, NodeId node) {
     const auto place = [&](std::uint64_t pair) {
@@ -39,6 +54,7 @@ std::uint32_t Timeline::words_of(MessageId id, const RecordContext& context) {
     if (id.index() >= by_message_.size()) by_message_.resize(id.index() + 1, {~0ULL, 0});
     auto& [uid, words] = by_message_[id.index()];
     if (std::exchange(uid, message.uid) == message.uid) return words;
+    if (!is_text(message.payload)) return words = no_text;
     const auto found = word_index_.find({message.origin, message.payload});
     if (found != word_index_.end()) return words = found->second;
     words = static_cast<std::uint32_t>(words_.size());
@@ -54,9 +70,8 @@ std::uint32_t Timeline::place(Vec3 p) {
 
 void Timeline::tell(const Sent& sent, const RecordContext& context) {
     const std::uint32_t words = words_of(sent.message, context);
-    if (known_.add(words, sent.node)) {
-        entries_.push_back({sent.time, sent.node, words, Event::says, 0});
-    }
+    if (words == no_text || !known_.add(words, sent.node)) return;
+    entries_.push_back({sent.time, sent.node, words, Event::says, 0});
 }
 
 /// A repeated message is no news: the same words from the same robot.
@@ -64,7 +79,7 @@ void Timeline::tell(const Received& received, const RecordContext& context) {
     for (const auto& r : received.receptions) {
         if (!r.delivered) continue;
         const std::uint32_t words = words_of(received.frame.message, context);
-        if (!known_.add(words, r.node)) continue;
+        if (words == no_text || !known_.add(words, r.node)) continue;
         entries_.push_back({r.time, r.node, words, Event::hears, received.frame.hops});
     }
 }
