@@ -2,7 +2,6 @@
 #include "experiment/session.hpp"
 
 #include "experiment/build.hpp"
-#include "mobility/waypoints.hpp"
 #include "models/medium/medium.hpp"
 #include "scenario/located.hpp"
 #include "sim/link_layer.hpp"
@@ -12,18 +11,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <stdexcept>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 namespace rovernet {
-namespace {
-
-/// Place where no robot is, for an arc that nobody is on.
-constexpr Vec3 not_driven{1e300, 0, 0};
-
-}  // namespace
 
 /// Sink that notes what the callbacks of a network do not tell: the numbers of messages, and whose
 /// frame brought a message at what level.
@@ -89,7 +82,8 @@ Session::Session(const Scenario& scenario) : Session(scenario, network_settings(
 Session::Session(const Scenario& scenario, NetworkSettings settings)
     : file_(scenario.file),
       network_(std::make_shared<Network>(std::move(settings))),
-      end_(start_of_run + scenario.scenario.duration) {
+      end_(start_of_run + scenario.scenario.duration),
+      driven_(*network_) {
     populate(*network_, scenario);
     for (const RobotTable& table : scenario.robots) {
         for (int i = 0; table.scan && i < table.count.value_or(1); ++i) {
@@ -212,37 +206,18 @@ std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,
     advance(network_->now(), every_event);  // what the last command caused at this time comes first
     if (tell_) tell_({network_->now(), robot, client_of(client).name, number, command});
     ears_->last_sent.reset();
-    std::visit([&](const auto& each) { act(robot, each); }, command);
+    const auto act = [&](const auto& each) {
+        if constexpr (std::is_same_v<decltype(each), const SendCommand&>) {
+            send_message(robot, each);
+        } else {
+            driven_.carry_out(robot, each);
+        }
+    };
+    std::visit(act, command);
     return ears_->last_sent;
 }
 
-void Session::act(NodeId robot, const DriveCommand& command) {
-    Driven driven{.speed = command.speed, .turn_rate = command.turn_rate};
-    if (command.timeout) driven.until = network_->now() + *command.timeout;
-    Driving& driving = driving_[robot];
-    if (!driving.arc) driving.arc = std::make_shared<DrivenArc>(DrivenArc{.at = not_driven});
-    driving.until = driven.until.value_or(never);
-    driving.speed = command.speed.value;
-    driven.arc = driving.arc;
-    network_->move(robot, driven);
-}
-
-void Session::act(NodeId robot, const GoalCommand& command) {
-    driving_.erase(robot);
-    network_->move(robot, ToGoal{command.to, command.speed});
-}
-
-void Session::act(NodeId robot, const StopCommand&) {
-    driving_.erase(robot);
-    network_->stop(robot);
-}
-
-void Session::act(NodeId robot, const PlaceCommand& command) {
-    driving_.erase(robot);
-    network_->place(robot, command.at, command.heading);
-}
-
-void Session::act(NodeId robot, const SendCommand& command) {
+void Session::send_message(NodeId robot, const SendCommand& command) {
     if (command.to) {
         network_->unicast(robot, *command.to, command.payload, command.size);
     } else {
@@ -253,8 +228,7 @@ void Session::act(NodeId robot, const SendCommand& command) {
 
 void Session::move(ClientId client, NodeId robot, Movement movement) {
     check_robot(client, robot);
-    driving_.erase(robot);
-    network_->move(robot, std::move(movement));
+    driven_.move(robot, std::move(movement));
 }
 
 std::vector<HeardMessage> Session::heard(ClientId client) {
@@ -268,28 +242,6 @@ std::vector<HeardMessage> Session::heard(ClientId client) {
 void Session::set_hearing(ClientId client, bool hears) {
     client_of(client).hears = hears;
     if (!hears) client_of(client).heard.clear();
-}
-
-const Session::Driving* Session::driving(NodeId robot) const {
-    const auto found = driving_.find(robot);
-    const bool drives = found != driving_.end() && network_->now() < found->second.until;
-    return drives ? &found->second : nullptr;
-}
-
-bool Session::is_stalled(NodeId robot) const {
-    const Driving* driven = driving(robot);
-    return driven && driven->speed != 0 && network_->legs().leg(robot).velocity == Vec3{};
-}
-
-Twist Session::twist(NodeId robot) const {
-    const Leg leg = network_->legs().leg(robot);
-    if (network_->now() >= leg.end) return {};
-    const double speed = std::sqrt(squared_distance(leg.velocity, {}));
-    const Driving* driven = driving(robot);
-    if (!driven) return {speed, leg.turning};
-    // A chord is a little shorter than its arc.
-    if (driven->arc->speed != 0) return {driven->arc->speed, leg.turning};
-    return {driven->speed < 0 ? -speed : speed, leg.turning};
 }
 
 const RangeFinder* Session::range_finder(NodeId robot) const {

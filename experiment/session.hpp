@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/driven_robots.hpp"
 #include "experiment/robot_command.hpp"
-#include "mobility/driven.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
 #include "scene/range_finder.hpp"
@@ -34,12 +34,6 @@ struct HeardMessage {
     std::uint16_t port = 0;
     bool is_for_everyone = true;  ///< otherwise it was sent to `at`
     friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
-};
-
-/// Speed of a robot as its own sensors would tell it.
-struct Twist {
-    double speed = 0;      ///< ahead [m/s], < 0: backwards
-    double turn_rate = 0;  ///< [rad/s], counter-clockwise
 };
 
 /// A scenario that is run from outside: in steps, or paced by the clock, while clients drive its
@@ -112,9 +106,9 @@ class Session {
     /// never asks would fill the memory.
     void set_hearing(ClientId client, bool hears);
     /// The robot was told to drive ahead and cannot.
-    bool is_stalled(NodeId robot) const;
+    bool is_stalled(NodeId robot) const { return driven_.is_stalled(robot); }
     /// Speed of a robot: as it is driven, or else that of its leg.
-    Twist twist(NodeId robot) const;
+    Twist twist(NodeId robot) const { return driven_.twist(robot); }
 
     /// Range finder that the scenario gives to a robot; null if it has none.
     const RangeFinder* range_finder(NodeId robot) const;
@@ -134,30 +128,18 @@ class Session {
         std::vector<HeardMessage> heard;
         bool hears = true;
     };
-    /// Robot that is driven by a velocity.
-    struct Driving {
-        Time until;
-        double speed;  // [m/s] as commanded
-        std::shared_ptr<DrivenArc> arc;
-    };
 
     Client& client_of(ClientId client);
     void check_robot(ClientId client, NodeId robot);
     void hear(ClientId client, NodeId robot, const Message& message, const Heard& how);
-    // The ways of carry_out().
-    void act(NodeId robot, const DriveCommand& command);
-    void act(NodeId robot, const GoalCommand& command);
-    void act(NodeId robot, const StopCommand& command);
-    void act(NodeId robot, const PlaceCommand& command);
-    void act(NodeId robot, const SendCommand& command);
-    const Driving* driving(NodeId robot) const;
+    void send_message(NodeId robot, const SendCommand& command);
 
     std::string file_;  // file of the scenario, for errors
     std::shared_ptr<Network> network_;
     Time end_;
+    DrivenRobots driven_;
     std::map<ClientId, Client> clients_;
     std::map<NodeId, ClientId> drivers_;
-    std::map<NodeId, Driving> driving_;
     std::map<NodeId, RangeFinder> range_finders_;
     std::shared_ptr<Ears> ears_;  // null until a client comes
     std::function<void(const Input&)> tell_;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/driven_robots.hpp"
+
+#include "mobility/waypoints.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+/// Place where no robot is, for an arc that nobody is on.
+constexpr Vec3 not_driven{1e300, 0, 0};
+
+}  // namespace
+
+void DrivenRobots::carry_out(NodeId robot, const DriveCommand& command) {
+    Driven driven{.speed = command.speed, .turn_rate = command.turn_rate};
+    if (command.timeout) driven.until = network_.now() + *command.timeout;
+    Driving& driving = driving_[robot];
+    if (!driving.arc) driving.arc = std::make_shared<DrivenArc>(DrivenArc{.at = not_driven});
+    driving.until = driven.until.value_or(never);
+    driving.speed = command.speed.value;
+    driven.arc = driving.arc;
+    network_.move(robot, driven);
+}
+
+void DrivenRobots::carry_out(NodeId robot, const GoalCommand& command) {
+    move(robot, ToGoal{command.to, command.speed});
+}
+
+void DrivenRobots::carry_out(NodeId robot, const StopCommand&) {
+    driving_.erase(robot);
+    network_.stop(robot);
+}
+
+void DrivenRobots::carry_out(NodeId robot, const PlaceCommand& command) {
+    driving_.erase(robot);
+    network_.place(robot, command.at, command.heading);
+}
+
+void DrivenRobots::move(NodeId robot, Movement movement) {
+    driving_.erase(robot);
+    network_.move(robot, std::move(movement));
+}
+
+const DrivenRobots::Driving* DrivenRobots::driving(NodeId robot) const {
+    const auto found = driving_.find(robot);
+    const bool drives = found != driving_.end() && network_.now() < found->second.until;
+    return drives ? &found->second : nullptr;
+}
+
+bool DrivenRobots::is_stalled(NodeId robot) const {
+    const Driving* driven = driving(robot);
+    return driven && driven->speed != 0 && network_.legs().leg(robot).velocity == Vec3{};
+}
+
+Twist DrivenRobots::twist(NodeId robot) const {
+    const Leg leg = network_.legs().leg(robot);
+    if (network_.now() >= leg.end) return {};
+    const double speed = std::sqrt(squared_distance(leg.velocity, {}));
+    const Driving* driven = driving(robot);
+    if (!driven) return {speed, leg.turning};
+    // A chord is a little shorter than its arc.
+    if (driven->arc->speed != 0) return {driven->arc->speed, leg.turning};
+    return {driven->speed < 0 ? -speed : speed, leg.turning};
+}
+
+}  // namespace rovernet
