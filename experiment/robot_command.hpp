@@ -42,8 +42,9 @@ struct PlaceCommand {
 
 /// Command to send a message: to everyone by the routing protocol, or over one hop.
 struct SendCommand {
-    std::optional<NodeId> to = {};  ///< none: everyone
-    std::uint16_t port = 0;         ///< which program of the receiver it is for
+    /// Over one hop to a robot, or to `everyone` that hears it; none: to everyone, by routing.
+    std::optional<NodeId> to = {};
+    std::uint16_t port = 0;  ///< which program of the receiver it is for
     std::string payload = {};
     std::optional<std::uint32_t> size = {};  ///< on air [bytes]; the payload's length if not given
 };

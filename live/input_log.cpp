@@ -45,8 +45,10 @@ void put(Table& line, const PlaceCommand& command, const Network&) {
     line.set("heading", command.heading.value);
 }
 void put(Table& line, const SendCommand& command, const Network& network) {
+    const bool is_to_one = command.to && *command.to != everyone;
     line.set("do", "send");
-    line.set("to", command.to ? network.name(*command.to) : "*");
+    line.set("to", is_to_one ? network.name(*command.to) : "*");
+    if (command.to == everyone) line.set("hops", 1);
     line.set("port", std::uint32_t{command.port});
     line.set("data", base64(command.payload));
     if (command.size) line.set("size", *command.size);
@@ -113,9 +115,11 @@ Vec3 logged_place(const JsonElement& list) {
     return {at[0], at[1], at[2]};
 }
 
-SendCommand logged_message(const JsonElement& to, const JsonElement& port, const JsonElement& data,
+SendCommand logged_message(const JsonElement& to, const std::optional<JsonElement>& hops,
+                           const JsonElement& port, const JsonElement& data,
                            const std::optional<JsonElement>& size, const Network& network) {
     SendCommand send;
+    if (hops && hops->whole_number(1, 1) == 1) send.to = everyone;
     if (to.text() != "*") send.to = logged_robot(to, network);
     send.port = static_cast<std::uint16_t>(port.whole_number(0, 65'535));
     auto bytes = from_base64(data.text());
@@ -127,11 +131,11 @@ SendCommand logged_message(const JsonElement& to, const JsonElement& port, const
 
 /// Reads a line that is neither the first nor the last.
 Input input_in(const JsonElement& line, const Network& network) {
-    static constexpr std::array<std::string_view, 16> keys = {
-        "t_ns", "n",     "client", "robot",   "do", "v",    "w",    "timeout_ns",
-        "goal", "speed", "at",     "heading", "to", "port", "data", "size"};
-    const auto [t, n, client, robot, what, v, w, timeout, goal, speed, at, heading, to, port, data,
-                size] = members(line, keys);
+    static constexpr std::array<std::string_view, 17> keys = {
+        "t_ns",  "n",  "client",  "robot", "do",   "v",    "w",    "timeout_ns", "goal",
+        "speed", "at", "heading", "to",    "hops", "port", "data", "size"};
+    const auto [t, n, client, robot, what, v, w, timeout, goal, speed, at, heading, to, hops, port,
+                data, size] = members(line, keys);
     const auto given = [&](const auto& member, std::string_view key) -> const JsonElement& {
         return needed(member, line, key, "a line of inputs.jsonl");
     };
@@ -153,8 +157,8 @@ Input input_in(const JsonElement& line, const Network& network) {
         input.command =
             PlaceCommand{logged_place(given(at, "at")), {given(heading, "heading").number(any)}};
     } else if (name == "send") {
-        input.command = logged_message(given(to, "to"), given(port, "port"), given(data, "data"),
-                                       size, network);
+        input.command = logged_message(given(to, "to"), hops, given(port, "port"),
+                                       given(data, "data"), size, network);
     } else if (name != "stop") {
         act.fail("bad_value", "expected velocity, goal, stop, place or send");
     }

@@ -18,6 +18,7 @@
 //     {"version":"0.1.0","scenario":"8c5d...","seed":1}
 //     {"t_ns":100000000,"n":1,"client":"A","robot":"A","do":"velocity","v":0.5,"w":0.1}
 //     {"t_ns":200000000,"n":2,"client":"A","robot":"A","do":"send","to":"*","port":7,"data":"Rg=="}
+//     {"t_ns":200000000,"n":2,"client":"A","robot":"A","do":"send","to":"*","hops":1,"port":0,...}
 //     {"t_ns":200000000,"n":2,"client":"A","robot":"B","do":"goal","goal":[1,12,0],"speed":1.5}
 //     {"t_ns":300000000,"n":3,"client":"A","robot":"A","do":"stop"}
 //     {"t_ns":300000000,"n":4,"client":"A","robot":"B","do":"place","at":[1,12,0],"heading":1.57}

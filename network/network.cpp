@@ -108,6 +108,7 @@ void Network::finish() {
     engine_->world.records.finish();
 }
 Time Network::now() const { return engine_->world.now; }
+Time Network::next_event() const { return engine_->world.events.next_time().value_or(never); }
 std::size_t Network::size() const { return engine_->world.size(); }
 std::uint64_t Network::events() const { return engine_->served; }
 std::uint64_t Network::transmissions() const { return engine_->world.transmissions; }

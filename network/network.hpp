@@ -81,8 +81,9 @@ class Network {
     /// @throws std::invalid_argument if no protocol is set, or it brings messages to everyone only
     void send(NodeId node, NodeId to, std::string payload, std::optional<std::uint32_t> size = {},
               std::uint32_t flow = 0);
-    /// Sends a message from `node` to `to` over one hop, without routing: the access model "csma"
-    /// repeats it until it is acknowledged or given up. Parameters as for broadcast().
+    /// Sends a message from `node` to `to`, or to `everyone` that hears it, over one hop, without
+    /// routing: the access model "csma" repeats a message to one robot until it is acknowledged or
+    /// given up. Parameters as for broadcast().
     void unicast(NodeId node, NodeId to, std::string payload,
                  std::optional<std::uint32_t> size = {}, std::uint32_t flow = 0);
     /// Keeps `node` sending messages of `size` [bytes] to `to`, or to everyone, over one hop: from
@@ -136,6 +137,8 @@ class Network {
 
     /// Time of the simulation: that of the event that is served, or where the last run ended.
     Time now() const;
+    /// Time of the event that is served next; `never` if there is none.
+    Time next_event() const;
     /// Number of robots.
     std::size_t size() const;
     /// Events served so far.
