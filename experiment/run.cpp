@@ -142,8 +142,8 @@ RunResult run_scenario(const Scenario& scenario, const RunOptions& options) {
     ScenarioRun run(scenario);
     if (options.progress && !options.progress(0)) throw Interrupted();
     run.write_to(options.folder.value_or(run_folder(scenario, {})));
-    const bool is_whole = options.drive ? options.drive(run.session(), run.fingerprint())
-                                        : run.session().run(options.speed, options.progress);
+    const bool is_whole =
+        options.drive ? options.drive(run) : run.session().run(options.speed, options.progress);
     if (!is_whole) throw Interrupted();
     return run.finish();
 }

@@ -17,11 +17,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
 
 class KeptPlanners;
+class ScenarioRun;
 class Session;
 struct TraceFile;
 
@@ -31,8 +33,8 @@ struct RunOptions {
     /// Told the share that is done, 0 ... 1, now and then; false stops the run.
     std::function<bool(double)> progress = {};
     /// Runs the session in place of Session::run(), by programs outside, say; it may end early.
-    /// Given the fingerprint of the run, which goes on. False: the run was stopped.
-    std::function<bool(Session&, const Fingerprint&)> drive = {};
+    /// False: the run was stopped.
+    std::function<bool(ScenarioRun&)> drive = {};
 };
 
 /// The run was stopped from outside; none of its files was left.
@@ -78,6 +80,8 @@ class ScenarioRun {
     Session& session() { return *session_; }
     /// Fingerprint of the run so far.
     const Fingerprint& fingerprint() const { return *fingerprint_; }
+    /// Adds a table of its own to summary.json.
+    void add_part(std::string name, Table part) { result_.parts.set(std::move(name), part); }
     /// Ends the run where it is, and writes the results if they have a folder. Once. @throws
     /// RunError
     RunResult finish();

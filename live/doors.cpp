@@ -3,6 +3,7 @@
 
 #include "live/acceptor.hpp"
 #include "live/child.hpp"
+#include "live/door_link.hpp"
 #include "live/loopback.hpp"
 #include "sim/error.hpp"
 
@@ -14,7 +15,6 @@
 #include <cstring>
 #include <list>
 #include <map>
-#include <netinet/tcp.h>
 #include <optional>
 #include <stdexcept>
 #include <sys/stat.h>
@@ -27,8 +27,8 @@ namespace {
 
 namespace asio = boost::asio;
 using boost::system::error_code;
-using Clock = std::chrono::steady_clock;
-using Socket = asio::generic::stream_protocol::socket;
+using Clock = DoorLink::Clock;
+using Socket = DoorLink::Socket;
 
 constexpr std::size_t longest_line = std::size_t{1} << 20U;  // [bytes]
 constexpr std::size_t most_input = std::size_t{64} << 20U;   // [bytes] of all connections
@@ -40,38 +40,12 @@ constexpr int stream_buffer = 256 << 10;  // [bytes] of the system: what it hold
 constexpr std::size_t portion = 16'384;   // [bytes] that one read takes
 constexpr auto first_line_within = std::chrono::seconds(60);
 
-/// Has what was received acknowledged at once. A client that writes a command and a request, and
-/// has not switched off Nagle's algorithm, would wait 40 ms for that in each round.
-void acknowledge_at_once(Socket& socket) {
-    const int on = 1;
-    setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
-}
-
 }  // namespace
-
-/// One program's connection.
-struct Link {
-    Link(Socket taken, Doors::Connection number, const Doors::Streams* users)
-        : socket(std::move(taken)), id(number), streams(users) {}
-
-    Socket socket;
-    Doors::Connection id;
-    const Doors::Streams* streams;  // null: it carries lines
-    Clock::time_point since = Clock::now();
-    std::string input, sending, queued;
-    std::size_t messages = 0;  // that are queued
-    std::size_t searched = 0;  // of the input: there is no end of line
-    bool has_spoken = false;   // a whole line; in a stream: anything
-    bool is_reading = false, is_writing = false;
-    bool is_answered = true;  // its last line
-    bool has_ended = false;   // no more comes in
-    bool is_closing = false;  // once all is out
-};
 
 struct Doors::State {
     explicit State(Users given) : users(std::move(given)) {}
 
-    using Shared = std::shared_ptr<Link>;
+    using Shared = std::shared_ptr<DoorLink>;
 
     /// An address of TCP, and who is told of those who come in there; nobody: they carry lines.
     struct Gate {
@@ -79,9 +53,16 @@ struct Doors::State {
         std::optional<Streams> streams = {};
     };
 
+    /// A descriptor of somebody else, who is told when it can be read.
+    struct Watch {
+        asio::posix::stream_descriptor descriptor;
+        std::function<bool()> readable;
+    };
+    using Watched = std::shared_ptr<Watch>;
+
     void add(Socket socket, const Streams* streams = nullptr) {
         if (links.size() >= most_connections) return;
-        const auto link = std::make_shared<Link>(std::move(socket), next++, streams);
+        const auto link = std::make_shared<DoorLink>(std::move(socket), next++, streams);
         links[link->id] = link;
         if (streams) streams->opened(link->id);
         read(link);
@@ -103,7 +84,7 @@ struct Doors::State {
     }
     static void prepare(asio::local::stream_protocol::socket&, const Streams*) {}
 
-    static bool is_busy(const Link& link) {
+    static bool is_busy(const DoorLink& link) {
         if (link.streams) return link.sending.size() + link.queued.size() > much_waiting;
         return link.is_writing || link.input.size() > longest_line;
     }
@@ -125,7 +106,7 @@ struct Doors::State {
             const std::size_t got =
                 link->socket.read_some(asio::buffer(link->input.data() + before, portion), error);
             link->input.resize(before + got);
-            if (link->streams) acknowledge_at_once(link->socket);
+            if (link->streams) link->acknowledge_at_once();
         }
         if (error) link->has_ended = true;
         serve(link);
@@ -143,7 +124,7 @@ struct Doors::State {
         const bool may_speak = link->is_answered && !link->is_writing && !link->is_closing;
         if (may_speak) hand_over(link);
         const bool has_spoken_now = may_speak && !link->is_answered;
-        const bool is_out = link->has_ended && !link->is_writing && !has_line(*link);
+        const bool is_out = link->has_ended && !link->is_writing && !link->has_line();
         if (is_out && !has_spoken_now) return close(link);
         read(link);
     }
@@ -159,14 +140,8 @@ struct Doors::State {
         if (!link->is_writing) close(link);
     }
 
-    static bool has_line(Link& link) {
-        const std::size_t end = link.input.find('\n', link.searched);
-        link.searched = std::min(end, link.input.size());
-        return end != std::string::npos;
-    }
-
     void hand_over(const Shared& link) {
-        if (!has_line(*link)) {
+        if (!link->has_line()) {
             const bool is_long = link->input.size() > longest_line;
             if (is_long || (link->input.size() > portion && input_of_all() > most_input)) {
                 refuse(link);
@@ -244,6 +219,24 @@ struct Doors::State {
         return Loopback{own.host, gate.acceptor.local_endpoint().port()}.text();
     }
 
+    /// Has wait() return at that time, to the microsecond: epoll counts in milliseconds.
+    void ring_at(Clock::time_point time) {
+        if (rings_at <= time) return;
+        rings_at = time;
+        alarm.expires_at(time);
+        alarm.async_wait([this](error_code error) {
+            if (!error) rings_at = Clock::time_point::max();
+        });
+    }
+
+    void watch(const Watched& watched) {
+        watched->descriptor.async_wait(asio::posix::stream_descriptor::wait_read,
+                                       [this, watched](error_code error) {
+                                           if (error || has_closed) return;
+                                           if (watched->readable()) watch(watched);
+                                       });
+    }
+
     /// Closes connections that have not said a line for too long.
     void close_silent() {
         const auto now = Clock::now();
@@ -272,6 +265,9 @@ struct Doors::State {
     std::optional<asio::local::stream_protocol::acceptor> local;
     std::string unix_path;
     Clock::time_point looked = Clock::now();
+    bool has_closed = false;
+    asio::steady_timer alarm{io};
+    Clock::time_point rings_at = Clock::time_point::max();
 };
 
 Doors::Doors(Users users) : state_(std::make_unique<State>(std::move(users))) {}
@@ -323,10 +319,17 @@ void Doors::listen_unix(const std::string& path) {
     }
 }
 
+void Doors::watch(int descriptor, std::function<bool()> readable) {
+    const int own = dup(descriptor);  // the other is closed by whoever has opened it
+    if (own < 0) throw RunError(std::strerror(errno));
+    state_->watch(std::make_shared<State::Watch>(
+        State::Watch{asio::posix::stream_descriptor(state_->io, own), std::move(readable)}));
+}
+
 void Doors::send(Connection to, std::string_view message) {
     const auto found = state_->links.find(to);
     if (found == state_->links.end()) return;
-    Link& link = *found->second;
+    DoorLink& link = *found->second;
     if (link.streams) return state_->queue(found->second, message);
     link.queued += message;
     link.queued += '\n';
@@ -346,13 +349,19 @@ bool Doors::listens() const { return !state_->gates.empty() || state_->local; }
 
 boost::asio::io_context& Doors::io() { return state_->io; }
 
-void Doors::wait(std::chrono::milliseconds most) {
+void Doors::wait(std::chrono::nanoseconds most) {
     // One event at a time: a question is answered before its asker is seen to have gone.
-    state_->io.run_one_for(most);
+    if (most <= most.zero()) {
+        state_->io.poll_one();
+    } else {
+        state_->ring_at(Clock::now() + most);
+        state_->io.run_one();
+    }
     state_->close_silent();
 }
 
 std::vector<std::string> Doors::close(std::chrono::milliseconds most) {
+    state_->has_closed = true;
     state_->users = {
         .line = [](auto, auto) {}, .refuse = [](auto, auto&) {}, .closed = [](auto) {}};
     for (State::Gate& gate : state_->gates) {

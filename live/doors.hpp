@@ -72,6 +72,10 @@ class Doors {
     /// @throws RunError
     void listen_unix(const std::string& path);
 
+    /// Calls `readable` whenever a descriptor has something to read, until it returns false.
+    /// @throws RunError
+    void watch(int descriptor, std::function<bool()> readable);
+
     /// Sends a line, without its end: the answer to the last one of that controller. In a stream:
     /// a message, as it is.
     void send(Connection to, std::string_view message);
@@ -80,8 +84,9 @@ class Doors {
     /// Number of controllers that may still speak; more may come if it listens.
     std::size_t connections() const;
     bool listens() const;
-    /// Waits for something to happen, at most so long, and tells of it: of one thing only.
-    void wait(std::chrono::milliseconds most);
+    /// Waits for something to happen, at most so long, and tells of it: of one thing only. It may
+    /// return without.
+    void wait(std::chrono::nanoseconds most);
     /// What wait() serves, for other carriers of this process.
     boost::asio::io_context& io();
     /// Waits until all lines are out, at most so long, then closes everything and waits for the

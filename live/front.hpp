@@ -3,6 +3,7 @@
 
 #include "experiment/session.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/value.hpp"
 #include "sim/time.hpp"
 
 #include <cstddef>
@@ -22,7 +23,8 @@ struct Entrance {
 /// commands the session, and tells the clients what happens at simulated times of its own.
 ///
 /// It knows no sockets and no clocks: run_paced() calls it, from one thread. Whatever it is called
-/// for, the session has served all events of its present time.
+/// for, the session has served all events of its present time. Where programs send packets, each
+/// robot's PacketPort is a connection, which has the robot's number and is there from the start.
 class Front {
   public:
     /// Number of a client's connection, never used twice.
@@ -44,7 +46,8 @@ class Front {
     /// The run begins. Both live as long as the front does.
     virtual void begin(Session& session, const Scenario& scenario) = 0;
     virtual void opened(Connection client, Entrance at) = 0;
-    /// Bytes came from a client: any part of what it sends, in order; of a WebSocket one message.
+    /// Bytes came from a client: any part of what it sends, in order; one message of a WebSocket,
+    /// or one packet.
     virtual void received(Connection from, std::string_view bytes) = 0;
     virtual void closed(Connection gone) = 0;
 
@@ -57,6 +60,8 @@ class Front {
     virtual Time limit() const { return never; }
     /// Its clients have done all that they came for: the run ends.
     virtual bool is_done() const { return false; }
+    /// Adds what it counted to the table `live` of summary.json.
+    virtual void report(Table&) const {}
 };
 
 }  // namespace rovernet

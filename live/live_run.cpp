@@ -100,8 +100,8 @@ class LiveServer {
 /// One run, from its start to its end or to a reset. @return nothing if it begins anew
 std::optional<RunResult> run_once(const Scenario& scenario, const LiveOptions& options,
                                   LiveServer& server) {
-    const auto drive = [&](Session& session, const Fingerprint& fingerprint) {
-        server.lockstep().begin(session, scenario, [&] { return fingerprint.text(); });
+    const auto drive = [&](ScenarioRun& run) {
+        server.lockstep().begin(run.session(), scenario, [&] { return run.fingerprint().text(); });
         server.serve();
         return server.lockstep().state() == Lockstep::State::over;
     };

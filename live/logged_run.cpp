@@ -9,12 +9,13 @@
 namespace rovernet {
 
 RunResult run_logged(const Scenario& scenario, const std::string& folder,
-                     const std::function<bool(Session&, const Fingerprint&)>& drive) {
+                     const std::function<bool(ScenarioRun&)>& drive) {
     std::optional<InputLog> log;
-    const auto drive_logged = [&](Session& session, const Fingerprint& fingerprint) {
+    const auto drive_logged = [&](ScenarioRun& run) {
         log.emplace(folder, scenario);
-        session.on_input([&](const Input& input) { log->add(input, session.network()); });
-        return drive(session, fingerprint);
+        const Network& network = run.session().network();
+        run.session().on_input([&](const Input& input) { log->add(input, network); });
+        return drive(run);
     };
     RunResult result =
         run_scenario(scenario, {.folder = folder, .speed = std::nullopt, .drive = drive_logged});

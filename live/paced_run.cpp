@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <list>
 #include <utility>
 
 namespace rovernet {
@@ -17,8 +18,8 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t events_a_slice = 256;             // each may reach thousands of robots
-constexpr std::chrono::milliseconds longest_wait = 50ms;  // then events go on, Ctrl-C is seen
+constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
+constexpr Duration longest_wait = 50ms;        // then events go on, Ctrl-C is seen
 
 /// Fronts with their doors around one session, and the clock.
 class PacedServer {
@@ -31,7 +32,10 @@ class PacedServer {
     void serve(Session& session, const Scenario& scenario) {
         session_ = &session;
         session.step(start_of_run);  // movements may draw where robots begin
-        for (const auto& front : fronts_) front->begin(session, scenario);
+        for (Open& each : open_) {
+            each.front->begin(session, scenario);
+            if (each.door.open_ports) open_ports(each);
+        }
         started_ = Clock::now();
         while (!is_over() && options_.go_on()) {
             catch_up();
@@ -44,36 +48,64 @@ class PacedServer {
         doors_.close(300ms);
     }
 
+    /// What summary.json tells of the run's clients.
+    Table report() const {
+        Table counts;
+        if (options_.speed) {
+            counts.set("speed", *options_.speed);
+            counts.set("late_max_s", seconds(lateness_.most));
+            counts.set("late_share", lateness_.share());
+        }
+        for (const Open& each : open_) each.front->report(counts);
+        return counts;
+    }
+    std::optional<Lateness> lateness() const {
+        return options_.speed ? std::optional(lateness_) : std::nullopt;
+    }
+    const std::string& fault() const { return fault_; }
+
   private:
+    /// A front behind its door.
+    struct Open {
+        const FrontDoor& door;
+        std::unique_ptr<Front> front = nullptr;
+        FrontDoor::Ports ports = {};
+        Time due = never;  // its next(), before the session went on
+    };
+
     void open(const FrontDoor& door) {
-        fronts_.push_back(door.make(door.is_web ? web_carrier() : carrier()));
-        for (std::size_t i = 0; i < door.addresses.size(); ++i) listen(*fronts_.back(), door, i);
+        Open& opened = open_.emplace_back(Open{door});
+        opened.front = door.make(carrier_for(opened));
+        for (std::size_t i = 0; i < door.addresses.size(); ++i) listen(*opened.front, door, i);
     }
 
-    Front::Carrier carrier() {
+    Front::Carrier carrier_for(Open& opened) {
+        if (opened.door.open_ports) {
+            return {.send = [&opened](auto to, auto packet) { opened.ports[to]->write(packet); },
+                    .close = [](auto) {}};
+        }
+        if (opened.door.is_web) {
+            return {.send = [this](auto to, auto message) { web_.send(to, message); },
+                    .close = [this](auto which) { web_.close(which); },
+                    .send_binary = [this](auto to, auto bytes) { web_.send_binary(to, bytes); }};
+        }
         return {.send = [this](auto to, auto message) { doors_.send(to, message); },
                 .close = [this](auto which) { doors_.close(which); }};
     }
-    Front::Carrier web_carrier() {
-        return {.send = [this](auto to, auto message) { web_.send(to, message); },
-                .close = [this](auto which) { web_.close(which); },
-                .send_binary = [this](auto to, auto message) { web_.send_binary(to, message); }};
-    }
 
-    /// A client's words count from the time that they come in: the run goes on to there first.
     void listen(Front& front, const FrontDoor& door, std::size_t number) {
         const auto entrance = std::make_shared<Entrance>(Entrance{number, 0});
         Doors::Streams streams;
         streams.opened = [this, &front, entrance](auto client) {
-            catch_up();
+            reach_present();
             front.opened(client, *entrance);
         };
         streams.received = [this, &front](auto from, auto bytes) {
-            catch_up();
+            reach_present();
             front.received(from, bytes);
         };
         streams.closed = [this, &front](auto gone) {
-            catch_up();
+            reach_present();
             front.closed(gone);
         };
         const auto& [text, what] = door.addresses[number];
@@ -85,11 +117,26 @@ class PacedServer {
         options_.say(fmt::format("for a page: ws://{}/?token={}", address, web_.token()));
     }
 
+    void open_ports(Open& opened) {
+        opened.ports = opened.door.open_ports(session_->network());
+        for (Front::Connection robot = 0; robot < opened.ports.size(); ++robot) {
+            PacketPort& port = *opened.ports[robot];
+            options_.say("listening on " + port.text());
+            doors_.watch(port.descriptor(), [this, &opened, &port, robot] {
+                return port.read([&](std::string_view packet) {
+                    reach_present();
+                    opened.front->received(robot, packet);
+                });
+            });
+        }
+    }
+
     Time now() const { return session_->network().now(); }
 
     bool is_over() const {
-        return now() >= session_->end() || std::any_of(fronts_.begin(), fronts_.end(),
-                                                       [](auto& each) { return each->is_done(); });
+        return now() >= session_->end() || !fault_.empty() ||
+               std::any_of(open_.begin(), open_.end(),
+                           [](const Open& each) { return each.front->is_done(); });
     }
 
     /// Simulated time of the clock.
@@ -103,14 +150,17 @@ class PacedServer {
     /// Time beyond which fronts do not let the run go.
     Time limit() const {
         Time limit = never;
-        for (const auto& each : fronts_) limit = std::min(limit, each->limit());
+        for (const Open& each : open_) limit = std::min(limit, each.front->limit());
         return limit;
     }
 
     /// Time up to which the run can go before a front has something to say.
-    Time next_stop() const {
+    Time next_stop() {
         Time stop = std::min(session_->end(), limit());
-        for (const auto& each : fronts_) stop = std::min(stop, each->next());
+        for (Open& each : open_) {
+            each.due = each.front->next();
+            stop = std::min(stop, each.due);
+        }
         return stop;
     }
 
@@ -125,44 +175,75 @@ class PacedServer {
     /// the end of all events of one time.
     void catch_up() {
         hold_clock();
-        const Time until = std::min(by_clock(), next_stop());
+        const Time until = std::min(next_stop(), by_clock());
         is_behind_ = until > now() && !session_->advance(until, events_a_slice);
         if (is_behind_) session_->step(now());
-        for (const auto& each : fronts_) {
-            if (each->next() <= now()) each->tell();
+        for (Open& each : open_) {
+            if (each.due > now()) continue;
+            note_lateness();
+            each.front->tell();
         }
     }
 
+    /// Runs on to the time that the clock has now: a client's words count from when they come in.
+    void reach_present() {
+        const Time present = options_.speed ? by_clock() : now();
+        do {
+            catch_up();
+        } while (now() < present && now() < next_stop() && options_.go_on());
+    }
+
+    void note_lateness() {
+        if (!options_.speed) return;
+        const Duration behind = Clock::now() - started_ - real_time(now() - start_of_run);
+        lateness_.add(behind);
+        if (!options_.most_late || behind <= *options_.most_late || !fault_.empty()) return;
+        const std::string text = fmt::format("{:.1f} ms behind the clock at {:.6f} s",
+                                             1e3 * seconds(behind), seconds(now()));
+        if (options_.late_ends) {
+            fault_ = text;
+        } else if (!std::exchange(has_told_late_, true)) {
+            options_.say(text + ": programs take that for a delay of the radio");
+        }
+    }
+
+    /// Real time that some simulated time takes.
+    Duration real_time(Duration simulated) const {
+        return from_seconds(seconds(simulated) / *options_.speed);
+    }
+
     /// Real time until there is something to do that no client brings.
-    std::chrono::milliseconds spare_time() const {
+    Duration spare_time() {
         if (is_behind_) return 0ms;
         const Time stop = next_stop();
         if (stop <= now()) return longest_wait;  // it waits for a client
         if (!options_.speed) return 0ms;
-        const std::chrono::duration<double> rest(seconds(stop - by_clock()) / *options_.speed);
-        return std::clamp(std::chrono::ceil<std::chrono::milliseconds>(rest), 0ms, longest_wait);
+        return std::clamp<Duration>(real_time(stop - by_clock()), 0ms, longest_wait);
     }
 
     const PacedOptions& options_;
     Doors doors_;
     WebSockets web_{doors_};
-    std::vector<std::unique_ptr<Front>> fronts_;
+    std::list<Open> open_;
     Session* session_ = nullptr;
     Clock::time_point started_;
     bool is_behind_ = false;  // the time of the clock
+    Lateness lateness_;
+    bool has_told_late_ = false;
+    std::string fault_;
 };
 
 }  // namespace
 
 LiveResult run_paced(Scenario scenario, const PacedOptions& options) {
     PacedServer server(options);
-    RunResult result =
-        run_logged(scenario, options.folder, [&](Session& session, const Fingerprint&) {
-            server.serve(session, scenario);
-            return true;
-        });
+    RunResult result = run_logged(scenario, options.folder, [&](ScenarioRun& run) {
+        server.serve(run.session(), scenario);
+        if (Table counts = server.report(); !counts.entries.empty()) run.add_part("live", counts);
+        return true;
+    });
     server.close();
-    return {std::move(result), std::move(scenario), {}};
+    return {std::move(result), std::move(scenario), server.fault(), server.lateness()};
 }
 
 }  // namespace rovernet

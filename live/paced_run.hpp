@@ -3,6 +3,7 @@
 
 #include "live/front.hpp"
 #include "live/logged_run.hpp"
+#include "live/packet_port.hpp"
 #include "scenario/scenario.hpp"
 
 #include <functional>
@@ -21,9 +22,13 @@ struct FrontDoor {
         std::string what;  ///< what it is for: "Player, robot A"
     };
 
+    using Ports = std::vector<std::unique_ptr<PacketPort>>;
+
     std::vector<Address> addresses;
     std::function<std::unique_ptr<Front>(Front::Carrier)> make;
     bool is_web = false;  ///< clients speak WebSocket: the front gets and sends whole messages
+    /// In place of addresses: opens a port for each robot, as the run begins.
+    std::function<Ports(const Network&)> open_ports = {};
 };
 
 /// How a scenario is run by the clock, while clients come and go.
@@ -31,6 +36,10 @@ struct PacedOptions {
     std::string folder = {};          ///< for the results
     std::optional<double> speed = 1;  ///< simulated per real time; none: as fast as fronts let it
     std::vector<FrontDoor> fronts = {};
+    /// Real time by which it may be behind the clock. Beyond that it says so, once, or ends with a
+    /// fault if `late_ends`. None: any.
+    std::optional<Duration> most_late = {};
+    bool late_ends = false;
     std::function<bool()> go_on = [] { return true; };  ///< asked now and then; false ends the run
     /// Told what a person should know: addresses that are listened on.
     std::function<void(std::string_view)> say = [](std::string_view) {};

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/doors.hpp"
+
+#include <boost/asio.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <netinet/tcp.h>
+#include <string>
+#include <sys/socket.h>
+#include <utility>
+
+namespace rovernet {
+
+/// One program's connection to Doors.
+struct DoorLink {
+    using Clock = std::chrono::steady_clock;
+    using Socket = boost::asio::generic::stream_protocol::socket;
+
+    DoorLink(Socket taken, Doors::Connection number, const Doors::Streams* users)
+        : socket(std::move(taken)), id(number), streams(users) {}
+
+    /// Has what was received acknowledged at once. A client that writes a command and a request,
+    /// and has not switched off Nagle's algorithm, would wait 40 ms for that in each round.
+    void acknowledge_at_once() {
+        const int on = 1;
+        setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
+    }
+    /// Whether there is a whole line in the input.
+    bool has_line() {
+        const std::size_t end = input.find('\n', searched);
+        searched = std::min(end, input.size());
+        return end != std::string::npos;
+    }
+
+    Socket socket;
+    Doors::Connection id;
+    const Doors::Streams* streams;  ///< null: it carries lines
+    Clock::time_point since = Clock::now();
+    std::string input, sending, queued;
+    std::size_t messages = 0;  ///< that are queued
+    std::size_t searched = 0;  ///< of the input: there is no end of line
+    bool has_spoken = false;   ///< a whole line; in a stream: anything
+    bool is_reading = false, is_writing = false;
+    bool is_answered = true;  ///< its last line
+    bool has_ended = false;   ///< no more comes in
+    bool is_closing = false;  ///< once all is out
+};
+
+}  // namespace rovernet
