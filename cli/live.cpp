@@ -2,9 +2,8 @@
 #include "cli/diagnostics.hpp"
 #include "cli/options.hpp"
 #include "cli/run_output.hpp"
+#include "cli/serving.hpp"
 #include "cli/stop.hpp"
-#include "experiment/run_folder.hpp"
-#include "live/input_log.hpp"
 #include "live/live_run.hpp"
 #include "live/player/door.hpp"
 #include "live/rosbridge/door.hpp"
@@ -29,26 +28,8 @@ struct LiveArguments : FileArguments {
     bool json = false;
 };
 
-/// A time of an option, such as "30 s" or 30s.
-std::chrono::nanoseconds time_of(const std::string& option, const std::string& text) {
-    const Location where{.source = option + " " + text, .is_option = true};
-    const double s = read_quantity(placed(Value(text), where), "time", Dimension::time);
-    if (!(s > 0)) throw InputError(where, "expected a time above 0 s");
-    return from_seconds(s);
-}
-
 std::string folder_of(const LiveArguments& a, const Scenario& scenario) {
-    return a.out ? *a.out : run_folder(scenario, a.options.set);
-}
-
-bool goes_on() { return stops_asked() == 0; }
-
-/// Says something to a person; where it listens to programs, too.
-void say(std::string_view text) {
-    // They read the address from standard output, before there is any result.
-    if (!text.starts_with("listening")) return notice(text);
-    fmt::print("{}\n", text);
-    std::fflush(stdout);
+    return results_folder(a.out, scenario, a.options);
 }
 
 LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
@@ -63,7 +44,7 @@ LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
                                                      : OnLoss::end;
     if (a.patience) options.patience = time_of("--patience", *a.patience);
     options.go_on = goes_on;
-    options.say = say;
+    options.say = say_to_all;
     return options;
 }
 
@@ -91,7 +72,7 @@ LiveResult run_by_clock(LiveArguments a) {
     if (a.player) options.fronts.push_back(player_door(a, config, scenario));
     if (a.rosbridge) options.fronts.push_back(rosbridge_door(read_loopback(*a.rosbridge)));
     options.go_on = goes_on;
-    options.say = say;
+    options.say = say_to_all;
     return run_paced(scenario, options);
 }
 

@@ -56,7 +56,7 @@ Check below_90_degrees();
 /// Whole number from 0 to 2^63 - 1, as in a file.
 Check whole_number();
 
-/// Adds run, sweep, compare, advise, fit, probe, live, locate.
+/// Adds run, live, emulate, in, sweep, compare, advise, fit, probe, locate.
 /// @param typed  the command line as it was typed
 void add_run_commands(Command app, const std::string& typed);
 /// Adds link, links, scene, where, draw, move.
@@ -67,6 +67,9 @@ void add_result_commands(Command app);
 void add_trace(Command app);
 /// Adds live.
 void add_live(Command app);
+/// Adds emulate, and in, which runs programs in it.
+void add_emulate(Command app);
+void add_in(Command app);
 /// Adds locate.
 void add_locate(Command app);
 /// Adds replay.

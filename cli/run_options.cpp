@@ -186,6 +186,8 @@ void add_probe(Command app) {
 void add_run_commands(Command app, const std::string& typed) {
     add_run(app);
     add_live(app);
+    add_emulate(app);
+    add_in(app);
     add_sweep(app, typed);
     add_compare(app, typed);
     add_advise(app, typed);

@@ -510,8 +510,9 @@ TEST_CASE("bad input: unknown commands and options exit with 2") {
 TEST_CASE("bad input: a slip on the command line is told with what was probably meant") {
     const TemporaryFolder folder;
     for (const auto& [arguments, expected] :
-         {std::pair{"rnu s.toml",
-                    "rovernet: unknown command \"rnu\"; expected one of run, live, sweep, "},
+         {std::pair{
+              "rnu s.toml",
+              "rovernet: unknown command \"rnu\"; expected one of run, live, emulate, in, sweep, "},
           std::pair{"rnu --seed 3", "; did you mean \"run\"?; run with --help for more\n"},
           std::pair{"bench flod", "expected one of flood; did you mean \"flood\"?"},
           std::pair{"bench flood --recordde=1 x",

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "live/emulate/door.hpp"
+
+#include "experiment/link_table.hpp"
+#include "live/emulate/ethernet.hpp"
+#include "live/emulate/namespaces.hpp"
+#include "live/emulate/packet_front.hpp"
+#include "live/emulate/relay.hpp"
+#include "live/emulate/udp_port.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+template <class Format>
+std::unique_ptr<Front> packet_front(Front::Carrier carrier) {
+    return std::make_unique<PacketFront>(std::make_unique<Format>(), std::move(carrier));
+}
+
+FrontDoor::Ports udp_ports(Loopback own, const Network& network) {
+    constexpr std::size_t after_last = 65'536;
+    if (own.port != 0 && network.size() > after_last - own.port) {
+        throw std::invalid_argument(
+            fmt::format("found {} robots, each with a port of its own from {} on; expected {} at "
+                        "most",
+                        network.size(), own.port, after_last - own.port));
+    }
+    FrontDoor::Ports ports;
+    for (NodeId n{0}; n.index() < network.size(); ++n.value) {
+        ports.push_back(std::make_unique<UdpPort>(own, network.name(n)));
+        if (own.port != 0) ++own.port;
+    }
+    return ports;
+}
+
+FrontDoor::Ports tap_ports(const Network& network) {
+    std::vector<RobotDevice> robots;
+    for (const Device& device : devices(network)) {
+        const NodeId robot{static_cast<std::uint32_t>(robots.size())};
+        robots.push_back({.robot = device.robot,
+                          .ip = device.ip,
+                          .netmask = network.robot(robot).radio.netmask,
+                          .mac = mac_bytes(device.mac).value()});
+    }
+    const auto namespaces = std::make_shared<Namespaces>(std::move(robots));
+    FrontDoor::Ports ports;
+    for (std::size_t i = 0; i < namespaces->robots().size(); ++i) {
+        ports.push_back(std::make_unique<TapPort>(namespaces, i));
+    }
+    return ports;
+}
+
+}  // namespace
+
+FrontDoor tap_devices() {
+    return {.addresses = {}, .make = packet_front<EthernetFormat>, .open_ports = tap_ports};
+}
+
+FrontDoor udp_relay(const Loopback& first) {
+    return {.addresses = {},
+            .make = packet_front<RelayFormat>,
+            .open_ports = [first](const Network& network) { return udp_ports(first, network); }};
+}
+
+}  // namespace rovernet

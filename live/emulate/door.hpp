@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/loopback.hpp"
+#include "live/paced_run.hpp"
+
+#include <string_view>
+
+namespace rovernet {
+
+/// Where the relay's first port is.
+inline constexpr std::string_view relay_address = "127.0.0.1:7100";
+
+/// Door for programs that send datagrams (RelayFormat): the first robot's port is at `first`, the
+/// next one's at the next. With port 0 each has any that is free.
+FrontDoor udp_relay(const Loopback& first);
+
+/// Door for programs that use the network as ever: each robot has a network namespace, and in it a
+/// TAP device with its addresses (EthernetFormat, Namespaces).
+FrontDoor tap_devices();
+
+}  // namespace rovernet

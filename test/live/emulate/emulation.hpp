@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "test/cli/process.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace rovernet::test {
+
+/// `rovernet emulate` in the background.
+class Emulation {
+  public:
+    Emulation(const std::string& scenario, std::vector<std::string> options)
+        : process_(folder, arguments(scenario, std::move(options))) {}
+    ~Emulation() {
+        if (!has_ended_) process_.stop();
+    }
+    Emulation(const Emulation&) = delete;
+    Emulation& operator=(const Emulation&) = delete;
+
+    /// Waits until it listens at so many ports. @return the lines that say so; fewer if it ended
+    std::vector<std::string> listening(std::size_t ports) const {
+        using namespace std::chrono_literals;
+        std::vector<std::string> said;
+        for (int i = 0; i < 4000 && said.size() < ports; ++i, std::this_thread::sleep_for(5ms)) {
+            if (!content(folder.path("stderr")).empty()) break;
+            std::ifstream out(folder.path("stdout"));
+            said.clear();
+            for (std::string line; std::getline(out, line) && !out.eof();) {
+                if (line.starts_with("listening on ")) said.push_back(line);
+            }
+        }
+        return said;
+    }
+    /// UDP ports of its robots.
+    std::vector<int> ports(std::size_t robots) const {
+        std::vector<int> ports;
+        for (const std::string& line : listening(robots)) {
+            ports.push_back(std::stoi(line.substr(line.find("127.0.0.1:") + 10)));
+        }
+        REQUIRE(ports.size() == robots);
+        return ports;
+    }
+
+    Ended wait() {
+        has_ended_ = true;
+        return process_.wait();
+    }
+    Ended stop() {
+        has_ended_ = true;
+        return process_.stop();
+    }
+    void end_by_force() {
+        kill(process_.pid(), SIGKILL);
+        wait();
+    }
+    pid_t pid() const { return process_.pid(); }
+    std::string said_to_person() const { return content(folder.path("stderr")); }
+    Json summary() const { return Json::parse(content(folder.path("out/summary.json"))); }
+    Ended replay() const { return command(folder, {"replay", folder.path("out"), "--verify"}); }
+
+    TemporaryFolder folder;
+
+  private:
+    std::vector<std::string> arguments(const std::string& scenario,
+                                       std::vector<std::string> options) {
+        options.insert(options.begin(),
+                       {"emulate", folder.write("s.toml", scenario), "--out", folder.path("out")});
+        return options;
+    }
+
+    Process process_;
+    bool has_ended_ = false;
+};
+
+}  // namespace rovernet::test
