@@ -148,7 +148,7 @@ TEST_CASE("storeys: ceilings between two heights, from below") {
     CHECK(scene.floor_height(1) == 3);
     CHECK(scene.ceilings_between(0, 2.9).empty());
     CHECK(scene.ceilings_between(3, 5.9).empty());
-    for (const auto [from, to] : {std::pair{0.0, 3.0}, std::pair{3.0, 2.0}}) {
+    for (const auto& [from, to] : {std::pair{0.0, 3.0}, std::pair{3.0, 2.0}}) {
         REQUIRE(scene.ceilings_between(from, to).size() == 1);
         CHECK(scene.ceilings_between(from, to)[0].name == "first");
     }
