@@ -41,6 +41,7 @@ class PacedServer {
             catch_up();
             doors_.wait(spare_time());
         }
+        session_ = nullptr;
     }
 
     void close() {
@@ -97,16 +98,13 @@ class PacedServer {
         const auto entrance = std::make_shared<Entrance>(Entrance{number, 0});
         Doors::Streams streams;
         streams.opened = [this, &front, entrance](auto client) {
-            reach_present();
-            front.opened(client, *entrance);
+            if (reach_present()) front.opened(client, *entrance);
         };
         streams.received = [this, &front](auto from, auto bytes) {
-            reach_present();
-            front.received(from, bytes);
+            if (reach_present()) front.received(from, bytes);
         };
         streams.closed = [this, &front](auto gone) {
-            reach_present();
-            front.closed(gone);
+            if (reach_present()) front.closed(gone);
         };
         const auto& [text, what] = door.addresses[number];
         const std::string address = door.is_web ? web_.listen(text, std::move(streams))
@@ -124,8 +122,7 @@ class PacedServer {
             options_.say("listening on " + port.text());
             doors_.watch(port.descriptor(), [this, &opened, &port, robot] {
                 return port.read([&](std::string_view packet) {
-                    reach_present();
-                    opened.front->received(robot, packet);
+                    if (reach_present()) opened.front->received(robot, packet);
                 });
             });
         }
@@ -186,11 +183,14 @@ class PacedServer {
     }
 
     /// Runs on to the time that the clock has now: a client's words count from when they come in.
-    void reach_present() {
+    /// @return false after the run
+    bool reach_present() {
+        if (!session_) return false;
         const Time present = options_.speed ? by_clock() : now();
         do {
             catch_up();
         } while (now() < present && now() < next_stop() && options_.go_on());
+        return true;
     }
 
     void note_lateness() {
@@ -225,7 +225,7 @@ class PacedServer {
     Doors doors_;
     WebSockets web_{doors_};
     std::list<Open> open_;
-    Session* session_ = nullptr;
+    Session* session_ = nullptr;  // while it is served
     Clock::time_point started_;
     bool is_behind_ = false;  // the time of the clock
     Lateness lateness_;
