@@ -4,6 +4,11 @@
 #include <algorithm>
 
 namespace rovernet {
+namespace {
+
+constexpr std::size_t most_held = std::size_t{256} << 10U;  // [bytes]
+
+}  // namespace
 
 void RosStream::add(const std::string& id, const RosDelivery& delivery) {
     deliveries_[id] = delivery;
@@ -30,17 +35,23 @@ void RosStream::take(std::string_view message, Time now, const Emit& emit) {
         free_from_ = now + rules.interval;
         return emit(message);
     }
-    if (rules.queue_length == 0) return;
-    if (held_.size() >= rules.queue_length) held_.pop_front();
     held_.emplace_back(message);
+    held_bytes_ += message.size();
+    while (held_.size() > rules.queue_length || held_bytes_ > most_held) release();
+}
+
+/// Takes the oldest message out of those that are held back.
+std::string RosStream::release() {
+    std::string message = std::move(held_.front());
+    held_.pop_front();
+    held_bytes_ -= message.size();
+    return message;
 }
 
 void RosStream::go_on(Time now, const Emit& emit) {
     while (!held_.empty() && now >= free_from_) {
         free_from_ = now + delivery().interval;
-        const std::string message = std::move(held_.front());
-        held_.pop_front();
-        emit(message);
+        emit(release());
     }
 }
 

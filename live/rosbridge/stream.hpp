@@ -16,7 +16,8 @@ namespace rovernet {
 
 /// Messages of one topic to one client, on behalf of all its subscriptions to it: in the smallest
 /// of their intervals, queues and pieces, and in one encoding. What it holds back, it sends when
-/// the interval is over in simulated time, so that a run is told the same every time.
+/// the interval is over in simulated time, so that a run is told the same every time: the newest
+/// messages, 256 KiB of them at most.
 class RosStream {
   public:
     using Emit = std::function<void(std::string_view message)>;
@@ -39,8 +40,11 @@ class RosStream {
     Time due = never;                     ///< of the next message of its topic
 
   private:
+    std::string release();
+
     std::map<std::string, RosDelivery> deliveries_;  // by the subscription's id
     std::deque<std::string> held_;
+    std::size_t held_bytes_ = 0;
     Time free_from_ = start_of_run;
 };
 

@@ -142,6 +142,22 @@ TEST_CASE("rosbridge: a queue keeps the newest messages, no queue drops what com
     CHECK(talk.messages("/B/radio/received", 1).size() == 2);
 }
 
+TEST_CASE("rosbridge: a queue holds 256 KiB at most, the newest messages") {
+    RosStream stream;
+    stream.add("1", {.interval = 1s, .queue_length = 1'000});
+    std::vector<std::string> emitted;
+    const auto emit = [&](std::string_view message) { emitted.emplace_back(message, 0, 3); };
+    for (int i = 100; i < 900; ++i) {
+        stream.take(std::to_string(i) + std::string(1'021, '.'), start_of_run, emit);
+    }
+    for (int s = 1; s <= 800; ++s) stream.go_on(start_of_run + s * 1s, emit);
+    REQUIRE(emitted.size() == 1 + 256);
+    CHECK(emitted[0] == "100");
+    CHECK(emitted[1] == "644");
+    CHECK(emitted.back() == "899");
+    CHECK(stream.next() == never);
+}
+
 TEST_CASE("rosbridge: subscriptions of a client to one topic are one stream, the fastest counts") {
     RosTalk talk(three_in_a_row());
     talk.subscribe("/clock", {{"id", "slow"}, {"throttle_rate", 500}});
