@@ -18,7 +18,7 @@ namespace rovernet::cli {
 namespace {
 
 struct LiveArguments : FileArguments {
-    std::optional<std::string> out, listen, unix_path, patience;
+    std::optional<std::string> out, listen, web, unix_path, patience;
     std::vector<std::string> controllers;
     std::optional<std::uint64_t> wait_for;
     std::string on_loss = "end";
@@ -36,6 +36,7 @@ LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
     LiveOptions options{.folder = folder_of(a, scenario),
                         .controllers = a.controllers,
                         .listen = a.listen,
+                        .web = a.web,
                         .unix_path = a.unix_path};
     const std::size_t started = std::max<std::size_t>(a.controllers.size(), 1);
     options.lockstep.wait_for = a.wait_for ? static_cast<std::size_t>(*a.wait_for) : started;
@@ -83,9 +84,11 @@ LiveResult run_lockstep(const LiveArguments& a) {
 
 void run_live(const LiveArguments& a) {
     const bool is_by_clock = a.player || a.rosbridge;
-    if (!is_by_clock && a.controllers.empty() && !a.listen && !a.unix_path) {
-        throw CommandEnd(
-            usage, "live: expected --controller, --listen-json, --unix, --player or --rosbridge");
+    const bool is_in_lockstep = !a.controllers.empty() || a.listen || a.web || a.unix_path;
+    if (!is_by_clock && !is_in_lockstep) {
+        throw CommandEnd(usage,
+                         "live: expected --controller, --listen-json, --listen-web, --unix, "
+                         "--player or --rosbridge");
     }
     if (!is_by_clock && a.speed) {
         throw CommandEnd(usage, "live: --speed needs --player or --rosbridge");
@@ -104,6 +107,8 @@ void add_lockstep(Command live, LiveArguments& a) {
         .one_word();
     live.add_option("--listen-json", a.listen,
                     "127.0.0.1:PORT to listen on for controllers; port 0: any that is free");
+    live.add_option("--listen-web", a.web,
+                    "127.0.0.1:PORT to listen on for controllers by WebSocket, a message a line");
     live.add_option("--unix", a.unix_path, "path of a Unix socket to listen on for controllers");
     live.add_option("--patience", a.patience,
                     "real time that a controller may take for a step, such as 30s (default: any)");
@@ -127,7 +132,7 @@ void add_by_clock(Command live, LiveArguments& a) {
                         "serve ROS clients by the rosbridge protocol, at 127.0.0.1:PORT; port 0: "
                         "any that is free (default: 9090)")
             .usually(rosbridge_address.data());
-    for (const char* other : {"--controller", "--listen-json", "--unix"}) {
+    for (const char* other : {"--controller", "--listen-json", "--listen-web", "--unix"}) {
         player.excludes(live.option(other));
         rosbridge.excludes(live.option(other));
     }

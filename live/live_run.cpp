@@ -2,6 +2,7 @@
 #include "live/live_run.hpp"
 
 #include "live/doors.hpp"
+#include "live/web_sockets.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ class LiveServer {
   public:
     explicit LiveServer(const LiveOptions& options)
         : options_(options),
-          lockstep_(options.lockstep, [this](auto to, auto line) { doors_.send(to, line); }),
+          lockstep_(options.lockstep, [this](auto to, auto line) { send(to, line); }),
           doors_({.line = [this](auto from, auto line) { lockstep_.receive(from, line); },
                   .refuse = [this](auto to, const auto& why) { lockstep_.refuse(to, why); },
                   .closed = [this](auto gone) { lockstep_.lost(gone); }}) {}
@@ -28,6 +29,7 @@ class LiveServer {
     void open() {
         for (const std::string& command : options_.controllers) doors_.start(command);
         if (options_.listen) options_.say("listening on " + doors_.listen(*options_.listen));
+        if (options_.web) listen_web(*options_.web);
         if (options_.unix_path) {
             doors_.listen_unix(*options_.unix_path);
             options_.say("listening on " + *options_.unix_path);
@@ -56,6 +58,7 @@ class LiveServer {
         Table metrics;
         append_metrics(metrics, run.metrics);
         lockstep_.tell_end(run.fingerprint, metrics);
+        web_.close(400ms);
         const bool is_hurried = !options_.go_on();
         const auto failed = doors_.close(is_hurried ? 400ms : 10s);
         std::string fault = lockstep_.fault();
@@ -65,6 +68,19 @@ class LiveServer {
     }
 
   private:
+    /// A line goes to a WebSocket as a message.
+    void send(Lockstep::Connection to, std::string_view line) {
+        to < WebSockets::first ? doors_.send(to, line) : web_.send(to, line);
+    }
+    void listen_web(const std::string& address) {
+        const std::string own = web_.listen(
+            address, {.opened = [](auto) {},
+                      .received = [this](auto from, auto line) { lockstep_.receive(from, line); },
+                      .closed = [this](auto gone) { lockstep_.lost(gone); }});
+        options_.say(fmt::format("listening on ws://{}", own));
+        options_.say(fmt::format("for a page: ws://{}/?token={}", own, web_.token()));
+    }
+
     void tell_missing() {
         const std::size_t present = lockstep_.present();
         if (lockstep_.has_started() || told_present_ == present) return;
@@ -84,7 +100,7 @@ class LiveServer {
 
     /// Ends a run that cannot begin, as a program has ended without a hello.
     void lose_hope() {
-        if (lockstep_.has_started() || doors_.listens()) return;
+        if (lockstep_.has_started() || doors_.listens() || web_.listens()) return;
         if (doors_.connections() < lockstep_.wanted()) {
             lockstep_.end_run("lost", "a controller has ended before its hello");
         }
@@ -93,6 +109,7 @@ class LiveServer {
     const LiveOptions& options_;
     Lockstep lockstep_;
     Doors doors_;
+    WebSockets web_{doors_};
     Clock::time_point asked_;
     std::optional<std::size_t> told_present_;
 };

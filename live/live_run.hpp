@@ -19,6 +19,7 @@ struct LiveOptions {
     std::string folder;                    ///< for the results
     std::vector<std::string> controllers;  ///< programs to start, by the shell
     std::optional<std::string> listen;     ///< "127.0.0.1:7007", see Doors::listen()
+    std::optional<std::string> web;        ///< for WebSockets, see WebSockets::listen()
     std::optional<std::string> unix_path;  ///< path of a Unix socket
     Lockstep::Settings lockstep = {};
     std::optional<std::chrono::nanoseconds> patience = {};  ///< for a question, of real time

@@ -230,7 +230,7 @@ struct WebSockets::State {
     std::string token = random_token();
     std::list<Gate> gates;  // clients refer to them
     std::map<Connection, Shared> clients;
-    Connection next = 0;
+    Connection next = first;
 };
 
 WebSockets::WebSockets(Doors& doors, Patience patience)
@@ -250,6 +250,7 @@ std::string WebSockets::listen(const std::string& address, Doors::Streams users)
 }
 
 const std::string& WebSockets::token() const { return state_->token; }
+bool WebSockets::listens() const { return !state_->gates.empty(); }
 
 void WebSockets::send(Connection to, std::string_view text) {
     state_->send(to, {std::string(text), true});

@@ -26,6 +26,8 @@ namespace rovernet {
 class WebSockets {
   public:
     using Connection = Doors::Connection;
+    static constexpr Connection first = 1U << 31U;  ///< those of Doors are below
+
     /// How long clients are waited for.
     struct Patience {
         std::chrono::milliseconds for_request = std::chrono::seconds(10);
@@ -47,6 +49,7 @@ class WebSockets {
     std::string listen(const std::string& address, Doors::Streams users);
     /// Text by which pages that are not this server's own may come in, as Admission has it.
     const std::string& token() const;
+    bool listens() const;
 
     /// Sends a message: a text, or bytes.
     void send(Connection to, std::string_view text);

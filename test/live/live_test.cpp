@@ -52,6 +52,11 @@ for n in range(1, 21):
 ask(type="bye")
 )";
 
+int read_port(const std::string& line) {
+    const std::string host = "127.0.0.1:";
+    return std::stoi(line.substr(line.find(host) + host.size()));
+}
+
 /// A live run in the background.
 class Live {
   public:
@@ -59,10 +64,7 @@ class Live {
         : process_(folder, arguments(std::move(options), file)) {}
 
     /// Port that it says it listens on; waits for that.
-    int port() const {
-        const std::string words = "listening on 127.0.0.1:";
-        return std::stoi(said(words).substr(words.size()));
-    }
+    int port() const { return read_port(said("listening on 127.0.0.1:")); }
     /// The line of standard output that begins and ends so.
     std::string said(const std::string& words, const std::string& last_words = {}) const {
         for (int i = 0; i < 2000; ++i, std::this_thread::sleep_for(5ms)) {
@@ -102,7 +104,8 @@ std::string hello(const std::string& robots, const std::string& step = "100 ms")
 }
 
 /// The same words as the program above. @return the last line
-std::string drive(LineClient& client) {
+template <class Client>
+std::string drive(Client& client) {
     client.ask(hello(R"("A","B")"));
     for (int n = 1; n <= 20; ++n) {
         Json question{{"type", "step"}, {"n", n}};
@@ -156,6 +159,12 @@ TEST_CASE("live: the same controller has the same run through every door, and in
     CHECK(Json::parse(drive(local)).at("fingerprint") == fingerprint);
     CHECK(by_path.wait().exit == 0);
     CHECK_FALSE(std::filesystem::exists(by_path.folder.path("door")));
+
+    const Live by_web({"--listen-web", "127.0.0.1:0"});
+    WebClient web(read_port(by_web.said("listening on ws://")));
+    CHECK(Json::parse(drive(web)).at("fingerprint") == fingerprint);
+    CHECK(web.reason() == 1001);
+    CHECK(by_web.wait().exit == 0);
 
     const Ended again = by_stdio.replay();
     CHECK(again.exit == 0);
@@ -412,18 +421,15 @@ TEST_CASE("live: Player clients by the clock, until Ctrl-C or the scenario's end
 
 TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs the token") {
     const Live live({"--rosbridge", "127.0.0.1:0", "--player", "127.0.0.1:0"}, long_scenario());
-    const auto port_of = [](const std::string& line) {
-        return std::stoi(line.substr(line.find("127.0.0.1:") + 10));
-    };
     LineClient player(live.port());
     begin(player);
     round(player);
-    const std::string door = live.said("listening on 127.0.0.1:", "(rosbridge)");
-    WebClient client(port_of(door));
-    CHECK(WebClient(port_of(door), "Origin: null\r\n").answer().starts_with("HTTP/1.1 403 "));
+    const int port = read_port(live.said("listening on 127.0.0.1:", "(rosbridge)"));
+    WebClient client(port), silent(port);
+    CHECK(WebClient(port, "Origin: null\r\n").answer().starts_with("HTTP/1.1 403 "));
     const std::string told = content(live.folder.path("stderr"));
     const std::string token = told.substr(told.find("/?token="), 40);
-    CHECK(WebClient(port_of(door), "Origin: null\r\n", token).is_in());
+    CHECK(WebClient(port, "Origin: null\r\n", token).is_in());
     const auto publish = [&](const std::string& topic) {
         client.send(R"({"op":"publish","id":"x","msg":{},"topic":")" + topic + R"("})");
         client.send(R"({"op":"call_service","id":"y","service":"rosapi/get_time"})");
@@ -431,9 +437,14 @@ TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs 
     };
     CHECK(publish("/B/cmd_vel").find(R"("id":"y")") != std::string::npos);
     CHECK(publish("/A/cmd_vel").find("robot A is driven by other programs") != std::string::npos);
+    // While it waits for the goodbye of the silent one, nobody is listened to any more.
+    std::thread talk([&] {
+        while (player.send_bytes(ask())) std::this_thread::sleep_for(1ms);
+    });
     live.process().interrupt();
     CHECK(client.reason() == 1001);
     CHECK(live.wait().exit == 0);
+    talk.join();
     CHECK(live.replay().exit == 0);
 
     const TemporaryFolder folder;
@@ -444,8 +455,8 @@ TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs 
         CHECK(ended.exit == 2);
         return ended.err;
     };
-    CHECK(error({"--speed", "2"}).find("--speed needs --player or --rosbridge") !=
-          std::string::npos);
+    CHECK(error({"--listen-json", "127.0.0.1:0", "--speed", "2"})
+              .find("--speed needs --player or --rosbridge") != std::string::npos);
     CHECK(error({"--rosbridge", "0.0.0.0:9090"}).find("an address of this machine") !=
           std::string::npos);
     CHECK(error({"--rosbridge", "--listen-json", "127.0.0.1:0"}).find("--rosbridge") !=

@@ -87,6 +87,10 @@ class WebClient {
             if (part.is_last) return whole;
         }
     }
+    std::string ask(const std::string& question) {
+        send(question);
+        return message();
+    }
     /// Reason for which the server closes, to which it agrees; other frames before are lost. 0: it
     /// just ended.
     int reason() {
