@@ -331,8 +331,9 @@ scan = { beams = 3, range = "20 m" }
 }
 
 TEST_CASE("session: a range finder sees the robots of its own storey") {
-    Scenario on_two = scenario("[[robot]]\nname = \"d\"\nat = [\"1 m\", \"1 m\"]\n"
-                               "scan = { beams = 1, from = \"0 deg\", to = \"0 deg\" }\n");
+    Scenario on_two = scenario(
+        "[[robot]]\nname = \"d\"\nat = [\"1 m\", \"1 m\"]\n"
+        "scan = { beams = 1, from = \"0 deg\", to = \"0 deg\" }\n");
     OccupancyGrid upper = test::drawn_map({"........", "........"});
     upper.origin.z = 3;
     on_two.walls = std::make_shared<const Scene>(
