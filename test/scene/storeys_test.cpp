@@ -179,6 +179,9 @@ TEST_CASE("storeys: on the stairs each part of the way keeps off the walls of it
     CHECK_FALSE(scene.passable({0.5, 1.5, 0}, {2.7, 1.5, 3}, body));
     CHECK(scene.passable({0.5, 1.5, 0}, {1.7, 1.5, 3}, body));
     CHECK(scene.passable({1.7, 1.5, 3}, {0.5, 1.5, 0}, body));
+    // It passes the ceiling at x = 1.75, and stays above where the lower pillar stands.
+    CHECK(scene.passable({1, 1.5, 0}, {2.5, 1.5, 6}, body));
+    CHECK(scene.passable({2.5, 1.5, 6}, {1, 1.5, 0}, body));
     // The upper end stands in the upper pillar.
     CHECK_FALSE(scene.passable({5.5, 1.5, 0}, {3.9, 1.5, 3}, body));
     CHECK(scene.passable({5.5, 1.5, 0}, {4.3, 1.5, 3}, body));
