@@ -11,13 +11,14 @@
 
 namespace rovernet {
 
-/// Network namespaces, one for each robot, with its TAP device in it. Who may not make them gets a
-/// user namespace around them, in which he may.
+/// Network namespaces, one for each robot, with its TAP device in it. A user who may not make them
+/// gets a user namespace around them, in which that is allowed.
 ///
 /// They belong to a process of their own, the keeper, so that this one stays where it is. The
-/// keeper hands a namespace to whoever asks (enter_namespace) at an abstract Unix socket
-/// "rovernet/PID/ROBOT", where PID is this process. It ends when this process does, however that
-/// ends: then nothing is left but programs that still run in a namespace.
+/// keeper hands a namespace to every process that asks (enter_namespace) at the abstract Unix
+/// socket "rovernet/PID/ROBOT", where PID is this process; the system decides who may enter. The
+/// keeper ends when this process does, however that ends: then nothing is left but programs that
+/// still run in a namespace.
 class Namespaces {
   public:
     /// @throws RunError if namespaces or devices cannot be made
