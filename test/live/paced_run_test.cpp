@@ -85,6 +85,28 @@ class Patient : public Parrot {
     Time limit_ = start_of_run;
 };
 
+/// Asks for so many times that the run is behind the clock; tells a client what time it is [ns]
+/// when it comes and when it says something.
+class Busy : public Front {
+  public:
+    explicit Busy(Carrier carrier) : carrier_(std::move(carrier)) {}
+    void begin(Session& session, const Scenario&) override { session_ = &session; }
+    void opened(Connection client, Entrance) override { tell_time(client); }
+    void received(Connection from, std::string_view) override { tell_time(from); }
+    void closed(Connection) override {}
+    Time next() const override { return session_->network().now() + 50us; }
+    void tell() override {}
+
+  private:
+    void tell_time(Connection to) {
+        const Duration time = session_->network().now() - start_of_run;
+        carrier_.send(to, std::to_string(time.count()) + "\n");
+    }
+
+    Carrier carrier_;
+    Session* session_ = nullptr;
+};
+
 /// Sends one byte after each of `steps` lines of a time.
 void answer(LineClient& client, int steps) {
     client.line();  // the port
@@ -133,6 +155,21 @@ TEST_CASE("paced run: commands of one time are replayed in their order, whatever
     const LiveResult result = paced.end();
     CHECK(result.run.metrics.messages > 100);
     CHECK(paced.replay().now == result.run.fingerprint);
+}
+
+TEST_CASE("paced run: behind the clock, too, a client's words count from when they come in") {
+    Scenario scenario = three_in_a_row();
+    scenario.scenario.duration = 1h;
+    constexpr int speed = 100;
+    Paced<Busy> paced(speed, scenario);
+    LineClient client(paced.port());
+    const Duration came{std::stoll(client.line())};
+    constexpr auto waits = 20ms;
+    std::this_thread::sleep_for(waits);
+    client.send_bytes("a");
+    CHECK(Duration{std::stoll(client.line())} >= came + speed * waits);
+    paced.stop();
+    CHECK(paced.end().lateness->most > 0s);
 }
 
 TEST_CASE("paced run: it ends when it is told to, with whole results") {
