@@ -18,7 +18,7 @@ class Emulation {
     Emulation(const std::string& scenario, std::vector<std::string> options)
         : process_(folder, arguments(scenario, std::move(options))) {}
     ~Emulation() {
-        if (!has_ended_) process_.stop();
+        if (!has_ended_) stop();
     }
     Emulation(const Emulation&) = delete;
     Emulation& operator=(const Emulation&) = delete;
@@ -52,8 +52,8 @@ class Emulation {
         return process_.wait();
     }
     Ended stop() {
-        has_ended_ = true;
-        return process_.stop();
+        process_.interrupt();
+        return wait();
     }
     void end_by_force() {
         kill(process_.pid(), SIGKILL);
