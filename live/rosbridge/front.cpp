@@ -170,8 +170,9 @@ void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
     if (command) uid = robots_->carry_out(*robot, *command, client.connection);
     switch (call.service.kind()) {
         case RosServiceKind::step:
-            limit_ = now() + std::min(time, session_->end() - now());
-            steps_.push_back({client.connection, reader_.operation()});
+            steps_.push_back({client.connection, reader_.operation(),
+                              now() + std::min(time, session_->end() - now())});
+            limit_ = limit_ == never ? steps_.back().until : std::max(limit_, steps_.back().until);
             return;
         case RosServiceKind::pause: limit_ = now(); break;
         case RosServiceKind::unpause: limit_ = never; break;
@@ -193,15 +194,17 @@ void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
 
 /// Answers calls of steps that are over, or that a pause or its end has overtaken.
 void RosbridgeFront::end_steps() {
-    if (limit_ > now() && limit_ != never) return;
     for (const PendingStep& each : std::exchange(steps_, {})) {
-        if (!clients_.contains(each.client)) continue;
-        respond(each.client, each.call, [&](RosWriter& out) {
-            out.open_object();
-            out.key("time");
-            write_time(out, now());
-            out.close_object();
-        });
+        if (each.until > now() && each.until <= limit_ && limit_ != never) {
+            steps_.push_back(each);
+        } else if (clients_.contains(each.client)) {
+            respond(each.client, each.call, [&](RosWriter& out) {
+                out.open_object();
+                out.key("time");
+                write_time(out, now());
+                out.close_object();
+            });
+        }
     }
 }
 
@@ -255,7 +258,7 @@ void RosbridgeFront::tell(Client& client, const std::vector<HeardMessage>& heard
     for (auto& [name, stream] : client.streams) {
         if (!stream.source) continue;
         const RosTopic& topic = *stream.source;
-        const bool is_step_end = topic.kind() == RosTopicKind::clock && now() == limit_;
+        const bool is_step_end = topic.kind() == RosTopicKind::clock && ends_step();
         if (stream.due <= now() || is_step_end) {
             publish(client, name, stream, [&](RosWriter& out) { messages_->write(out, topic); });
             stream.due = multiple_after(now(), period(topic));
@@ -270,10 +273,15 @@ void RosbridgeFront::tell(Client& client, const std::vector<HeardMessage>& heard
     }
 }
 
+bool RosbridgeFront::ends_step() const {
+    return std::any_of(steps_.begin(), steps_.end(),
+                       [&](const PendingStep& each) { return each.until == now(); });
+}
+
 /// Finds out what comes next, after anything has changed.
 void RosbridgeFront::go_on() {
     next_ = robots_->any() ? multiple_after(now(), ros_tick) : never;
-    if (!steps_.empty()) next_ = std::min(next_, limit_);
+    for (const PendingStep& each : steps_) next_ = std::min(next_, each.until);
     for (const auto& [connection, client] : clients_) {
         for (const auto& [name, stream] : client.streams) {
             next_ = std::min({next_, stream.due, stream.next()});

@@ -43,6 +43,7 @@ class RosbridgeFront : public Front {
     struct PendingStep {
         Connection client;
         RosOperation call;
+        Time until;
     };
 
     void handle(Client& client, std::string_view message);
@@ -59,6 +60,7 @@ class RosbridgeFront : public Front {
     void respond(Connection client, const RosOperation& call,
                  const std::function<void(RosWriter&)>& put_values);
     void end_steps();
+    bool ends_step() const;
 
     using PutMessage = std::function<void(RosWriter&)>;
     void publish(Client& client, const std::string& name, RosStream& stream,

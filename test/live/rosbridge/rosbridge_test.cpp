@@ -416,6 +416,36 @@ TEST_CASE("rosbridge: time stands still while it is paused, and goes on by steps
     CHECK(talk.told().back()["id"] == "t");  // at the end of the scenario
 }
 
+TEST_CASE("rosbridge: steps of several clients are each as long as they were asked for") {
+    RosTalk talk(three_in_a_row());
+    talk.come(1);
+    const auto step = [&](const std::string& seconds, Front::Connection client) {
+        talk.say(R"({"op":"call_service","service":"/simulation/step","args":{"seconds":)" +
+                     seconds + "}}",
+                 client);
+    };
+    step("0.3", 0);
+    step("0.1", 1);
+    talk.run_until(50ms);
+    step("0.1", 1);
+    talk.run_until(1s);
+    const auto times = [&](Front::Connection client) {
+        std::vector<double> found;
+        for (const Json& each : talk.told(client)) found.push_back(stamp(each["values"]["time"]));
+        return found;
+    };
+    CHECK(times(0) == std::vector<double>{0.3});
+    CHECK(times(1) == std::vector<double>{0.1, 0.15});
+    CHECK(talk.session.network().now() == start_of_run + 300ms);
+    step("0.5", 0);
+    talk.run_for(100ms);
+    talk.come(2);
+    talk.say(R"({"op":"call_service","service":"/simulation/pause"})", 2);
+    CHECK(times(0) == std::vector<double>{0.4});  // another has overtaken it
+    talk.run_until(1s);
+    CHECK(talk.session.network().now() == start_of_run + 400ms);
+}
+
 TEST_CASE("rosbridge: robots stop when the client that drove them last has gone") {
     RosTalk talk(three_in_a_row());
     talk.come(1);
