@@ -173,10 +173,19 @@ struct WebSockets::State {
         if (!client->is_open || client->is_closing || client->farewell) return;
         if (!client->output.empty()) client->waiting += message.bytes.size();
         client->output.push_back(std::move(message));
-        if (client->output.size() > most_messages || client->waiting > most_waiting) {
-            return say_goodbye(client, close_code::try_again_later);
-        }
+        if (is_overdue(*client)) return say_goodbye(client, close_code::try_again_later);
         if (client->output.size() == 1) write(client);
+    }
+
+    /// Too much waits for a client. Its longest message is left out: a map may be beyond the limit.
+    static bool is_overdue(const Client& client) {
+        if (client.output.size() > most_messages) return true;
+        if (client.waiting <= most_waiting) return false;
+        std::size_t longest = 0;
+        for (auto each = client.output.begin() + 1; each != client.output.end(); ++each) {
+            longest = std::max(longest, each->bytes.size());
+        }
+        return client.waiting - longest > most_waiting;
     }
 
     void write(const Shared& client) {

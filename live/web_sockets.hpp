@@ -23,6 +23,8 @@ namespace rovernet {
 /// | bytes to a client, not taken yet   | 256 KiB        | what it says is not read      |
 /// | silence of a client                | 15 s           | pinged; after 30 s it is gone |
 /// | connections                        | 500            | closed at once                |
+///
+/// The longest message that waits for a client does not count in those 4 MiB.
 class WebSockets {
   public:
     using Connection = Doors::Connection;

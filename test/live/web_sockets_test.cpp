@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::size_t longest = std::size_t{1} << 20U;  // [bytes] of a message
 
-/// A server that says back what it is told, in a thread of its own. "close" closes, "flood" sends
-/// 1 MiB until the connection has ended.
+/// A server that says back what it is told, in a thread of its own. "close" closes it; "flood"
+/// sends 20 MiB, "crowd" 2,000 messages, "map" one of 9 MiB among short ones.
 class Echo {
   public:
     explicit Echo(WebSockets::Patience patience = {}) : web_(doors_, patience) {
@@ -70,6 +70,12 @@ class Echo {
         }
         if (bytes == "crowd") {
             for (int i = 0; i < 2'000; ++i) web_.send(from, std::string(1'000, '.'));
+            return;
+        }
+        if (bytes == "map") {
+            for (const std::size_t size : {1UL, 9 * longest, 1UL}) {
+                web_.send(from, std::string(size, '.'));
+            }
             return;
         }
         bytes.starts_with('b') ? web_.send_binary(from, bytes) : web_.send(from, bytes);
@@ -152,6 +158,15 @@ TEST_CASE("web sockets: a client that does not read is closed, and others are se
     CHECK(reader.message() == "hello");
     CHECK(deaf.reason() == 1013);
     CHECK(crowded.reason() == 1013);
+}
+
+TEST_CASE("web sockets: a message may be longer than what may wait, for a client that reads") {
+    const Echo echo;
+    WebClient reader(echo.port);
+    reader.send("map");
+    CHECK(reader.message().size() == 1);
+    CHECK(reader.message().size() == 9 * longest);
+    CHECK(reader.message().size() == 1);
 }
 
 TEST_CASE("web sockets: a server closes once all is out, and says goodbye at its end") {
