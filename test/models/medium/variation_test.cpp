@@ -28,6 +28,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr NodeId a{0}, b{1};
+const Scene open_field;
 
 const Shadowing link_shadowing{.model = ShadowingModel::link, .sigma = Db{6}};
 const Shadowing field_shadowing{
@@ -174,8 +175,9 @@ TEST_CASE("variation: who hears is who a search over all pairs finds, and whose 
 }
 
 TEST_CASE("variation: shadowing of links is log_distance's sigma over any model") {
-    Medium own({.seed = 4, .replication = 1});
-    Medium over({.shadowing = {.model = ShadowingModel::link, .sigma = Db{7}},
+    Medium own({.scene = &open_field, .seed = 4, .replication = 1});
+    Medium over({.scene = &open_field,
+                 .shadowing = {.model = ShadowingModel::link, .sigma = Db{7}},
                  .seed = 4,
                  .replication = 1});
     Legs legs;
@@ -223,13 +225,14 @@ TEST_CASE("variation: the loss of a link is model and shadowing, never below 0")
 }
 
 TEST_CASE("variation: a model that is random itself takes no shadowing") {
-    Medium medium({.shadowing = field_shadowing});
+    Medium medium({.scene = &open_field, .shadowing = field_shadowing});
     CHECK_THROWS_AS(medium.add({}, 1, LogDistance{}), std::invalid_argument);
     CHECK_NOTHROW(medium.add({}, 1, LogDistance{.sigma = Db{0}}));
 }
 
 TEST_CASE("variation: links are local means, which no frame's fade is in") {
-    Medium medium({.fading = {.model = FadingModel::rayleigh}}), plain({});
+    Medium medium({.scene = &open_field, .fading = {.model = FadingModel::rayleigh}}),
+        plain({.scene = &open_field});
     Legs legs;
     for (const double x : {0.0, 100.0, 200.0, 300.0, 420.0}) {
         legs.add(test::resting({x, 0, 0}));
@@ -254,7 +257,7 @@ TEST_CASE("variation: links are local means, which no frame's fade is in") {
 
 TEST_CASE(
     "variation: Rayleigh frames reach a robot with probability e^(-1 / margin), near and far") {
-    Medium medium({.fading = {.model = FadingModel::rayleigh}});
+    Medium medium({.scene = &open_field, .fading = {.model = FadingModel::rayleigh}});
     Legs legs;
     const std::vector<double> places{0, 100, 300, 420, 700, 1000};
     for (const double x : places) {
@@ -277,7 +280,8 @@ TEST_CASE(
 }
 
 TEST_CASE("variation: where places have fades, a robot that comes back is heard as before") {
-    Medium medium({.fading = {.model = FadingModel::rayleigh, .coherence = Coherence::place}});
+    Medium medium({.scene = &open_field,
+                   .fading = {.model = FadingModel::rayleigh, .coherence = Coherence::place}});
     Legs legs;
     legs.add(test::resting({0, 0, 0}));
     legs.add(
@@ -297,7 +301,7 @@ TEST_CASE("variation: where places have fades, a robot that comes back is heard 
 }
 
 TEST_CASE("antennas: a sector hears in front, not behind; its link has the pattern at both ends") {
-    Medium medium({});
+    Medium medium({.scene = &open_field});
     Legs legs;
     Radio sector{.antenna = AntennaShape::cosine,
                  .antenna_beamwidth = Radians{60 * degree},
