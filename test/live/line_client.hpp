@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <doctest/doctest.h>
-
 #include <arpa/inet.h>
+#include <cerrno>
 #include <cstring>
 #include <netinet/in.h>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <sys/socket.h>
@@ -92,7 +92,7 @@ class LineClient {
     void open(const sockaddr* address, socklen_t size) const {
         const timeval longest{20, 0};
         setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
-        REQUIRE(connect(socket_, address, size) == 0);
+        if (connect(socket_, address, size) != 0) throw std::runtime_error(std::strerror(errno));
     }
 
     int socket_;

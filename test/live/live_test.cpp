@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command `live` with controllers at its doors, in processes and sockets of their own.
-#include "test/cli/process.hpp"
-#include "test/live/line_client.hpp"
-#include "test/live/player/wire.hpp"
+#include "test/live/live_command.hpp"
 #include "test/live/web_client.hpp"
-#include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
 
@@ -22,24 +19,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const std::string scenario = R"([scenario]
-name = "row"
-duration = "2 s"
-[[robot]]
-name = "A"
-at = ["0 m", "0 m"]
-[[robot]]
-name = "B"
-at = ["15 m", "0 m"]
-[[robot]]
-name = "C"
-at = ["30 m", "0 m"]
-[[traffic]]
-from = "A"
-payload = "tick"
-every = "0.3 s"
-)";
-
 /// The controller that speaks through every door.
 const std::string python = R"(import json, sys
 def ask(**q):
@@ -51,57 +30,6 @@ for n in range(1, 21):
     ask(type="step", n=n, do={"A": {"v": 0.1 * n, "w": 0.3}}, send=send)
 ask(type="bye")
 )";
-
-int read_port(const std::string& line) {
-    const std::string host = "127.0.0.1:";
-    return std::stoi(line.substr(line.find(host) + host.size()));
-}
-
-/// A live run in the background.
-class Live {
-  public:
-    explicit Live(std::vector<std::string> options, const std::string& file = scenario)
-        : process_(folder, arguments(std::move(options), file)) {}
-
-    /// Port that it says it listens on; waits for that.
-    int port() const { return read_port(said("listening on 127.0.0.1:")); }
-    /// The line of standard output that begins and ends so.
-    std::string said(const std::string& words, const std::string& last_words = {}) const {
-        for (int i = 0; i < 2000; ++i, std::this_thread::sleep_for(5ms)) {
-            std::ifstream out(folder.path("stdout"));
-            for (std::string line; std::getline(out, line);) {
-                const bool is_it = line.starts_with(words) && line.ends_with(last_words);
-                if (is_it && !out.eof()) return line;
-            }
-        }
-        FAIL("it does not say " << words << ": " << content(folder.path("stderr")));
-        return {};
-    }
-    Ended wait() const { return process_.wait(); }
-    const Process& process() const { return process_; }
-    std::string fingerprint() const {
-        return Json::parse(content(folder.path("out/summary.json"))).at("fingerprint");
-    }
-    Ended replay() const { return command(folder, {"replay", folder.path("out"), "--verify"}); }
-
-    TemporaryFolder folder;
-
-  private:
-    std::vector<std::string> arguments(std::vector<std::string> options, const std::string& file) {
-        options.insert(options.begin(),
-                       {"live", folder.write("s.toml", file), "--out", folder.path("out")});
-        std::replace(options.begin(), options.end(), std::string("SOCKET"), folder.path("door"));
-        std::replace(options.begin(), options.end(), std::string("PROGRAM"),
-                     "python3 " + folder.write("c.py", python));
-        return options;
-    }
-
-    Process process_;
-};
-
-std::string hello(const std::string& robots, const std::string& step = "100 ms") {
-    return R"({"type":"hello","protocol":1,"robots":[)" + robots + R"(],"step":")" + step + "\"}";
-}
 
 /// The same words as the program above. @return the last line
 template <class Client>
@@ -132,18 +60,10 @@ void drive_slowly(LineClient& client, const std::string& robot, std::uint64_t se
     client.ask(R"({"type":"bye"})");
 }
 
-long megabytes_of(pid_t pid) {
-    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-    for (std::string line; std::getline(status, line);) {
-        if (line.starts_with("VmRSS:")) return std::stol(line.substr(6)) / 1024;
-    }
-    return 0;
-}
-
 }  // namespace
 
 TEST_CASE("live: the same controller has the same run through every door, and in its replay") {
-    const Live by_stdio({"--controller", "PROGRAM"});
+    const Live by_stdio({"--controller", "PROGRAM"}, live_row, python);
     CHECK(by_stdio.wait().exit == 0);
     const std::string fingerprint = by_stdio.fingerprint();
 
@@ -173,7 +93,7 @@ TEST_CASE("live: the same controller has the same run through every door, and in
 
 TEST_CASE(
     "live: a log that was changed is no replay, and one that was cut goes as far as it goes") {
-    const Live live({"--controller", "PROGRAM"});
+    const Live live({"--controller", "PROGRAM"}, live_row, python);
     REQUIRE(live.wait().exit == 0);
     const std::string path = live.folder.path("out/inputs.jsonl"), log = content(path);
     const auto changed = [&](const std::string& text) {
@@ -263,7 +183,7 @@ TEST_CASE("live: lines may be sent ahead, and a sender that is done is told the 
 
 TEST_CASE("live: only this machine is listened to, and an address in use is told") {
     const TemporaryFolder folder;
-    const std::string file = folder.write("s.toml", scenario);
+    const std::string file = folder.write("s.toml", live_row);
     const auto refused = [&](const std::string& address) {
         const Ended ended = command(folder, {"live", file, "--listen-json", address});
         CAPTURE(address);
@@ -334,21 +254,6 @@ TEST_CASE("live: hostile connections are closed, take little memory and hold nob
 
 namespace {
 
-/// The next message of a Player server.
-Wire message_of(LineClient& client) {
-    std::string bytes = client.bytes(40);
-    REQUIRE(bytes.size() == 40);
-    bytes += client.bytes(number_at(bytes, 36, 4));
-    return take_messages(bytes).at(0);
-}
-
-/// Opens position2d of the first robot, to pull.
-void begin(LineClient& client) {
-    CHECK(client.bytes(32).starts_with("Player v."));
-    client.send_bytes(mode(pull) + device(4, 0));
-    for (int i = 0; i < 2; ++i) CHECK(message_of(client).type == ack);
-}
-
 /// One round of a client: it writes twice, as libplayerc does. @return the x of position2d
 double round(LineClient& client) {
     client.send_bytes(rovernet::test::drive(1, 0));
@@ -360,20 +265,14 @@ double round(LineClient& client) {
     return double_at(told.payload, 0);
 }
 
-std::string long_scenario() {
-    std::string text = scenario;
-    text.replace(text.find("2 s"), 3, "99 s");
-    return text;
-}
-
 }  // namespace
 
 TEST_CASE("live: a Player client in lock-step, whose rounds wait for no acknowledgement") {
     std::string fingerprints[2];
     for (std::string& fingerprint : fingerprints) {
-        const Live live({"--player", "127.0.0.1:0", "--player-lockstep"}, long_scenario());
+        const Live live({"--player", "127.0.0.1:0", "--player-lockstep"}, long_live_row());
         LineClient client(live.port());
-        begin(client);
+        open_position(client);
         std::vector<double> took;
         for (int i = 1; i <= 200; ++i) {
             const auto before = std::chrono::steady_clock::now();
@@ -396,10 +295,10 @@ TEST_CASE("live: a Player client in lock-step, whose rounds wait for no acknowle
 }
 
 TEST_CASE("live: Player clients by the clock, until Ctrl-C or the scenario's end") {
-    const Live live({"--player", "127.0.0.1:0", "--speed", "5"}, long_scenario());
+    const Live live({"--player", "127.0.0.1:0", "--speed", "5"}, long_live_row());
     CHECK(live.said("listening").ends_with("(Player, robot A)"));
     LineClient client(live.port());
-    begin(client);
+    open_position(client);
     double last = round(client);
     for (int i = 0; i < 5; ++i) {
         const double x = round(client);
@@ -413,16 +312,16 @@ TEST_CASE("live: Player clients by the clock, until Ctrl-C or the scenario's end
 
     const Live short_run({"--player", "127.0.0.1:0", "--player-one-port", "--speed", "20"});
     LineClient second(short_run.port());
-    begin(second);
+    open_position(second);
     CHECK(short_run.wait().exit == 0);
     CHECK(Json::parse(content(short_run.folder.path("out/summary.json"))).at("sim_s") == 2);
     CHECK(short_run.replay().exit == 0);
 }
 
 TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs the token") {
-    const Live live({"--rosbridge", "127.0.0.1:0", "--player", "127.0.0.1:0"}, long_scenario());
+    const Live live({"--rosbridge", "127.0.0.1:0", "--player", "127.0.0.1:0"}, long_live_row());
     LineClient player(live.port());
-    begin(player);
+    open_position(player);
     round(player);
     const int port = read_port(live.said("listening on 127.0.0.1:", "(rosbridge)"));
     WebClient client(port), silent(port);
@@ -449,7 +348,7 @@ TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs 
 
     const TemporaryFolder folder;
     const auto error = [&](std::vector<std::string> more) {
-        std::vector<std::string> words = {"live", folder.write("row.toml", scenario)};
+        std::vector<std::string> words = {"live", folder.write("row.toml", live_row)};
         words.insert(words.end(), more.begin(), more.end());
         const Ended ended = command(folder, words);
         CHECK(ended.exit == 2);
