@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Runs with clients of several kinds at once are made again from their log, without the clients.
+#include "live/input_log.hpp"
+#include "live/paced_run.hpp"
+#include "live/player/door.hpp"
+#include "live/rosbridge/door.hpp"
+#include "test/live/live_command.hpp"
+#include "test/live/talk.hpp"
+#include "test/live/web_client.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <future>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace replay_test {
+using namespace rovernet;
+using namespace rovernet::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A run by the clock with a door for Player clients of robot A and one for ROS clients.
+class TwoDoors {
+  public:
+    explicit TwoDoors(const Scenario& scenario) {
+        const Loopback any{"127.0.0.1", 0};
+        PacedOptions options;
+        options.folder = folder_.path("out");
+        options.fronts = {player_one_port(any, {"A"}, {}), rosbridge_door(any)};
+        std::promise<void> opened;
+        options.say = [&](std::string_view text) {
+            if (!text.starts_with("listening on ")) return;
+            ports.push_back(read_port(std::string(text)));
+            if (ports.size() == 2) opened.set_value();
+        };
+        run_ = std::async(std::launch::async,
+                          [options, scenario] { return run_paced(scenario, options); });
+        opened.get_future().wait();
+    }
+
+    LiveResult end() { return run_.get(); }
+    InputReplay replay() const { return replay_inputs(folder_.path("out"), {}); }
+    std::string log() const { return content(folder_.path("out/inputs.jsonl")); }
+
+    std::vector<int> ports;  // Player, rosbridge
+
+  private:
+    TemporaryFolder folder_;
+    std::future<LiveResult> run_;
+};
+
+}  // namespace
+
+TEST_CASE("replay: a run with clients of Player and of ROS") {
+    TwoDoors run(three_in_a_row("[access]\nmodel = \"csma\"\n"));
+    LineClient player(run.ports[0]);
+    WebClient ros(run.ports[1]);
+    open_position(player);
+    player.send_bytes(device(51, 1));
+    for (int i = 1; i <= 20; ++i, std::this_thread::sleep_for(20ms)) {
+        const std::string number = std::to_string(i);
+        player.send_bytes(rovernet::test::drive(0.1 * i, -0.2) + order(51, 1, counted(number)));
+        ros.send(R"({"op":"publish","topic":"/B/cmd_vel","msg":{"linear":{"x":0.)" + number +
+                 "}}}");
+        ros.send(R"({"op":"publish","topic":"/B/radio/send","msg":{"data":"Rg=="}})");
+    }
+    const LiveResult result = run.end();
+    const InputReplay replay = run.replay();
+    CHECK(replay.inputs >= 80);
+    CHECK(replay.recorded == result.run.fingerprint);
+    CHECK(replay.now == result.run.fingerprint);
+    for (const char* input : {R"("robot":"A","do":"velocity")", R"("robot":"A","do":"send")",
+                              R"("robot":"B","do":"velocity")", R"("robot":"B","do":"send")"}) {
+        CAPTURE(input);
+        CHECK(run.log().find(input) != std::string::npos);
+    }
+}
+
+TEST_CASE("replay: a run with controllers by TCP and by WebSocket") {
+    const Live live(
+        {"--listen-json", "127.0.0.1:0", "--listen-web", "127.0.0.1:0", "--wait-for", "2"});
+    LineClient a(live.port());
+    WebClient b(read_port(live.said("listening on ws://")));
+    const auto words = [](const std::string& robot, int n) {
+        return R"({"type":"step","n":)" + std::to_string(n) + R"(,"do":{")" + robot +
+               R"(":{"v":0.)" + std::to_string(n) + R"(,"w":-0.0}},"send":[{"from":")" + robot +
+               R"(","data":"Rg=="}]})";
+    };
+    a.send_bytes(hello("\"A\"") + "\n");
+    b.send(hello("\"B\"", "50 ms"));
+    CHECK(Json::parse(a.line()).at("type") == "welcome");
+    CHECK(Json::parse(b.message()).at("type") == "welcome");
+    for (int n = 1; n <= 20; ++n) {
+        a.send_bytes(words("A", n) + "\n");
+        for (int k = 2 * n - 1; k <= 2 * n; ++k) {
+            CHECK(Json::parse(b.ask(words("B", k))).at("type") == "state");
+        }
+        CHECK(Json::parse(a.line()).at("type") == "state");
+    }
+    a.send_bytes("{\"type\":\"bye\"}\n");
+    b.send(R"({"type":"bye"})");
+    CHECK(live.wait().exit == 0);
+    CHECK(live.replay().out == "identical: 122 inputs, fingerprint " + live.fingerprint() + "\n");
+}
+
+}  // namespace replay_test
