@@ -108,8 +108,8 @@ double loss_by(const Propagation& model, const Scene& scene, const Network& netw
 std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, const LinkReport& link,
                             Vec3 here, Vec3 there) {
     const double without_walls =
-        loss_by(network.medium().stations().model(from), network.scene().without_walls(), network,
-                from, to, here, there);
+        loss_by(network.medium().stations().model(from), network.scene().with_walls_of(Scene()),
+                network, from, to, here, there);
 
     const auto& materials = network.scene().materials();
     std::vector<Db> losses;
@@ -132,10 +132,10 @@ std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, cons
 /// What the ceilings between the antennas take [dB].
 Db ceiling_loss(const Network& network, NodeId from, NodeId to, Vec3 here, Vec3 there) {
     const Scene& scene = network.scene();
-    if (scene.ceilings_between(here.z, there.z).empty()) return Db{0};
+    if (scene.storeys().ceilings_between(here.z, there.z).empty()) return Db{0};
     const Propagation& model = network.medium().stations().model(from);
     constexpr Meters no_floors{1e9};
-    return Db{loss_by(model, scene.without_walls(), network, from, to, here, there) -
+    return Db{loss_by(model, scene.with_walls_of(Scene()), network, from, to, here, there) -
               loss_by(model, Scene(), network, from, to, here, there, no_floors)};
 }
 
@@ -201,7 +201,7 @@ LinkReport report_at(const Network& network, NodeId from, NodeId to, Time at) {
                       .materials = {},
                       .wall_losses = {},
                       .wall_m = network.scene().wall_length(a, b),
-                      .ceilings = network.scene().ceilings_between(a.z, b.z).size(),
+                      .ceilings = network.scene().storeys().ceilings_between(a.z, b.z).size(),
                       .ceiling_loss = ceiling_loss(network, from, to, a, b),
                       .sender = stations.radio(from),
                       .receiver = stations.radio(to),

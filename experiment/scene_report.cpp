@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 namespace rovernet {
@@ -27,7 +26,7 @@ Table wall_document(const WallRectangle& wall, const Scene& scene) {
     Table table;
     table.set("corners", std::move(corners));
     table.set("material", scene.materials()[wall.material].name);
-    if (scene.storeys() > 1) table.set("floor_m", wall.corners[0].z);
+    if (scene.storeys().size() > 1) table.set("floor_m", wall.corners[0].z);
     return table;
 }
 
@@ -47,7 +46,7 @@ Table material_document(const Material& material) {
 
 double free_area(const Scene& scene) {
     double area = 0;
-    for (std::size_t i = 0; i < scene.storeys(); ++i) {
+    for (std::size_t i = 0; i < scene.storeys().size(); ++i) {
         const OccupancyGrid& grid = scene.storey(i).grid();
         const auto cells = std::count(grid.cells.begin(), grid.cells.end(), Cell::free);
         area += static_cast<double>(cells) * grid.cell_width * grid.cell_height;
@@ -57,11 +56,11 @@ double free_area(const Scene& scene) {
 
 /// Sets the heights of the floors and what the ceilings are made of, from below.
 void set_storeys(Table& table, const Scene& scene) {
-    if (scene.storeys() == 1) return;
+    if (scene.storeys().size() == 1) return;
     Array floors, ceilings;
-    for (std::size_t i = 0; i < scene.storeys(); ++i) floors.emplace_back(scene.floor_height(i));
-    constexpr double endless = std::numeric_limits<double>::infinity();
-    for (const Material& ceiling : scene.ceilings_between(-endless, endless)) {
+    for (std::size_t i = 0; i < scene.storeys().size(); ++i)
+        floors.emplace_back(scene.storeys().floor(i));
+    for (const Material& ceiling : scene.storeys().ceilings()) {
         ceilings.emplace_back(material_document(ceiling));
     }
     table.set("floors_m", std::move(floors));

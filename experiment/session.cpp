@@ -252,7 +252,7 @@ const RangeFinder* Session::range_finder(NodeId robot) const {
 std::vector<double> Session::scan(NodeId robot) const {
     const RangeFinder& finder = range_finders_.at(robot);
     std::vector<RoundBody> others;
-    const auto storey_of = [&](Vec3 at) { return network_->scene().storey_number(at.z); };
+    const auto storey_of = [&](Vec3 at) { return network_->scene().storeys().number_at(at.z); };
     const std::size_t storey = storey_of(network_->position(robot));
     for (NodeId other{0}; other.index() < network_->size(); ++other.value) {
         const RobotState state = network_->robot(other);

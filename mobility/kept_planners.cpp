@@ -9,7 +9,8 @@ namespace {
 
 std::size_t cells_of(const Scene& scene) {
     std::size_t cells = 0;
-    for (std::size_t i = 0; i < scene.storeys(); ++i) cells += scene.storey(i).grid().cells.size();
+    for (std::size_t i = 0; i < scene.storeys().size(); ++i)
+        cells += scene.storey(i).grid().cells.size();
     return cells;
 }
 

@@ -37,12 +37,12 @@ class Planners {
     }
     /// Both places are on one storey.
     bool is_level(Vec3 from, Vec3 to) const {
-        return scene_->storey_number(from.z) == scene_->storey_number(to.z);
+        return scene_->storeys().number_at(from.z) == scene_->storeys().number_at(to.z);
     }
 
   private:
     Planner& planner(double z, Meters radius) {
-        const std::size_t storey = scene_->storey_number(z);
+        const std::size_t storey = scene_->storeys().number_at(z);
         return planners_.try_emplace({storey, radius}, scene_->storey(storey), radius)
             .first->second;
     }

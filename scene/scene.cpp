@@ -63,6 +63,20 @@ std::set<std::uint8_t> materials_of(const OccupancyGrid& grid) {
     return found;
 }
 
+/// Scene::passable() in several storeys: part by part.
+bool passable_by_storeys(const Scene& scene, Vec3 a, Vec3 b, Meters radius) {
+    if (b.z < a.z) std::swap(a, b);
+    const Storeys& storeys = scene.storeys();
+    const std::size_t last = storeys.number_at(b.z);
+    Vec3 from = a;
+    for (std::size_t i = storeys.number_at(a.z); i <= last; ++i) {
+        const Vec3 to = i == last ? b : a + ((storeys.top(i) - a.z) / (b.z - a.z)) * (b - a);
+        if (!scene.storey(i).passable(from, to, radius)) return false;
+        from = to;
+    }
+    return true;
+}
+
 }  // namespace
 
 Scene::Scene(OccupancyGrid grid, std::vector<Material> materials)
@@ -70,38 +84,31 @@ Scene::Scene(OccupancyGrid grid, std::vector<Material> materials)
 
 Scene::Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials,
              std::vector<Material> ceilings)
-    : materials_(std::move(materials)), ceilings_(std::move(ceilings)) {
+    : materials_(std::move(materials)) {
     if (materials_.empty()) materials_.push_back({});
     for (const OccupancyGrid& map : maps) check(map, materials_.size());
     std::erase_if(maps, [](const OccupancyGrid& map) { return map.columns == 0; });
     std::map<double, std::vector<OccupancyGrid>> floors;
     for (OccupancyGrid& map : maps) floors[map.origin.z].push_back(std::move(map));
-    if (ceilings_.empty() && !floors.empty())
-        ceilings_.assign(floors.size() - 1, {.name = "ceiling"});
-    if (ceilings_.size() + 1 != std::max<std::size_t>(floors.size(), 1))
-        throw std::invalid_argument(fmt::format(
-            "Scene: there must be a ceiling for each storey but the highest, got {} for {} storeys",
-            ceilings_.size(), floors.size()));
-    if (floors.empty()) return;
+    std::vector<double> heights;
+    for (const auto& [height, unused] : floors) heights.push_back(height);
+    if (heights.empty()) heights.push_back(0);
+    storeys_ = Storeys(std::move(heights), std::move(ceilings));
     if (floors.size() == 1) {
-        build(std::move(floors.begin()->second), {-endless, endless});
-        return;
-    }
-    double bottom = -endless;
-    for (auto floor = floors.begin(); floor != floors.end();) {
-        const auto& [height, here] = *floor++;
-        const double top = floor == floors.end() ? endless : floor->first;
-        add_storey(here, {bottom, top});
-        bottom = top;
+        build(std::move(floors.begin()->second), -endless, endless);
+    } else {
+        for (auto& [unused, here] : floors) add_storey(std::move(here));
     }
 }
 
 /// Adds the storey above those that there are.
-void Scene::add_storey(const std::vector<OccupancyGrid>& maps, Heights heights) {
+void Scene::add_storey(std::vector<OccupancyGrid> maps) {
+    const std::size_t number = plans_.size();
     const auto plan = std::make_shared<Scene>();
     plan->materials_ = materials_;
-    plan->build(maps, heights);
-    if (storeys_.empty()) {
+    plan->storeys_ = Storeys({storeys_.floor(number)}, {});
+    plan->build(std::move(maps), storeys_.bottom(number), storeys_.top(number));
+    if (number == 0) {
         grid_ = plan->grid_;
         frame_ = plan->frame_;
         obstacle_cells_ = plan->obstacle_cells_;
@@ -111,23 +118,23 @@ void Scene::add_storey(const std::vector<OccupancyGrid>& maps, Heights heights) 
     }
     for (const WallLayer& layer : plan->layers_) {
         layers_.push_back(layer);
-        layers_.back().storey = storeys_.size();
+        layers_.back().storey = number;
     }
     plain_ = false;
     occupied_cells_ += plan->occupied_cells_;
     const Vec3 low = plan->lower_left_, high = plan->upper_right_;
     lower_left_ = {std::min(lower_left_.x, low.x), std::min(lower_left_.y, low.y), 0};
     upper_right_ = {std::max(upper_right_.x, high.x), std::max(upper_right_.y, high.y), 0};
-    storeys_.push_back({heights.bottom, plan});
+    plans_.push_back(plan);
 }
 
 /// Makes a scene of one storey.
 /// @param maps  on one floor, at least one
-void Scene::build(std::vector<OccupancyGrid> maps, Heights heights) {
+void Scene::build(std::vector<OccupancyGrid> maps, double bottom, double top) {
     std::vector<WallsOfMap> walls;
     for (std::size_t i = 0; i < maps.size(); ++i) {
         const std::size_t before = layers_.size();
-        add_map(maps[i], heights);
+        add_map(maps[i], bottom, top);
         for (std::size_t k = before; k < layers_.size(); ++k) {
             const WallLayer& layer = layers_[k];
             walls.push_back({layer.frame, layer.walls, layer.material, layer.top, i});
@@ -142,7 +149,7 @@ void Scene::build(std::vector<OccupancyGrid> maps, Heights heights) {
     });
 }
 
-void Scene::add_map(const OccupancyGrid& grid, Heights heights) {
+void Scene::add_map(const OccupancyGrid& grid, double bottom, double top) {
     const MapFrame frame(grid);
     const auto index = [&](const std::vector<CellRectangle>& rectangles) {
         return std::make_shared<const WallIndex>(grid.columns, grid.rows, rectangles);
@@ -157,8 +164,8 @@ void Scene::add_map(const OccupancyGrid& grid, Heights heights) {
              .walls = indexed,
              .thickness = std::make_shared<const WallThickness>(frame, indexed),
              .material = material,
-             .bottom = heights.bottom,
-             .top = std::min(grid.origin.z + materials_[material].height.value, heights.top)});
+             .bottom = bottom,
+             .top = std::min(grid.origin.z + materials_[material].height.value, top)});
     }
     const bool walls_are_all = used.size() == 1 && !has_unknown(grid);
     obstacles_.emplace_back(frame, walls_are_all ? layers_.back().walls
@@ -180,20 +187,8 @@ void Scene::bound(const OccupancyGrid& grid, const MapFrame& frame) {
     }
 }
 
-/// Number of the highest storey that does not begin above z [m].
-std::size_t Scene::storey_below(double z) const {
-    std::size_t number = 0;
-    while (number + 1 < storeys_.size() && storeys_[number + 1].bottom <= z) ++number;
-    return number;
-}
-
-std::span<const Material> Scene::ceilings_between(double z0, double z1) const {
-    const auto [first, last] = std::minmax({storey_number(z0), storey_number(z1)});
-    return std::span(ceilings_).subspan(first, last - first);
-}
-
 bool Scene::occupied(Vec3 p) const {
-    if (!storeys_.empty()) return storey_at(p.z).occupied(p);
+    if (!plans_.empty()) return storey_at(p.z).occupied(p);
     return std::any_of(layers_.begin(), layers_.end(), [&](const WallLayer& layer) {
         return layer.walls->holds(layer.frame.to_cells(p));
     });
@@ -201,36 +196,22 @@ bool Scene::occupied(Vec3 p) const {
 
 bool Scene::inside_map(Vec3 p) const {
     if (open_field()) return true;
-    if (!storeys_.empty()) return storey_at(p.z).inside_map(p);
+    if (!plans_.empty()) return storey_at(p.z).inside_map(p);
     const CellPoint c = frame_.to_cells(p);
     return c.u >= 0 && c.u <= grid_.columns && c.v >= 0 && c.v <= grid_.rows;
 }
 
 double Scene::clearance(Vec3 p) const {
-    if (!storeys_.empty()) return storey_at(p.z).clearance(p);
+    if (!plans_.empty()) return storey_at(p.z).clearance(p);
     double nearest = std::numeric_limits<double>::infinity();
     for (const Obstacles& map : obstacles_) nearest = std::min(nearest, map.clearance(p));
     return nearest;
 }
 
 bool Scene::passable(Vec3 a, Vec3 b, Meters radius) const {
-    if (!storeys_.empty())
-        return passable_by_storeys(a.z <= b.z ? a : b, a.z <= b.z ? b : a, radius);
+    if (!plans_.empty()) return passable_by_storeys(*this, a, b, radius);
     return std::all_of(obstacles_.begin(), obstacles_.end(),
                        [&](const Obstacles& map) { return map.passable(a, b, radius); });
-}
-
-/// passable() between several storeys; a is not above b.
-bool Scene::passable_by_storeys(Vec3 a, Vec3 b, Meters radius) const {
-    Vec3 from = a;
-    const std::size_t last = storey_number(b.z);
-    for (std::size_t i = storey_number(a.z); i <= last; ++i) {
-        Vec3 to = b;
-        if (i < last) to = a + ((storeys_[i + 1].bottom - a.z) / (b.z - a.z)) * (b - a);
-        if (!storey(i).passable(from, to, radius)) return false;
-        from = to;
-    }
-    return true;
 }
 
 std::vector<WallRectangle> Scene::wall_rectangles() const {
@@ -243,11 +224,11 @@ std::vector<WallRectangle> Scene::wall_rectangles() const {
 
 std::vector<OccupancyGrid> Scene::maps() const {
     std::vector<OccupancyGrid> all;
-    for (const Storey& storey : storeys_) {
-        const auto here = storey.plan->maps();
+    for (const auto& plan : plans_) {
+        const auto here = plan->maps();
         all.insert(all.end(), here.begin(), here.end());
     }
-    if (!storeys_.empty()) return all;
+    if (!plans_.empty()) return all;
     if (obstacles_.size() == 1) return {grid_};
     for (const WallLayer& layer : layers_) {
         OccupancyGrid map = layer.frame.map(layer.walls->columns(), layer.walls->rows());
@@ -263,18 +244,11 @@ std::vector<OccupancyGrid> Scene::maps() const {
     return all;
 }
 
-Scene Scene::without_walls() const {
-    Scene out = *this;
-    out.layers_.clear();
-    out.occupied_cells_ = 0;
-    return out;
-}
-
 Scene Scene::with_walls_of(const Scene& other) const {
     Scene out = *this;
     out.materials_ = other.materials_;
     out.layers_ = other.layers_;
-    out.plain_ = other.plain_;
+    out.plain_ = other.plain_ && plans_.empty();
     out.occupied_cells_ = other.occupied_cells_;
     return out;
 }

@@ -7,6 +7,7 @@
 #include "scene/obstacles.hpp"
 #include "scene/occupancy.hpp"
 #include "scene/rectangles.hpp"
+#include "scene/storeys.hpp"
 #include "scene/wall_index.hpp"
 #include "scene/wall_layer.hpp"
 #include "sim/geometry.hpp"
@@ -39,11 +40,9 @@ struct WallRectangle {
 /// within 1e-9 of a cell are equal: a point that near to a grid line lies on it, a gap that short
 /// is closed, a crossing that short is none.
 ///
-/// Storeys: maps whose origins have different heights are floors one above the other. A storey goes
-/// from its floor to below the next one; the lowest has no end downwards, the highest none upwards.
-/// Its walls stand in it alone, from its floor to its ceiling or to their material's height above
-/// its floor. A wall that goes on in the storey above is one wall. Ceilings are thin and have no
-/// holes; what they take from a signal is up to the propagation model.
+/// Maps whose origins have different heights are those of storeys, one above the other.
+/// The walls of a storey stand in it alone, from its floor to its ceiling or to their material's
+/// height above its floor. A wall that goes on in the storey above is one wall.
 class Scene {
   public:
     Scene() = default;
@@ -51,28 +50,21 @@ class Scene {
     ///         material that it names is not there
     explicit Scene(OccupancyGrid grid, std::vector<Material> materials = {Material{}});
     /// Several maps, each in its place; they may overlap.
-    /// @param ceilings  of all storeys but the highest, from below; none: all follow the model
+    /// @param ceilings  see Storeys
     Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials,
           std::vector<Material> ceilings = {});
 
     /// There is no map.
     bool open_field() const { return grid_.columns == 0; }
 
-    /// Number of storeys: 1 if all maps lie at one height, or there is none.
-    std::size_t storeys() const { return storeys_.empty() ? 1 : storeys_.size(); }
-    /// Number of the storey at a height z [m]; the lowest is 0.
-    std::size_t storey_number(double z) const { return storeys_.empty() ? 0 : storey_below(z); }
-    /// Storey as a scene of its own: its map, and its walls; this scene if it has one only.
-    /// @param number  below storeys()
+    /// One for each height at which there are maps, or one.
+    const Storeys& storeys() const { return storeys_; }
+    /// Storey as a scene of its own: its maps and walls; this scene if it has one only.
     const Scene& storey(std::size_t number) const {
-        return storeys_.empty() ? *this : *storeys_[number].plan;
+        return plans_.empty() ? *this : *plans_[number];
     }
     /// Storey at a height z [m].
-    const Scene& storey_at(double z) const { return storey(storey_number(z)); }
-    /// Height of a storey's floor [m]; 0 on an open field.
-    double floor_height(std::size_t number) const { return storey(number).grid_.origin.z; }
-    /// Ceilings between two heights [m], from below, whichever of the two is higher.
-    std::span<const Material> ceilings_between(double z0, double z1) const;
+    const Scene& storey_at(double z) const { return storey(storeys_.number_at(z)); }
 
     /// Walls between two points; lengths [m] are along the 3-D segment from a.
     ///
@@ -134,8 +126,6 @@ class Scene {
     std::vector<OccupancyGrid> maps() const;
     /// This scene with the walls of another for radio; robots keep to the obstacles of this one.
     Scene with_walls_of(const Scene& other) const;
-    /// This scene without walls for radio: its ceilings alone.
-    Scene without_walls() const;
     /// The map; of several, a grid around them all where a cell is free if no obstacle enters it;
     /// of several storeys, that of the lowest.
     const OccupancyGrid& grid() const { return grid_; }
@@ -145,21 +135,10 @@ class Scene {
     std::size_t occupied_cells() const { return occupied_cells_; }  ///< of all maps
 
   private:
-    struct Storey {
-        double bottom;  // [m], -infinity for the lowest
-        std::shared_ptr<const Scene> plan;
-    };
-    /// Heights between which a storey's walls may stand [m].
-    struct Heights {
-        double bottom, top;
-    };
-
-    std::size_t storey_below(double z) const;
-    void build(std::vector<OccupancyGrid> maps, Heights heights);
-    void add_storey(const std::vector<OccupancyGrid>& maps, Heights heights);
-    void add_map(const OccupancyGrid& grid, Heights heights);
+    void build(std::vector<OccupancyGrid> maps, double bottom, double top);
+    void add_storey(std::vector<OccupancyGrid> maps);
+    void add_map(const OccupancyGrid& grid, double bottom, double top);
     void bound(const OccupancyGrid& grid, const MapFrame& frame);
-    bool passable_by_storeys(Vec3 a, Vec3 b, Meters radius) const;
     // The walls, if they are of one material, on one map and endless; null if not.
     const WallLayer* only_layer() const;
     void merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
@@ -168,8 +147,8 @@ class Scene {
     MapFrame frame_;
     std::vector<CellRectangle> obstacle_cells_;
     std::vector<Material> materials_ = {Material{}};
-    std::vector<Material> ceilings_;  // as many as storeys, less one
-    std::vector<Storey> storeys_;     // from below; empty: one
+    Storeys storeys_;
+    std::vector<std::shared_ptr<const Scene>> plans_;  // of the storeys, if there are several
     std::vector<WallLayer> layers_;
     std::vector<Obstacles> obstacles_;
     std::shared_ptr<const Faces> faces_;

@@ -153,7 +153,7 @@ double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
 }
 
 Meters Scene::wall_thickness(Vec3 p) const {
-    const std::size_t here = storey_number(p.z);
+    const std::size_t here = storeys_.number_at(p.z);
     double most = 0;
     for (const WallLayer& layer : layers_) {
         if (layer.storey == here)

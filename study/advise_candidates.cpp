@@ -117,10 +117,10 @@ Reference reference_for(const Scenario& scenario, const CandidateQuestion& quest
         const Value* of = said.table()->find(table);
         return of && of->table() ? of->table()->find(key) : nullptr;
     };
-    std::string model = !scenario.walls                 ? "two_ray"
-                        : scenario.walls->storeys() > 1 ? "multi_wall"
-                        : is_listed("rays")             ? "rays"
-                                                        : listed_models().back();
+    std::string model = !scenario.walls                        ? "two_ray"
+                        : scenario.walls->storeys().size() > 1 ? "multi_wall"
+                        : is_listed("rays")                    ? "rays"
+                                                               : listed_models().back();
     const Value* named = told("propagation", "model");
     if (named) model = listed_models()[read_choice(*named, "propagation model", listed_models())];
     Reference out{propagation_with(scenario, model), {}, {scenario.file}};

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <set>
 #include <sstream>
 
@@ -74,7 +73,6 @@ void check_differ(const Axis& axis) {
 
 /// The walls as bytes: where they are and what they are made of.
 std::string wall_bytes(const Scene& scene) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
     std::string bytes;
     const auto append = [&](double v) {
         bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
@@ -86,8 +84,8 @@ std::string wall_bytes(const Scene& scene) {
         }
         append(static_cast<double>(wall.material));
     }
-    for (std::size_t i = 0; i < scene.storeys(); ++i) {
-        if (i > 0) append(scene.floor_height(i));
+    for (std::size_t i = 0; i < scene.storeys().size(); ++i) {
+        if (i > 0) append(scene.storeys().floor(i));
         for (const Cell cell : scene.storey(i).grid().cells) bytes += static_cast<char>(cell);
     }
     const auto append_material = [&](const Material& m) {
@@ -98,7 +96,7 @@ std::string wall_bytes(const Scene& scene) {
         append(m.height.value);
     };
     for (const Material& m : scene.materials()) append_material(m);  // some are of a file beside
-    for (const Material& m : scene.ceilings_between(-infinite, infinite)) append_material(m);
+    for (const Material& m : scene.storeys().ceilings()) append_material(m);
     return bytes;
 }
 

@@ -182,11 +182,13 @@ WallPassages::WallPassages(const Scene& scene) : scene_(&scene) {
             ends_.push_back(end);
             levels_.push_back(height);
         }
-    for (std::size_t i = 1; i < scene.storeys(); ++i) levels_.push_back(scene.floor_height(i));
+    for (std::size_t i = 1; i < scene.storeys().size(); ++i)
+        levels_.push_back(scene.storeys().floor(i));
     std::sort(levels_.begin(), levels_.end());
     levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
     feet_.push_back(levels_.empty() ? 0 : levels_.front() - 1);
-    for (std::size_t i = 1; i < scene.storeys(); ++i) feet_.push_back(scene.floor_height(i));
+    for (std::size_t i = 1; i < scene.storeys().size(); ++i)
+        feet_.push_back(scene.storeys().floor(i));
 }
 
 void WallPassages::collect(const std::vector<WallRectangle>& rectangles) {

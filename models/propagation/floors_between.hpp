@@ -23,13 +23,14 @@ struct FloorsBetween {
 /// one every `floor_height`, and a thousand at most.
 inline FloorsBetween floors_between(const LinkBatch& links, std::size_t i) {
     FloorsBetween floors;
-    if (!links.scene || links.scene->storeys() == 1) {
+    if (!links.scene || links.scene->storeys().size() == 1) {
         const auto storey = [&](Vec3 p) { return std::floor(p.z / links.floor_height.value); };
         constexpr double most = 1000;
         floors.of_model = std::min(std::abs(storey(links.to[i]) - storey(links.from)), most);
         return floors;
     }
-    for (const Material& ceiling : links.scene->ceilings_between(links.from.z, links.to[i].z)) {
+    for (const Material& ceiling :
+         links.scene->storeys().ceilings_between(links.from.z, links.to[i].z)) {
         if (ceiling.follows_model()) {
             ++floors.of_model;
         } else {

@@ -72,7 +72,7 @@ void ItuSiteGeneral::loss(const LinkBatch& links, Db /*give_up*/, std::span<doub
     const Curve blocked(row_of(site, false), links.frequency);
     const auto is_clear = [&](Vec3 to) {
         if (los != LineOfSight::map) return los == LineOfSight::yes;
-        return links.scene->ceilings_between(links.from.z, to.z).empty() &&
+        return links.scene->storeys().ceilings_between(links.from.z, to.z).empty() &&
                links.scene->wall_length(links.from, to, 0) == 0;
     };
     for (std::size_t i = 0; i < out_db.size(); ++i) {

@@ -105,11 +105,11 @@ class Summing {
 }  // namespace
 
 void Rays::check_scene(const Scene& scene) const {
-    if (scene.storeys() == 1) return;
+    if (scene.storeys().size() == 1) return;
     throw std::invalid_argument(
         fmt::format("rays: found a scene of {} storeys, and paths are traced in one; expected a "
                     "scene of one map, or another model, such as multi_wall",
-                    scene.storeys()));
+                    scene.storeys().size()));
 }
 
 Meters Rays::reach(Db loss, Hertz f) const { return Friis{}.reach(loss + Db{most_gain(*this)}, f); }

@@ -94,7 +94,7 @@ LinkLines::LinkLines(const Network& network, Time at, std::size_t storey) {
                                    robots, most_linked));
     }
     const auto is_here = [&](NodeId node) {
-        return network.scene().storey_number(network.legs().position(node, at).z) == storey;
+        return network.scene().storeys().number_at(network.legs().position(node, at).z) == storey;
     };
     for (std::uint32_t i = 0; i < robots; ++i) {
         const bool here = is_here(NodeId{i});

@@ -114,7 +114,7 @@ Painter::Painter(const Scenario& scenario, const PictureOptions& options)
 }
 
 void Painter::check_storey() const {
-    const std::size_t all = network_.scene().storeys();
+    const std::size_t all = network_.scene().storeys().size();
     if (options_.storey >= 1 && storey() < all) return;
     throw std::invalid_argument(
         all == 1
@@ -137,8 +137,9 @@ void Painter::run() {
     map_.emplace(scene.storey(storey()));
     if (source_) {
         transmitter_ = transmitter(network_, *source_, options_.at);
-        const std::size_t its_own = scene.storey_number(network_.position(*source_).z);
-        transmitter_->receivers_above = scene.floor_height(storey()) - scene.floor_height(its_own);
+        const std::size_t its_own = scene.storeys().number_at(network_.position(*source_).z);
+        transmitter_->receivers_above =
+            scene.storeys().floor(storey()) - scene.storeys().floor(its_own);
     }
     if (options_.links) links_.emplace(network_, options_.at, storey());
     if (options_.trails) ways_.emplace(*trails_, network_, options_.at, storey());
@@ -162,7 +163,7 @@ Extent Painter::extent() const {
         const RobotState robot = network_.robot(node);
         const bool there = robot.presence == Presence::on || robot.presence == Presence::off;
         if (!there && source_ != node) continue;
-        if (network_.scene().storey_number(robot.at.z) != storey()) continue;
+        if (network_.scene().storeys().number_at(robot.at.z) != storey()) continue;
         out.include(robot.at, robot.radius.value);
     }
     if (ways_) ways_->include_in(out);

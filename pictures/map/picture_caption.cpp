@@ -47,8 +47,8 @@ std::vector<std::string> model_texts(const Network& network) {
 }
 
 std::string storey_text(const Scene& scene, std::size_t storey) {
-    return fmt::format("storey {} of {}, floor at {:.6g} m", storey + 1, scene.storeys(),
-                       scene.floor_height(storey));
+    return fmt::format("storey {} of {}, floor at {:.6g} m", storey + 1, scene.storeys().size(),
+                       scene.storeys().floor(storey));
 }
 
 std::string presence_text(Presence presence) {
@@ -79,7 +79,7 @@ std::vector<std::string> picture_caption(const Network& network, Time at, Time e
                                          std::size_t storey, std::optional<NodeId> source) {
     constexpr std::size_t most_models = 3;
     std::vector<std::string> parts{time_text(at, end)};
-    if (network.scene().storeys() > 1) parts.push_back(storey_text(network.scene(), storey));
+    if (network.scene().storeys().size() > 1) parts.push_back(storey_text(network.scene(), storey));
     if (std::string absent = absent_text(network); !absent.empty()) parts.push_back(absent);
     const auto models = model_texts(network);
     const auto shown = static_cast<std::ptrdiff_t>(std::min(models.size(), most_models));

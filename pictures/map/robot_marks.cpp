@@ -91,7 +91,7 @@ RobotMarks::RobotMarks(const Network& network, std::size_t storey,
                           .radius = std::max(least_radius, robot.radius.value * plot.scale),
                           .heading = robot.heading.value,
                           .presence = robot.presence,
-                          .here = network.scene().storey_number(robot.at.z) == storey,
+                          .here = network.scene().storeys().number_at(robot.at.z) == storey,
                           .stands_out = standing_out == node,
                           .rim = colored ? robot_color(node) : ink});
     }

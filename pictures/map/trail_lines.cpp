@@ -74,7 +74,9 @@ TrailLines::TrailLines(const Trails& trails, const Network& network, Time at, st
       at_(at),
       every_(dot_period(at)) {}
 
-bool TrailLines::is_here(Vec3 p) const { return network_.scene().storey_number(p.z) == storey_; }
+bool TrailLines::is_here(Vec3 p) const {
+    return network_.scene().storeys().number_at(p.z) == storey_;
+}
 
 /// Ways of a robot, without the parts from and to other storeys.
 std::vector<std::vector<Vec3>> TrailLines::ways(NodeId node) const {

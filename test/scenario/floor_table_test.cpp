@@ -140,7 +140,7 @@ TEST_CASE("floors: a map.yaml has its own size, and wall_height counts from each
                                            "[propagation]\nmodel = \"multi_wall\"\n" + robots);
     // It passes above the lower wall, and through the upper one just above its floor.
     CHECK(report_link(low, "a", "b", start_of_run).walls.size() == 1);
-    CHECK(low.walls->storeys() == 2);
+    CHECK(low.walls->storeys().size() == 2);
     CHECK(low.walls->crossings({0, 0.5, 3.4}, {9, 0.5, 3.4}).size() == 1);
     CHECK(low.walls->crossings({0, 0.5, 3.6}, {9, 0.5, 3.6}).empty());
 }
@@ -159,7 +159,7 @@ TEST_CASE("floors: they are printed as they read, and --set changes one") {
     CHECK(first.scene.floors.size() == 3);
     CHECK(*first.scene.floors[1].ceiling->itu == ItuMaterial::concrete);
     const Scenario higher = building.scenario(text, {"scene.floor.2.height=7 m"});
-    CHECK(higher.walls->floor_height(2) == 7);
+    CHECK(higher.walls->storeys().floor(2) == 7);
 }
 
 TEST_CASE("floors: a mistake is told with its place and what was expected") {

@@ -144,18 +144,18 @@ TEST_CASE("storeys: ceilings between two heights, from below") {
                                           on_floor(drawn_map(ground), 3),
                                           on_floor(drawn_map(ground), 6)};
     const Scene scene(maps, {Material{}}, {{.name = "first"}, {.name = "second"}});
-    CHECK(scene.storeys() == 3);
-    CHECK(scene.floor_height(1) == 3);
-    CHECK(scene.ceilings_between(0, 2.9).empty());
-    CHECK(scene.ceilings_between(3, 5.9).empty());
+    CHECK(scene.storeys().size() == 3);
+    CHECK(scene.storeys().floor(1) == 3);
+    CHECK(scene.storeys().ceilings_between(0, 2.9).empty());
+    CHECK(scene.storeys().ceilings_between(3, 5.9).empty());
     for (const auto& [from, to] : {std::pair{0.0, 3.0}, std::pair{3.0, 2.0}}) {
-        REQUIRE(scene.ceilings_between(from, to).size() == 1);
-        CHECK(scene.ceilings_between(from, to)[0].name == "first");
+        REQUIRE(scene.storeys().ceilings_between(from, to).size() == 1);
+        CHECK(scene.storeys().ceilings_between(from, to)[0].name == "first");
     }
-    REQUIRE(scene.ceilings_between(7, -1).size() == 2);
-    CHECK(scene.ceilings_between(7, -1)[1].name == "second");
-    CHECK(Scene(drawn_map(ground)).ceilings_between(0, 100).empty());
-    CHECK(Scene().ceilings_between(0, 100).empty());
+    REQUIRE(scene.storeys().ceilings_between(7, -1).size() == 2);
+    CHECK(scene.storeys().ceilings_between(7, -1)[1].name == "second");
+    CHECK(Scene(drawn_map(ground)).storeys().ceilings_between(0, 100).empty());
+    CHECK(Scene().storeys().ceilings_between(0, 100).empty());
 }
 
 TEST_CASE("storeys: a robot is kept off the obstacles of its own storey") {
@@ -200,7 +200,7 @@ TEST_CASE("storeys: a range finder sees the walls of its storey") {
 TEST_CASE("storeys: a storey is a scene of its map, and all maps together make the scene again") {
     const Scene scene = two_storeys();
     CHECK(scene.storey_at(3).crossings({0, 1.5, 4}, {6, 1.5, 4})[0].entry == doctest::Approx(3));
-    CHECK(scene.storey(0).storeys() == 1);
+    CHECK(scene.storey(0).storeys().size() == 1);
     CHECK(scene.storey(1).wall_thickness({3.5, 1.5, 3}).value == doctest::Approx(1));
     CHECK(scene.wall_thickness({3.5, 1.5, 3}).value == doctest::Approx(1));
     CHECK(scene.wall_thickness({3.5, 1.5, 0}).value == 0);
@@ -210,12 +210,12 @@ TEST_CASE("storeys: a storey is a scene of its map, and all maps together make t
     CHECK(scene.wall_rectangles()[0].top == 3);
     CHECK(scene.occupied_cells() == 2);
     const Scene again(scene.maps(), scene.materials());
-    CHECK(again.storeys() == 2);
+    CHECK(again.storeys().size() == 2);
     CHECK(near(again.wall_length({0, 1.5, 0.5}, {6, 1.5, 6.5}), std::sqrt(2.0) * 1.5));
     // A storey without walls stays one.
     const Scene bare({on_floor(drawn_map({"..", ".."}), 0), on_floor(drawn_map({".#", ".."}), 3)},
                      {Material{}});
-    CHECK(Scene(bare.maps(), bare.materials()).storeys() == 2);
+    CHECK(Scene(bare.maps(), bare.materials()).storeys().size() == 2);
     CHECK(bare.with_walls_of(again).wall_length({0, 1.5, 4}, {6, 1.5, 4}) == doctest::Approx(1));
 }
 
@@ -224,8 +224,8 @@ TEST_CASE("storeys: several maps on one floor are one storey") {
     beside.origin.x = 6;
     const Scene scene({on_floor(drawn_map(ground), 0), on_floor(drawn_map(upper), 3), beside},
                       {Material{}});
-    CHECK(scene.storeys() == 2);
-    CHECK(scene.floor_height(1) == 3);
+    CHECK(scene.storeys().size() == 2);
+    CHECK(scene.storeys().floor(1) == 3);
     CHECK(scene.crossings({0, 1.5, 4}, {12, 1.5, 4}).size() == 2);
     CHECK(scene.crossings({0, 1.5, 1}, {12, 1.5, 1}).size() == 1);
     CHECK(scene.inside_map({11, 1, 3}));
