@@ -129,8 +129,9 @@ void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
                         switches = Stations::Switches(stations_)](const Entry& e, Vec3 p) {
         p.z += height;
         const double d2 = squared_distance(origin, p);
+        const bool on = switches.is_on(e.node);
         *next = {e.node, d2};
-        next += (d2 <= range2) & (e.node != from) & switches.is_on(e.node);
+        next += (d2 <= range2) & (e.node != from) & on;
     };
     index_.visit(places, t, legs, visit);
     found_.keep_to(next);
