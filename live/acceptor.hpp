@@ -9,7 +9,9 @@
 
 #include <chrono>
 #include <memory>
+#include <netinet/tcp.h>
 #include <string>
+#include <sys/socket.h>
 #include <utility>
 
 // What everything that listens on sockets (Boost.Asio) does the same way.
@@ -25,6 +27,13 @@ inline boost::asio::ip::tcp::acceptor listen_on(boost::asio::io_context& io,
     } catch (const boost::system::system_error& fault) {
         throw RunError(fmt::format("{}: {}", address.text(), fault.code().message()));
     }
+}
+
+/// Has what was received last acknowledged at once. A client that writes a command and a request,
+/// and has not switched off Nagle's algorithm, would wait 40 ms for that in each round.
+inline void acknowledge_at_once(int socket) {
+    const int on = 1;
+    setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
 }
 
 /// Gives each connection that comes in to `take`, as long as the acceptor is there.

@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <netinet/tcp.h>
 #include <string>
-#include <sys/socket.h>
 #include <utility>
 
 namespace rovernet {
@@ -23,12 +21,6 @@ struct DoorLink {
     DoorLink(Socket taken, Doors::Connection number, const Doors::Streams* users)
         : socket(std::move(taken)), id(number), streams(users) {}
 
-    /// Has what was received acknowledged at once. A client that writes a command and a request,
-    /// and has not switched off Nagle's algorithm, would wait 40 ms for that in each round.
-    void acknowledge_at_once() {
-        const int on = 1;
-        setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
-    }
     /// Whether there is a whole line in the input.
     bool has_line() {
         const std::size_t end = input.find('\n', searched);

@@ -106,7 +106,7 @@ struct Doors::State {
             const std::size_t got =
                 link->socket.read_some(asio::buffer(link->input.data() + before, portion), error);
             link->input.resize(before + got);
-            if (link->streams) link->acknowledge_at_once();
+            if (link->streams) acknowledge_at_once(link->socket.native_handle());
         }
         if (error) link->has_ended = true;
         serve(link);

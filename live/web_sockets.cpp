@@ -147,6 +147,7 @@ struct WebSockets::State {
     void take_in(const Shared& client, error_code error) {
         client->is_reading = false;
         if (error) return remove(client);
+        acknowledge_at_once(client->stream.next_layer().socket().native_handle());
         beast::flat_buffer& input = client->input;
         if (client->is_closing) return;
         if (!client->stream.is_message_done()) {
