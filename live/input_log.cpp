@@ -160,7 +160,9 @@ NodeId logged_robot(const JsonElement& element, const Network& network) {
 
 Vec3 logged_place(const JsonElement& list) {
     std::vector<double> at;
-    for (const auto& item : list.array()) at.push_back(JsonElement{item, list.path}.number(any));
+    for (const auto& item : list.array()) {
+        at.push_back(JsonElement{item, list.path}.number(goal_places));
+    }
     if (at.size() != 3) list.fail("bad_value", "expected [x, y, z]");
     return {at[0], at[1], at[2]};
 }
@@ -197,12 +199,13 @@ Input input_in(const JsonElement& line, const Network& network) {
     const JsonElement& act = given(what, "do");
     const std::string_view name = act.text();
     if (name == "velocity") {
-        DriveCommand drive{{given(v, "v").number(any)}, {given(w, "w").number(any)}};
+        DriveCommand drive{{given(v, "v").number(drive_speeds)},
+                           {given(w, "w").number(drive_turns)}};
         if (timeout) drive.timeout = logged_time(*timeout);
         input.command = drive;
     } else if (name == "goal") {
         input.command = GoalCommand{logged_place(given(goal, "goal")),
-                                    {given(speed, "speed").number(positive)}};
+                                    {given(speed, "speed").number(goal_speeds)}};
     } else if (name == "place") {
         input.command =
             PlaceCommand{logged_place(given(at, "at")), {given(heading, "heading").number(any)}};

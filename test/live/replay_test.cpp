@@ -4,6 +4,7 @@
 #include "live/paced_run.hpp"
 #include "live/player/door.hpp"
 #include "live/rosbridge/door.hpp"
+#include "sim/error.hpp"
 #include "test/live/live_command.hpp"
 #include "test/live/talk.hpp"
 #include "test/live/web_client.hpp"
@@ -105,6 +106,24 @@ TEST_CASE("replay: a run with controllers by TCP and by WebSocket") {
     b.send(R"({"type":"bye"})");
     CHECK(live.wait().exit == 0);
     CHECK(live.replay().out == "identical: 122 inputs, fingerprint " + live.fingerprint() + "\n");
+}
+
+TEST_CASE("replay: numbers that no client could have said are refused, with their line") {
+    const TemporaryFolder folder;
+    folder.write("scenario.toml", live_row);
+    for (const std::string what :
+         {R"("do":"velocity","v":1e308,"w":0)", R"("do":"velocity","v":1,"w":-1001)",
+          R"("do":"goal","goal":[1,2e9,0],"speed":1)", R"("do":"goal","goal":[1,2,0],"speed":1e9)",
+          R"("do":"place","at":[1,2,-1e10],"heading":0)"}) {
+        CAPTURE(what);
+        const std::string log =
+            folder.write("inputs.jsonl",
+                         "{\"version\":\"0\",\"scenario\":\"0\",\"seed\":1}\n"
+                         "{\"t_ns\":0,\"n\":1,\"client\":\"A\",\"robot\":\"A\"," +
+                             what + "}\n");
+        CHECK_THROWS_WITH_AS(replay_inputs(log, {}), doctest::Contains("inputs.jsonl:2"),
+                             InputError);
+    }
 }
 
 }  // namespace replay_test
