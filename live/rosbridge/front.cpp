@@ -137,8 +137,9 @@ void RosbridgeFront::carry_out(Client& client, const RosSubscribe& request) {
     if (period(*source) > Duration{0}) {
         stream.due = multiple_after(now(), period(*source));
     } else if (source->kind() != RosTopicKind::received) {
-        publish(client, request.topic, stream,
-                [&](RosWriter& out) { messages_->write(out, *source); });
+        write(buffer_, stream.delivery().encoding, request.topic,
+              [&](RosWriter& out) { messages_->write(out, *source); });
+        publish(client, stream, buffer_);
     }
 }
 
@@ -214,21 +215,37 @@ Duration RosbridgeFront::period(const RosTopic& topic) const {
     return topic.type->period;
 }
 
-/// Writes a message and sends it to a subscriber, or holds it back.
-void RosbridgeFront::publish(Client& client, const std::string& name, RosStream& stream,
-                             const PutMessage& put_message) {
-    const RosDelivery rules = stream.delivery();
-    buffer_.clear();
-    RosJsonWriter json(buffer_);
-    RosCborWriter cbor(buffer_);
-    RosWriter& out = rules.encoding == RosEncoding::cbor ? static_cast<RosWriter&>(cbor) : json;
+/// Writes a message of a topic.
+void RosbridgeFront::write(std::string& text, RosEncoding encoding, const std::string& name,
+                           const PutMessage& put_message) {
+    text.clear();
+    RosJsonWriter json(text);
+    RosCborWriter cbor(text);
+    RosWriter& out = encoding == RosEncoding::cbor ? static_cast<RosWriter&>(cbor) : json;
     out.open_object();
     put_pair(out, "op", "publish");
     put_pair(out, "topic", name);
     out.key("msg");
     put_message(out);
     out.close_object();
-    stream.take(buffer_, now(), [&](std::string_view message) { send(client, rules, message); });
+}
+
+/// Sends a message to a subscriber, or holds it back.
+void RosbridgeFront::publish(const Client& client, RosStream& stream, std::string_view message) {
+    stream.take(message, now(), [&, rules = stream.delivery()](std::string_view text) {
+        send(client, rules, text);
+    });
+}
+
+/// Message of a topic as it is now, which is written once for all who get the same.
+const std::string& RosbridgeFront::written(const std::string& name, RosEncoding encoding,
+                                           const RosTopic& topic) {
+    const bool is_cbor = encoding == RosEncoding::cbor;
+    const auto [place, is_new] = written_.try_emplace({name, is_cbor});
+    if (is_new) {
+        write(place->second, encoding, name, [&](RosWriter& out) { messages_->write(out, topic); });
+    }
+    return place->second;
 }
 
 /// Sends a message in the encoding and the pieces that its subscriber wants.
@@ -248,6 +265,7 @@ void RosbridgeFront::send(const Client& client, const RosDelivery& rules,
 
 void RosbridgeFront::tell() {
     const std::vector<HeardMessage> heard = robots_->heard();
+    written_.clear();
     for (auto& [connection, client] : clients_) tell(client, heard);
     end_steps();
     go_on();
@@ -260,12 +278,14 @@ void RosbridgeFront::tell(Client& client, const std::vector<HeardMessage>& heard
         const RosTopic& topic = *stream.source;
         const bool is_step_end = topic.kind() == RosTopicKind::clock && ends_step();
         if (stream.due <= now() || is_step_end) {
-            publish(client, name, stream, [&](RosWriter& out) { messages_->write(out, topic); });
+            publish(client, stream, written(name, stream.delivery().encoding, topic));
             stream.due = multiple_after(now(), period(topic));
         }
         for (const HeardMessage& each : heard) {
             if (topic.kind() != RosTopicKind::received || each.at != topic.robot) continue;
-            publish(client, name, stream, [&](RosWriter& out) { messages_->write(out, each); });
+            write(buffer_, stream.delivery().encoding, name,
+                  [&](RosWriter& out) { messages_->write(out, each); });
+            publish(client, stream, buffer_);
         }
         stream.go_on(now(), [&, rules = stream.delivery()](std::string_view message) {
             send(client, rules, message);

@@ -63,8 +63,11 @@ class RosbridgeFront : public Front {
     bool ends_step() const;
 
     using PutMessage = std::function<void(RosWriter&)>;
-    void publish(Client& client, const std::string& name, RosStream& stream,
-                 const PutMessage& put_message);
+    void write(std::string& text, RosEncoding encoding, const std::string& name,
+               const PutMessage& put_message);
+    void publish(const Client& client, RosStream& stream, std::string_view message);
+    const std::string& written(const std::string& name, RosEncoding encoding,
+                               const RosTopic& topic);
     void tell(Client& client, const std::vector<HeardMessage>& heard);
     void send(const Client& client, const RosDelivery& rules, std::string_view message);
     void go_on();
@@ -80,6 +83,8 @@ class RosbridgeFront : public Front {
     std::map<Connection, Client> clients_;
     std::vector<PendingStep> steps_;
     std::string buffer_;  // message that is written
+    // Messages of topics in this tell(), by name as the subscriber wrote it, and whether in CBOR.
+    std::map<std::pair<std::string, bool>, std::string> written_;
     std::uint64_t pieces_sent_ = 0;
     Time limit_ = never;  // earlier: it is paused there
     Time next_ = never;
