@@ -115,7 +115,7 @@ TEST_CASE(
 
 TEST_CASE("live: the time that controllers take does not show in a result") {
     std::vector<std::string> fingerprints;
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Live live({"--listen-json", "127.0.0.1:0", "--wait-for", "2"});
         LineClient a(live.port()), b(live.port());
         std::thread other([&] { drive_slowly(a, "A", seed); });

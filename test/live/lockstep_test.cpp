@@ -72,9 +72,9 @@ TEST_CASE("lockstep: the transcript of the documentation, byte for byte") {
 TEST_CASE("lockstep: each malformed line has its code and its place, and changes nothing") {
     Talk talk(three_in_a_row());
     const auto check = [&](const std::vector<std::pair<std::string, std::string>>& table) {
-        for (const auto& [line, expected] : table) {
-            CAPTURE(line);
-            CHECK(fault(talk.ask(0, line)) == expected);
+        for (const auto& row : table) {
+            CAPTURE(row.first);
+            CHECK(fault(talk.ask(0, row.first)) == row.second);
         }
     };
     const std::string deep =

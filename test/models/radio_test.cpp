@@ -12,13 +12,6 @@ namespace radio_test {
 using namespace rovernet;
 using test::near;
 
-namespace {
-
-/// A few roundings of levels up to 200 dB.
-constexpr double tolerance = 1e-12;  // [dB]
-
-}  // namespace
-
 TEST_CASE("radio: the default's power is 45 mW") {
     constexpr double microwatt = 1e-3;  // [mW], far below what a data sheet can say
     CHECK(near(to_milliwatts(Radio{}.power).value, 45, microwatt));

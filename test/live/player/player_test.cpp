@@ -230,7 +230,7 @@ TEST_CASE("player: the data of position2d are those of a sample, byte for byte")
     const auto told = data_of(talk.told(client), 4);
     REQUIRE(told.size() == 1);
     // Odometry is the pose less its origin: the last digit may differ.
-    for (const std::size_t at : {0, 8, 16}) {
+    for (const std::size_t at : {0U, 8U, 16U}) {
         CHECK(std::abs(double_at(told[0].payload, at) - double_at(sample, at)) < 1e-15);
     }
     CHECK(told[0].payload.substr(24) == sample.substr(24));
@@ -621,13 +621,13 @@ TEST_CASE("player: bytes may come in any pieces") {
 
 TEST_CASE("player: noise of any kind is survived") {
     std::mt19937 bits(1);
-    for (int n = 0; n < 300; ++n) {
+    for (unsigned n = 0; n < 300; ++n) {
         PlayerTalk talk(player_scenario(pair));
         const auto client = talk.come();
-        std::string words = mode(n % 2 + 1U) + device(4, 0) + device(51, 0) + device(23, 0) +
+        std::string words = mode(n % 2 + 1) + device(4, 0) + device(51, 0) + device(23, 0) +
                             drive(1, 1) + order(51, 0, counted("x")) +
                             request(31, 0, 1, counted("robot1") + doubles({0, 0, 0})) + ask();
-        for (int i = 0; i < 1 + n % 8; ++i) {
+        for (unsigned i = 0; i < 1 + n % 8; ++i) {
             words[bits() % words.size()] = static_cast<char>(bits());
         }
         talk.say(client, words);

@@ -94,7 +94,7 @@ struct Twins {
     void add(const Propagation& model, const Radio& radio) {
         const auto place = [&] { return Vec3{draw.uniform(-5, 45), draw.uniform(-5, 45), 0}; };
         const Vec3 from = place(), to = place();
-        const std::uint64_t kind = draw.below(3);
+        const int kind = draw.below(3);
         Leg leg{.from = from, .to = from, .heading = draw.uniform(-3, 3)};
         if (kind == 1)
             leg = {.end = start_of_run + 10s,
@@ -286,7 +286,7 @@ TEST_CASE("variation: where places have fades, a robot that comes back is heard 
     legs.add(test::resting({0, 0, 0}));
     legs.add(
         {.end = start_of_run + 10s, .from = {200, 0, 0}, .velocity = {1, 0, 0}, .to = {210, 0, 0}});
-    for (const std::uint64_t key : {1, 2}) medium.add({}, key, Friis{});
+    for (const std::uint64_t key : {1U, 2U}) medium.add({}, key, Friis{});
     const auto level = [&](Time t) {
         Emission frame = frame_of(medium, a, t, legs);
         frame.squared_reach = 1e12;
@@ -360,7 +360,7 @@ TEST_CASE("shadowing field: link changes are found within min_dwell, those of a 
         Legs legs;
         legs.add(test::resting({}));
         legs.add(test::moving({-900, 30, 0}, {20, 0, 0}, 90s));
-        for (const std::uint64_t key : {1, 2}) medium.add({}, key, Friis{});
+        for (const std::uint64_t key : {1U, 2U}) medium.add({}, key, Friis{});
         const LinkSearch search{.tolerance = 1us, .min_dwell = 20ms};
         std::vector<Time> found;
         Time after = start_of_run;

@@ -82,7 +82,6 @@ TEST_CASE("chart axis: it never goes beyond what a number can be") {
                              range({0, 0.01}), range({0.0001, 0.13}), range({0.9999, 1})}) {
         const ChartAxis axis = number_axis(each, false, 6, share);
         CHECK((axis.low >= 0 && axis.high <= 1));
-        constexpr double rounding = 1e-12;
         CHECK((axis.low <= each.low() + rounding && axis.high >= each.high() - rounding));
         CHECK(axis.ticks.size() >= 2);
         for (const ChartTick& tick : axis.ticks) CHECK((tick.value >= 0 && tick.value <= 1));
