@@ -112,7 +112,7 @@ TEST_CASE("comparison: p is at most the level exactly when the interval leaves 0
     for (std::uint32_t study = 0; study < 300; ++study) {
         const Pairs pairs(8, study, 1);
         for (const double confidence : {0.8, 0.95, 0.99}) {
-            for (const std::size_t family : {1, 4}) {
+            for (const std::size_t family : {1U, 4U}) {
                 const auto c = compare_pairs(pairs.a, pairs.b, {}, confidence, family);
                 CHECK(c->found() == (c->low >= 0 || c->high <= 0));
                 if (c->found()) ++found;

@@ -174,8 +174,8 @@ TEST_CASE("coverage: the price of it, as widths beside Student's where that is r
             betting += interval_of(values, share)->half_width();
             student += interval_of(values, share, confidence, IntervalMethod::t)->half_width();
         }
-        CAPTURE(deviation);
-        CAPTURE(n);
+        const std::string studied = fmt::format("deviation {}, n {}", deviation, n);
+        CAPTURE(studied);
         CHECK(std::abs(betting / student - ratio) <= last_digit);
     }
 }

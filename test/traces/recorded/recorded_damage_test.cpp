@@ -145,7 +145,7 @@ std::string flipped(std::string bytes, std::size_t at, int mask = 0x10) {
     return bytes;
 }
 std::string with_number(std::string bytes, std::size_t at, std::uint64_t number) {
-    for (int i = 0; i < 8; ++i) bytes[at + i] = static_cast<char>(number >> (8 * i));
+    for (std::size_t i = 0; i < 8; ++i) bytes[at + i] = static_cast<char>(number >> (8 * i));
     return bytes;
 }
 std::string with_text(std::string bytes, std::size_t at, const std::string& text) {
