@@ -3,10 +3,12 @@
 
 #include "models/propagation/propagation_model.hpp"
 #include "scene/material.hpp"
+#include "scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace rovernet {
 
@@ -19,25 +21,48 @@ struct FloorsBetween {
     double loss_db = 0;
 };
 
-/// Counts the ceilings of a scene of several storeys; in another scene all floors are the model's,
-/// one every `floor_height`, and a thousand at most.
-inline FloorsBetween floors_between(const LinkBatch& links, std::size_t i) {
-    FloorsBetween floors;
-    if (!links.scene || links.scene->storeys().size() == 1) {
-        const auto storey = [&](Vec3 p) { return std::floor(p.z / links.floor_height.value); };
-        constexpr double most = 1000;
-        floors.of_model = std::min(std::abs(storey(links.to[i]) - storey(links.from)), most);
-        return floors;
-    }
-    for (const Material& ceiling :
-         links.scene->storeys().ceilings_between(links.from.z, links.to[i].z)) {
-        if (ceiling.follows_model()) {
-            ++floors.of_model;
-        } else {
-            floors.loss_db += wall_rate(ceiling, links.frequency, 0).per_crossing;
+/// Counter of the floors of a batch's links. In a scene of several storeys they are its ceilings,
+/// whose losses are computed once; in another all are the model's, one every `floor_height`, and a
+/// thousand at most.
+class FloorCounter {
+  public:
+    /// @param links  outlive this
+    explicit FloorCounter(const LinkBatch& links) : links_(links) {
+        if (!links.scene) return;
+        for (const Material& ceiling : links.scene->storeys().ceilings()) {
+            ceilings_.push_back(ceiling.follows_model()
+                                    ? FloorsBetween{.of_model = 1}
+                                    : FloorsBetween{.loss_db = loss_of(ceiling, links)});
         }
     }
-    return floors;
-}
+
+    /// Floors between the antennas of the i-th link.
+    FloorsBetween between(std::size_t i) const {
+        const double here = links_.from.z, there = links_.to[i].z;
+        FloorsBetween floors;
+        if (ceilings_.empty()) {
+            const auto storey = [&](double z) { return std::floor(z / links_.floor_height.value); };
+            constexpr double most = 1000;
+            floors.of_model = std::min(std::abs(storey(there) - storey(here)), most);
+            return floors;
+        }
+        const Storeys& storeys = links_.scene->storeys();
+        const auto [low, high] = std::minmax({storeys.number_at(here), storeys.number_at(there)});
+        for (std::size_t k = low; k < high; ++k) {
+            floors.of_model += ceilings_[k].of_model;
+            floors.loss_db += ceilings_[k].loss_db;
+        }
+        return floors;
+    }
+
+  private:
+    static double loss_of(const Material& ceiling, const LinkBatch& links) {
+        return wall_rate(ceiling, links.frequency, 0).per_crossing;
+    }
+
+    const LinkBatch& links_;
+    // What each ceiling counts, from the lowest; none if there is one storey.
+    std::vector<FloorsBetween> ceilings_;
+};
 
 }  // namespace rovernet

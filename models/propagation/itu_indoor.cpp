@@ -150,10 +150,11 @@ void ItuIndoor::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> o
     const double N = coefficient_at(*this, mhz);
     const auto* row = environment ? nearest_row(floor_losses, *environment, mhz) : nullptr;
     const auto of_model = [&](int n) { return row ? floor_loss_db(*row, n) : 0; };
+    const FloorCounter floor_counter(links);
     const auto of_floors = [&](std::size_t i) {
         if (!environment) return 0.0;
         if (floors) return of_model(*floors);
-        const FloorsBetween between = floors_between(links, i);
+        const FloorsBetween between = floor_counter.between(i);
         return of_model(static_cast<int>(std::min(between.of_model, 100.0))) + between.loss_db;
     };
     for (std::size_t i = 0; i < out_db.size(); ++i) {

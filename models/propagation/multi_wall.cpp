@@ -44,9 +44,10 @@ void MultiWall::loss(const LinkBatch& links, Db give_up, std::span<double> out_d
     const double at_1 = at_1_m(*this, links.frequency);
     const WallRates walls{rates_with(links, light_wall), rates_with(links, heavy_wall),
                           thinnest_heavy_wall};
+    const FloorCounter floor_counter(links);
     std::vector<Crossing> scratch;
     for (std::size_t i = 0; i < out_db.size(); ++i) {
-        const FloorsBetween floors = floors_between(links, i);
+        const FloorsBetween floors = floor_counter.between(i);
         const double way = at_1 + 10 * exponent * math::log10(std::max(links.distance(i), 1.0)) +
                            (floors_db(*this, floors.of_model) + floors.loss_db);
         out_db[i] = std::max(0.0, way);

@@ -55,8 +55,9 @@ void Raytrace2007::loss_by_materials(const LinkBatch& links, Db give_up,
     }
     std::vector<Crossing> scratch;
     const FreeLoss free_loss(links.frequency, coefficient);
+    const FloorCounter floor_counter(links);
     for (std::size_t i = 0; i < out_db.size(); ++i) {
-        const double free = free_loss(links.distance(i)) + floors_between(links, i).loss_db;
+        const double free = free_loss(links.distance(i)) + floor_counter.between(i).loss_db;
         out_db[i] = free;
         if (free > give_up.value) continue;
         out_db[i] += links.scene->wall_loss(links.from, links.to[i], rates,

@@ -125,12 +125,12 @@ TEST_CASE("storeys: below the lowest floor and above the highest there are no mo
     const Scene scene = empty_storeys(2, {slab_15});
     const auto floors = [&](double z0, double z1) {
         const Vec3 to{9, 0.2, z1};
-        return floors_between({.frequency = 2450_MHz,
-                               .from = {1, 0.2, z0},
-                               .to = {&to, 1},
-                               .to_keys = {},
-                               .scene = &scene},
-                              0);
+        const LinkBatch link{.frequency = 2450_MHz,
+                             .from = {1, 0.2, z0},
+                             .to = {&to, 1},
+                             .to_keys = {},
+                             .scene = &scene};
+        return FloorCounter(link).between(0);
     };
     CHECK(floors(-50, 2.99).loss_db == 0);
     CHECK(floors(3, 50).loss_db == 0);
