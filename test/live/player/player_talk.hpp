@@ -4,6 +4,7 @@
 #include "live/player/front.hpp"
 #include "scenario/scenario.hpp"
 #include "test/live/player/wire.hpp"
+#include "test/live/run_front.hpp"
 #include "test/scene/temporary_folder.hpp"
 #include "traces/fingerprint.hpp"
 
@@ -53,20 +54,7 @@ class PlayerTalk {
         return told(client);
     }
 
-    /// Lets time go on, as run_paced() does, but without a clock.
-    void run_until(Duration time) {
-        const Time end = start_of_run + time;
-        for (;;) {
-            const Time now = session.network().now();
-            const Time stop = std::min({end, front.next(), front.limit()});
-            if (stop > now) session.step(stop);
-            if (front.next() <= session.network().now()) {
-                front.tell();
-            } else if (stop <= now || stop == end) {
-                return;
-            }
-        }
-    }
+    void run_until(Duration time) { run_front(session, front, start_of_run + time); }
     void run_for(Duration time) { run_until(session.network().now().time_since_epoch() + time); }
 
   private:

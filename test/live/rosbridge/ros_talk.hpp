@@ -3,6 +3,7 @@
 
 #include "live/rosbridge/front.hpp"
 #include "scenario/scenario.hpp"
+#include "test/live/run_front.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -70,19 +71,8 @@ class RosTalk {
         return found;
     }
 
-    /// Lets time go on, as run_paced() does, but without a clock.
     void run_until(Duration time) {
-        const Time end = std::min(start_of_run + time, session.end());
-        for (;;) {
-            const Time now = session.network().now();
-            const Time stop = std::min({end, front.next(), front.limit()});
-            if (stop > now) session.step(stop);
-            if (front.next() <= session.network().now()) {
-                front.tell();
-            } else if (stop <= now || stop == end) {
-                return;
-            }
-        }
+        run_front(session, front, std::min(start_of_run + time, session.end()));
     }
     void run_for(Duration time) { run_until(session.network().now().time_since_epoch() + time); }
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/session.hpp"
+#include "live/front.hpp"
+
+#include <algorithm>
+
+namespace rovernet::test {
+
+/// Lets the time of a session go on to `end`, as run_paced() does, but without a clock.
+inline void run_front(Session& session, Front& front, Time end) {
+    for (;;) {
+        const Time now = session.network().now();
+        const Time stop = std::min({end, front.next(), front.limit()});
+        if (stop > now) session.step(stop);
+        if (front.next() <= session.network().now()) {
+            front.tell();
+        } else if (stop <= now || stop == end) {
+            return;
+        }
+    }
+}
+
+}  // namespace rovernet::test
