@@ -42,7 +42,7 @@ class Arrivals {
         const double d2 = squared_distance(frame.origin, at);
         return d2 > frame.squared_reach ? std::nullopt : within_reach(frame, d2, to, at);
     }
-    /// The same where some antenna is directional.
+    /// Frame as it arrives at `to`, as above, where some antenna is directional.
     /// @param headings  of both ends when the frame begins
     std::optional<Arrival> of(const Emission& frame, NodeId to, Vec3 at, const Headings& headings);
     /// Received power [dBm] at `to` of a frame whose level was left open.

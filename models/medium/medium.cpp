@@ -83,8 +83,8 @@ void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use
     index_.visit(origin_, std::sqrt(std::max(reach2, 0.0)), t, legs, within(from, reach2, use));
 }
 
-/// Those for whom a signal of `from` is strong enough: in found_ who can decode it, in sensors_ the
-/// others.
+/// Finds the nodes that a signal of `from` is strong enough for: in found_ those who can decode it,
+/// in sensors_ the others.
 void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame) {
     const std::tuple search{from, strength, t, changes_};
     // A message is sent where it was asked for; but that had no fade.

@@ -39,19 +39,6 @@ double choose_top_speed(std::vector<double> speeds) {
 
 }  // namespace
 
-void NeighbourIndex::Table::put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg) {
-    const bool moves = leg.velocity != Vec3{};
-    const Vec3 from = moves ? leg.from : leg.from + Vec3{};  // adds 0, as a leg does
-    put(i, {from, node, label & 0x7fffffff, moves}, {leg.velocity, leg.start, leg.end});
-}
-
-void NeighbourIndex::Table::put(std::size_t i, const Entry& entry, const Motion& motion) {
-    entries[i] = entry;
-    if (!entry.moves) return;
-    if (motions.size() < entries.size()) motions.resize(entries.size());
-    motions[i] = motion;
-}
-
 void NeighbourIndex::add(std::uint32_t label) {
     place_.push_back(0);
     if (label != 0 || !labels_.empty()) {
@@ -149,8 +136,8 @@ std::size_t NeighbourIndex::add_apart(NodeId node) {
 
 /// All nodes, from now on in this table only: in the order of the cells that they were in, so that
 /// sorting them anew moves them little. Nodes of unknown places come as they were added.
-NeighbourIndex::Table NeighbourIndex::take_all(const Legs& legs) {
-    Table all = std::exchange(binned_, {});
+IndexTable NeighbourIndex::take_all(const Legs& legs) {
+    IndexTable all = std::exchange(binned_, {});
     if (stale_) {
         all.entries.resize(legs.size());
         for (std::uint32_t i = 0; i < legs.size(); ++i) {
@@ -170,7 +157,7 @@ NeighbourIndex::Table NeighbourIndex::take_all(const Legs& legs) {
 }
 
 /// At most two cells a node: columns and rows as the nodes need them, or fewer, which wrap around.
-void NeighbourIndex::lay_grid(const Table& all, Time t, const Legs& legs) {
+void NeighbourIndex::lay_grid(const IndexTable& all, Time t, const Legs& legs) {
     Extent x, y;
     for (std::size_t i = 0; i < all.entries.size(); ++i) {
         const Vec3 p = all.position(i, t, legs);
@@ -192,7 +179,7 @@ void NeighbourIndex::lay_grid(const Table& all, Time t, const Legs& legs) {
 
 /// Sorts all nodes into cells by counting.
 void NeighbourIndex::bin(Time t, const Legs& legs) {
-    const Table all = take_all(legs);
+    const IndexTable all = take_all(legs);
     const auto nodes = static_cast<std::uint32_t>(all.entries.size());
     lay_grid(all, t, legs);
     std::vector<double> speeds(nodes);
@@ -215,7 +202,7 @@ void NeighbourIndex::bin(Time t, const Legs& legs) {
     x_.resize(end + PointSieve<false>::at_once);
     y_.resize(end + PointSieve<false>::at_once);
     for (std::uint32_t i = nodes; i-- > 0;) {
-        const Entry& entry = all.entries[i];
+        const IndexEntry& entry = all.entries[i];
         if (speeds[i] > top_speed) {
             apart_.put(add_apart(entry.node), entry, all.motion(i));
             continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/medium/index_table.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
@@ -26,16 +27,7 @@ namespace rovernet {
 /// by every query. The grid wraps around: its memory is bounded wherever the nodes are.
 class NeighbourIndex {
   public:
-    /// Node and where it is: what a query looks at.
-    struct Entry {
-        /// Position [m] where its leg begins; where it is if it does not move.
-        Vec3 from;
-        NodeId node;
-        /// Label that add() was given.
-        std::uint32_t label : 31;
-        /// It moves at some time of its leg.
-        std::uint32_t moves : 1;
-    };
+    using Entry = IndexEntry;
 
     /// Place of no entry.
     static constexpr std::uint32_t nowhere = 0xffffffff;
@@ -119,32 +111,6 @@ class NeighbourIndex {
     // Bit of a place in apart_.
     static constexpr std::uint32_t is_apart = 0x80000000;
 
-    /// Entries, and apart from them what only those that move need.
-    struct Table {
-        struct Motion {
-            Vec3 velocity;
-            Time start, end;
-        };
-        std::vector<Entry> entries;
-        /// Motions of the entries; none as long as nobody moves.
-        std::vector<Motion> motions;
-
-        /// Writes entry `i`, from a leg or from another table.
-        void put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg);
-        void put(std::size_t i, const Entry& entry, const Motion& motion);
-        /// Motion of entry `i`.
-        Motion motion(std::size_t i) const { return entries[i].moves ? motions[i] : Motion{}; }
-        /// Position of entry `i` [m]: as `legs` have it, without looking there while its leg lasts.
-        Vec3 position(std::size_t i, Time t, const Legs& legs) const {
-            const Entry& e = entries[i];
-            if (!e.moves) return e.from;
-            const Motion& motion = motions[i];
-            if (t >= motion.end) [[unlikely]]
-                return legs.leg(e.node).to;
-            return e.from + seconds(t - motion.start) * motion.velocity;
-        }
-    };
-
     template <class Visit>
     void visit_apart(Time t, const Legs& legs, Visit&& visit) const {
         for (std::size_t i = 0; i < apart_.entries.size(); ++i) {
@@ -198,14 +164,14 @@ class NeighbourIndex {
     void bin(Time t, const Legs& legs);
     // All nodes, in the order of the cells that they were in, so that sorting them anew moves them
     // little.
-    Table take_all(const Legs& legs);
+    IndexTable take_all(const Legs& legs);
     // Lays a grid of at most two cells a node.
-    void lay_grid(const Table& all, Time t, const Legs& legs);
+    void lay_grid(const IndexTable& all, Time t, const Legs& legs);
 
     // Labels by node; none as long as all are 0.
     std::vector<std::uint32_t> labels_;
     // Entries in the order of their cells.
-    Table binned_;
+    IndexTable binned_;
     // Places where they were binned [m].
     std::vector<float> x_, y_;
     // Memory that begins with what look_around() found.
@@ -216,7 +182,7 @@ class NeighbourIndex {
     std::vector<std::uint32_t> first_;
     // Place of each node in binned_, or in apart_.
     std::vector<std::uint32_t> place_;
-    Table apart_;
+    IndexTable apart_;
     WrappedAxis columns_, rows_;
     // Height of the cells that was asked for [m].
     double wanted_cell_ = 1;

@@ -5,6 +5,7 @@
 #include "models/medium/link_range.hpp"
 #include "models/medium/loss_bounds.hpp"
 #include "models/medium/membership.hpp"
+#include "models/medium/strength.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/propagation/shadowed_range.hpp"
 #include "models/radio.hpp"
@@ -22,25 +23,6 @@
 #include <vector>
 
 namespace rovernet {
-
-/// Strength of a signal: what it is strong enough for, strongest first.
-///
-/// - decodable: its frame is received, if nothing interferes
-/// - detectable: the station senses that the medium is busy
-/// - interfering: it interferes with other frames
-enum class Strength { decodable, detectable, interfering };
-
-/// Way in which it is decided for whom a signal is strong enough: the cheapest that its model
-/// allows. All three agree with the loss to the last bit; they differ in what a look at a pair
-/// costs.
-enum class Decision {
-    /// By the distance alone.
-    by_range,
-    /// By the distance and a draw of the pair.
-    by_table,
-    /// By asking the model for the loss.
-    by_loss,
-};
 
 /// Kinds of stations: those of a kind are alike in all that decides a link, their model included.
 /// What a pair of kinds needs (ranges, tables) is computed when it is first asked for, once for all

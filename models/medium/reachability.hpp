@@ -36,7 +36,7 @@ class Reachability {
     /// decrease.
     /// @param medium, legs  always the same
     std::uint32_t count(Medium& medium, NodeId from, Time t, const Legs& legs);
-    /// The same number, searched for anew: slow, for tests.
+    /// Number of those nodes, searched for anew: slow, for tests.
     static std::uint32_t count_anew(Medium& medium, NodeId from, Time t, const Legs& legs);
     /// Whether a chain of links joins `to` to `from` at `t`, which must not decrease. Their own
     /// link is looked at first.

@@ -39,7 +39,7 @@ payload = "tick"
 every = "0.3 s"
 )";
 
-/// The same for a longer time.
+/// Scenario of live_row, for a longer time.
 inline std::string long_live_row() {
     std::string text = live_row;
     return text.replace(text.find("2 s"), 3, "9999 s");
