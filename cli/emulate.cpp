@@ -20,6 +20,7 @@ struct EmulateArguments : FileArguments {
     std::optional<std::string> out, udp;
     std::string late = "10ms", on_late = "warn";
     double speed = 1;
+    Reach reach;
     bool json = false;
 };
 
@@ -27,7 +28,7 @@ PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenar
     PacedOptions options;
     options.folder = results_folder(a.out, scenario, a.options);
     options.speed = a.speed;
-    options.fronts.push_back(a.udp ? udp_relay(read_loopback(*a.udp)) : tap_devices());
+    options.fronts.push_back(a.udp ? udp_relay(a.reach.without_token(*a.udp)) : tap_devices());
     options.go_on = goes_on;
     options.say = say_to_all;
     options.most_late = time_of("--late", a.late);
@@ -75,11 +76,13 @@ void add_emulate(Command app) {
     command.add_examples({"rovernet emulate examples/emulate/emulate.toml",
                           "rovernet emulate examples/rescue/rescue.toml --udp"});
     add_file(command, a, any_file);
-    command
-        .add_option("--udp", a.udp,
-                    "serve datagrams, at 127.0.0.1:PORT and the ports that follow, one for each "
-                    "robot; port 0: any that is free (default: 7100)")
-        .usually(relay_address.data());
+    const Option udp =
+        command
+            .add_option(
+                "--udp", a.udp,
+                "serve datagrams, at 127.0.0.1:PORT and the ports that follow, one for each "
+                "robot; port 0: any that is free (default: 7100)")
+            .usually(relay_address.data());
     command.add_option("--speed", a.speed, "simulated per real time").check(above_zero());
     command.add_option("--late", a.late, "real time by which it may be behind the clock")
         .shows_default();
@@ -87,6 +90,7 @@ void add_emulate(Command app) {
         .one_of({"warn", "fail"})
         .shows_default();
     command.add_option("--out", a.out, "folder for the results (default: as that of run)");
+    a.reach.add_to(command).needs(udp);
     add_json(command, a.json);
 }
 

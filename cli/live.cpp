@@ -25,6 +25,7 @@ struct LiveArguments : FileArguments {
     std::optional<std::string> player, rosbridge;
     std::optional<double> speed;
     bool one_port = false, lockstep = false;
+    Reach reach;
     bool json = false;
 };
 
@@ -33,11 +34,10 @@ std::string folder_of(const LiveArguments& a, const Scenario& scenario) {
 }
 
 LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
-    LiveOptions options{.folder = folder_of(a, scenario),
-                        .controllers = a.controllers,
-                        .listen = a.listen,
-                        .web = a.web,
-                        .unix_path = a.unix_path};
+    LiveOptions options{
+        .folder = folder_of(a, scenario), .controllers = a.controllers, .unix_path = a.unix_path};
+    if (a.listen) options.listen = a.reach.without_token(*a.listen);
+    if (a.web) options.web = a.reach.with_token(*a.web);
     const std::size_t started = std::max<std::size_t>(a.controllers.size(), 1);
     options.lockstep.wait_for = a.wait_for ? static_cast<std::size_t>(*a.wait_for) : started;
     options.lockstep.on_loss = a.on_loss == "stop"   ? OnLoss::stop
@@ -52,7 +52,7 @@ LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
 FrontDoor player_door(const LiveArguments& a, const std::optional<PlayerConfig>& config,
                       const Scenario& scenario) {
     const PlayerSettings settings{.is_lockstep = a.lockstep, .wait_for = a.wait_for.value_or(1)};
-    const Loopback at = read_loopback(*a.player);
+    const Address at = a.reach.without_token(*a.player);
     const std::vector<std::string> robots = robot_names(scenario);
     if (config) return player_configured(at, *config, robots, settings);
     return (a.one_port ? player_one_port : player_ports)(at, robots, settings);
@@ -71,7 +71,7 @@ LiveResult run_by_clock(LiveArguments a) {
     if (a.speed) options.speed = a.speed;
     if (a.lockstep) options.speed.reset();
     if (a.player) options.fronts.push_back(player_door(a, config, scenario));
-    if (a.rosbridge) options.fronts.push_back(rosbridge_door(read_loopback(*a.rosbridge)));
+    if (a.rosbridge) options.fronts.push_back(rosbridge_door(a.reach.with_token(*a.rosbridge)));
     options.go_on = goes_on;
     options.say = say_to_all;
     return run_paced(scenario, options);
@@ -167,6 +167,7 @@ void add_live(Command app) {
                     "controllers with which a run in lock-step begins (default: those started, or "
                     "1)")
         .range(1, 500);
+    a.reach.add_to(live);
     live.add_option("--out", a.out, "folder for the results (default: as that of run)");
     add_json(live, a.json);
 }

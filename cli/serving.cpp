@@ -24,11 +24,38 @@ std::string results_folder(const std::optional<std::string>& out, const Scenario
     return out ? *out : run_folder(scenario, options.set);
 }
 
+Option Reach::add_to(Command command) {
+    const Option option = command.add_option(
+        "--listen", listen,
+        "IP address of this machine by which others reach it, or 0.0.0.0: those that speak "
+        "WebSocket, with the token that is printed");
+    command
+        .add_flag("--insecure", insecure,
+                  "others that --listen lets in may speak the protocols without a token, too")
+        .needs(option);
+    return option;
+}
+
+Address Reach::with_token(const std::string& text) const {
+    Address address = read_loopback(text);
+    if (listen) address.host = read_host(*listen);
+    return address;
+}
+
+Address Reach::without_token(const std::string& text) const {
+    if (insecure) return with_token(text);
+    if (listen) {
+        notice(fmt::format(
+            "{}: for this machine alone, as its clients need no token; --insecure lets others in",
+            text));
+    }
+    return read_loopback(text);
+}
+
 bool goes_on() { return stops_asked() == 0; }
 
 void say_to_all(std::string_view text) {
-    // Programs read the address from standard output, before there is any result.
-    if (!text.starts_with("listening")) return notice(text);
+    if (!text.starts_with("listening ") && !text.starts_with("for ")) return notice(text);
     fmt::print("{}\n", text);
     std::fflush(stdout);
 }

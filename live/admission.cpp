@@ -38,10 +38,14 @@ bool are_equal(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-Admission::Admission(Loopback address, std::string token)
+Admission::Admission(Address address, std::string token)
     : address_(std::move(address)), token_(std::move(token)) {}
 
 std::string Admission::refusal(const WebRequest& request) const {
+    const bool knows = !token_.empty() && are_equal(token_in(request.target), token_);
+    if (!address_.is_loopback()) {
+        return knows ? "" : "expected ?token=, as this server told it when it started";
+    }
     const std::array<std::string, 4> names = {
         address_.text(), fmt::format("127.0.0.1:{}", address_.port),
         fmt::format("localhost:{}", address_.port), fmt::format("[::1]:{}", address_.port)};
@@ -49,7 +53,7 @@ std::string Admission::refusal(const WebRequest& request) const {
         return fmt::format("Host: found \"{}\"; expected {}", request.host, names[0]);
     }
     if (!request.origin || *request.origin == fmt::format("http://{}", request.host)) return {};
-    if (!token_.empty() && are_equal(token_in(request.target), token_)) return {};
+    if (knows) return {};
     return fmt::format(
         "Origin: found \"{}\"; a page needs the token that this server told when it started",
         *request.origin);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/loopback.hpp"
+#include "live/address.hpp"
 
 #include <optional>
 #include <string>
@@ -16,22 +16,23 @@ struct WebRequest {
     std::optional<std::string_view> origin = {};  ///< whose page it is; a program says none
 };
 
-/// Rule of who may open a WebSocket at an address of this machine.
+/// Rule of who may open a WebSocket at an address of this machine. At one that other machines
+/// reach, it is who knows the token, which was told to the person who started the server. At one
+/// that they do not reach, it is any program, and some pages:
 ///
 /// A browser opens one for any page that it shows, also for one of another machine, and tells whose
-/// page it is. So a page has to be this server's own, or to know the token, which was told to the
-/// person who started the server. A page from a file has the origin "null", as have others that
-/// hide theirs. The name in `Host` has to be this machine's: another machine's name that leads here
-/// would make its pages the server's own.
+/// page it is. So a page has to be this server's own, or to know the token. A page from a file has
+/// the origin "null", as have others that hide theirs. The name in `Host` has to be this machine's:
+/// another machine's name that leads here would make its pages the server's own.
 class Admission {
   public:
-    Admission(Loopback address, std::string token);
+    Admission(Address address, std::string token);
 
     /// Reason why a request is refused; empty if it may come in.
     std::string refusal(const WebRequest& request) const;
 
   private:
-    Loopback address_;
+    Address address_;
     std::string token_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "live/doors.hpp"
+#include "live/input_rate.hpp"
 
 #include <boost/asio.hpp>
 
@@ -32,10 +33,12 @@ struct DoorLink {
     Doors::Connection id;
     const Doors::Streams* streams;  ///< null: it carries lines
     Clock::time_point since = Clock::now();
+    InputRate rate = {};
+    Clock::time_point closes_at = Clock::time_point::max();  ///< whatever is not out yet
     std::string input, sending, queued;
     std::size_t messages = 0;  ///< that are queued
     std::size_t searched = 0;  ///< of the input: there is no end of line
-    bool has_spoken = false;   ///< a whole line; in a stream: anything
+    bool has_spoken = false;   ///< a whole line; in a stream: a whole message
     bool is_reading = false, is_writing = false;
     bool is_answered = true;  ///< its last line
     bool has_ended = false;   ///< no more comes in

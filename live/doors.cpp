@@ -2,9 +2,9 @@
 #include "live/doors.hpp"
 
 #include "live/acceptor.hpp"
+#include "live/address.hpp"
 #include "live/child.hpp"
 #include "live/door_link.hpp"
-#include "live/loopback.hpp"
 #include "sim/error.hpp"
 
 #include <boost/asio.hpp>
@@ -16,9 +16,6 @@
 #include <list>
 #include <map>
 #include <optional>
-#include <stdexcept>
-#include <sys/stat.h>
-#include <sys/un.h>
 #include <unistd.h>
 #include <utility>
 
@@ -39,6 +36,7 @@ constexpr std::size_t much_waiting = std::size_t{256} << 10U;  // [bytes] then i
 constexpr int stream_buffer = 256 << 10;  // [bytes] of the system: what it holds gets old
 constexpr std::size_t portion = 16'384;   // [bytes] that one read takes
 constexpr auto first_line_within = std::chrono::seconds(60);
+constexpr auto farewell_within = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -78,7 +76,7 @@ struct Doors::State {
     static void prepare(asio::ip::tcp::socket& socket, const Streams* streams) {
         error_code ignored;
         socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-        socket.set_option(asio::socket_base::keep_alive(true), ignored);
+        keep_alive(socket.native_handle());
         if (!streams) return;
         socket.set_option(asio::socket_base::send_buffer_size(stream_buffer), ignored);
     }
@@ -92,8 +90,18 @@ struct Doors::State {
     void read(const Shared& link) {
         if (link->is_reading || link->has_ended || link->is_closing || is_busy(*link)) return;
         link->is_reading = true;
+        if (link->rate.read_again() > Clock::now()) return read_later(link);
         link->socket.async_wait(Socket::wait_read,
                                 [this, link](error_code error) { take_in(link, error); });
+    }
+
+    /// Goes on reading once the client may say more.
+    void read_later(const Shared& link) {
+        const auto pause = std::make_shared<asio::steady_timer>(io, link->rate.read_again());
+        pause->async_wait([this, link, pause](error_code) {
+            link->is_reading = false;
+            if (links.contains(link->id)) read(link);
+        });
     }
 
     /// Takes what has come in. Memory is made only now, so that an idle connection has none.
@@ -132,8 +140,9 @@ struct Doors::State {
     void serve_stream(const Shared& link) {
         const std::string bytes = std::exchange(link->input, {});
         if (!bytes.empty() && !link->is_closing) {
-            link->has_spoken = true;
-            link->streams->received(link->id, bytes);
+            const std::size_t messages = link->streams->received(link->id, bytes);
+            if (messages > 0) link->has_spoken = true;
+            if (link->streams->has_rate) link->rate.add(messages, bytes.size(), Clock::now());
         }
         if (!link->has_ended) return read(link);
         link->is_closing = true;
@@ -192,7 +201,8 @@ struct Doors::State {
         ++link->messages;
         if (link->messages > most_messages || link->queued.size() > most_waiting) {
             link->is_closing = true;
-            return close_later(link);
+            link->closes_at = Clock::now() + farewell_within;
+            link->queued = link->streams->farewell(link->messages);
         }
         if (!link->is_writing) write(link);
     }
@@ -211,12 +221,11 @@ struct Doors::State {
     }
 
     /// Listens on an address. @return it, with its port
-    std::string listen(const std::string& address, std::optional<Streams> streams) {
-        const Loopback own = read_loopback(address);
-        gates.push_back({listen_on(io, own), std::move(streams)});
+    Address listen(const Address& address, std::optional<Streams> streams) {
+        gates.push_back({listen_on(io, address), std::move(streams)});
         Gate& gate = gates.back();
         accept(gate.acceptor, gate.streams ? &*gate.streams : nullptr);
-        return Loopback{own.host, gate.acceptor.local_endpoint().port()}.text();
+        return {address.host, gate.acceptor.local_endpoint().port()};
     }
 
     /// Has wait() return at that time, to the microsecond: epoll counts in milliseconds.
@@ -237,16 +246,17 @@ struct Doors::State {
                                        });
     }
 
-    /// Closes connections that have not said a line for too long.
-    void close_silent() {
+    /// Closes connections that have said nothing or taken nothing for too long.
+    void close_idle() {
         const auto now = Clock::now();
-        if (now - looked < std::chrono::seconds(1)) return;
+        if (now - looked < farewell_within) return;
         looked = now;
-        std::vector<Shared> silent;
+        std::vector<Shared> idle;
         for (const auto& [id, link] : links) {
-            if (!link->has_spoken && now - link->since > first_line_within) silent.push_back(link);
+            const bool is_silent = !link->has_spoken && now - link->since > first_line_within;
+            if (is_silent || now >= link->closes_at) idle.push_back(link);
         }
-        for (const auto& link : silent) close(link);
+        for (const auto& link : idle) close(link);
     }
 
     bool has_output() const {
@@ -285,38 +295,16 @@ void Doors::start(const std::string& command) {
     state_->links.rbegin()->second->has_spoken = true;  // it may take its time
 }
 
-std::string Doors::listen(const std::string& address) {
-    return state_->listen(address, std::nullopt);
-}
+Address Doors::listen(const Address& address) { return state_->listen(address, std::nullopt); }
 
-std::string Doors::listen(const std::string& address, Streams streams) {
+Address Doors::listen(const Address& address, Streams streams) {
     return state_->listen(address, std::move(streams));
 }
 
 void Doors::listen_unix(const std::string& path) {
-    if (path.empty() || path.size() >= sizeof(sockaddr_un::sun_path)) {
-        throw std::invalid_argument(fmt::format("{}: expected a path of 1 to {} bytes", path,
-                                                sizeof(sockaddr_un::sun_path) - 1));
-    }
-    const asio::local::stream_protocol::endpoint endpoint(path);
-    struct stat found {};
-    if (lstat(path.c_str(), &found) == 0) {
-        asio::local::stream_protocol::socket probe(state_->io);
-        error_code error;
-        probe.connect(endpoint, error);
-        if (!S_ISSOCK(found.st_mode) || !error) throw RunError(path + ": is there already");
-        unlink(path.c_str());
-    }
-    const mode_t mask = umask(0077);
-    try {
-        auto& acceptor = state_->local.emplace(state_->io, endpoint);
-        umask(mask);
-        state_->unix_path = path;
-        state_->accept(acceptor);
-    } catch (const boost::system::system_error& fault) {
-        umask(mask);
-        throw RunError(fmt::format("{}: {}", path, fault.code().message()));
-    }
+    state_->local.emplace(listen_on_path(state_->io, path));
+    state_->unix_path = path;
+    state_->accept(*state_->local);
 }
 
 void Doors::watch(int descriptor, std::function<bool()> readable) {
@@ -357,7 +345,7 @@ void Doors::wait(std::chrono::nanoseconds most) {
         state_->ring_at(Clock::now() + most);
         state_->io.run_one();
     }
-    state_->close_silent();
+    state_->close_idle();
 }
 
 std::vector<std::string> Doors::close(std::chrono::milliseconds most) {
@@ -365,7 +353,7 @@ std::vector<std::string> Doors::close(std::chrono::milliseconds most) {
     state_->users = {
         .line = [](auto, auto) {}, .refuse = [](auto, auto&) {}, .closed = [](auto) {}};
     for (State::Gate& gate : state_->gates) {
-        if (gate.streams) gate.streams = {[](auto) {}, [](auto, auto) {}, [](auto) {}};
+        if (gate.streams) gate.streams.emplace();  // nobody is told any more
     }
     const auto until = Clock::now() + most;
     while (state_->has_output() && Clock::now() < until) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "live/address.hpp"
 #include "live/request.hpp"
 
 #include <chrono>
@@ -26,14 +27,16 @@ namespace rovernet {
 /// nothing grows with a controller that asks without reading, and lines may be sent ahead.
 /// A stream of bytes is read as it comes, and its client may be told things without asking.
 ///
-/// | limit                              | value          | beyond it               |
-/// |------------------------------------|----------------|-------------------------|
-/// | line                               | 1 MiB          | "too_long", closed      |
-/// | lines of all, not yet taken        | 64 MiB         | "too_long", closed      |
-/// | messages of a stream, not taken yet| 1,024 or 4 MiB | closed                  |
-/// | bytes of a stream, not taken yet   | 256 KiB        | what it says is not read|
-/// | connections                        | 500            | closed at once          |
-/// | time until the first line or byte  | 60 s           | closed                  |
+/// | limit                               | value           | beyond it                 |
+/// |-------------------------------------|-----------------|---------------------------|
+/// | line                                | 1 MiB           | "too_long", closed        |
+/// | lines of all, not yet taken         | 64 MiB          | "too_long", closed        |
+/// | what a stream says in a second      | InputRate       | it is not read for a while|
+/// | messages to a stream, not taken yet | 1,024 or 4 MiB  | told so, closed in 1 s    |
+/// | bytes to a stream, not taken yet    | 256 KiB         | what it says is not read  |
+/// | connections                         | 500             | closed at once            |
+/// | time until a line or message is whole | 60 s          | closed                    |
+/// | silence of the client's machine     | 30 s            | asked 3 times, in 30 s    |
 class Doors {
   public:
     using Connection = std::uint32_t;
@@ -46,9 +49,15 @@ class Doors {
 
     /// What is told of connections that carry bytes. The functions may call send() and close().
     struct Streams {
-        std::function<void(Connection opened)> opened;
-        std::function<void(Connection from, std::string_view bytes)> received;
-        std::function<void(Connection gone)> closed;
+        std::function<void(Connection opened)> opened = [](auto) {};
+        /// @return number of messages that have become whole
+        std::function<std::size_t(Connection from, std::string_view bytes)> received =
+            [](auto, auto) { return std::size_t{0}; };
+        std::function<void(Connection gone)> closed = [](auto) {};
+        /// Its clients may say only so much in a second (InputRate).
+        bool has_rate = true;
+        /// Last message to a client that is closed because it takes none: so many are lost.
+        std::function<std::string(std::size_t lost)> farewell = [](auto) { return std::string(); };
     };
 
     /// @param users  of lines; none are told if no connection carries any
@@ -61,13 +70,13 @@ class Doors {
     /// Starts a program by the shell; it speaks by its standard input and output.
     /// @throws RunError if it cannot be started
     void start(const std::string& command);
-    /// Listens on an address of this machine alone: nobody else could be told from a controller.
-    /// @param address  "127.0.0.1:7007", "localhost:0", "[::1]:7007"; port 0: any that is free
+    /// Listens on an address. Whoever reaches it may come in.
+    /// @param address  port 0: any that is free
     /// @return the address with the port
-    /// @throws std::invalid_argument for another address, RunError if it is in use
-    std::string listen(const std::string& address);
+    /// @throws RunError if it is in use, or none of this machine
+    Address listen(const Address& address);
     /// Listens for clients that send and are sent bytes. May be called for several addresses.
-    std::string listen(const std::string& address, Streams streams);
+    Address listen(const Address& address, Streams streams);
     /// Listens on a Unix socket, for this user alone; one that nobody listens on is replaced.
     /// @throws RunError
     void listen_unix(const std::string& path);

@@ -48,7 +48,8 @@ class Front {
     virtual void opened(Connection client, Entrance at) = 0;
     /// Bytes came from a client: any part of what it sends, in order; one message of a WebSocket,
     /// or one packet.
-    virtual void received(Connection from, std::string_view bytes) = 0;
+    /// @return number of messages that have become whole
+    virtual std::size_t received(Connection from, std::string_view bytes) = 0;
     virtual void closed(Connection gone) = 0;
 
     /// Time at which it has something to tell next; `never` if it has not.

@@ -28,7 +28,7 @@ class LiveServer {
 
     void open() {
         for (const std::string& command : options_.controllers) doors_.start(command);
-        if (options_.listen) options_.say("listening on " + doors_.listen(*options_.listen));
+        if (options_.listen) options_.say("listening on " + doors_.listen(*options_.listen).text());
         if (options_.web) listen_web(*options_.web);
         if (options_.unix_path) {
             doors_.listen_unix(*options_.unix_path);
@@ -72,13 +72,17 @@ class LiveServer {
     void send(Lockstep::Connection to, std::string_view line) {
         to < WebSockets::first ? doors_.send(to, line) : web_.send(to, line);
     }
-    void listen_web(const std::string& address) {
-        const std::string own = web_.listen(
-            address, {.opened = [](auto) {},
-                      .received = [this](auto from, auto line) { lockstep_.receive(from, line); },
-                      .closed = [this](auto gone) { lockstep_.lost(gone); }});
-        options_.say(fmt::format("listening on ws://{}", own));
-        options_.say(fmt::format("for a page: ws://{}/?token={}", own, web_.token()));
+    void listen_web(const Address& address) {
+        Doors::Streams users;
+        users.received = [this](auto from, auto line) {
+            lockstep_.receive(from, line);
+            return std::size_t{1};
+        };
+        users.closed = [this](auto gone) { lockstep_.lost(gone); };
+        users.has_rate = false;  // each message is answered first
+        const Address own = web_.listen(address, std::move(users));
+        options_.say("listening on ws://" + own.text());
+        options_.say(web_.invitation(own));
     }
 
     void tell_missing() {

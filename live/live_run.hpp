@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "live/address.hpp"
 #include "live/lockstep.hpp"
 #include "live/logged_run.hpp"
 #include "scenario/scenario.hpp"
@@ -16,11 +17,11 @@ namespace rovernet {
 
 /// How a scenario is run live: where its controllers come from, and how long they are waited for.
 struct LiveOptions {
-    std::string folder;                    ///< for the results
-    std::vector<std::string> controllers;  ///< programs to start, by the shell
-    std::optional<std::string> listen;     ///< "127.0.0.1:7007", see Doors::listen()
-    std::optional<std::string> web;        ///< for WebSockets, see WebSockets::listen()
-    std::optional<std::string> unix_path;  ///< path of a Unix socket
+    std::string folder;                         ///< for the results
+    std::vector<std::string> controllers;       ///< programs to start, by the shell
+    std::optional<Address> listen = {};         ///< for lines by TCP
+    std::optional<Address> web = {};            ///< for WebSockets
+    std::optional<std::string> unix_path = {};  ///< path of a Unix socket
     Lockstep::Settings lockstep = {};
     std::optional<std::chrono::nanoseconds> patience = {};  ///< for a question, of real time
     std::function<bool()> go_on = [] { return true; };  ///< asked now and then; false ends the run
@@ -30,7 +31,7 @@ struct LiveOptions {
 
 /// Runs a scenario whose robots are driven by programs outside, in lock-step. It ends when they
 /// have left, and writes what run_scenario() writes, and the log of inputs.
-/// @throws InputError, RunError, Interrupted; std::invalid_argument for an address
+/// @throws InputError, RunError, Interrupted; std::invalid_argument for an overlong Unix path
 LiveResult run_live(Scenario scenario, const LiveOptions& options);
 
 }  // namespace rovernet

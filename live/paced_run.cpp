@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "live/paced_run.hpp"
 
+#include "live/address.hpp"
 #include "live/doors.hpp"
-#include "live/loopback.hpp"
 #include "live/web_sockets.hpp"
 
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ class PacedServer {
     void open(const FrontDoor& door) {
         Open& opened = open_.emplace_back(Open{door});
         opened.front = door.make(carrier_for(opened));
-        for (std::size_t i = 0; i < door.addresses.size(); ++i) listen(*opened.front, door, i);
+        for (std::size_t i = 0; i < door.entries.size(); ++i) listen(*opened.front, door, i);
     }
 
     Front::Carrier carrier_for(Open& opened) {
@@ -101,18 +101,19 @@ class PacedServer {
             if (reach_present()) front.opened(client, *entrance);
         };
         streams.received = [this, &front](auto from, auto bytes) {
-            if (reach_present()) front.received(from, bytes);
+            return reach_present() ? front.received(from, bytes) : 0;
         };
         streams.closed = [this, &front](auto gone) {
             if (reach_present()) front.closed(gone);
         };
-        const auto& [text, what] = door.addresses[number];
-        const std::string address = door.is_web ? web_.listen(text, std::move(streams))
-                                                : doors_.listen(text, std::move(streams));
-        entrance->port = read_loopback(address).port;
-        options_.say(fmt::format("listening on {} ({})", address, what));
-        if (!door.is_web) return;
-        options_.say(fmt::format("for a page: ws://{}/?token={}", address, web_.token()));
+        streams.has_rate = options_.speed.has_value();  // else its clients set the pace
+        if (door.farewell) streams.farewell = door.farewell;
+        const auto& [wanted, what] = door.entries[number];
+        const Address address = door.is_web ? web_.listen(wanted, std::move(streams))
+                                            : doors_.listen(wanted, std::move(streams));
+        entrance->port = address.port;
+        options_.say(fmt::format("listening on {} ({})", address.text(), what));
+        if (door.is_web) options_.say(web_.invitation(address));
     }
 
     void open_ports(Open& opened) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "live/address.hpp"
 #include "live/front.hpp"
 #include "live/logged_run.hpp"
 #include "live/packet_port.hpp"
@@ -15,19 +16,21 @@
 
 namespace rovernet {
 
-/// Front of a run and the addresses where clients find it.
+/// Front of a run and the addresses where clients come in.
 struct FrontDoor {
-    struct Address {
-        std::string text;  ///< "127.0.0.1:6665", see read_loopback(); port 0: any that is free
+    struct Entry {
+        Address at;        ///< port 0: any that is free
         std::string what;  ///< what it is for: "Player, robot A"
     };
 
     using Ports = std::vector<std::unique_ptr<PacketPort>>;
 
-    std::vector<Address> addresses;
+    std::vector<Entry> entries;
     std::function<std::unique_ptr<Front>(Front::Carrier)> make;
     bool is_web = false;  ///< clients speak WebSocket: the front gets and sends whole messages
-    /// In place of addresses: opens a port for each robot, as the run begins.
+    /// Last message to a client that does not read what it is sent, see Doors::Streams.
+    std::function<std::string(std::size_t lost)> farewell = {};
+    /// In place of entries: opens a port for each robot, as the run begins.
     std::function<Ports(const Network&)> open_ports = {};
 };
 
@@ -49,7 +52,7 @@ struct PacedOptions {
 /// a front is done, or when it is told to; then its results and the log of inputs are written, as
 /// by run_live(). The clock decides only at which simulated time an input is accepted. It stands
 /// still while a front's limit() holds the run.
-/// @throws InputError, RunError; std::invalid_argument for an address
+/// @throws InputError, RunError
 LiveResult run_paced(Scenario scenario, const PacedOptions& options);
 
 }  // namespace rovernet

@@ -3,11 +3,13 @@
 
 #include "live/acceptor.hpp"
 #include "live/admission.hpp"
+#include "live/input_rate.hpp"
 
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <deque>
@@ -60,6 +62,7 @@ struct Client {
     http::request_parser<http::empty_body> request = {};
     http::response<http::string_body> refusal = {};
     beast::flat_buffer input = {};
+    InputRate rate = {};
     std::deque<Message> output = {};  // the first is being written
     std::size_t waiting = 0;          // [bytes] of those behind the first
     bool is_open = false;             // its users know it
@@ -139,9 +142,19 @@ struct WebSockets::State {
         const bool is_busy = client->waiting > much_waiting;
         if (client->is_reading || client->is_closing || is_busy) return;
         client->is_reading = true;
+        if (client->rate.read_again() > Clock::now()) return read_later(client);
         client->stream.async_read_some(
             client->input, portion,
             [this, client](error_code error, std::size_t) { take_in(client, error); });
+    }
+
+    /// Goes on reading once the client may say more.
+    void read_later(const Shared& client) {
+        const auto pause = std::make_shared<asio::steady_timer>(io, client->rate.read_again());
+        pause->async_wait([this, client, pause](error_code) {
+            client->is_reading = false;
+            if (clients.contains(client->id)) read(client);
+        });
     }
 
     void take_in(const Shared& client, error_code error) {
@@ -156,6 +169,7 @@ struct WebSockets::State {
         }
         client->gate.users.received(client->id,
                                     {static_cast<const char*>(input.cdata().data()), input.size()});
+        if (client->gate.users.has_rate) client->rate.add(1, input.size(), Clock::now());
         input.clear();
         if (input.capacity() > portion) input.shrink_to_fit();
         read(client);
@@ -247,16 +261,24 @@ WebSockets::WebSockets(Doors& doors, Patience patience)
     : state_(std::make_unique<State>(doors.io(), patience)) {}
 WebSockets::~WebSockets() = default;
 
-std::string WebSockets::listen(const std::string& address, Doors::Streams users) {
-    Loopback own = read_loopback(address);
-    auto acceptor = listen_on(state_->io, own);
-    own.port = acceptor.local_endpoint().port();
+Address WebSockets::listen(const Address& address, Doors::Streams users) {
+    auto acceptor = listen_on(state_->io, address);
+    const Address own{address.host, acceptor.local_endpoint().port()};
     Gate& gate = state_->gates.emplace_back(
         Gate{std::move(acceptor), Admission(own, state_->token), std::move(users)});
     accept_all(gate.acceptor, [state = state_.get(), &gate](asio::ip::tcp::socket socket) {
         state->add(std::move(socket), gate);
     });
-    return own.text();
+    return own;
+}
+
+std::string WebSockets::invitation(const Address& own) const {
+    const bool is_any = own.host == "0.0.0.0" || own.host == "::";
+    const std::string at =
+        is_any ? fmt::format("{}:{}", asio::ip::host_name(), own.port) : own.text();
+    return fmt::format("for {}: ws://{}/?token={}",
+                       own.is_loopback() ? "a page" : "each client, the token in the address", at,
+                       state_->token);
 }
 
 const std::string& WebSockets::token() const { return state_->token; }
@@ -278,7 +300,7 @@ void WebSockets::close(Connection which) {
 void WebSockets::close(std::chrono::milliseconds most) {
     for (Gate& gate : state_->gates) {
         gate.acceptor.close();
-        gate.users = {[](auto) {}, [](auto, auto) {}, [](auto) {}};
+        gate.users = {};
     }
     const auto clients = state_->clients;  // remove() takes them off the table
     for (const auto& [id, client] : clients) {

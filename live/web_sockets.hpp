@@ -11,14 +11,14 @@
 namespace rovernet {
 
 /// Carrier of whole messages between clients that speak WebSocket (RFC 6455), browsers among them,
-/// and this process. It listens on addresses of this machine alone. Who may come in there,
-/// Admission says.
+/// and this process. Who may come in, Admission says.
 ///
 /// | limit                              | value          | beyond it                     |
 /// |------------------------------------|----------------|-------------------------------|
 /// | request for a WebSocket            | 8 KiB, in 10 s | closed                        |
 /// | message of a client                | 1 MiB          | closed, 1009                  |
 /// | messages of all, not yet whole     | 64 MiB         | closed, 1013                  |
+/// | what a client says in a second     | InputRate      | it is not read for a while    |
 /// | messages to a client, not taken yet| 1,024 or 4 MiB | closed, 1013                  |
 /// | bytes to a client, not taken yet   | 256 KiB        | what it says is not read      |
 /// | silence of a client                | 15 s           | pinged; after 30 s it is gone |
@@ -45,11 +45,13 @@ class WebSockets {
     WebSockets& operator=(const WebSockets&) = delete;
 
     /// Listens for clients, whose users are told of each message as it is whole.
-    /// @param address  as for Doors::listen()
+    /// @param address  port 0: any that is free
     /// @return the address with the port
-    /// @throws std::invalid_argument for another address, RunError if it is in use
-    std::string listen(const std::string& address, Doors::Streams users);
-    /// Text by which pages that are not this server's own may come in, as Admission has it.
+    /// @throws RunError if it is in use, or none of this machine
+    Address listen(const Address& address, Doors::Streams users);
+    /// Sentence with the token, for the person who started this: who comes in at an address by it.
+    std::string invitation(const Address& own) const;
+    /// Text that clients have to know, as Admission has it.
     const std::string& token() const;
     bool listens() const;
 

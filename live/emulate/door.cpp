@@ -21,7 +21,7 @@ std::unique_ptr<Front> packet_front(Front::Carrier carrier) {
     return std::make_unique<PacketFront>(std::make_unique<Format>(), std::move(carrier));
 }
 
-FrontDoor::Ports udp_ports(Loopback own, const Network& network) {
+FrontDoor::Ports udp_ports(Address own, const Network& network) {
     constexpr std::size_t after_last = 65'536;
     if (own.port != 0 && network.size() > after_last - own.port) {
         throw std::invalid_argument(
@@ -57,11 +57,11 @@ FrontDoor::Ports tap_ports(const Network& network) {
 }  // namespace
 
 FrontDoor tap_devices() {
-    return {.addresses = {}, .make = packet_front<EthernetFormat>, .open_ports = tap_ports};
+    return {.entries = {}, .make = packet_front<EthernetFormat>, .open_ports = tap_ports};
 }
 
-FrontDoor udp_relay(const Loopback& first) {
-    return {.addresses = {},
+FrontDoor udp_relay(const Address& first) {
+    return {.entries = {},
             .make = packet_front<RelayFormat>,
             .open_ports = [first](const Network& network) { return udp_ports(first, network); }};
 }

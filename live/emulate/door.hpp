@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/loopback.hpp"
+#include "live/address.hpp"
 #include "live/paced_run.hpp"
 
 #include <string_view>
@@ -13,7 +13,7 @@ inline constexpr std::string_view relay_address = "127.0.0.1:7100";
 
 /// Door for programs that send datagrams (RelayFormat): the first robot's port is at `first`, the
 /// next one's at the next. With port 0 each has any that is free.
-FrontDoor udp_relay(const Loopback& first);
+FrontDoor udp_relay(const Address& first);
 
 /// Door for programs that use the network as ever: each robot has a network namespace, and in it a
 /// TAP device with its addresses (EthernetFormat, Namespaces).

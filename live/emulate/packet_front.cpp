@@ -17,18 +17,19 @@ void PacketFront::begin(Session& session, const Scenario&) {
     client_ = session.attach(robots, "programs");
 }
 
-void PacketFront::received(Connection from, std::string_view packet) {
+std::size_t PacketFront::received(Connection from, std::string_view packet) {
     ++counts_.sent;
     const NodeId robot{from};
     const auto wanted = format_->read(robot, packet);
     if (const auto* fault = std::get_if<PacketFault>(&wanted)) {
         ++(*fault == PacketFault::malformed ? counts_.malformed : counts_.unknown_destination);
-        return;
+        return 1;
     }
     const auto uid =
         session_->carry_out(client_, robot, std::get<SendCommand>(wanted), counts_.sent);
     if (!uid) ++counts_.robot_off;
     session_->step(session_->network().now());  // then the next event is later
+    return 1;
 }
 
 void PacketFront::tell() {

@@ -21,7 +21,7 @@ class PacketFront : public Front {
 
     void begin(Session& session, const Scenario& scenario) override;
     void opened(Connection, Entrance) override {}
-    void received(Connection from, std::string_view packet) override;
+    std::size_t received(Connection from, std::string_view packet) override;
     void closed(Connection) override {}
     Time next() const override { return session_->network().next_event(); }
     void tell() override;

@@ -20,7 +20,7 @@ constexpr std::size_t longest_datagram = 65'536;  // [bytes]
 sockaddr* as_address(sockaddr_storage& storage) { return reinterpret_cast<sockaddr*>(&storage); }
 
 /// Writes an address as the system wants it. @return its size
-socklen_t put_address(const Loopback& own, sockaddr_storage& storage) {
+socklen_t put_address(const Address& own, sockaddr_storage& storage) {
     sockaddr_in v4{};
     sockaddr_in6 v6{};
     if (inet_pton(AF_INET, own.host.c_str(), &v4.sin_addr) == 1) {
@@ -48,7 +48,7 @@ std::uint16_t port_of(int socket) {
 
 }  // namespace
 
-UdpPort::UdpPort(const Loopback& own, std::string robot) : robot_(std::move(robot)) {
+UdpPort::UdpPort(const Address& own, std::string robot) : robot_(std::move(robot)) {
     sockaddr_storage address{};
     const socklen_t size = put_address(own, address);
     socket_ = socket(address.ss_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);

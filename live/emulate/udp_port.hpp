@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/loopback.hpp"
+#include "live/address.hpp"
 #include "live/packet_port.hpp"
 
 #include <netinet/in.h>
@@ -15,7 +15,7 @@ class UdpPort : public PacketPort {
     /// @param own    with port 0: any that is free
     /// @param robot  whose port it is
     /// @throws RunError if it is in use
-    UdpPort(const Loopback& own, std::string robot);
+    UdpPort(const Address& own, std::string robot);
     ~UdpPort() override;
     UdpPort(const UdpPort&) = delete;
     UdpPort& operator=(const UdpPort&) = delete;
@@ -27,7 +27,7 @@ class UdpPort : public PacketPort {
 
   private:
     std::string robot_;
-    Loopback where_;
+    Address where_;
     int socket_ = -1;
     sockaddr_storage peer_{};
     socklen_t peer_size_ = 0;  // 0: nobody has sent anything yet

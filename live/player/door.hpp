@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/loopback.hpp"
+#include "live/address.hpp"
 #include "live/paced_run.hpp"
 #include "live/player/config.hpp"
 #include "live/player/front.hpp"
@@ -25,15 +25,15 @@ std::vector<std::string> robot_names(const Scenario& scenario);
 /// each gets any that is free.
 /// @param settings  without places
 /// @throws std::invalid_argument for more robots than there are ports
-FrontDoor player_ports(const Loopback& first, const std::vector<std::string>& robots,
+FrontDoor player_ports(const Address& first, const std::vector<std::string>& robots,
                        PlayerSettings settings);
 /// Player server with all robots at one port: the first robot's devices have index 0, and so on.
-FrontDoor player_one_port(const Loopback& at, const std::vector<std::string>& robots,
+FrontDoor player_one_port(const Address& at, const std::vector<std::string>& robots,
                           PlayerSettings settings);
 
 /// Player server with the ports of a configuration; with port 0 in `at` each is any that is free.
 /// @throws InputError for a robot that the scenario does not have
-FrontDoor player_configured(const Loopback& at, const PlayerConfig& config,
+FrontDoor player_configured(const Address& at, const PlayerConfig& config,
                             const std::vector<std::string>& robots, PlayerSettings settings);
 
 }  // namespace rovernet

@@ -24,16 +24,10 @@ enum Access : std::uint32_t { access_open = 1, access_close = 2, access_error = 
 constexpr PlayerAddress server{PlayerInterface::player, 0};
 constexpr std::uint32_t pull_mode = 2;  // 1: push
 constexpr std::uint32_t newest_data = 1;
-constexpr std::uint32_t synch_end = 1, synch_overflow = 2;
 constexpr std::size_t most_held = 1'024;                   // for a client that does not ask
 constexpr std::size_t most_bytes = std::size_t{3} << 20U;  // of them; a message has 1 MiB at most
 constexpr std::size_t most_deferred = std::size_t{16} << 20U;  // [bytes] commands of one round
 constexpr std::string_view driver_name = "rovernet";
-
-/// SYNCH, which is of no port and no time.
-std::string synch(std::uint32_t subtype, std::string payload = {}) {
-    return encode({server, PlayerType::sync, subtype, 0, 0, std::move(payload)}, 0);
-}
 
 bool is_multiple(Time time, Duration period) {
     return time.time_since_epoch() % period == Duration{0};
@@ -54,7 +48,7 @@ struct PlayerFront::Client {
     std::size_t subscriptions = 0;
     std::deque<std::string> held = {};  // messages for the end of the round
     std::size_t held_bytes = 0;
-    std::uint32_t lost = 0;  // messages that were too many
+    std::size_t lost = 0;  // messages that were too many
 };
 
 PlayerFront::PlayerFront(PlayerSettings settings, Carrier carrier)
@@ -71,15 +65,17 @@ void PlayerFront::opened(Connection client, Entrance at) {
     carrier_.send(client, player_banner());
 }
 
-void PlayerFront::received(Connection from, std::string_view bytes) {
+std::size_t PlayerFront::received(Connection from, std::string_view bytes) {
     PlayerStream& stream = clients_.at(from).stream;
     stream.add(bytes);
+    std::size_t messages = 0;
     try {
-        while (const auto message = stream.next()) handle(from, *message);
+        for (; const auto message = stream.next(); ++messages) handle(from, *message);
     } catch (const MalformedMessage&) {
         carrier_.close(from);  // where the next message begins is not known
     }
     go_on();
+    return messages;
 }
 
 void PlayerFront::closed(Connection gone) {
@@ -254,9 +250,9 @@ void PlayerFront::hold(Client& client, std::string message) {
 void PlayerFront::end_round(Client& client) {
     if (!client.asks || client.held.empty()) return;
     std::string bytes;
-    if (client.lost > 0) bytes = synch(synch_overflow, XdrWriter().u32(client.lost).take());
+    if (client.lost > 0) bytes = player_overflow(client.lost);
     for (const std::string& each : client.held) bytes += each;
-    carrier_.send(client.connection, bytes + synch(synch_end));
+    carrier_.send(client.connection, bytes + player_round_end());
     client.held.clear();
     client.held_bytes = 0;
     client.lost = 0;

@@ -36,7 +36,7 @@ class PlayerFront : public Front {
     /// @throws std::invalid_argument if there is no robot of a name
     void begin(Session& session, const Scenario& scenario) override;
     void opened(Connection client, Entrance at) override;
-    void received(Connection from, std::string_view bytes) override;
+    std::size_t received(Connection from, std::string_view bytes) override;
     void closed(Connection gone) override;
     Time next() const override { return next_; }
     void tell() override;

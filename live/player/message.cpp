@@ -7,6 +7,13 @@ namespace {
 constexpr std::size_t header_size = 40;         // [bytes]
 constexpr std::uint32_t own_host = 0x0100007F;  // 127.0.0.1, its bytes in the opposite order
 
+constexpr std::uint32_t synch_end = 1, synch_overflow = 2;
+
+/// SYNCH, which is of no port and no time.
+std::string synch(std::uint32_t subtype, const std::string& payload) {
+    return encode({{PlayerInterface::player, 0}, PlayerType::sync, subtype, 0, 0, payload}, 0);
+}
+
 }  // namespace
 
 PlayerAddress read_address(XdrReader& payload) {
@@ -37,6 +44,12 @@ std::string encode(const PlayerMessage& message, std::uint16_t port) {
                .u32(static_cast<std::uint32_t>(message.payload.size()))
                .take() +
            message.payload;
+}
+
+std::string player_round_end() { return synch(synch_end, {}); }
+
+std::string player_overflow(std::size_t lost) {
+    return synch(synch_overflow, XdrWriter().u32(static_cast<std::uint32_t>(lost)).take());
 }
 
 std::optional<PlayerMessage> PlayerStream::next() {

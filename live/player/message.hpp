@@ -57,6 +57,11 @@ std::string player_banner();
 /// @param port  of this server at which the client is; 0: the message is of no device
 std::string encode(const PlayerMessage& message, std::uint16_t port);
 
+/// End of a round of data.
+std::string player_round_end();
+/// Word to a client that takes too little: so many messages to it are lost.
+std::string player_overflow(std::size_t lost);
+
 /// Messages in the bytes that a client sends.
 class PlayerStream {
   public:

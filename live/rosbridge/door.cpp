@@ -8,8 +8,8 @@
 
 namespace rovernet {
 
-FrontDoor rosbridge_door(const Loopback& at) {
-    return {.addresses = {{at.text(), "rosbridge"}},
+FrontDoor rosbridge_door(const Address& at) {
+    return {.entries = {{at, "rosbridge"}},
             .make =
                 [](Front::Carrier carrier) {
                     return std::make_unique<RosbridgeFront>(std::move(carrier));

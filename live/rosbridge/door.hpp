@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/loopback.hpp"
+#include "live/address.hpp"
 #include "live/paced_run.hpp"
 
 #include <string_view>
@@ -12,6 +12,6 @@ namespace rovernet {
 inline constexpr std::string_view rosbridge_address = "127.0.0.1:9090";
 
 /// Server of the rosbridge protocol at an address; port 0: any that is free.
-FrontDoor rosbridge_door(const Loopback& at);
+FrontDoor rosbridge_door(const Address& at);
 
 }  // namespace rovernet

@@ -51,9 +51,10 @@ void RosbridgeFront::closed(Connection gone) {
     go_on();
 }
 
-void RosbridgeFront::received(Connection from, std::string_view message) {
+std::size_t RosbridgeFront::received(Connection from, std::string_view message) {
     handle(clients_.at(from), message);
     go_on();
+    return 1;
 }
 
 void RosbridgeFront::handle(Client& client, std::string_view message) {

@@ -31,7 +31,7 @@ class RosbridgeFront : public Front {
 
     void begin(Session& session, const Scenario& scenario) override;
     void opened(Connection client, Entrance at) override;
-    void received(Connection from, std::string_view message) override;
+    std::size_t received(Connection from, std::string_view message) override;
     void closed(Connection gone) override;
     Time next() const override { return next_; }
     void tell() override;

@@ -170,15 +170,13 @@ TEST_CASE("hostile: controllers with lines that are too deep or no text") {
 TEST_CASE("hostile: a request that comes byte by byte has to be whole in time") {
     Doors doors;
     WebSockets web(doors, {.for_request = 1s, .for_silence = 60s});
-    const std::string address =
-        web.listen("127.0.0.1:0",
-                   {.opened = [](auto) {}, .received = [](auto, auto) {}, .closed = [](auto) {}});
+    const Address address = web.listen({"127.0.0.1", 0}, {});
     std::atomic<bool> is_over = false;
     std::thread server([&] {
         while (!is_over) doors.wait(10ms);
         web.close(1s);
     });
-    LineClient slow(read_port(address));
+    LineClient slow(address.port);
     int sent = 0;
     while (sent < 1000 && slow.send_bytes(sent == 0 ? "GET /" : "x")) {
         ++sent;
@@ -337,9 +335,8 @@ TEST_CASE("hostile: of pages, those of other servers and of strange names stay o
     const Served served;
     const Live controlled({"--listen-web", "127.0.0.1:0"});
     const auto token_of = [](const Live& live) {
-        const auto told = [&] { return content(live.folder.path("stderr")); };
-        CHECK(comes_true([&] { return told().find("/?token=") != std::string::npos; }));
-        return told().substr(told().find("/?token="), 40);
+        const std::string told = live.said("for a page: ");
+        return told.substr(told.find("/?token="));
     };
     const std::string token = token_of(served), other_token = token_of(controlled);
     const auto check = [](int port, const std::string& own, const std::string& other) {

@@ -2,14 +2,16 @@
 // Runs by the clock, with real sockets and a front that is made for them.
 #include "live/paced_run.hpp"
 
+#include "live/address.hpp"
 #include "live/input_log.hpp"
-#include "live/loopback.hpp"
+#include "live/input_rate.hpp"
 #include "test/live/line_client.hpp"
 #include "test/live/parrot.hpp"
 #include "test/live/talk.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <atomic>
 #include <chrono>
@@ -36,11 +38,13 @@ class Paced {
         PacedOptions options;
         options.folder = folder_.path("out");
         options.speed = speed;
-        options.fronts.push_back({.addresses = {{"127.0.0.1:0", "one"}, {"localhost:0", "another"}},
-                                  .make = [more...](Front::Carrier carrier) {
-                                      return std::make_unique<FrontUnderTest>(std::move(carrier),
-                                                                              more...);
-                                  }});
+        options.fronts.push_back(
+            {.entries = {{{"127.0.0.1", 0}, "one"}, {{"127.0.0.1", 0}, "another"}},
+             .make =
+                 [more...](Front::Carrier carrier) {
+                     return std::make_unique<FrontUnderTest>(std::move(carrier), more...);
+                 },
+             .farewell = [](std::size_t lost) { return fmt::format("lost {}\n", lost); }});
         options.go_on = [this] { return !stopped_; };
         std::promise<void> opened;
         options.say = [&](std::string_view text) {
@@ -74,9 +78,9 @@ class Paced {
 class Patient : public Parrot {
   public:
     explicit Patient(Carrier carrier) : Parrot(std::move(carrier)) {}
-    void received(Connection from, std::string_view bytes) override {
-        Parrot::received(from, bytes);
+    std::size_t received(Connection from, std::string_view bytes) override {
         limit_ += 100ms * static_cast<int>(bytes.size());
+        return Parrot::received(from, bytes);
     }
     Time limit() const override { return limit_; }
     bool is_done() const override { return limit_ > start_of_run && clients_.empty(); }
@@ -92,7 +96,10 @@ class Busy : public Front {
     explicit Busy(Carrier carrier) : carrier_(std::move(carrier)) {}
     void begin(Session& session, const Scenario&) override { session_ = &session; }
     void opened(Connection client, Entrance) override { tell_time(client); }
-    void received(Connection from, std::string_view) override { tell_time(from); }
+    std::size_t received(Connection from, std::string_view) override {
+        tell_time(from);
+        return 1;
+    }
     void closed(Connection) override {}
     Time next() const override { return session_->network().now() + 50us; }
     void tell() override {}
@@ -219,8 +226,41 @@ TEST_CASE("paced run: a client that does not read is closed, and others are serv
     CHECK(last.starts_with("2000"));
     paced.end();
     int lines = 0;
-    while (!deaf.line().empty()) ++lines;
+    for (std::string line = deaf.line(); !line.empty(); line = deaf.line(), ++lines) {
+        // Had it begun to read within a second, it would have been told.
+        CHECK((line.ends_with('.') || line.starts_with("lost ") || line.starts_with("port ")));
+    }
     CHECK(lines < 15);
+}
+
+TEST_CASE("paced run: a client that reads too late is told how much is lost, then closed") {
+    Paced<Parrot> paced(1, three_in_a_row(), std::size_t{1} << 20U);
+    LineClient late(paced.port()), reader(paced.port());
+    while (!reader.line().starts_with("900.")) {  // by then more than is kept has been said
+    }
+    std::string last;
+    for (std::string line = late.line(); !line.empty(); line = late.line()) last = line;
+    CHECK(last.starts_with("lost "));
+    CHECK(std::stoi(last.substr(5)) > 1);
+    paced.stop();
+    paced.end();
+}
+
+TEST_CASE("paced run: a client that says too much is read at the limit") {
+    Scenario scenario = three_in_a_row();
+    scenario.scenario.duration = 1h;
+    Paced<Parrot> paced(1, scenario);
+    LineClient client(paced.port());
+    client.line();  // the port
+    const auto begun = std::chrono::steady_clock::now();
+    CHECK(client.send_bytes(std::string(10'000, 'a')));  // each byte is a message
+    std::this_thread::sleep_for(100ms);
+    CHECK(client.send_bytes("q"));  // it is closed when that is read
+    while (!client.line().empty()) {
+    }
+    CHECK(std::chrono::steady_clock::now() - begun >= 1s);
+    paced.stop();
+    paced.end();
 }
 
 TEST_CASE("paced run: a front may end a connection, and bytes are no lines") {
@@ -240,6 +280,22 @@ TEST_CASE("paced run: a front may end a connection, and bytes are no lines") {
     CHECK(paced.replay().inputs == 6);
 }
 
+TEST_CASE("input rate: a second's worth at once, then 5,000 messages and 16 MiB a second") {
+    const InputRate::Clock::time_point start{1h};
+    InputRate rate;
+    rate.add(5'000, 0, start);
+    CHECK(rate.read_again() == start);
+    rate.add(2'500, 0, start);
+    CHECK(rate.read_again() == start + 500ms);
+    rate.add(1, 0, start + 3s);  // what was not said is not saved up
+    rate.add(5'000, 0, start + 3s);
+    CHECK(rate.read_again() == start + 3s + 200us);
+    InputRate bytes;
+    bytes.add(1, std::size_t{32} << 20U, start);
+    CHECK(bytes.read_again() > start + 990ms);
+    CHECK(bytes.read_again() < start + 1020ms);
+}
+
 TEST_CASE("loopback: addresses of this machine alone") {
     CHECK(read_loopback("127.0.0.1:7007").text() == "127.0.0.1:7007");
     CHECK(read_loopback("localhost:0").text() == "127.0.0.1:0");
@@ -249,6 +305,17 @@ TEST_CASE("loopback: addresses of this machine alone") {
                             "127.0.0.1: 1", "0.0.0.0:1", "[::]:1", "10.0.0.1:1", "host:1", ":1"}) {
         CAPTURE(bad);
         CHECK_THROWS_AS(read_loopback(bad), std::invalid_argument);
+    }
+    CHECK(Address{"::1", 1}.is_loopback());
+    for (const char* open : {"0.0.0.0", "::", "10.0.0.1", "128.0.0.1", "fe80::1"}) {
+        CAPTURE(open);
+        CHECK_FALSE(Address{open, 1}.is_loopback());
+        CHECK(read_host(open) == open);
+    }
+    CHECK(read_host("[::]") == "::");
+    for (const char* bad : {"", "host", "localhost", "1.2.3", "10.0.0.1:80", "[::1"}) {
+        CAPTURE(bad);
+        CHECK_THROWS_AS(read_host(bad), std::invalid_argument);
     }
 }
 

@@ -26,12 +26,13 @@ class Parrot : public Front {
         clients_[client] = at;
         carrier_.send(client, "port " + std::to_string(at.port) + "\n");
     }
-    void received(Connection from, std::string_view bytes) override {
+    std::size_t received(Connection from, std::string_view bytes) override {
         for (const char c : bytes) {
             if (c == 'q') carrier_.close(from);
             session_->send(robot_, NodeId{0}, {}, std::string(1, c));
             session_->drive(robot_, NodeId{0}, MetersPerSecond{1}, RadiansPerSecond{c * 0.01});
         }
+        return bytes.size();
     }
     void closed(Connection gone) override { clients_.erase(gone); }
     Time next() const override { return next_; }

@@ -28,7 +28,7 @@ namespace {
 class TwoDoors {
   public:
     explicit TwoDoors(const Scenario& scenario) {
-        const Loopback any{"127.0.0.1", 0};
+        const Address any{"127.0.0.1", 0};
         PacedOptions options;
         options.folder = folder_.path("out");
         options.fronts = {player_one_port(any, {"A"}, {}), rosbridge_door(any)};

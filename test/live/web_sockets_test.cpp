@@ -2,8 +2,8 @@
 // WebSockets against a client that was written from RFC 6455.
 #include "live/web_sockets.hpp"
 
+#include "live/address.hpp"
 #include "live/admission.hpp"
-#include "live/loopback.hpp"
 #include "test/live/web_client.hpp"
 
 #include <doctest/doctest.h>
@@ -29,11 +29,14 @@ constexpr std::size_t longest = std::size_t{1} << 20U;  // [bytes] of a message
 class Echo {
   public:
     explicit Echo(WebSockets::Patience patience = {}) : web_(doors_, patience) {
-        const std::string address = web_.listen(
-            "127.0.0.1:0", {.opened = [this](auto client) { here_.insert(client); },
-                            .received = [this](auto from, auto bytes) { answer(from, bytes); },
-                            .closed = [this](auto gone) { here_.erase(gone); }});
-        port = read_loopback(address).port;
+        Doors::Streams users;
+        users.opened = [this](auto client) { here_.insert(client); };
+        users.received = [this](auto from, auto bytes) {
+            answer(from, bytes);
+            return std::size_t{1};
+        };
+        users.closed = [this](auto gone) { here_.erase(gone); };
+        port = web_.listen({"127.0.0.1", 0}, users).port;
         token = web_.token();
         thread_ = std::thread([this] {
             while (!stopped_) {
@@ -277,6 +280,15 @@ TEST_CASE("admission: pages of others need the token, names of others never lead
         CHECK(admission.refusal({row.target, row.host, row.origin}).empty() == row.is_let_in);
     }
     CHECK(Admission({"127.0.0.2", 9090}, secret).refusal({"/", "127.0.0.2:9090", {}}).empty());
+    const Admission open({"10.0.0.1", 9090}, secret);  // other machines reach it
+    CHECK(open.refusal({right, "10.0.0.1:9090", {}}).empty());
+    CHECK(open.refusal({right, "robots.example:9090", "http://page.example"}).empty());
+    for (const std::string& target : {std::string("/"), part, wrong, longer, other_key}) {
+        CAPTURE(target);
+        CHECK_FALSE(open.refusal({target, "10.0.0.1:9090", {}}).empty());
+        CHECK_FALSE(open.refusal({target, "127.0.0.1:9090", "http://127.0.0.1:9090"}).empty());
+    }
+    CHECK_FALSE(Admission({"0.0.0.0", 9090}, "").refusal({"/?token=", "x", {}}).empty());
     const std::string first = random_token(), second = random_token();
     CHECK(first.size() == 32);
     CHECK(first.find_first_not_of("0123456789abcdef") == std::string::npos);

@@ -94,16 +94,16 @@ TEST_CASE("player configuration: mistakes are told with their place") {
 TEST_CASE("player doors: a port for each robot, one for all, or those of a configuration") {
     const std::vector<std::string> names = {"r0", "r1", "r2"};
     const FrontDoor ports = player_ports({"127.0.0.1", 7000}, names, {});
-    REQUIRE(ports.addresses.size() == 3);
-    CHECK(ports.addresses[2].text == "127.0.0.1:7002");
-    CHECK(ports.addresses[2].what == "Player, robot r2");
-    CHECK(player_ports({"127.0.0.1", 0}, names, {}).addresses[2].text == "127.0.0.1:0");
-    CHECK(player_one_port({"::1", 7000}, names, {}).addresses.size() == 1);
+    REQUIRE(ports.entries.size() == 3);
+    CHECK(ports.entries[2].at.text() == "127.0.0.1:7002");
+    CHECK(ports.entries[2].what == "Player, robot r2");
+    CHECK(player_ports({"127.0.0.1", 0}, names, {}).entries[2].at.text() == "127.0.0.1:0");
+    CHECK(player_one_port({"::1", 7000}, names, {}).entries.size() == 1);
     const FrontDoor configured =
         player_configured({"127.0.0.1", 6665}, read(head + robots), names, {});
-    REQUIRE(configured.addresses.size() == 2);
-    CHECK(configured.addresses[1].text == "127.0.0.1:6666");
-    CHECK(configured.addresses[1].what == "Player, robot r1, r2");
+    REQUIRE(configured.entries.size() == 2);
+    CHECK(configured.entries[1].at.text() == "127.0.0.1:6666");
+    CHECK(configured.entries[1].what == "Player, robot r1, r2");
     CHECK_THROWS_AS(player_configured({"127.0.0.1", 6665}, read(head + robots), {"r0"}, {}),
                     InputError);
     CHECK_NOTHROW(player_ports({"127.0.0.1", 6665}, std::vector<std::string>(100, "r"), {}));
