@@ -66,10 +66,8 @@ Address read_loopback(const std::string& text) {
 std::string read_host(const std::string& text) {
     std::string host = without_brackets(text);
     if (is_number(host)) return host;
-    throw std::invalid_argument(fmt::format(
-        "found the host \"{}\"; expected an IP address of this machine, such as 192.168.1.5, or "
-        "0.0.0.0 for all that it has",
-        text));
+    throw std::invalid_argument(
+        text + ": expected an IP address of this machine, such as 192.168.1.5, or 0.0.0.0 for all");
 }
 
 }  // namespace rovernet
