@@ -326,8 +326,7 @@ TEST_CASE("live: ROS clients beside those of Player, until Ctrl-C; a page needs 
     const int port = read_port(live.said("listening on 127.0.0.1:", "(rosbridge)"));
     WebClient client(port), silent(port);
     CHECK(WebClient(port, "Origin: null\r\n").answer().starts_with("HTTP/1.1 403 "));
-    const std::string told = content(live.folder.path("stderr"));
-    const std::string token = told.substr(told.find("/?token="), 40);
+    const std::string told = live.said("for a page: "), token = told.substr(told.find("/?token="));
     CHECK(WebClient(port, "Origin: null\r\n", token).is_in());
     const auto publish = [&](const std::string& topic) {
         client.send(R"({"op":"publish","id":"x","msg":{},"topic":")" + topic + R"("})");
