@@ -303,6 +303,24 @@ TEST_CASE("session: a robot is put elsewhere, and commands of one time come one 
     CHECK(session.twist({1}).speed == 0);
 }
 
+TEST_CASE("session: what a command causes at its own time comes before the next command") {
+    struct Order {
+        std::string& text;
+        KindMask kinds() const { return kind_of<Sent>() | kind_of<Transmitted>(); }
+        void on(const Record& record, const RecordContext&) {
+            text += std::holds_alternative<Sent>(record) ? 's' : 't';
+        }
+    };
+    Session session{scenario("[access]\nmodel = \"aloha\"\n")};
+    const ClientId client = session.attach({{1}, {2}});
+    session.step(start_of_run + 1s);
+    std::string order;  // sent, transmitted
+    session.network().add_sink(std::make_shared<Order>(Order{order}));
+    for (const NodeId robot : {NodeId{1}, NodeId{2}}) session.send(client, robot, {}, "x");
+    session.step(start_of_run + 1s);
+    CHECK(order == "stst");
+}
+
 TEST_CASE("session: a range finder sees walls and robots from where its robot is") {
     Session session{scenario(R"([[robot]]
 name = "d"

@@ -152,7 +152,8 @@ TEST_CASE("paced run: clients come and go, are told at their times, and the scen
 }
 
 TEST_CASE("paced run: commands of one time are replayed in their order, whatever they cause") {
-    Paced<Parrot> paced(4, three_in_a_row("[access]\nmodel = \"csma\"\n"));
+    // An Aloha station sends at the time at which it is told to, by an event that comes after that.
+    Paced<Parrot> paced(4, three_in_a_row("[access]\nmodel = \"aloha\"\n"));
     LineClient client(paced.port());
     client.line();
     for (int i = 0; i < 15; ++i) {
