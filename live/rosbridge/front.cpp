@@ -48,6 +48,7 @@ void RosbridgeFront::opened(Connection client, Entrance) { clients_[client].conn
 void RosbridgeFront::closed(Connection gone) {
     clients_.erase(gone);
     robots_->left(gone);
+    if (holders_.erase(gone) > 0 && holders_.empty()) let_time_go_on();
     go_on();
 }
 
@@ -175,12 +176,12 @@ void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
             steps_.push_back({client.connection, reader_.operation(),
                               now() + std::min(time, session_->end() - now())});
             limit_ = limit_ == never ? steps_.back().until : std::max(limit_, steps_.back().until);
+            holders_.insert(client.connection);
             return;
-        case RosServiceKind::pause: limit_ = now(); break;
-        case RosServiceKind::unpause: limit_ = never; break;
+        case RosServiceKind::pause: hold_time(client.connection); break;
+        case RosServiceKind::unpause: let_time_go_on(); break;
         default: break;
     }
-    end_steps();
     respond(client.connection, reader_.operation(), [&](RosWriter& out) {
         if (call.service.type->name.starts_with("rosapi/")) return api_->write(out, call);
         out.open_object();
@@ -192,6 +193,18 @@ void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
         }
         out.close_object();
     });
+}
+
+void RosbridgeFront::hold_time(Connection client) {
+    limit_ = now();
+    holders_.insert(client);
+    end_steps();
+}
+
+void RosbridgeFront::let_time_go_on() {
+    limit_ = never;
+    holders_.clear();
+    end_steps();
 }
 
 /// Answers calls of steps that are over, or that a pause or its end has overtaken.

@@ -59,6 +59,8 @@ class RosbridgeFront : public Front {
     void tell_status(const Client& client, RosLevel level, std::string_view text);
     void respond(Connection client, const RosOperation& call,
                  const std::function<void(RosWriter&)>& put_values);
+    void hold_time(Connection client);
+    void let_time_go_on();
     void end_steps();
     bool ends_step() const;
 
@@ -86,7 +88,8 @@ class RosbridgeFront : public Front {
     // Messages of topics in this tell(), by name as the subscriber wrote it, and whether in CBOR.
     std::map<std::pair<std::string, bool>, std::string> written_;
     std::uint64_t pieces_sent_ = 0;
-    Time limit_ = never;  // earlier: it is paused there
+    Time limit_ = never;            // earlier: it is paused there
+    std::set<Connection> holders_;  // clients that have paused it, or let it go on by steps
     Time next_ = never;
 };
 

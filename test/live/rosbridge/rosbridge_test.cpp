@@ -416,6 +416,35 @@ TEST_CASE("rosbridge: time stands still while it is paused, and goes on by steps
     CHECK(talk.told().back()["id"] == "t");  // at the end of the scenario
 }
 
+TEST_CASE("rosbridge: time goes on when the last client that held it has left") {
+    RosTalk talk(three_in_a_row());
+    const auto ask = [&](Front::Connection client, const std::string& what) {
+        talk.say(
+            R"({"op":"call_service","args":{"seconds":0.2},"service":"/simulation/)" + what + "\"}",
+            client);
+    };
+    for (const Front::Connection client : {1U, 2U, 3U}) talk.come(client);
+    talk.run_until(100ms);
+    ask(1, "pause");
+    ask(2, "step");
+    talk.run_until(1s);
+    CHECK(talk.session.network().now() == start_of_run + 300ms);
+    talk.go(3);  // has held nothing
+    talk.go(1);
+    talk.run_until(1s);
+    CHECK(talk.session.network().now() == start_of_run + 300ms);
+    talk.go(2);
+    talk.run_until(1s);
+    CHECK(talk.session.network().now() == start_of_run + 1s);
+    ask(0, "pause");
+    ask(0, "unpause");  // then it does not hold it any more
+    talk.come(4);
+    ask(4, "pause");
+    talk.go(4);
+    talk.run_until(2s);
+    CHECK(talk.session.network().now() == start_of_run + 2s);
+}
+
 TEST_CASE("rosbridge: steps of several clients are each as long as they were asked for") {
     RosTalk talk(three_in_a_row());
     talk.come(1);
