@@ -6,6 +6,7 @@
 #include "models/medium/medium.hpp"
 #include "scenario/json.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -66,10 +67,8 @@ std::string_view AnswerWriter::welcome(const HelloRequest& hello) {
         put(std::uint64_t{robot.value});
         put(",\"radius\":");
         put(state.radius.value);
-        put(",\"x\":");
-        put(state.at.x);
-        put(",\"y\":");
-        put(state.at.y);
+        put(",");
+        put_place(state.at);
         put(",\"heading\":");
         put(state.heading.value);
         put("}");
@@ -78,6 +77,20 @@ std::string_view AnswerWriter::welcome(const HelloRequest& hello) {
     put_map();
     put("}");
     return line_;
+}
+
+bool AnswerWriter::tells_height(Vec3 at) const {
+    return at.z != 0 || session_.network().scene().storeys().size() > 1;
+}
+
+void AnswerWriter::put_place(Vec3 at) {
+    put("\"x\":");
+    put(at.x);
+    put(",\"y\":");
+    put(at.y);
+    if (!tells_height(at)) return;
+    put(",\"z\":");
+    put(at.z);
 }
 
 void AnswerWriter::put_map() {
@@ -100,6 +113,17 @@ void AnswerWriter::put_map() {
     put(std::int64_t{grid.columns});
     put(",\"rows\":");
     put(std::int64_t{grid.rows});
+    if (is_building) {
+        put(",\"floors\":[");
+        put_list(line_, table.floors, [&](const FloorTable& floor) {
+            put("{\"height\":");
+            put(floor.height.value);
+            put(",\"image\":");
+            put(to_json_line(Value(floor.map)));
+            put("}");
+        });
+        put("]");
+    }
     put("}");
 }
 
@@ -147,10 +171,8 @@ void AnswerWriter::put_robot(NodeId robot) {
     const Vec3 at = network.position(robot);
     const Twist twist = session_.twist(robot);
     put(name(robot));
-    put(":{\"x\":");
-    put(at.x);
-    put(",\"y\":");
-    put(at.y);
+    put(":{");
+    put_place(at);
     put(",\"heading\":");
     put(network.heading(robot).value);
     put(",\"v\":");
@@ -183,6 +205,11 @@ void AnswerWriter::put_columns(const std::vector<NodeId>& robots) {
     put(",");
     put_column("y", robots, [&](NodeId robot) { put(network.position(robot).y); });
     put(",");
+    if (std::any_of(robots.begin(), robots.end(),
+                    [&](NodeId robot) { return tells_height(network.position(robot)); })) {
+        put_column("z", robots, [&](NodeId robot) { put(network.position(robot).z); });
+        put(",");
+    }
     put_column("heading", robots, [&](NodeId robot) { put(network.heading(robot).value); });
     put(",");
     put_column("v", robots, [&](NodeId robot) { put(session_.twist(robot).speed); });

@@ -46,6 +46,8 @@ class AnswerWriter {
     void put(std::uint64_t number);
     void put_truth(bool is_true) { put(is_true ? std::string_view("true") : "false"); }
     const std::string& name(NodeId robot) const { return names_[robot.index()]; }
+    bool tells_height(Vec3 at) const;
+    void put_place(Vec3 at);
     void put_robot(NodeId robot);
     void put_columns(const std::vector<NodeId>& robots);
     template <class PutOne>

@@ -159,31 +159,43 @@ DriveCommand drive_of(const std::optional<JsonElement>& v, const std::optional<J
     return drive;
 }
 
-Vec3 place_in(const JsonElement& list) {
+/// A place [x, y, z], or [x, y] at the height given [m].
+Vec3 place_in(const JsonElement& list, double height) {
     std::vector<double> at;
     for_each_item(list, [&](const JsonElement& item) { at.push_back(item.number(goal_places)); });
     if (at.size() != 2 && at.size() != 3) {
-        list.fail("bad_value",
-                  fmt::format("found {} numbers; expected [x, y] in metres", at.size()));
+        list.fail(
+            "bad_value",
+            fmt::format("found {} numbers; expected [x, y] or [x, y, z] in metres", at.size()));
     }
-    return {at[0], at[1], at.size() == 3 ? at[2] : 0};
+    return {at[0], at[1], at.size() == 3 ? at[2] : height};
 }
 
 /// The command of one robot; nothing for {}, which changes nothing.
-std::optional<RobotCommand> command_in(const JsonElement& element) {
-    constexpr std::array<std::string_view, 6> keys = {"v", "w", "timeout", "goal", "speed", "stop"};
-    const auto [v, w, timeout, goal, speed, stop] = members(element, keys);
-    const bool drives = v || w || timeout;
-    if (drives + (goal || speed) + stop.has_value() > 1) {
-        element.fail("bad_value", "expected one command only: v and w, or goal and speed, or stop");
+std::optional<RobotCommand> command_in(const JsonElement& element, const Network& network,
+                                       NodeId robot) {
+    constexpr std::array<std::string_view, 8> keys = {"v",     "w",    "timeout", "goal",
+                                                      "speed", "stop", "place",   "heading"};
+    const auto [v, w, timeout, goal, speed, stop, place, heading] = members(element, keys);
+    const bool drives = v || w || timeout, goes = goal || speed, is_put = place || heading;
+    if (drives + goes + is_put + stop.has_value() > 1) {
+        element.fail("bad_value",
+                     "expected one command only: v and w, or goal and speed, or place and heading, "
+                     "or stop");
     }
     if (drives) return drive_of(v, w, timeout);
     if (stop) {
         if (!stop->truth()) stop->fail("bad_value", "expected \"stop\":true");
         return StopCommand{};
     }
-    if (!goal && !speed) return std::nullopt;
-    GoalCommand way{place_in(needed(goal, element, "goal", "\"goal\":[1,12]"))};
+    if (is_put) {
+        const JsonElement& there = needed(place, element, "place", "\"place\":[1,12]");
+        return PlaceCommand{place_in(there, network.position(robot).z),
+                            heading ? Radians{heading->number(any)} : network.heading(robot)};
+    }
+    if (!goes) return std::nullopt;
+    GoalCommand way{
+        place_in(needed(goal, element, "goal", "\"goal\":[1,12]"), network.position(robot).z)};
     if (speed) way.speed.value = speed->number(goal_speeds);
     return way;
 }
@@ -227,7 +239,8 @@ void read_do(const JsonElement& element, const Robots& robots, Commands& command
         for (const auto& [name, value] : element.object()) {
             const JsonElement one{value, {.above = &element.path, .key = name}};
             const NodeId robot = robots.own_robot(one, robots.named(one, name));
-            if (const auto command = command_in(one)) commands.emplace_back(robot, *command);
+            const auto command = command_in(one, robots.network, robot);
+            if (command) commands.emplace_back(robot, *command);
         }
     }
     std::stable_sort(commands.begin(), commands.end(),

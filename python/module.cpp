@@ -213,7 +213,12 @@ void add_commands(SessionClass& session) {
              "    nan leaves its robot as it is\n"
              "timeout: they stop after that time [s]; None: never")
         .def("go_to", &go_to, "robot"_a, "to"_a, "speed"_a = 1.0,
-             "Sends a robot to a place (x, y) [m], around the walls, at a speed [m/s].")
+             "Sends a robot to a place (x, y) or (x, y, z) [m], around the walls, at a speed "
+             "[m/s].\n"
+             "Without z it stays at its height.")
+        .def("place", &place, "robot"_a, "x"_a, "y"_a, "heading"_a = py::none(), "z"_a = py::none(),
+             "Puts a robot elsewhere as the next step begins, at rest: at (x, y, z) [m] with a\n"
+             "heading [rad]. None: the height, and the heading, that it has now.")
         .def("stop", stop, "robot"_a, "Stops a robot.")
         .def("send", &send, "robot"_a, "data"_a, "to"_a = py::none(), "port"_a = 0,
              "size"_a = py::none(),
@@ -230,6 +235,10 @@ void add_robots(SessionClass& session) {
             return s.network().medium().stations().is_on(robot);
         });
     };
+    const auto z = [](SessionObject& self) {
+        return by_robot<double>(
+            self, [](Session& s, NodeId robot) { return s.network().position(robot).z; });
+    };
     const auto stalled = [](SessionObject& self) {
         return by_robot<bool>(self, [](Session& s, NodeId robot) { return s.is_stalled(robot); });
     };
@@ -239,6 +248,7 @@ void add_robots(SessionClass& session) {
             "Names of all robots, by number.")
         .def_property_readonly("pose", &pose,
                                "(n, 3): x [m], y [m], heading [rad]. A view, which steps update.")
+        .def_property_readonly("z", z, "(n,): height [m].")
         .def_property_readonly("twist", &twist, "(n, 2): speed [m/s], turn rate [rad/s].")
         .def_property_readonly("on", on, "(n,): the radio is on.")
         .def_property_readonly("stalled", stalled, "(n,): the robot was told to drive and cannot.")

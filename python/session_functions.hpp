@@ -40,14 +40,27 @@ inline void drive(SessionObject& session, const py::object& velocities,
                         duration_in(timeout));
 }
 
+inline RobotState state_of(SessionObject& session, std::size_t row) {
+    return session.network().robot(session.run().robots()[row]);
+}
+
 inline void go_to(SessionObject& session, const std::string& robot, const std::vector<double>& to,
                   double speed) {
     if (to.size() != 2 && to.size() != 3) {
         throw py::value_error(
-            fmt::format("go_to: expected a place (x, y), got {} numbers", to.size()));
+            fmt::format("go_to: expected a place (x, y) or (x, y, z), got {} numbers", to.size()));
     }
-    session.run().command(session.row(robot),
-                          GoalCommand{{to[0], to[1], to.size() == 3 ? to[2] : 0}, {speed}});
+    const std::size_t row = session.row(robot);
+    const double z = to.size() == 3 ? to[2] : state_of(session, row).at.z;
+    session.run().command(row, GoalCommand{{to[0], to[1], z}, {speed}});
+}
+
+inline void place(SessionObject& session, const std::string& robot, double x, double y,
+                  const std::optional<double>& heading, const std::optional<double>& z) {
+    const std::size_t row = session.row(robot);
+    const RobotState now = state_of(session, row);
+    session.run().command(
+        row, PlaceCommand{{x, y, z.value_or(now.at.z)}, {heading.value_or(now.heading.value)}});
 }
 
 inline std::int64_t whole_in(std::string_view what, std::int64_t number) {

@@ -17,11 +17,18 @@ double number_in(const std::optional<JsonElement>& member, const Range& range) {
     return member ? member->number(range) : 0;
 }
 
-/// A geometry_msgs/Vector3 or Point.
+/// A geometry_msgs/Vector3.
 Vec3 vector_in(const std::optional<JsonElement>& element, const Range& range) {
     if (!element) return {};
     const auto [x, y, z] = members(*element, std::array<std::string_view, 3>{"x", "y", "z"});
     return {number_in(x, range), number_in(y, range), number_in(z, range)};
+}
+
+/// A geometry_msgs/Point; without z, at the height given [m].
+Vec3 place_in(const JsonElement& point, double height) {
+    const auto [x, y, z] = members(point, std::array<std::string_view, 3>{"x", "y", "z"});
+    return {number_in(x, goal_places), number_in(y, goal_places),
+            z ? z->number(goal_places) : height};
 }
 
 /// Heading that a geometry_msgs/Quaternion gives; none for one that is all 0.
@@ -127,9 +134,8 @@ PlaceCommand read_place(const JsonElement& pose, NodeId robot, const Network& ne
     const auto [position, orientation] =
         members(pose, std::array<std::string_view, 2>{"position", "orientation"});
     const JsonElement& point = needed(position, pose, "position", R"("position":{"x":1,"y":2})");
-    const Vec3 at = vector_in(point, goal_places);
     const auto heading = heading_in(orientation);
-    return {{at.x, at.y, network.position(robot).z}, heading.value_or(network.heading(robot))};
+    return {place_in(point, network.position(robot).z), heading.value_or(network.heading(robot))};
 }
 
 std::pair<RobotCommand, std::string> read_input(const JsonElement& message, const RosTopic& topic,

@@ -8,7 +8,8 @@
 #include <string>
 #include <utility>
 
-// Messages of ROS clients as commands of a session. Members that are left out are 0, as in ROS.
+// Messages of ROS clients as commands of a session. Members that are left out are 0, as in ROS, but
+// for those of a pose.
 // Limits: 1,000 m/s and 1,000 rad/s, 1e9 m, data of 65,535 bytes.
 
 namespace rovernet {
@@ -25,7 +26,8 @@ SendCommand read_send(const JsonElement& message, NodeId robot, const Network& n
 /// Robot of that name. @throws RequestError "unknown_robot"
 NodeId read_robot(const JsonElement& name, const Network& network);
 
-/// Command that puts a robot into a geometry_msgs/Pose. Without an orientation it keeps its own.
+/// Command that puts a robot into a geometry_msgs/Pose. Without an orientation, or without the z of
+/// its position, it keeps its own.
 PlaceCommand read_place(const JsonElement& pose, NodeId robot, const Network& network);
 
 }  // namespace rovernet

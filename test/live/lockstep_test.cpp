@@ -134,6 +134,12 @@ TEST_CASE("lockstep: each malformed line has its code and its place, and changes
         {R"({"type":"step","n":1,"do":{"A":{"goal":[1,2],"speed":0}}})", "out_of_range do.A.speed"},
         {R"({"type":"step","n":1,"do":{"A":{"speed":1}}})", "missing_key do.A.goal"},
         {R"({"type":"step","n":1,"do":{"A":{"stop":false}}})", "bad_value do.A.stop"},
+        {R"({"type":"step","n":1,"do":{"A":{"goal":[1,2,1e10]}}})", "out_of_range do.A.goal[2]"},
+        {R"({"type":"step","n":1,"do":{"A":{"heading":1}}})", "missing_key do.A.place"},
+        {R"({"type":"step","n":1,"do":{"A":{"place":[1,2,3,4]}}})", "bad_value do.A.place"},
+        {R"({"type":"step","n":1,"do":{"A":{"place":[1,2],"heading":"N"}}})",
+         "bad_type do.A.heading"},
+        {R"({"type":"step","n":1,"do":{"A":{"place":[1,2],"goal":[1,2]}}})", "bad_value do.A"},
         {R"({"type":"step","n":1,"do":{"A":{"v":1,"timeout":"0 s"}}})",
          "out_of_range do.A.timeout"},
         {R"({"type":"step","n":1,"do":{"A":{"v":1},"A":{"v":2}}})", "repeated_robot do"},
@@ -240,6 +246,74 @@ TEST_CASE("lockstep: robots are one controller's, and columns say what objects s
         CHECK(columns.at("state").at(key)[1] == state.at("robots").at("A").at(key));
     }
     CHECK(lists.fingerprint->text() == objects.fingerprint->text());
+}
+
+TEST_CASE("lockstep: a robot is put elsewhere, at rest, as it is told or as it was") {
+    Talk talk(three_in_a_row());
+    talk.say(0, hello_a);
+    talk.say(0, step(1, R"(,"do":{"A":{"v":1,"w":0.5}})"));
+    const auto state = [&](const std::string& answer) {
+        const Json robot = Json::parse(answer).at("robots").at("A");
+        return std::tuple(robot.at("x").get<double>(), robot.at("y").get<double>(),
+                          robot.value("z", 0.0), robot.at("heading").get<double>(),
+                          robot.at("v").get<double>());
+    };
+    using State = std::tuple<double, double, double, double, double>;
+    CHECK(state(talk.ask(0, step(2, R"(,"do":{"A":{"place":[7,-8]}})"))) ==
+          State{7, -8, 0, 0.05, 0});
+    CHECK(state(talk.ask(0, step(3, R"(,"do":{"A":{"place":[1,2,5],"heading":-1.5}})"))) ==
+          State{1, 2, 5, -1.5, 0});
+    CHECK(state(talk.ask(0, step(4, R"(,"do":{"A":{"place":[0,0]}})"))) == State{0, 0, 5, -1.5, 0});
+}
+
+TEST_CASE("lockstep: a robot goes up the stairs by its goals, and heights are told") {
+    Talk talk(load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {}));
+    const Json welcome = Json::parse(talk.ask(
+        0, R"({"type":"hello","protocol":1,"robots":["courier","landing"],"step":"100 ms"})"));
+    CHECK(welcome.at("robots").at("courier").at("z") == 0);
+    CHECK(welcome.at("robots").at("landing").at("z") == 3);
+    CHECK(welcome.at("map").at("floors") ==
+          Json::parse(R"([{"height":0,"image":"ground.png"},{"height":3,"image":"upper.png"}])"));
+    int n = 0;
+    const auto go = [&](const std::string& more) {
+        return Json::parse(talk.ask(0, step(++n, more))).at("robots").at("courier");
+    };
+    const auto is_at = [](const Json& robot, double x, double y) {
+        return robot.at("x") == x && robot.at("y") == y;
+    };
+    Json courier = go(R"(,"do":{"courier":{"goal":[5.5,8.4]}})");
+    while (!is_at(courier, 5.5, 8.4)) {
+        CHECK(courier.at("z") == 0);
+        courier = go("");
+    }
+    courier = go(R"(,"do":{"courier":{"goal":[9.5,8.4,3]}})");  // 5 m in space, at 1 m/s
+    for (int i = 1; i <= 50; ++i, courier = go("")) {
+        constexpr double rounding = 1e-9;  // [m]
+        CHECK(std::abs(courier.at("z").get<double>() - 3.0 * i / 50) < rounding);
+    }
+    courier = go(R"(,"do":{"courier":{"goal":[13.2,2]}})");
+    while (!is_at(courier, 13.2, 2)) {
+        CHECK(courier.at("z") == 3);  // it stays on its storey
+        courier = go("");
+    }
+    CHECK(n < 270);
+    CHECK(talk.session->network().position(*talk.session->network().find("courier")) ==
+          Vec3{13.2, 2, 3});
+}
+
+TEST_CASE("lockstep: without storeys heights are told where one is not 0") {
+    Talk objects(three_in_a_row()), lists(three_in_a_row());
+    objects.say(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s"})");
+    lists.say(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s","columns":true})");
+    CHECK(Json::parse(objects.told[0].back()).at("map").is_null());
+    const std::string flat = R"(,"do":{"A":{"goal":[1,0]}})";
+    CHECK_FALSE(Json::parse(objects.ask(0, step(1, flat))).at("robots").at("A").contains("z"));
+    CHECK_FALSE(Json::parse(lists.ask(0, step(1, flat))).at("state").contains("z"));
+    const std::string up = R"(,"do":{"A":{"goal":[1,0,1]}})";
+    const Json state = Json::parse(objects.ask(0, step(2, up)));
+    CHECK(state.at("robots").at("A").at("z") == 1);
+    CHECK_FALSE(state.at("robots").at("B").contains("z"));
+    CHECK(Json::parse(lists.ask(0, step(2, up))).at("state").at("z") == Json{1, 0});
 }
 
 TEST_CASE("lockstep: a run ends when its time is over, and begins anew by a reset") {

@@ -42,6 +42,8 @@ std::string by_steps(const Scenario& scenario, std::optional<std::uint64_t> seed
         }
         run.drive(std::vector<double>{0.1 * n, 0.3, nan, nan, -1, 0});
         if (n == 5) run.command(1, GoalCommand{{100, 10, 0}, {2}});
+        if (n == 8) run.command(1, PlaceCommand{{120, 5, 1.5}, {-0.75}});
+        if (n == 9) run.command(1, GoalCommand{{120, 5, 0}, {1}});
         step(run);
         run.heard();
     }
@@ -61,6 +63,8 @@ std::string by_lines(const Scenario& scenario, std::optional<std::uint64_t> seed
         line["do"]["A"] = Json{{"v", 0.1 * n}, {"w", 0.3}};
         line["do"]["C"] = Json{{"v", -1}};
         if (n == 5) line["do"]["B"] = Json{{"goal", {100, 10}}, {"speed", 2}};
+        if (n == 8) line["do"]["B"] = Json{{"place", {120, 5, 1.5}}, {"heading", -0.75}};
+        if (n == 9) line["do"]["B"] = Json{{"goal", {120, 5, 0}}};
         talk.say(0, line.dump());
     }
     talk.say(0, R"({"type":"bye"})");
@@ -93,7 +97,7 @@ TEST_CASE("stepped run: its log of inputs makes the run again") {
     const InputReplay replay = replay_inputs(folder.path("run"), {});
     CHECK(replay.recorded == fingerprint);
     CHECK(replay.now == fingerprint);
-    CHECK(replay.inputs == 15 * 2 + 5 * 2 + 1 + 3);  // drives, messages, a goal, stops at the end
+    CHECK(replay.inputs == 15 * 2 + 5 * 2 + 3 + 3);  // drives, messages, goals and a place, stops
     CHECK_FALSE(replay.is_other_scenario);
 }
 

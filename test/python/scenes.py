@@ -10,6 +10,7 @@ COMMAND = os.environ["ROVERNET_COMMAND"]
 TREE = Path(__file__).resolve().parents[2]
 RESCUE = TREE / "examples/rescue/rescue.toml"
 SEARCH = TREE / "examples/search/search.toml"
+STOREYS = TREE / "examples/storeys/storeys.toml"
 
 ROW = {
     "scenario": {"name": "row", "duration": "2 s"},

@@ -14,7 +14,7 @@ import weakref
 import numpy as np
 
 import rovernet as rn
-from scenes import COMMAND, ROW, SEARCH, FolderTest, command, still
+from scenes import COMMAND, ROW, SEARCH, STOREYS, FolderTest, command, still
 
 CONTROLLER = """
 import base64, json, sys
@@ -111,6 +111,36 @@ class Steps(unittest.TestCase):
         session.stop("r0")
         session.step()
         np.testing.assert_allclose(session.pose[0, :2], [1.2, 1.6], atol=1e-9)
+
+    def test_a_robot_goes_up_the_stairs(self):
+        session = rn.Session(STOREYS, robots=["courier", "landing"])
+        self.assertEqual(session.z.tolist(), [0, 3])
+
+        def go(*to):
+            session.go_to("courier", to)
+            for _ in range(150):
+                session.step()
+                yield session.z[0]
+                if session.pose[0, :2].tolist() == list(to[:2]):
+                    return
+        self.assertEqual(set(go(5.5, 8.4)), {0})
+        stairs = list(go(9.5, 8.4, 3))  # 5 m in space, at 1 m/s
+        np.testing.assert_allclose(stairs, 3 * np.arange(1, 51) / 50, atol=1e-9)
+        self.assertEqual(set(go(13.2, 2)), {3})
+
+    def test_a_robot_is_put_elsewhere(self):
+        session = rn.Session(still(2))
+        session.drive([[1, 0.5], [0, 0]])
+        session.step()
+        session.place("r0", 7, -8)
+        session.place("r1", 1, 2, heading=-1.5, z=5)
+        self.assertNotEqual(session.pose[0, 0], 7)  # it holds from the next step on
+        session.step()
+        self.assertEqual((session.pose[0].tolist(), session.z.tolist()), ([7, -8, 0.05], [0, 5]))
+        self.assertEqual((session.pose[1].tolist(), session.twist[0].tolist()), ([1, 2, -1.5], [0, 0]))
+        session.place("r1", 3, 4)
+        session.step()
+        self.assertEqual((session.pose[1].tolist(), session.z[1]), ([3, 4, -1.5], 5))
 
     def test_messages_are_heard_with_their_way(self):
         session = rn.Session(ROW, robots=["C", "B"])
@@ -248,6 +278,8 @@ class BadInput(unittest.TestCase):
         self.refused("size must be from 0 to 65535, got -1", self.session.send, "A", b"", size=-1)
         self.refused("65536 bytes", self.session.send, "A", bytes(65536))
         self.refused("speed of robot A must be above 0", self.session.go_to, "A", (1, 2), speed=0)
+        self.refused("place of robot A must be from -1e9 to 1e9 m, got nan", self.session.place, "A", 1, np.nan)
+        self.refused("heading of robot A must be", self.session.place, "A", 1, 2, heading=np.inf)
         self.refused("1 us or more", rn.Session, ROW, step=0)
         self.refused("292 years", rn.Session, ROW, step=float("nan"))
         self.session.step()
@@ -262,7 +294,7 @@ class BadInput(unittest.TestCase):
 
     def test_types(self):
         for use in (lambda: self.session.send("A", "text"), lambda: self.session.send("A", None),
-                    lambda: self.session.go_to("A", "there"), lambda: self.session.stop(0),
+                    lambda: self.session.go_to("A", "there"), lambda: self.session.place("A", (1, 2)), lambda: self.session.stop(0),
                     lambda: self.session.reset("seed"), lambda: self.session.reset(-1),
                     lambda: rn.Session(ROW, robots="A B")):
             with self.assertRaises((TypeError, ValueError)):

@@ -391,6 +391,44 @@ TEST_CASE("rosbridge: a robot goes to a goal, and is put elsewhere") {
     CHECK(std::abs(talk.session.network().heading({0}).value - std::numbers::pi / 2) < exact);
 }
 
+TEST_CASE("rosbridge: a robot goes up the stairs, and odometry and transforms have its height") {
+    RosTalk talk(load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {}));
+    const NodeId courier = *talk.session.network().find("courier");
+    const auto pose = [](double x, double y, std::optional<double> z = {}) {
+        Json position{{"x", x}, {"y", y}};
+        if (z) position["z"] = *z;
+        return Json{{"pose", {{"position", position}}}};
+    };
+    talk.subscribe("/courier/odom");
+    talk.subscribe("/tf");
+    talk.publish("/courier/goal_pose", pose(5.5, 8.4, 0));
+    talk.run_until(7s);
+    talk.publish("/courier/goal_pose", pose(9.5, 8.4, 3));  // 5 m in space, at 1 m/s
+    talk.told();
+    talk.run_until(12s);
+    int count = 0;
+    for (const Json& each : talk.told()) {
+        const Json& message = each["msg"];
+        const bool is_odometry = each["topic"] == "/courier/odom";
+        const Json stamped = is_odometry ? message : message["transforms"][courier.value];
+        const Json at =
+            is_odometry ? stamped["pose"]["pose"]["position"] : stamped["transform"]["translation"];
+        const double risen = 0.6 * (stamp(stamped["header"]["stamp"]) - 7);  // [m]
+        CHECK(std::abs(at["z"].get<double>() - risen) < exact);
+        ++count;
+    }
+    CHECK(count == 200);
+    talk.publish("/courier/goal_pose", pose(13.2, 2));
+    talk.run_until(24s);
+    CHECK(talk.session.network().position(courier) == Vec3{13.2, 2, 3});
+    const auto put = [&](const Json& where) {
+        talk.call("/simulation/set_pose", {{"name", "courier"}, {"pose", where["pose"]}});
+        return talk.session.network().position(courier);
+    };
+    CHECK(put(pose(12, 2)) == Vec3{12, 2, 3});
+    CHECK(put(pose(2.5, 3, 0)) == Vec3{2.5, 3, 0});
+}
+
 TEST_CASE("rosbridge: time stands still while it is paused, and goes on by steps") {
     RosTalk talk(three_in_a_row());
     talk.run_until(105ms);
