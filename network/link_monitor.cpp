@@ -30,6 +30,12 @@ void LinkMonitor::look_at(NodeId node) {
     expect_change();
 }
 
+void LinkMonitor::scene_changed() {
+    if (!watch_) return;
+    watch_->scene_changed(*world_.scene, world_.now);
+    expect_change();
+}
+
 /// Queues an event for the next link change, unless there is one that comes no later.
 void LinkMonitor::expect_change() {
     const Time next = std::max(watch_->next().value_or(never), world_.now);

@@ -33,6 +33,8 @@ class LinkMonitor {
     void added(NodeId node);
     /// Takes note that the node's leg or radio has changed just now.
     void look_at(NodeId node);
+    /// Takes note that the scene has changed just now.
+    void scene_changed();
     /// Serves the event of link changes: emits the records, and lets robots react 1 us later, in
     /// the order of their keys.
     void change_links();

@@ -2,6 +2,7 @@
 #include "network/link_watch.hpp"
 
 #include "models/medium/medium.hpp"
+#include "scene/scene_change.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +30,16 @@ void LinkWatch::grow(std::size_t robots) {
 
 void LinkWatch::start(Time now) {
     grow(settings_.legs->size());
+    look_at_all(now);
+}
+
+void LinkWatch::scene_changed(const Scene& scene, Time now) {
+    settings_.scene = &scene;
+    walls_.reset();
+    look_at_all(now);
+}
+
+void LinkWatch::look_at_all(Time now) {
     for (std::uint32_t i = 0; i < robots_; ++i)
         for (std::uint32_t j = 0; j < robots_; ++j) look_at(NodeId{i}, NodeId{j}, now);
     drop_stale();
@@ -60,7 +71,10 @@ void LinkWatch::look_at(NodeId from, NodeId to, Time now) {
 void LinkWatch::search(NodeId from, NodeId to, Time after) {
     constexpr int most_looks = 65536;  // in one go, see next_link_change
     const Legs& legs = *settings_.legs;
-    const Time ends = std::min(legs.leg(from).end, legs.leg(to).end);
+    // What comes with another scene is looked for when that has come.
+    const Time next_scene = next_change(settings_.medium->settings().scene_changes, after);
+    const Time scene_ends = next_scene == never ? never : next_scene - Duration{1};
+    const Time ends = std::min({legs.leg(from).end, legs.leg(to).end, scene_ends});
     Time until = ends;
     if (settings_.medium->links().shape(from, to, after, legs) == LossShape::unknown) {
         const Duration most = never - after;

@@ -31,10 +31,10 @@ struct LinkChange {
 /// Watch over all links of a network: the state of every ordered pair of robots, and when it
 /// changes next.
 ///
-/// It must be told at once of every new leg and every switch; it tells when to call `advance`,
-/// which tells every change once, in the order of (time, from, to). A leg that ends must be
-/// replaced at its end. Links count as down before `start`. A new leg costs a search for each pair
-/// with that robot, see next_link_change; robots at rest cost nothing.
+/// It must be told at once of every new leg, every switch and every new scene; it tells when to
+/// call `advance`, which tells every change once, in the order of (time, from, to). A leg that ends
+/// must be replaced at its end. Links count as down before `start`. A new leg costs a search for
+/// each pair with that robot, see next_link_change; robots at rest cost nothing.
 ///
 /// A pair takes 9 bytes and 16 more while a change is pending: 225 MB for 5000 robots, the most it
 /// watches.
@@ -49,7 +49,7 @@ class LinkWatch {
         const Medium* medium = nullptr;
         /// Legs of the same nodes; not null.
         const Legs* legs = nullptr;
-        /// Scene of the medium; not null.
+        /// Scene of the medium now; not null.
         const Scene* scene = nullptr;
         /// Precision of the search.
         LinkSearch search = {};
@@ -64,6 +64,8 @@ class LinkWatch {
     void start(Time now);
     /// Takes note that the robot's leg was replaced at `now`, or its radio switched on or off.
     void changed(NodeId node, Time now) { look_at(node, now); }
+    /// Takes note that the scene of the medium is another one from `now` on: looks at all pairs.
+    void scene_changed(const Scene& scene, Time now);
     /// Takes note of one more robot, the last, in medium and legs.
     /// @throws RunError if there are too many robots
     void added(NodeId node, Time now);
@@ -101,7 +103,8 @@ class LinkWatch {
 
     // Makes room for the pairs of so many robots.
     void grow(std::size_t robots);
-    // Looks anew at all pairs of a robot, or at one of them.
+    // Looks anew at all pairs, at all of a robot, or at one of them.
+    void look_at_all(Time now);
     void look_at(NodeId node, Time now);
     void look_at(NodeId from, NodeId to, Time now);
     // Searches for the next change of a pair, and expects it.

@@ -31,7 +31,9 @@ struct Occurrence {
         /// A link changes, or has to be looked at; see LinkMonitor. `node` means nothing.
         link_change,
         /// A timer of the access model at `node`; data: the model's tag.
-        access_timer
+        access_timer,
+        /// A door closes or opens: the scene is another one from now on. `node` means nothing.
+        scene_change
     };
     Kind kind;
     /// Node that it concerns, if it concerns one.

@@ -8,6 +8,7 @@
 #include "models/reception/judge.hpp"
 #include "models/variation/fading.hpp"
 #include "models/variation/shadowing.hpp"
+#include "scene/scene_change.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 #include "traces/metric_values.hpp"
@@ -16,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace rovernet {
 
@@ -39,6 +41,9 @@ struct NetworkSettings {
     Fading fading = {};
     /// Scene with walls; null: an open field.
     std::shared_ptr<const Scene> scene = nullptr;
+    /// Scenes that follow it, in ascending order of time, see scene_changes(). Robots plan their
+    /// ways in `scene`, where all doors are open.
+    std::vector<SceneChange> scene_changes = {};
     /// Planners of the scene, if some are kept from an earlier run in it; see KeptPlanners.
     std::shared_ptr<Planners> planners = nullptr;
     /// Height of one storey [m], for losses by floor.

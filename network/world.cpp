@@ -21,6 +21,7 @@ World::World(NetworkSettings given)
       scene(settings.scene ? settings.scene.get() : &open_field()),
       planners(settings.planners ? settings.planners : std::make_shared<Planners>(*scene)),
       medium({.scene = scene,
+              .scene_changes = settings.scene_changes,
               .floor_height = settings.floor_height,
               .propagation_delay = settings.propagation_delay,
               .all_pairs = settings.reference,
@@ -39,6 +40,26 @@ World::World(NetworkSettings given)
     for (const Duration d : {settings.links.tolerance, settings.links.min_dwell}) {
         if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
     }
+    // Scheduled before anything else: a change comes before all else that is due at its time.
+    for (Time last{start_of_run - Duration{1}};
+         const SceneChange& change : settings.scene_changes) {
+        if (change.time <= std::exchange(last, change.time) || !change.scene) {
+            throw std::invalid_argument(
+                "network: scene_changes must be scenes in ascending order of time");
+        }
+        if (change.time == start_of_run) {
+            change_scene();
+        } else {
+            events.schedule(change.time, Priority::frame_end,
+                            {Occurrence::Kind::scene_change, NodeId{0}, 0});
+        }
+    }
+}
+
+void World::change_scene() {
+    const SceneChange& change = *last_change(settings.scene_changes, now);
+    scene = change.scene.get();
+    doors = change.doors.get();
 }
 
 void World::schedule(Time time, Callback<> call, Duration period) {

@@ -7,6 +7,7 @@
 #include "network/network.hpp"
 #include "network/occurrence.hpp"
 #include "network/recorder.hpp"
+#include "scene/scene.hpp"
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
 #include "sim/random.hpp"
@@ -72,11 +73,18 @@ struct World {
     /// a period.
     void act(std::size_t slot);
 
+    /// Goes on to the next scene of the settings, whose time has come.
+    void change_scene();
+
     /// Settings as they were given.
     NetworkSettings settings;
-    /// Scene of the settings, or an open field; never null.
+    /// Scene now: that of the settings, or an open field, and later those that follow it; never
+    /// null.
     const Scene* scene;
-    /// Ways around the walls of the scene, shared with other runs if the settings say so.
+    /// Closed doors of the scene now; null: none.
+    const ClosedDoors* doors = nullptr;
+    /// Ways around the walls of the settings' scene, whose doors are open; shared with other runs
+    /// if the settings say so.
     std::shared_ptr<Planners> planners;
     /// Time of the event that is served, and end of the current run_until().
     Time now = start_of_run, end_of_run = start_of_run;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/scene_table.hpp"
 #include "scenario/toml.hpp"
+#include "scene/doors.hpp"
 #include "scene/occupancy.hpp"
 #include "scene/stage/stage_walls.hpp"
 
@@ -60,6 +61,7 @@ struct Pixels {
 void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view map,
                  std::vector<std::string>& notices) {
     if (pixels.walls == pixels.all && pixels.all > 0) return;
+    if (!material.has_walls()) return;  // it is for doors
     const bool has_grey = material.grey || material.greys;
     if (!has_grey) {
         return notices.push_back(
@@ -166,6 +168,25 @@ Material made_of(const CeilingTable& table) {
     return ceiling;
 }
 
+/// Checks that a door lies within the maps, on one storey.
+void check_place(const Door& door, const DoorTable& table, const Scene& scene) {
+    const std::string name = table.name ? fmt::format("door \"{}\"", *table.name) : "door";
+    const Storeys& storeys = scene.storeys();
+    if (storeys.number_at(door.from.z) != storeys.number_at(door.to.z)) {
+        throw InputError(table.where, name + ": its ends are on two storeys; expected both on one");
+    }
+    const Scene& storey = scene.storey_at(door.from.z);
+    for (const Vec3 corner : door.corners()) {
+        if (storey.inside_map(corner)) continue;
+        const Vec3 low = storey.lower_left(), high = storey.upper_right();
+        throw InputError(
+            table.where,
+            fmt::format("{}: its corner at ({:.3f}, {:.3f}) m lies off the map; "
+                        "expected a door between ({:.3f}, {:.3f}) and ({:.3f}, {:.3f})",
+                        name, corner.x, corner.y, low.x, low.y, high.x, high.y));
+    }
+}
+
 }  // namespace
 
 WorldOptions world_options(const SceneTable& scene, const std::string& file) {
@@ -220,6 +241,7 @@ std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::stri
             material.height = *scene.wall_height;
     }
     for (const MaterialTable& table : scene.materials) {
+        if (!table.has_walls()) continue;
         const bool used = std::any_of(walls.materials.begin(), walls.materials.end(),
                                       [&](const Material& m) { return table.color == m.name; });
         if (used) continue;
@@ -228,6 +250,32 @@ std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::stri
     }
     if (walls.grids.empty()) return nullptr;
     return std::make_shared<const Scene>(std::move(walls.grids), std::move(walls.materials));
+}
+
+std::vector<SceneChange> load_doors(const SceneTable& scene,
+                                    const std::shared_ptr<const Scene>& open) {
+    std::vector<Door> doors;
+    for (const DoorTable& table : scene.doors) {
+        Door door{.from = table.from,
+                  .to = table.to,
+                  .thickness = table.thickness,
+                  .closes = table.closes,
+                  .opens = table.opens};
+        if (!open) {
+            throw InputError(table.where,
+                             "door: the scene is an open field; expected also a map, "
+                             "floors or a world with walls for the door");
+        }
+        check_place(door, table, *open);
+        const auto named =
+            std::find_if(scene.materials.begin(), scene.materials.end(),
+                         [&](const MaterialTable& m) { return m.name == table.material; });
+        const bool usual = named == scene.materials.end();
+        door.material = made_of(usual ? MaterialTable{} : *named, scene.wall_height);
+        if (usual) door.material.name = "wall";
+        doors.push_back(std::move(door));
+    }
+    return scene_changes(open, doors);
 }
 
 }  // namespace rovernet

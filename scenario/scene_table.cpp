@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rovernet {
 namespace {
 
@@ -29,14 +31,37 @@ MaterialTable read_material(const Entry& entry) {
     check_printable(name, "material", entry.key);
     check_greys(material, table);
     if (material.grey && material.greys) table.only_one_of("grey", "greys");
-    if (!material.grey && !material.greys && !material.color) {
-        table.missing("grey", "grey = 100, greys = [90, 110], or color = \"red\"");
-    }
     if (material.itu && !material.thickness) table.missing("thickness", "thickness = \"0.1 m\"");
     if (material.thickness && !material.itu) table.missing("itu", "itu = \"brick\"");
     if (material.itu && material.per_crossing) table.only_one_of("itu", "per_crossing");
     if (material.itu && material.per_metre) table.only_one_of("itu", "per_metre");
     return material;
+}
+
+/// Checks that a material has walls, or doors.
+void check_use(const MaterialTable& material, const SceneTable& scene, const Value& value) {
+    const bool has_doors =
+        std::any_of(scene.doors.begin(), scene.doors.end(),
+                    [&](const DoorTable& door) { return door.material == material.name; });
+    if (material.has_walls() || has_doors) return;
+    TableReader table(value, fmt::format("material \"{}\"", material.name));
+    MaterialTable known;
+    table.read_fields(known);
+    table.missing("grey", "grey = 100, greys = [90, 110], color = \"red\", or a door of it");
+}
+
+/// Checks that the materials of doors are there.
+void check_doors(const SceneTable& scene) {
+    for (const DoorTable& door : scene.doors) {
+        if (!door.material) continue;
+        std::vector<std::string> names;
+        for (const MaterialTable& material : scene.materials) names.push_back(material.name);
+        if (std::find(names.begin(), names.end(), *door.material) != names.end()) continue;
+        const std::string near = did_you_mean(*door.material, names);
+        throw InputError(door.material_where,
+                         fmt::format("material: found \"{}\"; expected one of [scene.materials]{}",
+                                     *door.material, near.empty() ? "" : "; " + near));
+    }
 }
 
 void check_size(const SceneTable& scene, TableReader& table) {
@@ -81,6 +106,7 @@ SceneTable read_scene(const Value& value) {
     SceneTable scene;
     table.read_fields(scene);
     if (const Value* floors = table.take("floor")) scene.floors = read_floors(*floors);
+    if (const Value* doors = table.take("door")) scene.doors = read_doors(*doors);
     const Value* materials = table.take("materials");
     table.reject_unknown();
     check_floors(scene, table);
@@ -91,8 +117,10 @@ SceneTable read_scene(const Value& value) {
     if (materials) {
         for (const Entry& entry : TableReader(*materials, "[scene.materials]").table().entries) {
             scene.materials.push_back(read_material(entry));
+            check_use(scene.materials.back(), scene, entry.value);
         }
     }
+    check_doors(scene);
     return scene;
 }
 
@@ -104,6 +132,7 @@ Table scene_document(const SceneTable& scene) {
         std::erase_if(table.entries, [](auto& e) { return e.key == "floor_height"; });
         table.set("floor", floors_document(scene.floors));
     }
+    if (!scene.doors.empty()) table.set("door", doors_document(scene.doors));
     Table materials;
     for (const MaterialTable& material : scene.materials) {
         Table each;

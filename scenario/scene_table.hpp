@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scenario/door_table.hpp"
 #include "scenario/floor_table.hpp"
 #include "scenario/value.hpp"
 #include "scene/material.hpp"
 #include "scene/scene.hpp"
+#include "scene/scene_change.hpp"
 #include "scene/stage/worldfile.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
@@ -60,6 +62,8 @@ struct MaterialTable {
             field("thickness", &MaterialTable::thickness, positive, "of the slab"),
             field("height", &MaterialTable::height, positive, "of its walls"));
     }
+    /// Whether it says which walls are made of it; else it is for doors.
+    bool has_walls() const { return grey || greys || color; }
     /// Whether walls of this grey level are made of it.
     bool has_grey(int level) const {
         return grey == level || (greys && (*greys)[0] <= level && level <= (*greys)[1]);
@@ -89,6 +93,8 @@ struct SceneTable {
     std::optional<Meters> wall_height;
     /// Materials in their order: the first that fits a wall counts.
     std::vector<MaterialTable> materials = {};
+    /// Doors, in the order of the file.
+    std::vector<DoorTable> doors = {};
     /// Place of the key `map` or `world`.
     Location map_where = {};
 
@@ -137,5 +143,11 @@ std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string
 /// @throws InputError with its place in the world
 std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::string& file,
                                         const WorldFile& world, std::vector<std::string>& notices);
+
+/// Changes of a scene by its doors; none if it has none.
+/// @param open  what load_map() or load_walls() gave
+/// @throws InputError for a door that lies off the map, or on two storeys
+std::vector<SceneChange> load_doors(const SceneTable& scene,
+                                    const std::shared_ptr<const Scene>& open);
 
 }  // namespace rovernet

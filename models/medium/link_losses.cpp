@@ -12,7 +12,7 @@ LinkBatch LinkLosses::batch(NodeId from, Vec3 origin, Time t, std::uint64_t fram
             .to = {},
             .from_key = stations_.key(from),
             .to_keys = {},
-            .scene = settings_.scene,
+            .scene = &settings_.scene_at(t),
             .floor_height = settings_.floor_height,
             .seed = settings_.seed,
             .replication = settings_.replication,
@@ -62,7 +62,7 @@ Db LinkLosses::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const
 double LinkLosses::of_frame(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t,
                             std::uint64_t frame, Db give_up) const {
     const Db most = give_up + most_fade();
-    const auto known = recent_.find({from, to, here, there}, most);
+    const auto known = recent_.find({from, to, here, there, &settings_.scene_at(t)}, most);
     return faded(known ? *known : mean(from, to, here, there, t, frame, most), from, to, here,
                  there, frame);
 }

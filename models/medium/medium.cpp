@@ -174,6 +174,8 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
                            std::uint64_t frame) {
     stations_.measure(legs);  // the reach depends on it
     const Radio& mine = stations_.kinds().radio(stations_.kind(from));
+    const Scene& scene = settings_.scene_at(t);
+    if (std::exchange(pairs_of_, &scene) != &scene) pairs_.forget_all();
     const bool fixed = settings_.keep_losses && !settings_.all_pairs && rests(legs.leg(from), t);
     candidates_.clear();
     visit(from, stations_.kinds().squared_reach(stations_.kind(from), strength), t, legs,
@@ -193,7 +195,7 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
                                    from, pairs_, links_.most_fade());
     const bool keeps = links_.keeps(stations_.model(from).shape());
     for (const Candidate& c : candidates_.all()) {
-        if (keeps) links_.keep({from, c.node, origin_, c.antenna}, told, c.loss_db);
+        if (keeps) links_.keep({from, c.node, origin_, c.antenna, &scene}, told, c.loss_db);
         const double loss_db = links_.faded(c.loss_db, from, c.node, origin_, c.antenna, frame);
         if (loss_db > c.budget_db) continue;
         const auto budget = [&] {

@@ -27,7 +27,7 @@ namespace rovernet {
 
 /// Medium between radios: who hears a transmission, and when. The transmitter's propagation model
 /// rules. Everything about a frame is fixed at its start: who is on, where everybody is, at what
-/// level.
+/// level, and the scene between them.
 ///
 /// Its parts answer for themselves: stations() who is there, links() what one link loses,
 /// arrivals() how a frame arrives at one node. Times must not decrease from one search to the next.
@@ -165,6 +165,8 @@ class Medium {
     // Nodes by their places, and losses of pairs at rest.
     NeighbourIndex index_;
     PairCache pairs_;
+    // Scene that the losses of pairs are in.
+    const Scene* pairs_of_ = nullptr;
     // Shares of draws_, by place in the index, if tables decide; number of the index's bin that
     // they belong to.
     std::vector<std::uint64_t> shares_;

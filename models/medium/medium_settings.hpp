@@ -3,10 +3,13 @@
 
 #include "models/variation/fading.hpp"
 #include "models/variation/shadowing.hpp"
+#include "scene/scene_change.hpp"
+#include "sim/time.hpp"
 #include "sim/units.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 // What a medium needs to know of its network. World makes it of NetworkSettings.
 
@@ -18,6 +21,8 @@ class Scene;
 struct MediumSettings {
     /// Scene with its walls; not null; outlives the medium.
     const Scene* scene = nullptr;
+    /// Scenes that follow it, in ascending order of time; they outlive the medium.
+    std::span<const SceneChange> scene_changes = {};
     /// Height of one storey [m].
     Meters floor_height{3};
     /// A frame arrives distance / c after it is sent; otherwise at once.
@@ -37,6 +42,12 @@ struct MediumSettings {
     /// Seed and replication of random draws.
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
+
+    /// Scene at `t`.
+    const Scene& scene_at(Time t) const {
+        const SceneChange* change = scene_changes.empty() ? nullptr : last_change(scene_changes, t);
+        return change ? *change->scene : *scene;
+    }
 };
 
 }  // namespace rovernet

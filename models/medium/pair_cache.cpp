@@ -8,6 +8,10 @@ void PairCache::forget(NodeId node) {
     release(nodes_[node.index()]);
 }
 
+void PairCache::forget_all() {
+    for (Node& node : nodes_) release(node);
+}
+
 void PairCache::release(Node& node) {
     pairs_ -= node.pairs.capacity();
     node.pairs = {};

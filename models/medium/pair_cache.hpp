@@ -36,6 +36,8 @@ class PairCache {
     void moved(NodeId node) {
         if (node.index() < nodes_.size()) forget(node);
     }
+    /// Forgets all losses: the scene between the nodes has changed.
+    void forget_all();
 
     /// Makes find(), renew() and keep() be about a transmitter, which rests. Discards losses that
     /// were computed with a smaller cut-off than `give_up` [dB].

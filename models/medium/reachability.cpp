@@ -17,7 +17,8 @@ bool rests(const Leg& leg, bool by_heading) {
 }  // namespace
 
 bool Reachability::is_at_rest(const Now& now) {
-    if (std::exchange(answers_of_, now.medium.changes()) == now.medium.changes()) return at_rest_;
+    const std::pair state{now.medium.changes(), &now.medium.settings().scene_at(now.t)};
+    if (std::exchange(answers_of_, state) == state) return at_rest_;
     answers_.clear();
     const bool by_heading = now.medium.stations().is_directional();
     const auto moves = [&](NodeId node) { return !rests(now.legs.leg(node), by_heading); };

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 // The metric `reach` needs to know, with every message, how many robots any protocol could bring it
@@ -17,6 +18,7 @@
 namespace rovernet {
 
 class Medium;
+class Scene;
 
 /// Number of robots that a chain of links joins to a sender, for when it is asked for with every
 /// message. Applications have one.
@@ -89,8 +91,8 @@ class Reachability {
 
     // Answers by node, while nobody moves.
     std::vector<std::uint32_t> answers_;
-    // Medium::changes() when they were found.
-    std::uint64_t answers_of_ = ~std::uint64_t{0};
+    // Medium::changes() when they were found, and the scene then.
+    std::pair<std::uint64_t, const Scene*> answers_of_{~std::uint64_t{0}, nullptr};
     // Whether nobody moved then.
     bool at_rest_ = false;
     // Robot that moved lately: looked at first, whether it still does.

@@ -13,17 +13,20 @@
 
 namespace rovernet {
 
+class Scene;
+
 /// Losses that were computed last, one for each pair of a sender and a receiver: who judges a frame
 /// when it has ended needs the losses with which its receivers were found when it began.
 ///
 /// It holds 1024 pairs; of two that share a slot the later one. A loss is found again for the same
-/// places to the last bit, so that it is what the model would answer.
+/// places to the last bit in the same scene, so that it is what the model would answer.
 class RecentLosses {
   public:
     /// Link from one antenna to another.
     struct Link {
         NodeId from, to;
-        Vec3 here, there;  ///< antennas [m]
+        Vec3 here, there;              ///< antennas [m]
+        const Scene* scene = nullptr;  ///< scene between them
         friend bool operator==(const Link&, const Link&) = default;
     };
 

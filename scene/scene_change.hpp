@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/time.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+namespace rovernet {
+
+class ClosedDoors;
+class Scene;
+
+/// Change of the scene during a run: from `time` on it is another one. Each scene itself never
+/// changes, so that the scene is a function of time.
+struct SceneChange {
+    Time time;
+    /// Scene from then on; not null.
+    std::shared_ptr<const Scene> scene;
+    /// Its closed doors, which robots stop at; null: none.
+    std::shared_ptr<const ClosedDoors> doors;
+};
+
+/// Last of the changes that came by `t`; null if none did.
+/// @param changes  in ascending order of time
+inline const SceneChange* last_change(std::span<const SceneChange> changes, Time t) {
+    const auto next =
+        std::upper_bound(changes.begin(), changes.end(), t,
+                         [](Time time, const SceneChange& change) { return time < change.time; });
+    return next == changes.begin() ? nullptr : &*(next - 1);
+}
+
+/// Time of the first change after `t`; `never` if there is none.
+/// @param changes  in ascending order of time
+inline Time next_change(std::span<const SceneChange> changes, Time t) {
+    const auto next =
+        std::upper_bound(changes.begin(), changes.end(), t,
+                         [](Time time, const SceneChange& change) { return time < change.time; });
+    return next == changes.end() ? never : next->time;
+}
+
+}  // namespace rovernet
