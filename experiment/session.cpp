@@ -86,8 +86,10 @@ Session::Session(const Scenario& scenario, NetworkSettings settings)
       driven_(*network_) {
     populate(*network_, scenario);
     for (const RobotTable& table : scenario.robots) {
-        for (int i = 0; table.scan && i < table.count.value_or(1); ++i) {
-            range_finders_[*network_->find(table.name_of(i))] = *table.scan;
+        if (table.scan.empty()) continue;
+        const auto scanners = std::make_shared<const std::vector<Scanner>>(table.scan);
+        for (int i = 0; i < table.count.value_or(1); ++i) {
+            range_finders_[*network_->find(table.name_of(i))] = scanners;
         }
     }
 }
@@ -244,13 +246,13 @@ void Session::set_hearing(ClientId client, bool hears) {
     if (!hears) client_of(client).heard.clear();
 }
 
-const RangeFinder* Session::range_finder(NodeId robot) const {
+std::span<const Scanner> Session::range_finders(NodeId robot) const {
     const auto found = range_finders_.find(robot);
-    return found == range_finders_.end() ? nullptr : &found->second;
+    return found == range_finders_.end() ? std::span<const Scanner>{} : *found->second;
 }
 
-std::vector<double> Session::scan(NodeId robot) const {
-    const RangeFinder& finder = range_finders_.at(robot);
+std::vector<double> Session::scan(NodeId robot, std::size_t number) const {
+    const Scanner& scanner = range_finders_.at(robot)->at(number);
     std::vector<RoundBody> others;
     const auto storey_of = [&](Vec3 at) { return network_->scene().storeys().number_at(at.z); };
     const std::size_t storey = storey_of(network_->position(robot));
@@ -260,9 +262,9 @@ std::vector<double> Session::scan(NodeId robot) const {
         if (other != robot && is_there && storey_of(state.at) == storey)
             others.push_back({state.at, state.radius});
     }
-    std::vector<double> ranges(static_cast<std::size_t>(finder.beams));
-    finder.measure(network_->scene(), network_->position(robot), network_->heading(robot), others,
-                   ranges);
+    std::vector<double> ranges(scanner.size());
+    scanner.measure(network_->scene(), {network_->position(robot), network_->heading(robot)},
+                    others, ranges);
     return ranges;
 }
 

@@ -5,13 +5,14 @@
 #include "experiment/robot_command.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
-#include "scene/range_finder.hpp"
+#include "scene/scanner.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +51,7 @@ class Session {
     Session& operator=(const Session&) = delete;
 
     Network& network() { return *network_; }
+    const Network& network() const { return *network_; }
     /// The network, for somebody who keeps it longer than the session.
     std::shared_ptr<Network> shared_network() const { return network_; }
     Time end() const { return end_; }
@@ -110,12 +112,14 @@ class Session {
     /// Speed of a robot: as it is driven, or else that of its leg.
     Twist twist(NodeId robot) const { return driven_.twist(robot); }
 
-    /// Range finder that the scenario gives to a robot; null if it has none.
-    const RangeFinder* range_finder(NodeId robot) const;
-    /// Distances that a robot's range finder measures now [m], one for each beam: to walls, and to
-    /// the bodies of other robots. Only a call costs anything.
-    /// @throws std::out_of_range if it has none
-    std::vector<double> scan(NodeId robot) const;
+    /// Range finders that the scenario gives to a robot, in its order; they live as long as the
+    /// session.
+    std::span<const Scanner> range_finders(NodeId robot) const;
+    /// Distances that a range finder of a robot measures now [m], one for each beam: to walls, and
+    /// to the bodies of other robots. Only a call costs anything.
+    /// @param number  of the range finder
+    /// @throws std::out_of_range if it has none of that number
+    std::vector<double> scan(NodeId robot, std::size_t number = 0) const;
 
   private:
     static constexpr std::uint64_t every_event = ~std::uint64_t{0};
@@ -140,7 +144,8 @@ class Session {
     DrivenRobots driven_;
     std::map<ClientId, Client> clients_;
     std::map<NodeId, ClientId> drivers_;
-    std::map<NodeId, RangeFinder> range_finders_;
+    using Scanners = std::shared_ptr<const std::vector<Scanner>>;  // of all robots of a table
+    std::map<NodeId, Scanners> range_finders_;
     std::shared_ptr<Ears> ears_;  // null until a client comes
     std::function<void(const Input&)> tell_;
     ClientId next_client_ = 0;

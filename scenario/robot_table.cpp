@@ -4,6 +4,7 @@
 #include "mobility/movement.hpp"
 #include "models/link_gain.hpp"
 #include "scenario/located.hpp"
+#include "scenario/scan_table.hpp"
 #include "scenario/scenario.hpp"
 
 #include <fmt/format.h>
@@ -172,25 +173,6 @@ void append_reactions(Table& table, const RobotTable& robot) {
     }
 }
 
-RangeFinder read_scan(const Value& value) {
-    TableReader table(value, "scan");
-    RangeFinder scan;
-    table.read_fields(scan);
-    table.reject_unknown();
-    constexpr double whole_turn = 6.283185307179587;  // [rad]
-    const Radians spread = scan.to - scan.from;
-    if (spread.value >= 0 && spread.value <= whole_turn) return scan;
-    const Value* to = table.take("to");
-    throw InputError(to ? to->where : value.where,
-                     "scan: expected `to` not before `from`, and at most 360 degrees after it");
-}
-
-Table scan_document(const RangeFinder& scan) {
-    Table table;
-    append_fields(table, scan);
-    return table;
-}
-
 Table place_document(const PlaceTable& place) {
     Table table;
     append_fields(table, place);
@@ -237,7 +219,7 @@ RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_p
     table.read("top_speed", robot.top_speed, positive);
     table.read("turn_rate", robot.turn_rate, turn_rates);
     if (const Value* move = table.take("move")) robot.move = read_move(*move, placed);
-    if (const Value* scan = table.take("scan")) robot.scan = read_scan(*scan);
+    if (const Value* scan = table.take("scan")) robot.scan = read_scanners(*scan);
     if (!placed && needs_place && !robot.move.draws_place()) {
         table.missing("at", "at = [\"2 m\", \"3 m\"], or place = { ... }");
     }
@@ -262,7 +244,7 @@ Table robot_document(const RobotTable& robot, const Scenario& scenario) {
     if (!radio.entries.empty()) table.set("radio", std::move(radio));
     if (robot.propagation) table.set("propagation", propagation_document(*robot.propagation));
     table.set("move", move_document(robot.move));
-    if (robot.scan) table.set("scan", scan_document(*robot.scan));
+    if (!robot.scan.empty()) table.set("scan", scanners_document(robot.scan));
     append_reactions(table, robot);
     if (!robot.off.empty()) table.set("off", to_value(robot.off));
     if (!robot.on.empty()) table.set("on", to_value(robot.on));

@@ -5,7 +5,7 @@
 #include "scenario/move_table.hpp"
 #include "scenario/propagation_table.hpp"
 #include "scenario/reader.hpp"
-#include "scene/range_finder.hpp"
+#include "scene/scanner.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
@@ -139,8 +139,8 @@ struct RobotTable {
     bool own_model = false;
     /// Movement; by default it stays where it is.
     MoveTable move;
-    /// Range finder, for programs outside; none: it has none.
-    std::optional<RangeFinder> scan;
+    /// Range finders, for programs outside.
+    std::vector<Scanner> scan;
     std::vector<ReactionTable> reactions;
     /// Times at which the robot is switched off and on [ns]; it starts switched on.
     std::vector<Duration> off, on;

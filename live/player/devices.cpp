@@ -14,6 +14,18 @@
 #include <utility>
 
 namespace rovernet {
+namespace {
+
+/// Range finders of a robot, by their interface.
+std::map<PlayerInterface, std::uint32_t> range_finders_of(const PlayerRobot& robot) {
+    std::map<PlayerInterface, std::uint32_t> number;
+    for (const Scanner& each : robot.session().range_finders(robot.id())) {
+        ++number[player_interface(each)];
+    }
+    return number;
+}
+
+}  // namespace
 
 PlayerDevices::PlayerDevices(Session& session, const std::vector<PlayerPlace>& places) {
     std::map<std::string, PlayerRobot*, std::less<>> by_name;
@@ -21,6 +33,10 @@ PlayerDevices::PlayerDevices(Session& session, const std::vector<PlayerPlace>& p
         const auto robot = session.network().find(each.robot);
         if (!robot) throw std::invalid_argument("there is no robot " + each.robot);
         by_name[each.robot] = &robots_.emplace_back(session, *robot);
+        for (const auto& [interface, number] : range_finders_of(robots_.back())) {
+            std::uint32_t& most = most_[{each.entrance, interface}];
+            most = std::max(most, number);
+        }
     }
     add(0, 0, 0, std::make_unique<PlayerSimulation>(by_name));
     for (std::size_t i = 0; i < places.size(); ++i) add(i, places[i], *by_name.at(places[i].robot));
@@ -30,11 +46,21 @@ void PlayerDevices::add(std::size_t number, const PlayerPlace& at, PlayerRobot& 
     const auto [name, entrance, index] = at;
     add(number, entrance, index, std::make_unique<PlayerPosition2d>(robot));
     add(number, entrance, index, std::make_unique<PlayerWifi>(robot));
-    if (robot.session().range_finder(robot.id())) {
-        add(number, entrance, index, std::make_unique<PlayerRangeDevice>(robot));
-    }
+    add_range_finders(number, at, robot);
     add(number, entrance, 2 * index, std::make_unique<PlayerRelay>());
     add(number, entrance, 2 * index + 1, std::make_unique<PlayerRadio>(robot));
+}
+
+void PlayerDevices::add_range_finders(std::size_t number, const PlayerPlace& at,
+                                      PlayerRobot& robot) {
+    std::map<PlayerInterface, std::uint32_t> next;
+    for (std::size_t i = 0; i < robot.session().range_finders(robot.id()).size(); ++i) {
+        auto device = std::make_unique<PlayerRangeDevice>(robot, i);
+        const PlayerInterface interface = device->interface();
+        const std::uint32_t first = most_[{at.entrance, interface}] * at.index;
+        const std::uint32_t index = first + next[interface]++;
+        add(number, at.entrance, index, std::move(device));
+    }
 }
 
 void PlayerDevices::add(std::size_t robot, std::size_t entrance, std::uint32_t index,

@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <list>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -18,7 +20,8 @@ namespace rovernet {
 struct PlayerPlace {
     std::string robot;
     std::size_t entrance = 0;  ///< among the addresses of the front
-    std::uint32_t index = 0;   ///< of its devices there; of opaque twice that, and one more
+    std::uint32_t index = 0;   ///< of its devices there; of opaque twice that, and one more; of
+                               ///< range finders see PlayerDevices
 };
 
 /// Device where clients find it.
@@ -31,7 +34,10 @@ struct PlacedDevice {
 };
 
 /// Devices of robots in their places: simulation at the first entrance, and for each robot
-/// position2d, wifi, its range finder if it has one, and opaque twice: a relay and its radio.
+/// position2d, wifi, its range finders, and opaque twice: a relay and its radio.
+///
+/// Where robots of one entrance have at most n lasers, those of a robot with index k are n k,
+/// n k + 1, ...; sonars and rangers likewise.
 class PlayerDevices {
   public:
     /// @throws std::invalid_argument if there is no robot of a name
@@ -45,10 +51,15 @@ class PlayerDevices {
 
   private:
     void add(std::size_t number, const PlayerPlace& at, PlayerRobot& robot);
+    void add_range_finders(std::size_t number, const PlayerPlace& at, PlayerRobot& robot);
     void add(std::size_t robot, std::size_t entrance, std::uint32_t index,
              std::unique_ptr<PlayerDevice> device);
 
-    std::list<PlayerRobot> robots_;  // devices refer to them
+    /// Entrance and interface.
+    using Doorway = std::pair<std::size_t, PlayerInterface>;
+
+    std::list<PlayerRobot> robots_;          // devices refer to them
+    std::map<Doorway, std::uint32_t> most_;  // range finders of one robot
     std::list<PlacedDevice> devices_;
 };
 

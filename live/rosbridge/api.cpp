@@ -126,7 +126,7 @@ void RosApi::write_topics(RosWriter& out, std::string_view key, Direction direct
             const Direction own = topic.type->is_input ? Direction::in : Direction::out;
             if (direction != Direction::both && direction != own) continue;
             if (!type.empty() && !is_type_of(*topic.type, type)) continue;
-            out.text(name_of(topic, session_.network()));
+            out.text(name_of(topic, session_));
         }
     });
 }

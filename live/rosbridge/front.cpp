@@ -225,7 +225,8 @@ void RosbridgeFront::end_steps() {
 
 /// Time between two messages of a topic; 0 if it has none.
 Duration RosbridgeFront::period(const RosTopic& topic) const {
-    if (topic.kind() == RosTopicKind::scan) return session_->range_finder(topic.robot)->every;
+    if (topic.kind() == RosTopicKind::scan)
+        return session_->range_finders(topic.robot)[topic.scanner].finder.every;
     return topic.type->period;
 }
 

@@ -5,6 +5,8 @@
 #include "models/medium/medium.hpp"
 #include "sim/math.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <chrono>
 #include <limits>
@@ -80,6 +82,12 @@ void put_transform(RosWriter& out, Time stamp, std::string_view frame, std::stri
     put_rotation(out, "rotation", heading);
 }
 
+/// Whether a range finder measures in a frame of its own, beside that of its robot.
+bool has_frame(const Scanner& scanner) {
+    const bool is_at_origin = scanner.at == Vec3{} && scanner.heading == Radians{};
+    return !scanner.is_ring() && !is_at_origin;
+}
+
 std::int8_t occupancy(Cell cell) {
     switch (cell) {
         case Cell::free: return 0;
@@ -106,7 +114,7 @@ void RosMessages::write(RosWriter& out, const RosTopic& topic) const {
         case RosTopicKind::static_transforms: return write_static_transforms(out);
         case RosTopicKind::map: return write_map(out);
         case RosTopicKind::odometry: return write_odometry(out, topic.robot);
-        case RosTopicKind::scan: return write_scan(out, topic.robot);
+        case RosTopicKind::scan: return write_scan(out, topic.robot, topic.scanner);
         case RosTopicKind::neighbors: return write_neighbors(out, topic.robot);
         default: return;
     }
@@ -128,6 +136,11 @@ void RosMessages::write_static_transforms(RosWriter& out) const {
     out.open_list();
     for (NodeId robot{0}; robot.index() < network().size(); ++robot.value) {
         put_transform(out, start_of_run, world_frame, network().name(robot) + "/odom", {}, {});
+        for (const Scanner& each : session_.range_finders(robot)) {
+            if (!has_frame(each)) continue;
+            put_transform(out, start_of_run, network().name(robot) + "/base_link",
+                          scan_frame(robot, each), each.at, each.heading);
+        }
     }
     out.close_list();
 }
@@ -178,15 +191,23 @@ void RosMessages::write_odometry(RosWriter& out, NodeId robot) const {
     out.numbers(no_covariance);
 }
 
-void RosMessages::write_scan(RosWriter& out, NodeId robot) const {
-    const RangeFinder& finder = *session_.range_finder(robot);
+/// Frame in which a range finder of a robot measures.
+std::string RosMessages::scan_frame(NodeId robot, const Scanner& scanner) const {
+    const std::string name = network().name(robot);
+    return has_frame(scanner) ? fmt::format("{}/{}_frame", name, scanner.label())
+                              : name + "/base_link";
+}
+
+void RosMessages::write_scan(RosWriter& out, NodeId robot, std::size_t number) const {
+    const Scanner& scanner = session_.range_finders(robot)[number];
+    const RangeFinder& finder = scanner.finder;
     std::vector<float> ranges;
-    for (const double range : session_.scan(robot)) {
+    for (const double range : session_.scan(robot, number)) {
         // REP 117: what measures nothing says infinity.
         ranges.push_back(range < finder.range.value ? static_cast<float>(range)
                                                     : std::numeric_limits<float>::infinity());
     }
-    put_header(out, network().now(), network().name(robot) + "/base_link");
+    put_header(out, network().now(), scan_frame(robot, scanner));
     put(out, "angle_min", finder.from.value);
     put(out, "angle_max", finder.to.value);
     put(out, "angle_increment", finder.step().value);

@@ -6,12 +6,16 @@
 #include "live/rosbridge/topic.hpp"
 #include "live/rosbridge/writer.hpp"
 
+#include <cstddef>
+#include <string>
+
 namespace rovernet {
 
 /// Messages of the topics that this server publishes, as they are at the present time.
 ///
 /// Frames: `map` is the world. NAME/odom is where `map` is, as odometry has no errors here.
-/// NAME/base_link is at the robot, with x ahead.
+/// NAME/base_link is at the robot, with x ahead. A range finder that is elsewhere on the robot, or
+/// looks another way, has a frame of its own, NAME/SCANNER_frame.
 class RosMessages {
   public:
     /// Both have to live as long.
@@ -28,7 +32,8 @@ class RosMessages {
     void write_static_transforms(RosWriter& out) const;
     void write_map(RosWriter& out) const;
     void write_odometry(RosWriter& out, NodeId robot) const;
-    void write_scan(RosWriter& out, NodeId robot) const;
+    void write_scan(RosWriter& out, NodeId robot, std::size_t number) const;
+    std::string scan_frame(NodeId robot, const Scanner& scanner) const;
     void write_neighbors(RosWriter& out, NodeId robot) const;
 
     Session& session_;

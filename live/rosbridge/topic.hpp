@@ -63,7 +63,8 @@ inline constexpr std::string_view stamped_velocity = "geometry_msgs/TwistStamped
 /// Topic as a client may name it.
 struct RosTopic {
     const RosTopicType* type;
-    NodeId robot = {};  ///< if it is a robot's
+    NodeId robot = {};        ///< if it is a robot's
+    std::size_t scanner = 0;  ///< of a scan: number among the range finders of the robot
 
     RosTopicKind kind() const { return type->kind; }
 };
@@ -78,11 +79,14 @@ std::string_view plain_name(std::string_view name);
 std::optional<NodeId> robot_before(std::string_view name, std::string_view rest,
                                    const Network& network);
 
-/// Topic of that name; none if there is none. Only robots with a range finder have a scan.
-std::optional<RosTopic> find_topic(std::string_view name, Session& session);
+/// Topic of that name; none if there is none.
+///
+/// A robot has a scan for each range finder with evenly spaced beams: "/A/scan" for its first
+/// laser, or for the first of them if it has no laser; "/A/rear/scan" for another, named "rear".
+std::optional<RosTopic> find_topic(std::string_view name, const Session& session);
 /// All topics, by kind and then by robot.
-std::vector<RosTopic> all_topics(Session& session);
+std::vector<RosTopic> all_topics(const Session& session);
 /// Name of a topic: "/A/odom".
-std::string name_of(const RosTopic& topic, const Network& network);
+std::string name_of(const RosTopic& topic, const Session& session);
 
 }  // namespace rovernet

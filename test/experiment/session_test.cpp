@@ -330,9 +330,10 @@ radius = "0.5 m"
 scan = { beams = 3, range = "20 m" }
 )")};
     const auto d = *session.network().find("d1");
-    REQUIRE(session.range_finder(d));
-    CHECK_FALSE(session.range_finder({0}));
+    REQUIRE(session.range_finders(d).size() == 1);
+    CHECK(session.range_finders({0}).empty());
     CHECK_THROWS_AS(session.scan({0}), std::out_of_range);
+    CHECK_THROWS_AS(session.scan(d, 1), std::out_of_range);
     CHECK(session.scan(d)[0] == 0);  // its twin is where it is
     session.network().place(*session.network().find("d0"), {0, -9});
     // Down, at 3 m less its radius, is the robot a; ahead and up there is nobody.
@@ -346,6 +347,34 @@ scan = { beams = 3, range = "20 m" }
     CHECK(sees(11.5, 20, 5.8));
     session.network().take_away({0}, Presence::left);
     CHECK(session.scan(d)[2] == 20);
+}
+
+TEST_CASE("session: a robot has its range finders by number, each where it is on the robot") {
+    Session session{scenario(R"([[robot]]
+name = "d"
+at = ["0 m", "3 m"]
+heading = "90 deg"
+[[robot.scan]]
+beams = 1
+from = "0 deg"
+to = "0 deg"
+range = "30 m"
+[[robot.scan]]
+kind = "sonar"
+at = ["-0.5 m", "0 m"]
+heading = "180 deg"
+angles = ["0 deg", "90 deg"]
+places = [["0.1 m", "0 m"], ["0 m", "0 m"]]
+)")};
+    const auto d = *session.network().find("d");
+    REQUIRE(session.range_finders(d).size() == 2);
+    CHECK(session.range_finders(d)[1].label() == "sonar");
+    CHECK(session.scan(d) == std::vector<double>{30});
+    // The sonar looks back from (0, 2.5), its first beam from (0, 2.4): robot a is at (0, 0).
+    const std::vector<double> ranges = session.scan(d, 1);
+    REQUIRE(ranges.size() == 2);
+    CHECK(std::abs(ranges[0] - 2.2) < 1e-12);
+    CHECK(ranges[1] == 8);
 }
 
 TEST_CASE("session: a range finder sees the robots of its own storey") {
