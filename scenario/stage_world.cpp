@@ -3,6 +3,7 @@
 
 #include "scenario/quantity.hpp"
 #include "scenario/stage_radio.hpp"
+#include "scenario/stage_scanner.hpp"
 #include "scene/stage/world_model.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ class Gatherer {
 
     Table gather(std::vector<std::string>& notices) {
         reserve_names(world_.root);
-        visit(world_.root, {}, false);
+        visit(world_.root, {}, Carrier::none);
         Table document;
         scenario(document);
         if (!robots_.empty()) document.set("robot", placed(std::move(robots_), world_.root.where));
@@ -56,7 +57,10 @@ class Gatherer {
     };
 
     void reserve_names(const WorldEntity& parent);
-    void visit(const WorldEntity& parent, const WorldPose& pose, bool in_robot);
+    /// Robot in which a model is: none, a position that is none, or one with a radio.
+    enum class Carrier { none, position, robot };
+
+    void visit(const WorldEntity& parent, const WorldPose& pose, Carrier carrier);
     void position(const WorldEntity& model, const WorldPose& pose);
     void robot(const WorldEntity& model, const WorldEntity& wifi, const WorldPose& pose);
     Value name_of(const WorldEntity& model);
@@ -97,9 +101,11 @@ void Gatherer::reserve_names(const WorldEntity& parent) {
     }
 }
 
-void Gatherer::visit(const WorldEntity& parent, const WorldPose& pose, bool in_robot) {
+void Gatherer::visit(const WorldEntity& parent, const WorldPose& pose, Carrier carrier) {
+    const bool in_robot = carrier != Carrier::none;
     for (const auto& child : parent.children) {
         WorldRole role = world_role(child);
+        if (carrier == Carrier::robot && is_stage_scanner(child)) continue;  // the robot's
         if (in_robot && role == WorldRole::robot && child.type != "position") {
             role = WorldRole::ignored;  // its wifi is the robot's
         }
@@ -108,7 +114,11 @@ void Gatherer::visit(const WorldEntity& parent, const WorldPose& pose, bool in_r
         if (role != WorldRole::robot && role != WorldRole::wall) continue;
         const WorldPose own = pose * world_pose(child, "pose", units_);
         if (role == WorldRole::robot) position(child, own);
-        visit(child, own, in_robot || role == WorldRole::robot);
+        Carrier inner = carrier;
+        if (role == WorldRole::robot) {
+            inner = wifis(child).empty() ? Carrier::position : Carrier::robot;
+        }
+        visit(child, own, inner);
     }
 }
 
@@ -145,6 +155,10 @@ void Gatherer::robot(const WorldEntity& model, const WorldEntity& wifi, const Wo
     if (!radio.propagation.entries.empty()) {
         table.set("propagation", placed(std::move(radio.propagation), wifi.where));
     }
+    std::vector<std::string> notices;
+    Array scanners = stage_scanners(model, units_, notices);
+    for (auto& notice : notices) note(std::move(notice));
+    if (!scanners.empty()) table.set("scan", placed(std::move(scanners), model.where));
     if (!radio.model_given) modelless_.add(wifi.where, *name.string());
     if (pose.at.z != 0) flying_.add(at_where, *name.string());
     if (wifis(model).size() > 1) doubled_.add(model.where, *name.string());

@@ -22,6 +22,7 @@ namespace rovernet {
 ///   radio        what its wifi says; its first one, if it has several
 ///   propagation  its model and its parameters, those of other models too; without a model that
 ///                of [propagation] rules, with a notice
+///   scan         what stage_scanners() makes of its lasers and rangers; a list
 ///
 /// [scenario]: duration from quit_time, if above 0, and seed from the last random_seed, if the
 /// world gives them.

@@ -112,11 +112,14 @@ WorldPose operator*(const WorldPose& outer, const WorldPose& inner) {
 
 WorldPose world_pose(const WorldEntity& entity, std::string_view key, const WorldUnits& units) {
     const WorldProperty* property = entity.find(key);
-    if (!property) return {};
-    const auto v = numbers(*property, 2, 4, "[x y a] or [x y z a]");
+    return property ? world_pose(*property, units) : WorldPose{};
+}
+
+WorldPose world_pose(const WorldProperty& property, const WorldUnits& units) {
+    const auto v = numbers(property, 2, 4, "[x y a] or [x y z a]");
     WorldPose pose;
-    pose.at = {length(*property, v[0], units), length(*property, v[1], units), 0};
-    if (v.size() == 4) pose.at.z = length(*property, v[2], units);
+    pose.at = {length(property, v[0], units), length(property, v[1], units), 0};
+    if (v.size() == 4) pose.at.z = length(property, v[2], units);
     if (v.size() > 2) pose.degrees = std::fmod(v.back() * units.degrees, 360);
     return pose;
 }

@@ -50,6 +50,7 @@ WorldPose operator*(const WorldPose& outer, const WorldPose& inner);
 /// [x y], [x y a] (Stage 2) or [x y z a] (Stage 3 and 4) under `key`; all 0 without it.
 /// @throws InputError for anything else, and beyond 1e9 m
 WorldPose world_pose(const WorldEntity& entity, std::string_view key, const WorldUnits& units);
+WorldPose world_pose(const WorldProperty& property, const WorldUnits& units);
 
 /// Extents along the model's own axes [m], >= 0.
 struct WorldSize {

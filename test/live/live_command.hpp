@@ -50,6 +50,21 @@ inline int read_port(const std::string& line) {
     return std::stoi(line.substr(line.find(host) + host.size()));
 }
 
+/// The line of standard output of a command in a folder that begins and ends so; waits for it.
+inline std::string said(const TemporaryFolder& folder, const std::string& words,
+                        const std::string& last_words = {}) {
+    using namespace std::chrono_literals;
+    for (int i = 0; i < 2000; ++i, std::this_thread::sleep_for(5ms)) {
+        std::ifstream out(folder.path("stdout"));
+        for (std::string line; std::getline(out, line);) {
+            const bool is_it = line.starts_with(words) && line.ends_with(last_words);
+            if (is_it && !out.eof()) return line;
+        }
+    }
+    FAIL("it does not say " << words << ": " << content(folder.path("stderr")));
+    return {};
+}
+
 /// A live run in the background.
 class Live {
   public:
@@ -65,16 +80,7 @@ class Live {
     }
     /// The line of standard output that begins and ends so.
     std::string said(const std::string& words, const std::string& last_words = {}) const {
-        using namespace std::chrono_literals;
-        for (int i = 0; i < 2000; ++i, std::this_thread::sleep_for(5ms)) {
-            std::ifstream out(folder.path("stdout"));
-            for (std::string line; std::getline(out, line);) {
-                const bool is_it = line.starts_with(words) && line.ends_with(last_words);
-                if (is_it && !out.eof()) return line;
-            }
-        }
-        FAIL("it does not say " << words << ": " << content(folder.path("stderr")));
-        return {};
+        return test::said(folder, words, last_words);
     }
     Ended wait() const { return process_.wait(); }
     const Process& process() const { return process_; }

@@ -391,7 +391,7 @@ TEST_CASE("stage world: what is no robot and no wall is said in one line") {
     REQUIRE(world.notices.size() == 3);
     CHECK(world.notices[0] == "a.world:4: positions without a wifi are left out: b, line 5");
     CHECK(world.notices[1] == "a.world:6: a wifi outside a position is left out: wifi");
-    CHECK(world.notices[2] == "a.world: ignored: laser (3), ranger (1), window (1)");
+    CHECK(world.notices[2] == "a.world: ignored: laser (2), window (1)");
 }
 
 TEST_CASE("stage world: an unknown key of a wifi is a notice each; a model's are none") {
@@ -450,7 +450,7 @@ TEST_CASE("stage world: a world in the thesis's style is read as it stands") {
     CHECK(value(out.propagation(0), "model") == "raytrace_2007");
     CHECK(read_quantity(*out.robot(0).find("radius"), "radius", Dimension::length) == 0.165);
     REQUIRE(out.notices.size() == 1);
-    CHECK(out.notices[0] == path + ": ignored: laser (1), ranger (1), window (1)");
+    CHECK(out.notices[0] == path + ": ignored: window (1)");
     const StageWalls walls = stage_walls(world, options);
     CHECK(walls.notices.empty());
     REQUIRE(walls.grids.size() == 5);  // the picture and its boundary
