@@ -103,7 +103,8 @@ Step MotionBuilder::first_step(Movement movement, const RobotTable& robot, const
                 .legs = network_.legs(),
                 .heading = robot.heading.value,
                 .top_speed = robot.top_speed.value_or(Mover::any_speed),
-                .draws = key(Purpose::movement, name, 0)};
+                .draws = key(Purpose::movement, name, 0),
+                .scene_now = &network_.scene()};
     return movement.next_leg(mover);
 }
 

@@ -17,8 +17,10 @@ namespace {
 // Light goes 3,000 km in it: a frame that ended so long ago arrives nowhere any more.
 constexpr Duration longest_delay{10'000'000};
 
-MediumSettings medium_settings(const NetworkSettings& settings, const Scene& scene) {
+MediumSettings medium_settings(const NetworkSettings& settings, const Scene& scene,
+                               std::span<const SceneChange> changes) {
     return {.scene = &scene,
+            .scene_changes = changes,
             .floor_height = settings.floor_height,
             .propagation_delay = settings.propagation_delay,
             .keep_losses = false,
@@ -75,7 +77,8 @@ RecordedAir::RecordedAir(const RecordedRun& run, const std::string& path)
 RecordedAir::RecordedAir(Loaded loaded)
     : names_(std::move(loaded.names)),
       scene_(loaded.settings.scene),
-      medium_(medium_settings(loaded.settings, *scene_)),
+      scene_changes_(std::move(loaded.settings.scene_changes)),
+      medium_(medium_settings(loaded.settings, *scene_, scene_changes_)),
       access_(loaded.settings.access.make_access()),
       phy_(access_->phy()),
       fades_(fades_of(loaded.settings)),
@@ -195,7 +198,7 @@ Db RecordedAir::loss(const RecordedFrame& frame, NodeId to, Vec3 here, Vec3 ther
                          .to = {&there, 1},
                          .from_key = medium_.stations().key(from),
                          .to_keys = {&to_key, 1},
-                         .scene = scene_.get(),
+                         .scene = &settings.scene_at(frame.begin),
                          .floor_height = settings.floor_height,
                          .seed = settings.seed,
                          .replication = settings.replication,
@@ -211,7 +214,8 @@ Db RecordedAir::loss(const RecordedFrame& frame, NodeId to, Vec3 here, Vec3 ther
 }
 
 std::vector<Crossing> RecordedAir::walls(const RecordedFrame& frame, NodeId to) const {
-    return scene_->crossings(pose(frame.air.frame.sender, frame).antenna, pose(to, frame).antenna);
+    const Scene& scene = medium_.settings().scene_at(frame.begin);
+    return scene.crossings(pose(frame.air.frame.sender, frame).antenna, pose(to, frame).antenna);
 }
 
 }  // namespace rovernet

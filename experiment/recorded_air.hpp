@@ -7,6 +7,7 @@
 #include "models/medium/medium.hpp"
 #include "models/variation/fading.hpp"
 #include "scene/scene.hpp"
+#include "scene/scene_change.hpp"
 #include "sim/record.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
@@ -76,6 +77,7 @@ class RecordedAir {
     std::size_t robots() const { return names_.size(); }
     /// Medium with the radios of all robots, on or off as they are now.
     const Medium& medium() const { return medium_; }
+    /// Scene with all doors open.
     const Scene& scene() const { return *scene_; }
     const std::vector<std::string>& names() const { return names_; }
 
@@ -98,6 +100,7 @@ class RecordedAir {
 
     std::vector<std::string> names_;
     std::shared_ptr<const Scene> scene_;
+    std::vector<SceneChange> scene_changes_;
     Medium medium_;
     std::unique_ptr<Access> access_;
     Phy phy_;

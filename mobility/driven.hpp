@@ -32,6 +32,8 @@ struct DrivenArc {
 /// goes only as far as the robot's body can; then the robot turns in place, or stands still if the
 /// command does not turn. A command that follows another one shares its `arc`.
 struct Driven {
+    static constexpr AtDoors at_doors = AtDoors::drives;
+
     MetersPerSecond speed{0};        ///< ahead; < 0: backwards. At most the robot's top speed
     RadiansPerSecond turn_rate{0};   ///< counter-clockwise
     Meters chord{0.001};             ///< > 0

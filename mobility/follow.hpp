@@ -18,6 +18,7 @@ namespace rovernet {
 /// height stays.
 struct Follow {
     static constexpr std::string_view name = "follow";
+    static constexpr AtDoors at_doors = AtDoors::looks;
 
     NodeId leader = {};
     Meters distance{2};                        ///< [m], >= 0, along the way

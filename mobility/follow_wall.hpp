@@ -28,6 +28,7 @@ struct EnumNames<WallSide> {
 /// It needs a map. Robots do not see one another.
 struct FollowWall {
     static constexpr std::string_view name = "follow_wall";
+    static constexpr AtDoors at_doors = AtDoors::looks;
 
     WallSide side = WallSide::left;
     MetersPerSecond speed{0.5};  ///< > 0

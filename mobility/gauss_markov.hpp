@@ -27,6 +27,7 @@ namespace rovernet {
 /// research, Wireless Communications and Mobile Computing 2(5), 2002, section 2.5.
 struct GaussMarkov {
     static constexpr std::string_view name = "gauss_markov";
+    static constexpr AtDoors at_doors = AtDoors::looks;
 
     std::vector<Vec3> area = {};       ///< [m] as in the other models
     MetersPerSecond mean_speed{1};     ///< [m/s], >= 0

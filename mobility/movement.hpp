@@ -26,7 +26,7 @@ struct Mover {
     Time now;
     Vec3 position;       ///< [m] now
     Meters radius;       ///< radius of the robot's body
-    Planners& planners;  ///< ways around the scene's walls
+    Planners& planners;  ///< ways around the scene's walls, as if all doors were open
     const Legs& legs;    ///< legs of all robots, for models that go by others
     double heading = 0;  ///< [rad] now, counter-clockwise from the x axis
     static constexpr MetersPerSecond any_speed{std::numeric_limits<double>::infinity()};
@@ -35,8 +35,13 @@ struct Mover {
     /// depend on.
     Key draws = {};
 
-    /// Its storey; the whole scene if that has one only.
-    const Scene& scene() const { return planners.scene().storey_at(position.z); }
+    /// Scene now, with the doors that are closed; null: that of the planners.
+    const Scene* scene_now = nullptr;
+
+    /// Its storey now; the whole scene if that has one only.
+    const Scene& scene() const {
+        return (scene_now ? *scene_now : planners.scene()).storey_at(position.z);
+    }
     /// The key of the robot's draw `index` of this movement.
     Key key(std::uint64_t index) const {
         Key key = draws;
@@ -82,6 +87,15 @@ struct Fixed {
     Step next_leg(Mover& mover) { return standing_leg(mover); }
 };
 
+/// What a movement model does where a door closes in the way of its leg. A model says so by a
+/// member `at_doors`; others wait.
+enum class AtDoors {
+    waits,   ///< the robot stops at the door, and goes on with the leg once it opens
+    looks,   ///< it stops there, and the model is asked for another leg
+    drives,  ///< the same; one that stands is asked again, too, whenever a door closes or opens
+    passes   ///< it goes on, as it does through walls
+};
+
 /// A movement model that keeps what it knows of a robot apart, in its Progress: copies of one
 /// Movement share its parameters, which saves their memory where there are millions of robots.
 template <class T>
@@ -107,17 +121,25 @@ class Movement {
     }
 
     Step next_leg(Mover& mover) { return self_ ? self_->next_leg(mover) : Fixed{}.next_leg(mover); }
+    AtDoors at_doors() const { return self_ ? self_->at_doors() : AtDoors::waits; }
 
   private:
+    template <class T>
+    static constexpr AtDoors at_doors_of() {
+        if constexpr (requires { T::at_doors; }) return T::at_doors;
+        return AtDoors::waits;
+    }
     struct Concept {
         virtual ~Concept() = default;
         virtual Step next_leg(Mover&) = 0;
+        virtual AtDoors at_doors() const = 0;
         virtual std::unique_ptr<Concept> clone() const = 0;
     };
     template <class T>
     struct Holder final : Concept {
         explicit Holder(T m) : model(std::move(m)) {}
         Step next_leg(Mover& mover) override { return model.next_leg(mover); }
+        AtDoors at_doors() const override { return at_doors_of<T>(); }
         std::unique_ptr<Concept> clone() const override { return std::make_unique<Holder>(model); }
         T model;
     };
@@ -126,6 +148,7 @@ class Movement {
         explicit Holder(T m)
             : progress(std::move(m.progress)), model(std::make_shared<const T>(std::move(m))) {}
         Step next_leg(Mover& mover) override { return model->next_leg(mover, progress); }
+        AtDoors at_doors() const override { return at_doors_of<T>(); }
         std::unique_ptr<Concept> clone() const override { return std::make_unique<Holder>(*this); }
         typename T::Progress progress;
         std::shared_ptr<const T> model;

@@ -35,6 +35,7 @@ struct EnumNames<BorderTurn> {
 /// mobile networks, ICC 2001.
 struct RandomDirection {
     static constexpr std::string_view name = "random_direction";
+    static constexpr AtDoors at_doors = AtDoors::looks;
 
     std::vector<Vec3> area = {};     ///< [m] lower-left and upper-right; empty: the map
     MetersPerSecond min_speed{0.5};  ///< [m/s], >= 0

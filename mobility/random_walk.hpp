@@ -22,6 +22,7 @@ namespace rovernet {
 /// Wireless Communications and Mobile Computing 2(5), 2002, section 2.1.
 struct RandomWalk {
     static constexpr std::string_view name = "random_walk";
+    static constexpr AtDoors at_doors = AtDoors::looks;
 
     std::vector<Vec3> area = {};               ///< [m] lower-left and upper-right; empty: the map
     MetersPerSecond min_speed{0.5};            ///< [m/s], >= 0

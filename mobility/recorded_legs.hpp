@@ -13,6 +13,8 @@ namespace rovernet {
 /// now. A leg that was given up early ends where the next one begins; between legs it rests.
 class RecordedLegs {
   public:
+    static constexpr AtDoors at_doors = AtDoors::passes;
+
     /// @param legs  by start, each later than the one before; the first one is where it begins
     /// @throws std::invalid_argument if they are in another order
     explicit RecordedLegs(std::vector<Leg> legs);

@@ -9,6 +9,8 @@ namespace rovernet {
 
 /// Straight to one place, through whatever stands in between: for movements that were recorded.
 struct Straight {
+    static constexpr AtDoors at_doors = AtDoors::passes;
+
     Vec3 to;                                     ///< [m]
     MetersPerSecond speed{1};                    ///< [m/s], > 0
     std::optional<Time> arrival = std::nullopt;  ///< instead of a speed; > now

@@ -18,6 +18,7 @@ namespace rovernet {
 /// It needs a map. Robots do not see one another.
 struct Wander {
     static constexpr std::string_view name = "wander";
+    static constexpr AtDoors at_doors = AtDoors::looks;
 
     MetersPerSecond speed{0.5};        ///< > 0
     RadiansPerSecond turn_rate{1.57};  ///< in place, > 0

@@ -92,7 +92,10 @@ void Engine::serve(const Event& event) {
         case Occurrence::Kind::link_change: return links.change_links();
         case Occurrence::Kind::access_timer:
             return mac.on_timer(node, static_cast<std::uint32_t>(data));
-        case Occurrence::Kind::scene_change: world.change_scene(); return links.scene_changed();
+        case Occurrence::Kind::scene_change:
+            world.change_scene();
+            links.scene_changed();
+            return motion.scene_changed();
     }
 }
 

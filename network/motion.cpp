@@ -71,7 +71,8 @@ Mover Motion::mover(NodeId id) {
             .draws = {.seed = world_.settings.seed,
                       .replication = world_.settings.replication,
                       .a = world_.key(id),
-                      .b = robot.movements}};
+                      .b = robot.movements},
+            .scene_now = world_.scene};
 }
 
 /// Begins movements. Their events are scheduled in the order of the robots' keys: the order in
@@ -110,7 +111,12 @@ void Motion::tell_arrival(NodeId id) {
 }
 
 void Motion::next_leg(NodeId id) {
-    if (const auto leg = taken(after_turn_, id)) return take(id, *leg);
+    if (const auto leg = taken(after_turn_, id)) return go(id, *leg);
+    if (world_.doors && nodes_[id.index()].moving && is_caught(id)) {
+        held_.try_emplace(id);
+        return take(id, standing_leg(mover(id)));
+    }
+    if (!held_.empty() && held_.contains(id)) return go_on(id);
     Mover asking = mover(id);
     const Step step = nodes_[id.index()].movement.next_leg(asking);
     const bool begins = nodes_[id.index()].moving == 0;
@@ -133,10 +139,10 @@ void Motion::next_leg(NodeId id) {
 /// Takes a leg of the movement model, after turning towards it if the robot turns in place.
 void Motion::begin_leg(NodeId id, const Leg& leg) {
     const auto& rate = body(id).turn_rate;
-    if (!rate || leg.velocity == Vec3{}) return take(id, leg);
+    if (!rate || leg.velocity == Vec3{}) return go(id, leg);
     const double facing = wrapped(world_.legs.leg(id).heading_at(world_.now));
     const double turn = wrapped(leg.heading - facing);
-    if (turn == 0) return take(id, leg);
+    if (turn == 0) return go(id, leg);
     const Duration turning = std::max(from_seconds(std::abs(turn) / rate->value), Duration{1});
     Leg later = leg;
     later.start += turning;
@@ -172,6 +178,7 @@ void Motion::end_movement(NodeId id) {
     robot.moving = false;
     interrupted_.erase(id);
     after_turn_.erase(id);
+    held_.erase(id);
 }
 
 void Motion::move(NodeId id, Movement movement) {
@@ -205,13 +212,15 @@ void Motion::resume(NodeId id) {
     const Duration off = world_.now - legs.leg(id).start;
     const bool unending = leg->end == never;
     const Vec3 here = legs.position(id, world_.now);
-    take(id, {.start = world_.now,
-              .end = unending ? never : leg->end + off,
-              .from = here,
-              .velocity = leg->velocity,
-              .to = unending ? here : leg->to,
-              .heading = wrapped(legs.leg(id).heading_at(world_.now)),
-              .turning = leg->turning});
+    const Leg rest{.start = world_.now,
+                   .end = unending ? never : leg->end + off,
+                   .from = here,
+                   .velocity = leg->velocity,
+                   .to = unending ? here : leg->to,
+                   .heading = wrapped(legs.leg(id).heading_at(world_.now)),
+                   .turning = leg->turning};
+    go(id, held_.empty() || rest.velocity == Vec3{} ? rest : rest_of(id, rest));
+    if (waits(id)) go_on(id);
     if (const auto later = after_turn_.find(id); later != after_turn_.end()) {
         later->second.start += off;
         if (later->second.end != never) later->second.end += off;

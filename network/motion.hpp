@@ -38,7 +38,9 @@ struct Body {
 ///                    +------------- on_leg_end <-------------+   an event at the leg's end
 ///
 /// A movement is asked for a leg when it begins, when a leg ends, and when the robot is switched on
-/// for the first time. Nothing happens in between.
+/// for the first time. Nothing happens in between, but for doors: a leg goes as far as the closed
+/// doors let it, and movements do what their AtDoors says. A robot that a closing door touches is
+/// caught: it stands until a change of the doors frees it.
 class Motion {
   public:
     /// @param channel  told before a leg changes, and what the new one is
@@ -68,6 +70,9 @@ class Motion {
     void pause(NodeId node);
     /// Moves a robot on that was switched on: what is left of its leg takes as long as before.
     void resume(NodeId node);
+    /// Takes note that the scene has changed just now: stops robots at doors that have closed, and
+    /// moves on those that waited.
+    void scene_changed();
     /// Calls react() whenever the node comes to rest at the end of a movement, 1 us later.
     void on_arrival(NodeId node, Callback<> react) {
         on_arrival_[node].push_back(std::move(react));
@@ -97,6 +102,18 @@ class Motion {
     void begin_leg(NodeId node, const Leg& leg);
     // Forgets what the robot was about to do.
     void end_movement(NodeId node);
+    // Takes a leg of the movement as far as the closed doors let it.
+    void go(NodeId node, const Leg& leg);
+    // Moves a robot on that waited for a door.
+    void go_on(NodeId node);
+    // Whether a closed door touches the robot, and stops it.
+    bool is_caught(NodeId node);
+    // Whether no closed door keeps a robot that stands where it is.
+    bool is_free(NodeId node);
+    // Whether it waits for a door, standing.
+    bool waits(NodeId node) const;
+    // What is left of a leg, and of the rest that waits behind it; that does not wait any more.
+    Leg rest_of(NodeId node, const Leg& leg);
     // Replaces the leg and emits Moved.
     void take(NodeId node, const Leg& leg);
     // Replaces the leg and tells those who have to know, without a record.
@@ -117,6 +134,9 @@ class Motion {
     std::map<NodeId, Leg> interrupted_;
     // Legs that begin when the turn on the current leg is over.
     std::map<NodeId, Leg> after_turn_;
+    // Rests of legs that wait for a door, from where the robot stops; nothing: the movement is
+    // asked for another leg.
+    std::map<NodeId, std::optional<Leg>> held_;
     // Callbacks by node.
     std::map<NodeId, std::vector<Callback<>>> on_arrival_;
     // Nodes whose movement has begun: the first so many.

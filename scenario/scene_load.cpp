@@ -252,28 +252,35 @@ std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::stri
     return std::make_shared<const Scene>(std::move(walls.grids), std::move(walls.materials));
 }
 
-std::vector<SceneChange> load_doors(const SceneTable& scene,
-                                    const std::shared_ptr<const Scene>& open) {
+std::vector<Door> doors_of(const SceneTable& scene) {
     std::vector<Door> doors;
     for (const DoorTable& table : scene.doors) {
-        Door door{.from = table.from,
-                  .to = table.to,
-                  .thickness = table.thickness,
-                  .closes = table.closes,
-                  .opens = table.opens};
-        if (!open) {
-            throw InputError(table.where,
-                             "door: the scene is an open field; expected also a map, "
-                             "floors or a world with walls for the door");
-        }
-        check_place(door, table, *open);
         const auto named =
             std::find_if(scene.materials.begin(), scene.materials.end(),
                          [&](const MaterialTable& m) { return m.name == table.material; });
         const bool usual = named == scene.materials.end();
-        door.material = made_of(usual ? MaterialTable{} : *named, scene.wall_height);
-        if (usual) door.material.name = "wall";
-        doors.push_back(std::move(door));
+        Material material = made_of(usual ? MaterialTable{} : *named, scene.wall_height);
+        if (usual) material.name = "wall";
+        doors.push_back({.from = table.from,
+                         .to = table.to,
+                         .thickness = table.thickness,
+                         .material = std::move(material),
+                         .closes = table.closes,
+                         .opens = table.opens});
+    }
+    return doors;
+}
+
+std::vector<SceneChange> load_doors(const SceneTable& scene,
+                                    const std::shared_ptr<const Scene>& open) {
+    const std::vector<Door> doors = doors_of(scene);
+    for (std::size_t i = 0; i < doors.size(); ++i) {
+        if (!open) {
+            throw InputError(scene.doors[i].where,
+                             "door: the scene is an open field; expected also a map, floors or a "
+                             "world with walls for the door");
+        }
+        check_place(doors[i], scene.doors[i], *open);
     }
     return scene_changes(open, doors);
 }

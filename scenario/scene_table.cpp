@@ -38,16 +38,19 @@ MaterialTable read_material(const Entry& entry) {
     return material;
 }
 
-/// Checks that a material has walls, or doors.
-void check_use(const MaterialTable& material, const SceneTable& scene, const Value& value) {
-    const bool has_doors =
-        std::any_of(scene.doors.begin(), scene.doors.end(),
-                    [&](const DoorTable& door) { return door.material == material.name; });
-    if (material.has_walls() || has_doors) return;
-    TableReader table(value, fmt::format("material \"{}\"", material.name));
-    MaterialTable known;
-    table.read_fields(known);
-    table.missing("grey", "grey = 100, greys = [90, 110], color = \"red\", or a door of it");
+/// Checks that each material has walls, or doors.
+void check_uses(const SceneTable& scene, const Value& materials) {
+    for (const MaterialTable& material : scene.materials) {
+        const bool has_doors =
+            std::any_of(scene.doors.begin(), scene.doors.end(),
+                        [&](const DoorTable& door) { return door.material == material.name; });
+        if (material.has_walls() || has_doors) continue;
+        TableReader table(*materials.table()->find(material.name),
+                          fmt::format("material \"{}\"", material.name));
+        MaterialTable known;
+        table.read_fields(known);
+        table.missing("grey", "grey = 100, greys = [90, 110], color = \"red\", or a door of it");
+    }
 }
 
 /// Checks that the materials of doors are there.
@@ -117,11 +120,19 @@ SceneTable read_scene(const Value& value) {
     if (materials) {
         for (const Entry& entry : TableReader(*materials, "[scene.materials]").table().entries) {
             scene.materials.push_back(read_material(entry));
-            check_use(scene.materials.back(), scene, entry.value);
         }
     }
     check_doors(scene);
+    if (materials) check_uses(scene, *materials);
     return scene;
+}
+
+void refuse_doors(const SceneTable& scene, std::string_view who) {
+    if (scene.doors.empty()) return;
+    throw InputError(scene.doors.front().where,
+                     fmt::format("door: {} looks at links in one scene, and this one changes; "
+                                 "expected a scenario without [[scene.door]]",
+                                 who));
 }
 
 Table scene_document(const SceneTable& scene) {

@@ -4,9 +4,9 @@
 #include "scenario/door_table.hpp"
 #include "scenario/floor_table.hpp"
 #include "scenario/value.hpp"
+#include "scene/doors.hpp"
 #include "scene/material.hpp"
 #include "scene/scene.hpp"
-#include "scene/scene_change.hpp"
 #include "scene/stage/worldfile.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 // Maps, worlds and their materials as a scenario file gives them, and the scenes that they make:
@@ -144,10 +145,17 @@ std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string
 std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::string& file,
                                         const WorldFile& world, std::vector<std::string>& notices);
 
+/// Doors of a scene, with what they are made of.
+std::vector<Door> doors_of(const SceneTable& scene);
 /// Changes of a scene by its doors; none if it has none.
 /// @param open  what load_map() or load_walls() gave
 /// @throws InputError for a door that lies off the map, or on two storeys
 std::vector<SceneChange> load_doors(const SceneTable& scene,
                                     const std::shared_ptr<const Scene>& open);
+
+/// Refuses doors where links are looked at in one scene.
+/// @param who  command or method that does, for the message
+/// @throws InputError at the first door, if there is one
+void refuse_doors(const SceneTable& scene, std::string_view who);
 
 }  // namespace rovernet

@@ -93,6 +93,21 @@ bool ClosedDoors::passable(Vec3 a, Vec3 b, Meters radius) const {
     });
 }
 
+std::optional<Vec3> ClosedDoors::stop(Vec3 a, Vec3 b, Meters radius) const {
+    if (passable(a, b, radius)) return std::nullopt;
+    constexpr int halvings = 40;
+    constexpr double before = 1e-6;  // [m]
+    const Vec3 way = b - a;
+    double good = 0, bad = 1;
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (good + bad);
+        (passable(a, a + middle * way, radius) ? good : bad) = middle;
+    }
+    // A way of less than that is none: a robot that has stopped so stays.
+    const double least = before / distance(a, b);
+    return good > 2 * least ? a + (good - least) * way : a;
+}
+
 Scene with_closed(const Scene& open, std::span<const Door> closed) {
     std::vector<OccupancyGrid> maps = open.maps();
     std::vector<Material> materials = open.materials();

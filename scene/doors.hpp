@@ -11,6 +11,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -47,6 +48,9 @@ class ClosedDoors {
     /// Whether a disc of that radius [m] can move straight from a to b; touching is allowed. A way
     /// that is partly on a door's storey is held against the door all along.
     bool passable(Vec3 a, Vec3 b, Meters radius) const;
+    /// Place on the way from a to b where the disc stops, a micrometre before it touches a door; a
+    /// if it cannot move at all; nothing if it can go all the way.
+    std::optional<Vec3> stop(Vec3 a, Vec3 b, Meters radius) const;
 
   private:
     // Door, and the heights [m] between which its storey is.

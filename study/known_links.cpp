@@ -221,6 +221,7 @@ LinkSample::LinkSample(const Scenario& scenario, Propagation reference, const Sa
                        .losses = {},
                        .network = {}}) {
     state_->size.replications = 0;
+    refuse_doors(scenario.scene, "a sample (of fit, probe or advise)");
 }
 
 LinkSample::~LinkSample() = default;

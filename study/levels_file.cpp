@@ -150,6 +150,7 @@ class LevelsReader {
 
 KnownLinks read_levels(const std::string& path, const Scenario& scenario, std::optional<Dbm> floor,
                        Receivers receivers) {
+    refuse_doors(scenario.scene, "a comparison with levels");
     const NetworkSettings settings = network_settings(scenario);
     KnownLinks out;
     out.group_name = "receiver";

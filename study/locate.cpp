@@ -141,6 +141,7 @@ std::optional<Located::Errors> Located::errors() const {
 
 Located locate_robots(const Scenario& scenario, const std::vector<std::string>& anchors,
                       const std::vector<Time>& times, const LocateQuestion& question) {
+    refuse_doors(scenario.scene, "locate");
     Session session(scenario);
     Network& network = session.network();
     const std::vector<NodeId> known = anchors_in(network, anchors);

@@ -227,6 +227,7 @@ NetworkSettings Perturbation::settings() const {
 }
 
 std::vector<Perturbation> perturbations(const Scenario& scenario) {
+    refuse_doors(scenario.scene, "probe");
     std::vector<Perturbation> out;
     out.push_back({"1 cm", scenario, Meters{1e-2}, {}});
     out.push_back({"1 um", scenario, Meters{1e-6}, {}});

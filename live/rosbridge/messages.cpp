@@ -2,6 +2,7 @@
 #include "live/rosbridge/messages.hpp"
 
 #include "experiment/link_table.hpp"
+#include "mobility/planners.hpp"
 #include "models/medium/medium.hpp"
 #include "sim/math.hpp"
 
@@ -146,7 +147,7 @@ void RosMessages::write_static_transforms(RosWriter& out) const {
 }
 
 void RosMessages::write_map(RosWriter& out) const {
-    const OccupancyGrid& grid = network().scene().grid();
+    const OccupancyGrid& grid = network().planners().scene().grid();  // with all doors open
     put_header(out, start_of_run, world_frame);
     {
         const Within info(out, "info");

@@ -164,12 +164,13 @@ LegendItem swatch(std::string text, std::string fill) {
 
 }  // namespace
 
-MapLayer::MapLayer(const Scene& scene) : scene_(scene), walls_(scene.materials().size()) {
+MapLayer::MapLayer(const Scene& scene, const Scene& open)
+    : scene_(scene), walls_(scene.materials().size()) {
     if (scene.open_field()) return;
     for (const auto& rectangle : scene.wall_rectangles()) {
         walls_[rectangle.material].push_back(rectangle.corners);
     }
-    unknown_ = unknown_rectangles(scene);
+    unknown_ = unknown_rectangles(open);
 }
 
 void MapLayer::draw(Svg& svg, const Plot& plot, bool on_colors) const {
@@ -195,6 +196,13 @@ void MapLayer::draw(Svg& svg, const Plot& plot, bool on_colors) const {
     for (const auto& path : drawn) {
         const Color edge = wall_styles[path.second % wall_styles.size()].color;
         use(svg, path.first, fill_of(path.second), edge, thin_line);
+    }
+    for (const auto& data : paths_of(open_doors_, plot)) {
+        svg.add("path", {{"d", data},
+                         {"fill", "none"},
+                         {"stroke", wall_styles[0].color},
+                         {"stroke-width", 0.8},
+                         {"stroke-dasharray", "3 2"}});
     }
 }
 

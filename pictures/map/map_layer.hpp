@@ -15,7 +15,12 @@ namespace rovernet {
 class MapLayer {
   public:
     /// @param scene  outlives the layer
-    explicit MapLayer(const Scene& scene);
+    /// @param open   the same with all doors open, whose unknown cells are drawn
+    MapLayer(const Scene& scene, const Scene& open);
+    explicit MapLayer(const Scene& scene) : MapLayer(scene, scene) {}
+
+    /// Adds a door that is open, by its corners: it is drawn as a dashed outline.
+    void add_open_door(const std::array<Vec3, 4>& corners) { open_doors_.push_back(corners); }
 
     /// @param on_colors  the walls get a white seam to stand out; the unknown is hatched, so that
     ///                   it hides nothing
@@ -28,6 +33,7 @@ class MapLayer {
     const Scene& scene_;
     std::vector<std::vector<Corners>> walls_;  // walls by material
     std::vector<Corners> unknown_;
+    std::vector<Corners> open_doors_;
 };
 
 }  // namespace rovernet

@@ -3,6 +3,7 @@
 
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
+#include "mobility/planners.hpp"
 #include "models/link_gain.hpp"
 #include "pictures/map/heat_layer.hpp"
 #include "pictures/map/link_lines.hpp"
@@ -134,7 +135,11 @@ void Painter::run() {
     network_.run_until(options_.at);
 
     const Scene& scene = network_.scene();
-    map_.emplace(scene.storey(storey()));
+    map_.emplace(scene.storey(storey()), network_.planners().scene().storey(storey()));
+    for (const Door& door : doors_of(scenario_.scene)) {
+        const bool here = scene.storeys().number_at(door.from.z) == storey();
+        if (here && !door.is_closed(options_.at)) map_->add_open_door(door.corners());
+    }
     if (source_) {
         transmitter_ = transmitter(network_, *source_, options_.at);
         const std::size_t its_own = scene.storeys().number_at(network_.position(*source_).z);

@@ -73,6 +73,23 @@ every = "0.17 s"
     return text + more;
 }
 
+/// A steel door that closes during the run, on a map without other walls.
+const char* const a_door = R"(
+[propagation]
+model = "multi_wall"
+[scene]
+map = "plain.pgm"
+size = ["120 m", "120 m"]
+[[scene.door]]
+from = ["20 m", "2 m"]
+to = ["40 m", "95 m"]
+material = "steel"
+closes = ["1.7 s"]
+opens = ["4 s"]
+[scene.materials]
+steel = { per_crossing = "20 dB" }
+)";
+
 struct Run {
     TempFolder folder;
     std::string recorded = folder / "trace.mcap";
@@ -80,6 +97,7 @@ struct Run {
 
     explicit Run(const std::string& more) {
         write_file(folder / "s.toml", scenario(more));
+        write_file(folder / "plain.pgm", std::string("P2 2 2 255\n255 255 255 255\n"));
         const Scenario loaded = load_scenario(folder / "s.toml", {.set = {"trace.record=true"}});
         RunOptions to;
         to.folder = folder / ".";
@@ -100,6 +118,7 @@ TEST_CASE("the air of a recorded run: levels and times of all receptions are tho
         {"fading by frame", "[fading]\nmodel = \"rayleigh\"\n"},
         {"fading by place", "[fading]\nmodel = \"rician\"\ncoherence = \"place\"\n"},
         {"csma", "[access]\nmodel = \"csma\"\n[reception]\nmodel = \"sinr\"\n"},
+        {"a door", a_door},
         {"no delay", "[medium]\npropagation_delay = false\n"}};
     for (const auto& radio : radios) {
         CAPTURE(radio.first);
