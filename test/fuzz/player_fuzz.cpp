@@ -20,7 +20,10 @@ scenario = { name = "two", duration = "1 s" }
 propagation = { model = "friis" }
 robot = [
   { name = "A", at = ["0 m", "0 m"], scan = { kind = "laser", beams = 3 } },
-  { name = "B", at = ["15 m", "0 m"], scan = { kind = "ranger", beams = 3 } },
+  { name = "B", at = ["15 m", "0 m"], scan = [
+    { kind = "ranger", beams = 3 },
+    { kind = "ranger", angles = ["0 deg", "90 deg"], places = [["0 m", "0 m"], ["1 m", "0 m"]] },
+  ] },
 ]
 )";
 

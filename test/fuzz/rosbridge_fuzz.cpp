@@ -19,7 +19,7 @@ constexpr std::string_view two_robots = R"(
 scenario = { name = "two", duration = "1 s" }
 propagation = { model = "friis" }
 robot = [
-  { name = "A", at = ["0 m", "0 m"], scan = { kind = "laser", beams = 3 } },
+  { name = "A", at = ["0 m", "0 m"], scan = [{ beams = 3 }, { beams = 2, name = "rear" }] },
   { name = "B", at = ["15 m", "0 m"] },
 ]
 )";
