@@ -95,9 +95,7 @@ Session::Session(const Scenario& scenario, NetworkSettings settings)
 }
 
 Session::~Session() {
-    for (auto& [id, client] : clients_) {
-        for (Subscription& each : client.subscriptions) each.end();
-    }
+    for (auto& [robot, listeners] : listeners_) listeners.subscription.end();
 }
 
 bool Session::advance(Time until, std::uint64_t most_events) {
@@ -140,46 +138,65 @@ ClientId Session::attach(const std::vector<NodeId>& robots, std::string name) {
             throw std::invalid_argument(fmt::format("robot {} is listed twice", robot_name));
         }
     }
+    const ClientId client = attach_radios(robots, std::move(name));
+    for (const NodeId robot : robots) drivers_[robot] = client;
+    return client;
+}
+
+ClientId Session::attach_radios(const std::vector<NodeId>& robots, std::string name) {
     advance(network_->now(), every_event);  // a command comes after all events of its time
     if (!ears_) {
         ears_ = std::make_shared<Ears>();
         network_->add_sink(ears_);
     }
-    const ClientId id = next_client_++;
-    Client& client = clients_[id];
-    client.name = std::move(name);
-    client.robots = robots;
-    for (const NodeId robot : robots) {
-        drivers_[robot] = id;
-        ears_->listen(robot);
-        client.subscriptions.push_back(network_->on_receive(
-            robot, [this, id, robot](const Message& message, const Heard& how) {
-                hear(id, robot, message, how);
-            }));
-    }
-    return id;
+    const ClientId client = next_client_++;
+    clients_[client] = {.name = std::move(name), .robots = robots};
+    for (const NodeId robot : robots) listen(client, robot);
+    return client;
 }
 
-void Session::hear(ClientId client, NodeId robot, const Message& message, const Heard& how) {
+void Session::listen(ClientId client, NodeId robot) {
+    Listeners& listeners = listeners_[robot];
+    listeners.clients.push_back(client);
+    if (listeners.clients.size() > 1) return;
+    ears_->listen(robot);
+    listeners.subscription = network_->on_receive(
+        robot,
+        [this, robot](const Message& message, const Heard& how) { hear(robot, message, how); });
+}
+
+void Session::stop_listening(ClientId client, NodeId robot) {
+    Listeners& listeners = listeners_.at(robot);
+    std::erase(listeners.clients, client);
+    if (!listeners.clients.empty()) return;
+    listeners.subscription.end();
+    listeners_.erase(robot);
+    ears_->stop_listening(robot);
+}
+
+void Session::hear(NodeId robot, const Message& message, const Heard& how) {
     const auto frame = ears_->take(robot, message.uid);
-    if (!clients_.at(client).hears) return;
-    HeardMessage heard{network_->now(), robot,           message.origin,
-                       how.hops,        message.payload, message.origin};
-    if (frame) {
-        heard.last_hop = frame->sender;
-        heard.level = frame->level;
+    for (const ClientId each : listeners_.at(robot).clients) {
+        Client& client = clients_.at(each);
+        if (!client.hears) continue;
+        HeardMessage& heard = client.heard.emplace_back(HeardMessage{
+            network_->now(), robot, message.origin, how.hops, message.payload, message.origin});
+        if (frame) {
+            heard.last_hop = frame->sender;
+            heard.level = frame->level;
+        }
+        heard.port = ears_->port(message.uid);
+        heard.is_for_everyone = message.to == everyone;
     }
-    heard.port = ears_->port(message.uid);
-    heard.is_for_everyone = message.to == everyone;
-    clients_.at(client).heard.push_back(std::move(heard));
 }
 
 void Session::detach(ClientId client) {
-    for (Subscription& each : client_of(client).subscriptions) each.end();
     for (const NodeId robot : client_of(client).robots) {
-        carry_out(client, robot, StopCommand{});
-        ears_->stop_listening(robot);
-        drivers_.erase(robot);
+        if (driver(robot) == client) {
+            carry_out(client, robot, StopCommand{});
+            drivers_.erase(robot);
+        }
+        stop_listening(client, robot);
     }
     clients_.erase(client);
 }
@@ -202,9 +219,21 @@ void Session::check_robot(ClientId client, NodeId robot) {
         fmt::format("robot {} is not the client's: attach it first", network_->name(robot)));
 }
 
+void Session::check_radio(ClientId client, NodeId robot) {
+    const auto found = listeners_.find(robot);
+    const bool is_its =
+        found != listeners_.end() &&
+        std::count(found->second.clients.begin(), found->second.clients.end(), client);
+    if (!is_its) check_robot(client, robot);
+}
+
 std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,
                                                 const RobotCommand& command, std::uint64_t number) {
-    check_robot(client, robot);
+    if (std::holds_alternative<SendCommand>(command)) {
+        check_radio(client, robot);
+    } else {
+        check_robot(client, robot);
+    }
     advance(network_->now(), every_event);  // what the last command caused at this time comes first
     if (tell_) tell_({network_->now(), robot, client_of(client).name, number, command});
     ears_->last_sent.reset();

@@ -72,7 +72,10 @@ class Session {
     /// one that is taken or listed twice
     /// @param name  of the client, for on_input()
     ClientId attach(const std::vector<NodeId>& robots, std::string name = {});
-    /// The client leaves, and all that belongs to it: its robots stand still.
+    /// A client takes part by the radios of robots, whoever drives them: it sends from them and
+    /// hears what they hear. Each robot is listed once.
+    ClientId attach_radios(const std::vector<NodeId>& robots, std::string name = {});
+    /// The client leaves, and all that belongs to it: robots that it drives stand still.
     void detach(ClientId client);
 
     /// Client that drives the robot, if one does.
@@ -81,7 +84,8 @@ class Session {
     /// scenario they make the run again. Robots of a client that leaves are told to stop.
     void on_input(std::function<void(const Input&)> tell) { tell_ = std::move(tell); }
 
-    // Commands, for robots of the client. @throws std::invalid_argument for any other
+    // Commands, for robots of the client; of its radios only to send. @throws std::invalid_argument
+    // for any other
 
     /// Carries out a command, now.
     /// @param number  client's own, for on_input()
@@ -128,14 +132,21 @@ class Session {
     struct Client {
         std::string name;
         std::vector<NodeId> robots;
-        std::vector<Subscription> subscriptions;
-        std::vector<HeardMessage> heard;
+        std::vector<HeardMessage> heard = {};
         bool hears = true;
+    };
+    /// Clients who hear what a robot hears.
+    struct Listeners {
+        std::vector<ClientId> clients;
+        Subscription subscription;
     };
 
     Client& client_of(ClientId client);
     void check_robot(ClientId client, NodeId robot);
-    void hear(ClientId client, NodeId robot, const Message& message, const Heard& how);
+    void check_radio(ClientId client, NodeId robot);
+    void listen(ClientId client, NodeId robot);
+    void stop_listening(ClientId client, NodeId robot);
+    void hear(NodeId robot, const Message& message, const Heard& how);
     void send_message(NodeId robot, const SendCommand& command);
 
     std::string file_;  // file of the scenario, for errors
@@ -144,6 +155,7 @@ class Session {
     DrivenRobots driven_;
     std::map<ClientId, Client> clients_;
     std::map<NodeId, ClientId> drivers_;
+    std::map<NodeId, Listeners> listeners_;
     using Scanners = std::shared_ptr<const std::vector<Scanner>>;  // of all robots of a table
     std::map<NodeId, Scanners> range_finders_;
     std::shared_ptr<Ears> ears_;  // null until a client comes

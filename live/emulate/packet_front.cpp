@@ -14,7 +14,7 @@ void PacketFront::begin(Session& session, const Scenario&) {
     format_->begin(session.network());
     std::vector<NodeId> robots;
     for (NodeId n{0}; n.index() < session.network().size(); ++n.value) robots.push_back(n);
-    client_ = session.attach(robots, "programs");
+    client_ = session.attach_radios(robots, "programs");
 }
 
 std::size_t PacketFront::received(Connection from, std::string_view packet) {

@@ -11,7 +11,7 @@
 namespace rovernet {
 
 /// Front of programs that send packets by the radio of a robot, over one hop, and get what it
-/// hears: each robot has a port of its own.
+/// hears, whoever drives it: each robot has a port of its own.
 ///
 /// A packet goes on air at the time at which it comes in, and a message is handed over at the time
 /// at which the robot hears it. So the front asks for the time of every event.

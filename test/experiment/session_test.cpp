@@ -142,6 +142,41 @@ TEST_CASE("session: a robot has one driver; a client that leaves takes all that 
     CHECK(session.heard(second).size() == 1);  // the tick at 3 s
 }
 
+TEST_CASE("session: a client of radios sends and hears beside the one who drives the robots") {
+    Session session{scenario()};
+    Network& net = session.network();
+    const NodeId a{0}, b{1}, c{2};
+    const ClientId driver = session.attach({b, c});
+    const ClientId radios = session.attach_radios({a, b, c}, "radios");
+    session.drive(driver, b, {1}, {0});
+    CHECK_THROWS_WITH_AS(session.drive(radios, b, {1}, {0}),
+                         "robot b is not the client's: attach it first", std::invalid_argument);
+    CHECK_THROWS_AS(session.send(driver, a, {}, "of another"), std::invalid_argument);
+    session.send(radios, c, std::nullopt, "hello");
+    session.step(start_of_run + 1s);
+    std::vector<HeardMessage> of_both = session.heard(radios);
+    REQUIRE(of_both.size() == 4);  // the tick of a at b and c, the hello of c at a and b
+    std::erase_if(of_both, [&](const HeardMessage& each) { return each.at == a; });
+    REQUIRE(of_both.size() == 3);
+    for (const HeardMessage& each : of_both) {
+        const bool is_hello = each.payload == "hello";  // the ticks were on their way already
+        CHECK(each.level.has_value() == is_hello);
+    }
+    CHECK(session.heard(driver) == of_both);
+
+    const ClientId others = session.attach_radios({b});
+    session.detach(others);
+    CHECK(session.twist(b).speed == 1);  // it had not driven it
+    session.detach(driver);
+    const Vec3 left = net.position(b);
+    session.send(radios, c, std::nullopt, "again");
+    session.step(start_of_run + 2s);
+    CHECK(net.position(b) == left);
+    CHECK(session.heard(radios).size() == 2);  // at a and b
+    session.detach(radios);
+    session.attach({a, b, c});
+}
+
 TEST_CASE("session: a network that outlives its session goes on without its clients") {
     std::shared_ptr<Network> network;
     {
