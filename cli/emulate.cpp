@@ -5,6 +5,8 @@
 #include "cli/stop.hpp"
 #include "live/emulate/door.hpp"
 #include "live/emulate/namespaces.hpp"
+#include "live/player/door.hpp"
+#include "live/rosbridge/door.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +19,7 @@ namespace rovernet::cli {
 namespace {
 
 struct EmulateArguments : FileArguments {
-    std::optional<std::string> out, udp;
+    std::optional<std::string> out, udp, player, rosbridge;
     std::string late = "10ms", on_late = "warn";
     double speed = 1;
     Reach reach;
@@ -29,6 +31,11 @@ PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenar
     options.folder = results_folder(a.out, scenario, a.options);
     options.speed = a.speed;
     options.fronts.push_back(a.udp ? udp_relay(a.reach.without_token(*a.udp)) : tap_devices());
+    if (a.player) {
+        options.fronts.push_back(
+            player_ports(a.reach.without_token(*a.player), robot_names(scenario), {}));
+    }
+    if (a.rosbridge) options.fronts.push_back(rosbridge_door(a.reach.with_token(*a.rosbridge)));
     options.go_on = goes_on;
     options.say = say_to_all;
     options.most_late = time_of("--late", a.late);
@@ -74,15 +81,23 @@ void add_emulate(Command app) {
         app, "emulate", "Carry the packets of real programs by the robots' radios, in real time",
         emulate);
     command.add_examples({"rovernet emulate examples/emulate/emulate.toml",
-                          "rovernet emulate examples/rescue/rescue.toml --udp"});
+                          "rovernet emulate examples/rescue/rescue.toml --udp --rosbridge"});
     add_file(command, a, any_file);
-    const Option udp =
-        command
-            .add_option(
-                "--udp", a.udp,
-                "serve datagrams, at 127.0.0.1:PORT and the ports that follow, one for each "
-                "robot; port 0: any that is free (default: 7100)")
-            .usually(relay_address.data());
+    command
+        .add_option("--udp", a.udp,
+                    "serve datagrams, at 127.0.0.1:PORT and the ports that follow, one for each "
+                    "robot; port 0: any that is free (default: 7100)")
+        .usually(relay_address.data());
+    command
+        .add_option("--player", a.player,
+                    "serve Player clients, too, at 127.0.0.1:PORT and the ports that follow; port "
+                    "0: any that is free (default: 6665)")
+        .usually(player_address.data());
+    command
+        .add_option("--rosbridge", a.rosbridge,
+                    "serve ROS clients, too, at 127.0.0.1:PORT; port 0: any that is free (default: "
+                    "9090)")
+        .usually(rosbridge_address.data());
     command.add_option("--speed", a.speed, "simulated per real time").check(above_zero());
     command.add_option("--late", a.late, "real time by which it may be behind the clock")
         .shows_default();
@@ -90,7 +105,7 @@ void add_emulate(Command app) {
         .one_of({"warn", "fail"})
         .shows_default();
     command.add_option("--out", a.out, "folder for the results (default: as that of run)");
-    a.reach.add_to(command).needs(udp);
+    a.reach.add_to(command);
     add_json(command, a.json);
 }
 

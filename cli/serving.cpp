@@ -24,7 +24,7 @@ std::string results_folder(const std::optional<std::string>& out, const Scenario
     return out ? *out : run_folder(scenario, options.set);
 }
 
-Option Reach::add_to(Command command) {
+void Reach::add_to(Command command) {
     const Option option = command.add_option(
         "--listen", listen,
         "IP address of this machine by which others reach it, or 0.0.0.0: those that speak "
@@ -33,7 +33,6 @@ Option Reach::add_to(Command command) {
         .add_flag("--insecure", insecure,
                   "others that --listen lets in may speak the protocols without a token, too")
         .needs(option);
-    return option;
 }
 
 Address Reach::with_token(const std::string& text) const {

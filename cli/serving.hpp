@@ -25,8 +25,8 @@ struct Reach {
     std::optional<std::string> listen;
     bool insecure = false;
 
-    /// Adds the options to a command. @return --listen
-    Option add_to(Command command);
+    /// Adds the options to a command.
+    void add_to(Command command);
     /// Address of a server whose clients need a token where other machines reach it.
     /// @throws CommandEnd if it is none
     Address with_token(const std::string& text) const;
