@@ -28,8 +28,11 @@ class Datagrams {
     Datagrams(const Datagrams&) = delete;
     Datagrams& operator=(const Datagrams&) = delete;
 
-    void send(std::string_view bytes) const {
-        REQUIRE(::send(socket_, bytes.data(), bytes.size(), 0) >= 0);
+    void send(std::string_view bytes) const { REQUIRE(offer(bytes)); }
+    /// Sends a datagram, whether or not anybody listens there.
+    /// @return whether it was sent: not if the last one found nobody
+    bool offer(std::string_view bytes) const {
+        return ::send(socket_, bytes.data(), bytes.size(), 0) >= 0;
     }
     /// The next datagram; empty if none comes in time.
     std::string next(std::chrono::milliseconds most) const {

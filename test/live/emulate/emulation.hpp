@@ -28,7 +28,8 @@ class Emulation {
         using namespace std::chrono_literals;
         std::vector<std::string> said;
         for (int i = 0; i < 4000 && said.size() < ports; ++i, std::this_thread::sleep_for(5ms)) {
-            if (!content(folder.path("stderr")).empty()) break;
+            const std::string told = said_to_person();
+            if (!told.empty() && told.find("for a page: ") == told.npos) break;  // it failed
             std::ifstream out(folder.path("stdout"));
             said.clear();
             for (std::string line; std::getline(out, line) && !out.eof();) {
@@ -36,6 +37,14 @@ class Emulation {
             }
         }
         return said;
+    }
+    /// Port of the line that ends so, among so many lines: "(rosbridge)".
+    int port(std::size_t ports, const std::string& what) const {
+        for (const std::string& line : listening(ports)) {
+            if (line.ends_with(what)) return std::stoi(line.substr(line.find("127.0.0.1:") + 10));
+        }
+        FAIL("it does not listen for " << what);
+        return 0;
     }
     /// UDP ports of its robots.
     std::vector<int> ports(std::size_t robots) const {
