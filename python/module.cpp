@@ -124,6 +124,7 @@ void add_heard(py::module_& m) {
         .def_property_readonly(
             "data", [](const HeardObject& heard) { return py::bytes(heard.message.payload); },
             "Content.")
+        .def("__eq__", &HeardObject::operator==, py::is_operator())
         .def("__repr__", [=](const HeardObject& heard) {
             return py::str("<Heard at {} at {} s from {} by {}, {} hops: {!r}>")
                 .format(heard.name(heard.message.at), seconds(heard.message.time),

@@ -25,6 +25,9 @@ struct HeardObject {
     py::tuple names;  // of all robots
 
     py::object name(NodeId robot) const { return names[robot.index()]; }
+    bool operator==(const HeardObject& other) const {
+        return message == other.message && noise == other.noise;
+    }
 };
 
 /// Sink that tells a function of Python each record of a kind.

@@ -37,6 +37,13 @@ FAILING = {
 }
 """B is switched off at 0.25 s."""
 
+SPEAKING = {
+    "scenario": {"duration": "1 s"},
+    "robot": [{"name": "A", "at": [0, 0]}, {"name": "B", "at": [10, 0]}],
+    "traffic": [{"from": "A", "payload": "hello", "start": "0.05 s"}],
+}
+"""A says something once, in the first step."""
+
 
 def signature(function):
     plain = inspect.signature(function)
@@ -64,16 +71,35 @@ class Shapes(unittest.TestCase):
             for name in ENV_ATTRIBUTES.split():
                 self.assertTrue(hasattr(env, name), name)
 
-    def test_their_own_checkers_pass_if_they_are_installed(self):
+    def test_the_checker_of_gymnasium_passes(self):
         try:
             from gymnasium.utils.env_checker import check_env
-            from pettingzoo.test import parallel_api_test
         except ImportError:
-            self.skipTest("neither gymnasium nor pettingzoo is installed")
+            self.skipTest("gymnasium is not installed")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # advice
             check_env(rn.Env(ROW, lambda session, heard: 0), skip_render_check=True)
+            check_env(rn.Env(SPEAKING, lambda session, heard: 0), skip_render_check=True)
+
+    def test_the_checker_of_pettingzoo_passes(self):
+        try:
+            from pettingzoo.test import parallel_api_test
+        except ImportError:
+            self.skipTest("pettingzoo is not installed")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # advice
             parallel_api_test(rn.ParallelEnv(ROW, nothing), num_cycles=100)
+            parallel_api_test(rn.ParallelEnv(FAILING, nothing), num_cycles=100)
+
+    def test_a_step_is_the_same_after_the_same_reset(self):
+        """What the checker of gymnasium asks for, its infos included."""
+        env, results = rn.Env(SPEAKING, lambda session, heard: len(heard)), []
+        for _ in range(2):
+            env.reset(seed=123)
+            observation, *rest = env.step(np.full((2, 2), 0.5))
+            results.append((observation.tolist(), *rest))
+        self.assertEqual(results[0], results[1])
+        self.assertEqual(results[0][1], 1)  # a message was heard
 
 
 class ParallelEnv(unittest.TestCase):
