@@ -80,6 +80,12 @@ void Engine::switch_robot(NodeId id, bool on) {
     routing.on_switched(id, on);
 }
 
+void Engine::change_scene() {
+    world.change_scene();
+    links.scene_changed();
+    motion.scene_changed();
+}
+
 void Engine::serve(const Event& event) {
     const auto& [kind, node, data] = event.payload;
     switch (kind) {
@@ -92,10 +98,7 @@ void Engine::serve(const Event& event) {
         case Occurrence::Kind::link_change: return links.change_links();
         case Occurrence::Kind::access_timer:
             return mac.on_timer(node, static_cast<std::uint32_t>(data));
-        case Occurrence::Kind::scene_change:
-            world.change_scene();
-            links.scene_changed();
-            return motion.scene_changed();
+        case Occurrence::Kind::scene_change: return change_scene();
     }
 }
 

@@ -111,12 +111,10 @@ void Motion::tell_arrival(NodeId id) {
 }
 
 void Motion::next_leg(NodeId id) {
-    if (const auto leg = taken(after_turn_, id)) return go(id, *leg);
-    if (world_.doors && nodes_[id.index()].moving && is_caught(id)) {
-        held_.try_emplace(id);
-        return take(id, standing_leg(mover(id)));
+    if (!after_turn_.empty()) {
+        if (const auto leg = taken(after_turn_, id)) return go(id, *leg);
     }
-    if (!held_.empty() && held_.contains(id)) return go_on(id);
+    if ((world_.doors || !held_.empty()) && is_held(id)) return;
     Mover asking = mover(id);
     const Step step = nodes_[id.index()].movement.next_leg(asking);
     const bool begins = nodes_[id.index()].moving == 0;
@@ -162,6 +160,8 @@ void Motion::take(NodeId id, const Leg& leg) {
     world_.emit(Moved{world_.now, id, leg});
     if (leg.end != never) expect_leg_end(id);
 }
+
+void Motion::go(NodeId id, const Leg& leg) { world_.doors ? go_to_doors(id, leg) : take(id, leg); }
 
 void Motion::put(NodeId id, const Leg& leg) {
     channel_.before_change(id, world_.medium.stations().is_on(id));

@@ -102,10 +102,13 @@ class Motion {
     void begin_leg(NodeId node, const Leg& leg);
     // Forgets what the robot was about to do.
     void end_movement(NodeId node);
-    // Takes a leg of the movement as far as the closed doors let it.
+    // Takes a leg of the movement as far as closed doors let it; the second if there are some.
     void go(NodeId node, const Leg& leg);
+    void go_to_doors(NodeId node, const Leg& leg);
     // Moves a robot on that waited for a door.
     void go_on(NodeId node);
+    // Whether doors decide on the next leg: that of a robot that is caught, or has come to one.
+    bool is_held(NodeId node);
     // Whether a closed door touches the robot, and stops it.
     bool is_caught(NodeId node);
     // Whether no closed door keeps a robot that stands where it is.

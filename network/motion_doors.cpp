@@ -32,6 +32,17 @@ bool Motion::is_caught(NodeId id) {
     return !world_.doors->passable(here, here, body(id).radius);
 }
 
+bool Motion::is_held(NodeId id) {
+    if (nodes_[id.index()].moving && is_caught(id)) {
+        held_.try_emplace(id);
+        take(id, standing_leg(mover(id)));
+        return true;
+    }
+    if (!held_.contains(id)) return false;
+    go_on(id);
+    return true;
+}
+
 bool Motion::is_free(NodeId id) {
     if (is_caught(id)) return false;
     const auto held = held_.find(id);
@@ -56,10 +67,9 @@ Leg Motion::rest_of(NodeId id, const Leg& leg) {
     return rest;
 }
 
-void Motion::go(NodeId id, const Leg& leg) {
+void Motion::go_to_doors(NodeId id, const Leg& leg) {
     const AtDoors at_doors = nodes_[id.index()].movement.at_doors();
-    if (!world_.doors || leg.velocity == Vec3{} || at_doors == AtDoors::passes)
-        return take(id, leg);
+    if (leg.velocity == Vec3{} || at_doors == AtDoors::passes) return take(id, leg);
     const Vec3 to = end_of(leg);
     const auto stop = world_.doors->stop(leg.from, to, body(id).radius);
     if (!stop) return take(id, leg);
