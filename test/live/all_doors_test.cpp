@@ -62,7 +62,7 @@ every = "70 ms"
 class AllDoors {
   public:
     explicit AllDoors(const Scenario& scenario) {
-        const Loopback any{"127.0.0.1", 0};
+        const Address any{"127.0.0.1", 0};
         PacedOptions options;
         options.folder = folder_.path("out");
         options.fronts = {player_ports(any, robot_names(scenario), {}), rosbridge_door(any),
