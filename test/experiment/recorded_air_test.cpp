@@ -87,7 +87,7 @@ material = "steel"
 closes = ["1.7 s"]
 opens = ["4 s"]
 [scene.materials]
-steel = { per_crossing = "20 dB" }
+steel = { per_crossing = "5 dB" }
 )";
 
 struct Run {
