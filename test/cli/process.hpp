@@ -50,6 +50,15 @@ class Process {
         posix_spawn_file_actions_destroy(&files);
     }
 
+    /// Nothing is left of a test that failed before it waited.
+    ~Process() {
+        if (has_ended_) return;
+        kill(pid_, SIGKILL);
+        waitpid(pid_, nullptr, 0);
+    }
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
     void interrupt() const { kill(pid_, SIGINT); }
     pid_t pid() const { return pid_; }
 
@@ -57,10 +66,13 @@ class Process {
     Ended stop() const {
         using namespace std::chrono_literals;
         int status = 0;
-        for (int i = 0; i < 600 && waitpid(pid_, &status, WNOHANG) != pid_; ++i) {
+        for (int i = 0; i < 600; ++i) {
+            if (waitpid(pid_, &status, WNOHANG) == pid_) return ended(status);
             interrupt();
             std::this_thread::sleep_for(100ms);
         }
+        kill(pid_, SIGKILL);
+        waitpid(pid_, &status, 0);
         return ended(status);
     }
 
@@ -79,11 +91,13 @@ class Process {
 
   private:
     Ended ended(int status) const {
+        has_ended_ = true;
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out_), content(err_)};
     }
 
     std::string out_, err_;
     pid_t pid_ = 0;
+    mutable bool has_ended_ = false;
 };
 
 inline Ended command(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
