@@ -3,21 +3,18 @@
 // all the time: such a run is made again from its log. The long forms are skipped here; .ci/full
 // runs them, and the one with 50 clients under the thread sanitizer.
 #include "live/emulate/door.hpp"
-#include "live/input_log.hpp"
-#include "live/paced_run.hpp"
 #include "live/player/door.hpp"
 #include "live/rosbridge/door.hpp"
 #include "test/live/busy_clients.hpp"
+#include "test/live/served_run.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
 
 #include <atomic>
 #include <chrono>
-#include <fstream>
 #include <future>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -58,78 +55,36 @@ every = "70 ms"
     return scenario;
 }
 
-/// A run in a thread of its own: Player ports of the robots, a port of rosbridge, UDP ports.
-class AllDoors {
-  public:
-    explicit AllDoors(const Scenario& scenario) {
-        const Address any{"127.0.0.1", 0};
-        PacedOptions options;
-        options.folder = folder_.path("out");
-        options.fronts = {player_ports(any, robot_names(scenario), {}), rosbridge_door(any),
-                          udp_relay(any)};
-        const std::size_t doors = 2 * scenario.robots.size() + 1;
-        options.say = [this, doors](std::string_view text) {
-            if (!text.starts_with("listening on ") || said_.size() == doors) return;
-            said_.emplace_back(text);
-            if (said_.size() == doors) opened_.set_value();
-        };
-        run_ = std::async(std::launch::async,
-                          [options, scenario] { return run_paced(scenario, options); });
-        opened_.get_future().wait();
-    }
-
-    /// Port of the address that is for this: "(rosbridge)".
-    int port(const std::string& what) const {
-        const std::string host = "127.0.0.1:";
-        for (const std::string& line : said_) {
-            if (line.ends_with(what)) return std::stoi(line.substr(line.find(host) + host.size()));
-        }
-        FAIL("no door for " << what);
-        return 0;
-    }
-    LiveResult end() { return run_.get(); }
-    InputReplay replay() const { return replay_inputs(folder_.path("out"), {}); }
-    /// Time of the last input in the log that has these words; 0 if none has.
-    Duration last_input(const std::string& words) const {
-        const std::string key = "{\"t_ns\":";
-        std::ifstream log(folder_.path("out/inputs.jsonl"));
-        Duration last{};
-        for (std::string line; std::getline(log, line);) {
-            if (line.find(words) == line.npos) continue;
-            last = Duration{std::stoll(line.substr(key.size()))};
-        }
-        return last;
-    }
-
-  private:
-    TemporaryFolder folder_;
-    std::vector<std::string> said_;
-    std::promise<void> opened_;
-    std::future<LiveResult> run_;
-};
+/// Time of the last input in a log that has these words; 0 if none has.
+Duration last_input(const std::string& log, const std::string& words) {
+    const std::string key = "{\"t_ns\":";
+    const std::size_t found = log.rfind(words);
+    if (found == log.npos) return {};
+    return Duration{std::stoll(log.substr(log.rfind(key, found) + key.size(), 20))};
+}
 
 /// Clients in threads of their own.
 class Crowd {
   public:
-    explicit Crowd(const AllDoors& doors) : doors_(doors) {}
+    explicit Crowd(const ServedRun& run) : run_(run) {}
     ~Crowd() { goes_on_ = false; }
     Crowd(const Crowd&) = delete;
     Crowd& operator=(const Crowd&) = delete;
 
     void add_player(const std::string& robot, std::uint32_t how) {
-        LineClient client(doors_.port("(Player, robot " + robot + ")"));
+        LineClient client(run_.port("(Player, robot " + robot + ")"));
         start([how](LineClient& own) { return player_client(std::move(own), how); },
               std::move(client));
     }
     void add_ros(const std::string& robot) {
-        WebClient client(doors_.port("(rosbridge)"));
+        WebClient client(run_.port("(rosbridge)"));
         start([robot](WebClient& own) { return ros_client(std::move(own), robot); },
               std::move(client));
     }
     /// @param other  number of another robot
     void add_program(const std::string& robot, char other) {
         start([this, other](int port) { return packet_program(port, other, goes_on_); },
-              doors_.port("(robot " + robot + ")"));
+              run_.port("(robot " + robot + ")"));
     }
     /// Checks, as the run has ended, that each has said and heard something.
     void check() {
@@ -148,7 +103,7 @@ class Crowd {
             std::launch::async, [act](Client own) { return act(own); }, std::move(client)));
     }
 
-    const AllDoors& doors_;
+    const ServedRun& run_;
     std::atomic<bool> goes_on_ = true;
     std::vector<std::future<Busy>> clients_;
 };
@@ -157,22 +112,28 @@ class Crowd {
 /// robots: a port answers to whoever has spoken last.
 void check_run(Duration duration, int of_each_kind) {
     const std::string robots[] = {"A", "B", "C", "D"};
-    AllDoors doors(four_robots(duration));
-    Crowd crowd(doors);
+    const Scenario scenario = four_robots(duration);
+    const Address any{"127.0.0.1", 0};
+    ServedRun run(
+        scenario,
+        {player_ports(any, robot_names(scenario), {}), rosbridge_door(any), udp_relay(any)},
+        2 * scenario.robots.size() + 1);
+    Crowd crowd(run);
     for (int i = 0; i < of_each_kind; ++i) {
         crowd.add_player("A", push);
         crowd.add_player(i % 2 == 0 ? "B" : "A", pull);
         crowd.add_ros(i % 2 == 0 ? "C" : "D");
         if (i < 4) crowd.add_program(robots[i], static_cast<char>((i + 1) % 4));
     }
-    const LiveResult result = doors.end();
+    const LiveResult result = run.end();
     crowd.check();
+    const std::string log = run.log();
     for (const char* kind :
          {R"("client":"player")", R"("client":"rosbridge")", R"("client":"programs")"}) {
         CAPTURE(kind);
-        CHECK(doors.last_input(kind) > duration / 2);
+        CHECK(last_input(log, kind) > duration / 2);
     }
-    const InputReplay replay = doors.replay();
+    const InputReplay replay = run.replay();
     CHECK(result.run.simulated == duration);
     CHECK(replay.recorded == result.run.fingerprint);
     CHECK(replay.now == result.run.fingerprint);

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Runs with clients of several kinds at once are made again from their log, without the clients.
 #include "live/input_log.hpp"
-#include "live/paced_run.hpp"
 #include "live/player/door.hpp"
 #include "live/rosbridge/door.hpp"
 #include "sim/error.hpp"
 #include "test/live/live_command.hpp"
+#include "test/live/served_run.hpp"
 #include "test/live/talk.hpp"
 #include "test/live/web_client.hpp"
 
 #include <doctest/doctest.h>
 
 #include <chrono>
-#include <future>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,44 +21,12 @@ using namespace rovernet;
 using namespace rovernet::test;
 using namespace std::chrono_literals;
 
-namespace {
-
-/// A run by the clock with a door for Player clients of robot A and one for ROS clients.
-class TwoDoors {
-  public:
-    explicit TwoDoors(const Scenario& scenario) {
-        const Address any{"127.0.0.1", 0};
-        PacedOptions options;
-        options.folder = folder_.path("out");
-        options.fronts = {player_one_port(any, {"A"}, {}), rosbridge_door(any)};
-        std::promise<void> opened;
-        options.say = [&](std::string_view text) {
-            if (!text.starts_with("listening on ")) return;
-            ports.push_back(read_port(std::string(text)));
-            if (ports.size() == 2) opened.set_value();
-        };
-        run_ = std::async(std::launch::async,
-                          [options, scenario] { return run_paced(scenario, options); });
-        opened.get_future().wait();
-    }
-
-    LiveResult end() { return run_.get(); }
-    InputReplay replay() const { return replay_inputs(folder_.path("out"), {}); }
-    std::string log() const { return content(folder_.path("out/inputs.jsonl")); }
-
-    std::vector<int> ports;  // Player, rosbridge
-
-  private:
-    TemporaryFolder folder_;
-    std::future<LiveResult> run_;
-};
-
-}  // namespace
-
 TEST_CASE("replay: a run with clients of Player and of ROS") {
-    TwoDoors run(three_in_a_row("[access]\nmodel = \"csma\"\n"));
-    LineClient player(run.ports[0]);
-    WebClient ros(run.ports[1]);
+    const Address any{"127.0.0.1", 0};
+    ServedRun run(three_in_a_row("[access]\nmodel = \"csma\"\n"),
+                  {player_one_port(any, {"A"}, {}), rosbridge_door(any)}, 2);
+    LineClient player(run.port("(Player, all robots)"));
+    WebClient ros(run.port("(rosbridge)"));
     open_position(player);
     player.send_bytes(device(51, 1));
     for (int i = 1; i <= 20; ++i, std::this_thread::sleep_for(20ms)) {
