@@ -53,8 +53,7 @@ OccupancyGrid map_of(const Door& door, const Storeys& storeys) {
 
 /// Number of the material among `all`, which it is added to if it is not there.
 std::uint8_t number_of(const Material& material, std::vector<Material>& all) {
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const Material& m) { return m.name == material.name; });
+    const auto found = std::find(all.begin(), all.end(), material);
     const auto number = static_cast<std::size_t>(found - all.begin());
     if (number > 255) throw std::invalid_argument("Scene: more than 256 materials");
     if (found == all.end()) all.push_back(material);

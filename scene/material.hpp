@@ -23,6 +23,7 @@ struct Material {
     Meters height{std::numeric_limits<double>::infinity()};  ///< [m] the wall stands from 0 to here
 
     bool follows_model() const { return !per_crossing && !per_metre && !slab; }
+    friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// What one crossing of a wall takes at one frequency.

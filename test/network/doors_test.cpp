@@ -54,7 +54,7 @@ Door door() {
             .opens = {opens}};
 }
 
-/// The same scene with the door as a map of its own, made by hand.
+/// Scene with the closed door as a wall, by a map of its own that is made by hand.
 Scene with_wall() {
     OccupancyGrid wall{.columns = 1,
                        .rows = 1,

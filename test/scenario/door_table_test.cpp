@@ -84,6 +84,21 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("a door's material is what the scenario says, whatever the walls' own is called") {
+    const House house;
+    const Scenario s =
+        house.scenario(map + "[scene.materials]\nwall = { per_crossing = \"9 dB\" }\n" + door +
+                       times + "material = \"wall\"\n" + robots);
+    Network network(network_settings(s));
+    populate(network, s);
+    network.run_until(start_of_run);
+    const auto level = [&](Duration t) {
+        return network.medium().links().level(NodeId{0}, NodeId{1}, start_of_run + t,
+                                              network.legs());
+    };
+    CHECK(std::abs((level(0s) - level(10s)).value - 9) < 1e-9);
+}
+
 TEST_CASE("a door is printed, and reads back as the same") {
     const House house;
     const std::string text = map + materials + door + times +
