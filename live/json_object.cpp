@@ -74,17 +74,12 @@ double JsonElement::number(const Range& range) const {
 
 std::uint64_t JsonElement::whole_number(std::uint64_t lowest, std::uint64_t highest) const {
     std::uint64_t number = 0;
+    const bool is_whole = value.get_uint64().get(number) == simdjson::SUCCESS;
+    if (is_whole && number >= lowest && number <= highest) return number;
     const std::string limits = fmt::format("a whole number from {} to {}", lowest, highest);
-    if (value.get_uint64().get(number) != simdjson::SUCCESS) {
-        if (value.is_number()) {
-            fail("out_of_range", fmt::format("found {}; expected {}", found(value), limits));
-        }
-        expected(limits);
-    }
-    if (number < lowest || number > highest) {
-        fail("out_of_range", fmt::format("found {}; expected {}", number, limits));
-    }
-    return number;
+    if (!value.is_number()) expected(limits);
+    fail("out_of_range", fmt::format("found {}; expected {}",
+                                     is_whole ? std::to_string(number) : found(value), limits));
 }
 
 bool JsonElement::truth() const {

@@ -86,7 +86,7 @@ class LiveServer {
     }
 
     void tell_missing() {
-        const std::size_t present = lockstep_.present();
+        const std::size_t present = lockstep_.controllers().size();
         if (lockstep_.has_started() || told_present_ == present) return;
         told_present_ = present;
         options_.say(fmt::format("waiting for controllers: {} of {} {} there", present,
@@ -97,9 +97,10 @@ class LiveServer {
         if (!options_.patience || !lockstep_.has_started()) return;
         if (Clock::now() - asked_ < *options_.patience) return;
         const std::chrono::duration<double> patience = *options_.patience;
-        lockstep_.end_run("patience",
-                          fmt::format("no question within {:g} s from controller {}",
-                                      patience.count(), fmt::join(lockstep_.owing(), ", ")));
+        lockstep_.end_run(
+            "patience",
+            fmt::format("no question within {:g} s from controller {}", patience.count(),
+                        fmt::join(lockstep_.controllers().owing(), ", ")));
     }
 
     /// Ends a run that cannot begin, as a program has ended without a hello.

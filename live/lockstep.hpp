@@ -3,13 +3,13 @@
 
 #include "experiment/session.hpp"
 #include "live/answer.hpp"
+#include "live/controllers.hpp"
 #include "live/request.hpp"
 #include "scenario/scenario.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,8 +40,7 @@ enum class OnLoss {
 /// It knows no sockets and no clocks: whoever carries the lines calls it, from one thread.
 class Lockstep {
   public:
-    /// Number of whoever carries a controller's lines, never used twice.
-    using Connection = std::uint32_t;
+    using Connection = Controller::Connection;
     /// Carries a line, without its end, to a controller. It must not call back.
     using Tell = std::function<void(Connection to, std::string_view line)>;
 
@@ -51,7 +50,6 @@ class Lockstep {
     };
 
     Lockstep(Settings settings, Tell tell);
-    ~Lockstep();
 
     /// Begins a run, the first one or that of a reset: controllers that are there are welcomed.
     /// @param session      at its start; it and `scenario` have to live until the next begin()
@@ -67,7 +65,9 @@ class Lockstep {
     void lost(Connection connection);
 
     /// Nobody owes a question: advance() has something to do.
-    bool is_due() const;
+    bool is_due() const {
+        return state_ == State::runs && has_started_ && controllers_.have_all_asked();
+    }
     /// Carries out what was commanded, runs to the nearest end of a step and answers.
     /// @param go_on  asked now and then; false ends the run
     /// @throws InputError, RunError as Session::step()
@@ -89,32 +89,24 @@ class Lockstep {
     /// Tells everybody who is still there that the run has ended.
     void tell_end(std::string_view fingerprint, const Table& metrics);
 
-    /// Controllers that are there, and the number that the run begins with.
-    std::size_t present() const { return controllers_.size(); }
+    const Controllers& controllers() const { return controllers_; }
+    /// Number of controllers with which the run begins.
     std::size_t wanted() const { return settings_.wait_for; }
     bool has_started() const { return has_started_; }
-    /// Names of the controllers that owe a question.
-    std::vector<std::string> owing() const;
 
   private:
-    struct Controller;
-
-    Controller* controller_of(Connection connection);
     void handle(Connection from, HelloRequest& hello);
     void handle(Connection from, StepRequest& step);
     void handle(Connection from, ResetRequest& reset);
     void handle(Connection from, ByeRequest& bye);
     Controller& asking(Connection from);
     bool come_back(Connection from, const HelloRequest& hello);
-    void check_claims(const HelloRequest& hello) const;
-    void join(Controller& controller);
+    void check_claims(const HelloRequest& hello);
     void start_if_complete();
-    void remove(Connection connection);
     void let_go();
     void carry_out();
     void answer(Controller& controller);
-    Time next_end() const;
-    bool is_done() const;
+    bool is_done() const { return session_->network().now() >= session_->end(); }
 
     Settings settings_;
     Tell tell_;
@@ -123,7 +115,7 @@ class Lockstep {
     std::function<std::string()> fingerprint_;
     std::optional<AnswerWriter> answers_;
     RequestReader reader_;
-    std::vector<std::unique_ptr<Controller>> controllers_;
+    Controllers controllers_;
     std::vector<Connection> leaving_;  // said bye, and wait for the last line
     bool has_started_ = false;
     State state_ = State::runs;

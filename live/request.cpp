@@ -202,6 +202,12 @@ std::optional<RobotCommand> command_in(const JsonElement& element, const Network
 
 using Commands = std::vector<std::pair<NodeId, RobotCommand>>;
 
+void sort_by_robot(Commands& commands) {
+    const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+    if (std::is_sorted(commands.begin(), commands.end(), before)) return;  // as they mostly come
+    std::stable_sort(commands.begin(), commands.end(), before);
+}
+
 std::vector<double> numbers_in(const std::optional<JsonElement>& list, std::size_t size,
                                const Range& range) {
     std::vector<double> numbers;
@@ -243,8 +249,7 @@ void read_do(const JsonElement& element, const Robots& robots, Commands& command
             if (command) commands.emplace_back(robot, *command);
         }
     }
-    std::stable_sort(commands.begin(), commands.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    sort_by_robot(commands);
     const auto twice =
         std::adjacent_find(commands.begin(), commands.end(),
                            [](const auto& a, const auto& b) { return a.first == b.first; });
@@ -287,9 +292,8 @@ StepRequest read_step(const JsonElement& line, const Robots& robots) {
         for_each_item(*send, [&](const JsonElement& item) {
             step.commands.push_back(message_in(item, robots));
         });
+        sort_by_robot(step.commands);
     }
-    std::stable_sort(step.commands.begin(), step.commands.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
     return step;
 }
 

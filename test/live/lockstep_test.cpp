@@ -372,7 +372,7 @@ TEST_CASE("lockstep: loss of a controller ends the run, stops its robots, or is 
 
     Talk waits(three_in_a_row(), {.wait_for = 2, .on_loss = OnLoss::wait});
     lose(waits);
-    CHECK(waits.lockstep.owing() == std::vector<std::string>{"A"});
+    CHECK(waits.lockstep.controllers().owing() == std::vector<std::string>{"A"});
     CHECK(type_of(waits.told[1].back()) == "welcome");  // time waits
     const std::string seen = waits.told[0].back();
     CHECK(fault(waits.ask(5, R"({"type":"hello","protocol":1,"robots":["A"],"step":"1 s"})")) ==
