@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/client_radios.hpp"
 #include "experiment/driven_robots.hpp"
 #include "experiment/robot_command.hpp"
 #include "network/network.hpp"
@@ -19,34 +20,15 @@
 
 namespace rovernet {
 
-/// Client outside that drives robots of a Session.
-using ClientId = std::uint32_t;
-
-/// Message that a robot of a client heard.
-struct HeardMessage {
-    Time time;
-    NodeId at;
-    NodeId from;  ///< robot that sent it first
-    int hops;
-    std::string payload;
-    NodeId last_hop = {};           ///< robot whose frame it was
-    std::optional<Dbm> level = {};  ///< level of that frame here [dBm]; none: on its way already
-                                    ///< when the first client came
-    std::uint16_t port = 0;
-    bool is_for_everyone = true;  ///< otherwise it was sent to `at`
-    friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
-};
-
 /// A scenario that is run from outside: in steps, or paced by the clock, while clients drive its
-/// robots. A command holds from the time that the session has reached.
+/// robots, and send and hear by their radios (ClientRadios). A command holds from the time that the
+/// session has reached. The network may live longer than the session: then it has no clients.
 class Session {
   public:
     /// @throws InputError for what only shows on the map
     explicit Session(const Scenario& scenario);
     /// Makes a session with settings of network_settings(scenario).
     Session(const Scenario& scenario, NetworkSettings settings);
-    /// Ends what its clients hear; the network may live on.
-    ~Session();
     Session(const Session&) = delete;  // callbacks of the network refer to it
     Session& operator=(const Session&) = delete;
 
@@ -54,6 +36,7 @@ class Session {
     const Network& network() const { return *network_; }
     /// The network, for somebody who keeps it longer than the session.
     std::shared_ptr<Network> shared_network() const { return network_; }
+    /// End of the scenario.
     Time end() const { return end_; }
 
     /// Runs until `until`, or to the scenario's end if that is earlier.
@@ -128,37 +111,26 @@ class Session {
   private:
     static constexpr std::uint64_t every_event = ~std::uint64_t{0};
 
-    class Ears;
+    /// Client, and the robots that it drives or whose radios it shares.
     struct Client {
         std::string name;
         std::vector<NodeId> robots;
-        std::vector<HeardMessage> heard = {};
-        bool hears = true;
-    };
-    /// Clients who hear what a robot hears.
-    struct Listeners {
-        std::vector<ClientId> clients;
-        Subscription subscription;
     };
 
-    Client& client_of(ClientId client);
-    void check_robot(ClientId client, NodeId robot);
-    void check_radio(ClientId client, NodeId robot);
-    void listen(ClientId client, NodeId robot);
-    void stop_listening(ClientId client, NodeId robot);
-    void hear(NodeId robot, const Message& message, const Heard& how);
-    void send_message(NodeId robot, const SendCommand& command);
+    /// @throws std::invalid_argument if there is no such client
+    const Client& client_of(ClientId client) const;
+    /// @throws std::invalid_argument unless the client drives the robot
+    void check_robot(ClientId client, NodeId robot) const;
 
     std::string file_;  // file of the scenario, for errors
     std::shared_ptr<Network> network_;
     Time end_;
     DrivenRobots driven_;
+    ClientRadios radios_;
     std::map<ClientId, Client> clients_;
     std::map<NodeId, ClientId> drivers_;
-    std::map<NodeId, Listeners> listeners_;
     using Scanners = std::shared_ptr<const std::vector<Scanner>>;  // of all robots of a table
     std::map<NodeId, Scanners> range_finders_;
-    std::shared_ptr<Ears> ears_;  // null until a client comes
     std::function<void(const Input&)> tell_;
     ClientId next_client_ = 0;
 };
