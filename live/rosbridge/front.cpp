@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <set>
 #include <utility>
 
 namespace rovernet {
@@ -21,6 +21,21 @@ Time multiple_after(Time time, Duration period) {
 void put_pair(RosWriter& out, std::string_view key, std::string_view value) {
     out.key(key);
     out.text(value);
+}
+
+/// Writes a message of a topic.
+void write_publication(std::string& text, RosEncoding encoding, std::string_view name,
+                       const std::function<void(RosWriter&)>& put_message) {
+    text.clear();
+    RosJsonWriter json(text);
+    RosCborWriter cbor(text);
+    RosWriter& out = encoding == RosEncoding::cbor ? static_cast<RosWriter&>(cbor) : json;
+    out.open_object();
+    put_pair(out, "op", "publish");
+    put_pair(out, "topic", name);
+    out.key("msg");
+    put_message(out);
+    out.close_object();
 }
 
 }  // namespace
@@ -48,7 +63,7 @@ void RosbridgeFront::opened(Connection client, Entrance) { clients_[client].conn
 void RosbridgeFront::closed(Connection gone) {
     clients_.erase(gone);
     robots_->left(gone);
-    if (holders_.erase(gone) > 0 && holders_.empty()) let_time_go_on();
+    answer(clock_.left(gone));
     go_on();
 }
 
@@ -136,11 +151,11 @@ void RosbridgeFront::carry_out(Client& client, const RosSubscribe& request) {
     stream.source = source;
     stream.add(reader_.operation().id.value_or(""), request.delivery);
     if (!source) return;
-    if (period(*source) > Duration{0}) {
-        stream.due = multiple_after(now(), period(*source));
+    if (messages_->period(*source) > Duration{0}) {
+        stream.due = multiple_after(now(), messages_->period(*source));
     } else if (source->kind() != RosTopicKind::received) {
-        write(buffer_, stream.delivery().encoding, request.topic,
-              [&](RosWriter& out) { messages_->write(out, *source); });
+        write_publication(buffer_, stream.delivery().encoding, request.topic,
+                          [&](RosWriter& out) { messages_->write(out, *source); });
         publish(client, stream, buffer_);
     }
 }
@@ -173,13 +188,11 @@ void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
     if (command) uid = robots_->carry_out(*robot, *command, client.connection);
     switch (call.service.kind()) {
         case RosServiceKind::step:
-            steps_.push_back({client.connection, reader_.operation(),
-                              now() + std::min(time, session_->end() - now())});
-            limit_ = limit_ == never ? steps_.back().until : std::max(limit_, steps_.back().until);
-            holders_.insert(client.connection);
+            clock_.begin({client.connection, reader_.operation(),
+                          now() + std::min(time, session_->end() - now())});
             return;
-        case RosServiceKind::pause: hold_time(client.connection); break;
-        case RosServiceKind::unpause: let_time_go_on(); break;
+        case RosServiceKind::pause: answer(clock_.pause(client.connection, now())); break;
+        case RosServiceKind::unpause: answer(clock_.unpause()); break;
         default: break;
     }
     respond(client.connection, reader_.operation(), [&](RosWriter& out) {
@@ -195,54 +208,17 @@ void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
     });
 }
 
-void RosbridgeFront::hold_time(Connection client) {
-    limit_ = now();
-    holders_.insert(client);
-    end_steps();
-}
-
-void RosbridgeFront::let_time_go_on() {
-    limit_ = never;
-    holders_.clear();
-    end_steps();
-}
-
-/// Answers calls of steps that are over, or that a pause or its end has overtaken.
-void RosbridgeFront::end_steps() {
-    for (const PendingStep& each : std::exchange(steps_, {})) {
-        if (each.until > now() && each.until <= limit_ && limit_ != never) {
-            steps_.push_back(each);
-        } else if (clients_.contains(each.client)) {
-            respond(each.client, each.call, [&](RosWriter& out) {
-                out.open_object();
-                out.key("time");
-                write_time(out, now());
-                out.close_object();
-            });
-        }
+/// Answers calls of steps that are over, of clients that are still there.
+void RosbridgeFront::answer(const std::vector<RosClock::Step>& over) {
+    for (const RosClock::Step& each : over) {
+        if (!clients_.contains(each.client)) continue;
+        respond(each.client, each.call, [&](RosWriter& out) {
+            out.open_object();
+            out.key("time");
+            write_time(out, now());
+            out.close_object();
+        });
     }
-}
-
-/// Time between two messages of a topic; 0 if it has none.
-Duration RosbridgeFront::period(const RosTopic& topic) const {
-    if (topic.kind() == RosTopicKind::scan)
-        return session_->range_finders(topic.robot)[topic.scanner].finder.every;
-    return topic.type->period;
-}
-
-/// Writes a message of a topic.
-void RosbridgeFront::write(std::string& text, RosEncoding encoding, const std::string& name,
-                           const PutMessage& put_message) {
-    text.clear();
-    RosJsonWriter json(text);
-    RosCborWriter cbor(text);
-    RosWriter& out = encoding == RosEncoding::cbor ? static_cast<RosWriter&>(cbor) : json;
-    out.open_object();
-    put_pair(out, "op", "publish");
-    put_pair(out, "topic", name);
-    out.key("msg");
-    put_message(out);
-    out.close_object();
 }
 
 /// Sends a message to a subscriber, or holds it back.
@@ -258,7 +234,8 @@ const std::string& RosbridgeFront::written(const std::string& name, RosEncoding 
     const bool is_cbor = encoding == RosEncoding::cbor;
     const auto [place, is_new] = written_.try_emplace({name, is_cbor});
     if (is_new) {
-        write(place->second, encoding, name, [&](RosWriter& out) { messages_->write(out, topic); });
+        write_publication(place->second, encoding, name,
+                          [&](RosWriter& out) { messages_->write(out, topic); });
     }
     return place->second;
 }
@@ -282,7 +259,7 @@ void RosbridgeFront::tell() {
     const std::vector<HeardMessage> heard = robots_->heard();
     written_.clear();
     for (auto& [connection, client] : clients_) tell(client, heard);
-    end_steps();
+    answer(clock_.end_steps(now()));
     go_on();
 }
 
@@ -291,15 +268,15 @@ void RosbridgeFront::tell(Client& client, const std::vector<HeardMessage>& heard
     for (auto& [name, stream] : client.streams) {
         if (!stream.source) continue;
         const RosTopic& topic = *stream.source;
-        const bool is_step_end = topic.kind() == RosTopicKind::clock && ends_step();
+        const bool is_step_end = topic.kind() == RosTopicKind::clock && clock_.is_step_end(now());
         if (stream.due <= now() || is_step_end) {
             publish(client, stream, written(name, stream.delivery().encoding, topic));
-            stream.due = multiple_after(now(), period(topic));
+            stream.due = multiple_after(now(), messages_->period(topic));
         }
         for (const HeardMessage& each : heard) {
             if (topic.kind() != RosTopicKind::received || each.at != topic.robot) continue;
-            write(buffer_, stream.delivery().encoding, name,
-                  [&](RosWriter& out) { messages_->write(out, each); });
+            write_publication(buffer_, stream.delivery().encoding, name,
+                              [&](RosWriter& out) { messages_->write(out, each); });
             publish(client, stream, buffer_);
         }
         stream.go_on(now(), [&, rules = stream.delivery()](std::string_view message) {
@@ -308,15 +285,10 @@ void RosbridgeFront::tell(Client& client, const std::vector<HeardMessage>& heard
     }
 }
 
-bool RosbridgeFront::ends_step() const {
-    return std::any_of(steps_.begin(), steps_.end(),
-                       [&](const PendingStep& each) { return each.until == now(); });
-}
-
 /// Finds out what comes next, after anything has changed.
 void RosbridgeFront::go_on() {
     next_ = robots_->any() ? multiple_after(now(), ros_tick) : never;
-    for (const PendingStep& each : steps_) next_ = std::min(next_, each.until);
+    next_ = std::min(next_, clock_.next());
     for (const auto& [connection, client] : clients_) {
         for (const auto& [name, stream] : client.streams) {
             next_ = std::min({next_, stream.due, stream.next()});

@@ -3,6 +3,7 @@
 
 #include "live/front.hpp"
 #include "live/rosbridge/api.hpp"
+#include "live/rosbridge/clock.hpp"
 #include "live/rosbridge/messages.hpp"
 #include "live/rosbridge/packing.hpp"
 #include "live/rosbridge/request.hpp"
@@ -12,7 +13,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,16 +35,10 @@ class RosbridgeFront : public Front {
     void closed(Connection gone) override;
     Time next() const override { return next_; }
     void tell() override;
-    Time limit() const override { return limit_; }
+    Time limit() const override { return clock_.limit(); }
 
   private:
     struct Client;
-    /// Call of a step that is not over.
-    struct PendingStep {
-        Connection client;
-        RosOperation call;
-        Time until;
-    };
 
     void handle(Client& client, std::string_view message);
     void carry_out(Client& client, const RosSubscribe& request);
@@ -59,21 +53,14 @@ class RosbridgeFront : public Front {
     void tell_status(const Client& client, RosLevel level, std::string_view text);
     void respond(Connection client, const RosOperation& call,
                  const std::function<void(RosWriter&)>& put_values);
-    void hold_time(Connection client);
-    void let_time_go_on();
-    void end_steps();
-    bool ends_step() const;
+    void answer(const std::vector<RosClock::Step>& over);
 
-    using PutMessage = std::function<void(RosWriter&)>;
-    void write(std::string& text, RosEncoding encoding, const std::string& name,
-               const PutMessage& put_message);
     void publish(const Client& client, RosStream& stream, std::string_view message);
     const std::string& written(const std::string& name, RosEncoding encoding,
                                const RosTopic& topic);
     void tell(Client& client, const std::vector<HeardMessage>& heard);
     void send(const Client& client, const RosDelivery& rules, std::string_view message);
     void go_on();
-    Duration period(const RosTopic& topic) const;
     Time now() const { return session_->network().now(); }
 
     Carrier carrier_;
@@ -83,13 +70,11 @@ class RosbridgeFront : public Front {
     std::optional<RosApi> api_;
     RosRequestReader reader_;
     std::map<Connection, Client> clients_;
-    std::vector<PendingStep> steps_;
+    RosClock clock_;
     std::string buffer_;  // message that is written
     // Messages of topics in this tell(), by name as the subscriber wrote it, and whether in CBOR.
     std::map<std::pair<std::string, bool>, std::string> written_;
     std::uint64_t pieces_sent_ = 0;
-    Time limit_ = never;            // earlier: it is paused there
-    std::set<Connection> holders_;  // clients that have paused it, or let it go on by steps
     Time next_ = never;
 };
 

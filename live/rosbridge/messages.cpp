@@ -107,6 +107,12 @@ void write_time(RosWriter& out, Time time) {
     put_whole(out, "nanosec", (time - whole).count());
 }
 
+Duration RosMessages::period(const RosTopic& topic) const {
+    if (topic.kind() == RosTopicKind::scan)
+        return session_.range_finders(topic.robot)[topic.scanner].finder.every;
+    return topic.type->period;
+}
+
 void RosMessages::write(RosWriter& out, const RosTopic& topic) const {
     const Within message(out);
     switch (topic.kind()) {

@@ -21,6 +21,8 @@ class RosMessages {
     /// Both have to live as long.
     RosMessages(Session& session, const RosRobots& robots) : session_(session), robots_(robots) {}
 
+    /// Time between two messages of a topic; 0 if it has none.
+    Duration period(const RosTopic& topic) const;
     /// Writes the message of a topic, which is neither an input nor `received`.
     void write(RosWriter& out, const RosTopic& topic) const;
     /// Writes a message that a robot heard, rovernet_msgs/Received.
