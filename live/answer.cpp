@@ -7,31 +7,9 @@
 #include "scenario/json.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace rovernet {
-namespace {
-
-template <class Number>
-void append_number(std::string& line, Number number) {
-    char digits[32];
-    line.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-}
-
-/// Calls put(item) for each item, with a comma between two.
-template <class Items, class Put>
-void put_list(std::string& line, const Items& items, Put put) {
-    const char* between = "";
-    for (const auto& item : items) {
-        line += between;
-        put(item);
-        between = ",";
-    }
-}
-
-}  // namespace
-
 AnswerWriter::AnswerWriter(Session& session, const Scenario& scenario)
     : session_(session), scenario_(scenario) {
     const Network& network = session.network();
@@ -42,14 +20,24 @@ AnswerWriter::AnswerWriter(Session& session, const Scenario& scenario)
 
 void AnswerWriter::put(double number) {
     if (!std::isfinite(number)) return put("null");
-    append_number(line_, number);
+    line_.put_number(number);
 }
-void AnswerWriter::put(std::int64_t number) { append_number(line_, number); }
-void AnswerWriter::put(std::uint64_t number) { append_number(line_, number); }
+
+/// Calls put_one(item) for each item, with a comma between two.
+template <class Items, class PutOne>
+void AnswerWriter::put_list(const Items& items, PutOne put_one) {
+    const char* between = "";
+    for (const auto& item : items) {
+        put(between);
+        put_one(item);
+        between = ",";
+    }
+}
 
 std::string_view AnswerWriter::welcome(const HelloRequest& hello) {
     const Network& network = session_.network();
-    line_ = R"({"type":"welcome","protocol":1,"version":)";
+    line_.clear();
+    put(R"({"type":"welcome","protocol":1,"version":)");
     put(to_json_line(Value(version())));
     put(",\"seed\":");
     put(scenario_.scenario.seed);
@@ -60,7 +48,7 @@ std::string_view AnswerWriter::welcome(const HelloRequest& hello) {
     put(",\"end_ns\":");
     put(session_.end().time_since_epoch().count());
     put(",\"robots\":{");
-    put_list(line_, hello.robots, [&](NodeId robot) {
+    put_list(hello.robots, [&](NodeId robot) {
         const RobotState state = network.robot(robot);
         put(name(robot));
         put(":{\"id\":");
@@ -76,7 +64,7 @@ std::string_view AnswerWriter::welcome(const HelloRequest& hello) {
     put("},\"map\":");
     put_map();
     put("}");
-    return line_;
+    return line_.text();
 }
 
 bool AnswerWriter::tells_height(Vec3 at) const {
@@ -115,7 +103,7 @@ void AnswerWriter::put_map() {
     put(std::int64_t{grid.rows});
     if (is_building) {
         put(",\"floors\":[");
-        put_list(line_, table.floors, [&](const FloorTable& floor) {
+        put_list(table.floors, [&](const FloorTable& floor) {
             put("{\"height\":");
             put(floor.height.value);
             put(",\"image\":");
@@ -131,7 +119,8 @@ std::string_view AnswerWriter::state(const HelloRequest& hello, std::uint64_t nu
                                      const std::vector<SentMessage>& sent,
                                      const std::vector<HeardMessage>& heard) {
     const Time now = session_.network().now();
-    line_ = R"({"type":"state","n":)";
+    line_.clear();
+    put(R"({"type":"state","n":)");
     put(number);
     put(",\"t_ns\":");
     put(now.time_since_epoch().count());
@@ -139,21 +128,21 @@ std::string_view AnswerWriter::state(const HelloRequest& hello, std::uint64_t nu
         put_columns(hello.robots);
     } else if (hello.observes_pose) {
         put(",\"robots\":{");
-        put_list(line_, hello.robots, [&](NodeId robot) { put_robot(robot); });
+        put_list(hello.robots, [&](NodeId robot) { put_robot(robot); });
         put("}");
     }
     if (hello.observes_heard) {
         put(",\"heard\":[");
-        put_list(line_, heard, [&](const HeardMessage& each) { put_heard(each); });
+        put_list(heard, [&](const HeardMessage& each) { put_heard(each); });
         put("]");
     }
     if (hello.observes_neighbors) {
         put(",\"neighbors\":{");
-        put_list(line_, hello.robots, [&](NodeId robot) { put_neighbors(robot); });
+        put_list(hello.robots, [&](NodeId robot) { put_neighbors(robot); });
         put("}");
     }
     put(",\"sent\":[");
-    put_list(line_, sent, [&](const SentMessage& each) {
+    put_list(sent, [&](const SentMessage& each) {
         put("{\"uid\":");
         put(each.uid);
         put(",\"robot\":");
@@ -163,7 +152,7 @@ std::string_view AnswerWriter::state(const HelloRequest& hello, std::uint64_t nu
     put("],\"done\":");
     put_truth(now >= session_.end());
     put("}");
-    return line_;
+    return line_.text();
 }
 
 void AnswerWriter::put_robot(NodeId robot) {
@@ -192,7 +181,7 @@ void AnswerWriter::put_column(std::string_view key, const std::vector<NodeId>& r
     put("\"");
     put(key);
     put("\":[");
-    put_list(line_, robots, put_one);
+    put_list(robots, put_one);
     put("]");
 }
 
@@ -249,7 +238,7 @@ void AnswerWriter::put_neighbors(NodeId robot) {
     const Network& network = session_.network();
     put(name(robot));
     put(":[");
-    put_list(line_, network.links(robot, network.now()), [&](const Neighbour& neighbour) {
+    put_list(network.links(robot, network.now()), [&](const Neighbour& neighbour) {
         put("{\"name\":");
         put(name(neighbour.node));
         put(",\"rssi\":");

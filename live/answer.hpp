@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiment/session.hpp"
+#include "live/json_line.hpp"
 #include "live/request.hpp"
 #include "scenario/scenario.hpp"
 
@@ -40,16 +41,18 @@ class AnswerWriter {
                            const std::vector<HeardMessage>& heard);
 
   private:
-    void put(std::string_view text) { line_ += text; }
+    void put(std::string_view text) { line_.put(text); }
     void put(double number);  // null if it is not finite
-    void put(std::int64_t number);
-    void put(std::uint64_t number);
+    void put(std::int64_t number) { line_.put_number(number); }
+    void put(std::uint64_t number) { line_.put_number(number); }
     void put_truth(bool is_true) { put(is_true ? std::string_view("true") : "false"); }
     const std::string& name(NodeId robot) const { return names_[robot.index()]; }
     bool tells_height(Vec3 at) const;
     void put_place(Vec3 at);
     void put_robot(NodeId robot);
     void put_columns(const std::vector<NodeId>& robots);
+    template <class Items, class PutOne>
+    void put_list(const Items& items, PutOne put_one);
     template <class PutOne>
     void put_column(std::string_view key, const std::vector<NodeId>& robots, PutOne put_one);
     void put_heard(const HeardMessage& heard);
@@ -59,7 +62,7 @@ class AnswerWriter {
     Session& session_;
     const Scenario& scenario_;
     std::vector<std::string> names_;  // in quotes
-    std::string line_;
+    JsonLine line_;
 };
 
 /// "error": a line was not taken.

@@ -13,7 +13,6 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <charconv>
 #include <concepts>
 #include <filesystem>
 #include <fstream>
@@ -29,72 +28,60 @@ std::string digest(const std::string& text) {
     return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
 }
 
-// Lines are put together here, without tables: a log may have thousands of them a second.
+void put(JsonLine& line, std::integral auto number) { line.put_number(number); }
 
-template <std::integral Number>
-void put(std::string& line, Number number) {
-    line += fmt::format_int(number).c_str();
+/// Number with a point, as -0 would be read as 0.
+void put(JsonLine& line, double number) {
+    if (line.put_number(number).find_first_of(".e") == std::string_view::npos) line.put(".0");
 }
 
-/// Shortest form that is read as the same number; -0 would be read as 0.
-void put(std::string& line, double number) {
-    char digits[32];
-    const std::string_view text(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-    line += text;
-    if (text.find_first_of(".e") == text.npos) line += ".0";
-}
-
-void put(std::string& line, std::string_view text) {
+void put(JsonLine& line, std::string_view text) {
     const bool is_plain = std::all_of(text.begin(), text.end(), [](char c) {
         return c >= ' ' && c <= '~' && c != '"' && c != '\\';
     });
-    if (!is_plain) {
-        line += to_json_line(Value(text));
-        return;
-    }
-    line += '"';
-    line += text;
-    line += '"';
+    if (!is_plain) return line.put(to_json_line(Value(text)));
+    line.put('"');
+    line.put(text);
+    line.put('"');
 }
 
-void put(std::string& line, const Vec3& at) {
-    line += '[';
+void put(JsonLine& line, const Vec3& at) {
+    line.put('[');
     put(line, at.x);
-    line += ',';
+    line.put(',');
     put(line, at.y);
-    line += ',';
+    line.put(',');
     put(line, at.z);
-    line += ']';
+    line.put(']');
 }
 
-/// Adds a member of an object, behind those that it has.
+/// Adds a member of an object, behind another one.
 template <class Member>
-void put(std::string& line, std::string_view key, const Member& value) {
-    if (line.back() != '{') line += ',';
-    line += '"';
-    line += key;
-    line += "\":";
+void put(JsonLine& line, std::string_view key, const Member& value) {
+    line.put(",\"");
+    line.put(key);
+    line.put("\":");
     put(line, value);
 }
 
-void put(std::string& line, const DriveCommand& command, const Network&) {
+void put(JsonLine& line, const DriveCommand& command, const Network&) {
     put(line, "do", "velocity");
     put(line, "v", command.speed.value);
     put(line, "w", command.turn_rate.value);
     if (command.timeout) put(line, "timeout_ns", command.timeout->count());
 }
-void put(std::string& line, const GoalCommand& command, const Network&) {
+void put(JsonLine& line, const GoalCommand& command, const Network&) {
     put(line, "do", "goal");
     put(line, "goal", command.to);
     put(line, "speed", command.speed.value);
 }
-void put(std::string& line, const StopCommand&, const Network&) { put(line, "do", "stop"); }
-void put(std::string& line, const PlaceCommand& command, const Network&) {
+void put(JsonLine& line, const StopCommand&, const Network&) { put(line, "do", "stop"); }
+void put(JsonLine& line, const PlaceCommand& command, const Network&) {
     put(line, "do", "place");
     put(line, "at", command.at);
     put(line, "heading", command.heading.value);
 }
-void put(std::string& line, const SendCommand& command, const Network& network) {
+void put(JsonLine& line, const SendCommand& command, const Network& network) {
     const bool is_to_one = command.to && *command.to != everyone;
     put(line, "do", "send");
     put(line, "to", is_to_one ? network.name(*command.to) : "*");
@@ -112,33 +99,33 @@ InputLog::InputLog(const std::string& folder, const Scenario& scenario)
     head.set("version", code_version());
     head.set("scenario", digest(to_toml(document_in(folder, scenario))));
     head.set("seed", scenario.scenario.seed);
-    lines_ = to_json_line(Value(std::move(head))) + "\n";
+    lines_.put(to_json_line(Value(std::move(head))) + "\n");
     flush();
 }
 
 void InputLog::flush() {
-    file_.write(lines_);
+    file_.write(lines_.text());
     lines_.clear();
     written_ = Clock::now();
 }
 
 void InputLog::add(const Input& input, const Network& network) {
     constexpr std::size_t portion = 65536;  // [bytes]
-    lines_ += '{';
-    put(lines_, "t_ns", input.time.time_since_epoch().count());
+    lines_.put("{\"t_ns\":");
+    put(lines_, input.time.time_since_epoch().count());
     put(lines_, "n", input.number);
     put(lines_, "client", input.client);
     put(lines_, "robot", network.name(input.robot));
     std::visit([&](const auto& command) { put(lines_, command, network); }, input.command);
-    lines_ += "}\n";
-    if (lines_.size() >= portion || Clock::now() - written_ >= 1s) flush();
+    lines_.put("}\n");
+    if (lines_.text().size() >= portion || Clock::now() - written_ >= 1s) flush();
 }
 
 void InputLog::finish(Duration simulated, std::string_view fingerprint) {
     Table line;
     line.set("end_ns", std::int64_t{simulated.count()});
     line.set("fingerprint", fingerprint);
-    lines_ += to_json_line(Value(std::move(line))) + "\n";
+    lines_.put(to_json_line(Value(std::move(line))) + "\n");
     flush();
     file_.give_name();
 }

@@ -3,6 +3,7 @@
 
 #include "experiment/robot_command.hpp"
 #include "files/part_file.hpp"
+#include "live/json_line.hpp"
 #include "scenario/scenario.hpp"
 
 #include <chrono>
@@ -49,7 +50,7 @@ class InputLog {
     void flush();
 
     PartFile file_;
-    std::string lines_;  // not written yet
+    JsonLine lines_;  // not written yet
     Clock::time_point written_ = Clock::now();
 };
 

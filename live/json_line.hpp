@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <concepts>
+#include <string_view>
+
+namespace rovernet {
+
+/// JSON that is put together piece by piece, where tables would take too long: a run may write
+/// thousands of lines a second. It keeps its memory.
+class JsonLine {
+  public:
+    void put(std::string_view text) { text_.append(text.data(), text.data() + text.size()); }
+    void put(char letter) { text_.push_back(letter); }
+    /// Puts a number: the shortest text that is read as the same one. @return that text
+    /// @param number  finite
+    template <class Number>
+    requires std::integral<Number> || std::floating_point<Number> std::string_view put_number(
+        Number number) {
+        constexpr std::size_t longest = 32;
+        const std::size_t before = text_.size();
+        text_.resize(before + longest);
+        char* const begin = text_.data() + before;
+        const auto size =
+            static_cast<std::size_t>(std::to_chars(begin, begin + longest, number).ptr - begin);
+        text_.resize(before + size);
+        return {begin, size};
+    }
+
+    std::string_view text() const { return {text_.data(), text_.size()}; }
+    void clear() { text_.clear(); }
+
+  private:
+    fmt::memory_buffer text_;
+};
+
+}  // namespace rovernet
