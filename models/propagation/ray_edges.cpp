@@ -11,7 +11,7 @@
 namespace rovernet {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Vec3 flat(Vec3 p) { return {p.x, p.y, 0}; }
 double cross(Vec3 a, Vec3 b) { return a.x * b.y - a.y * b.x; }

@@ -11,7 +11,6 @@
 namespace rovernet {
 namespace {
 constexpr double db_per_neper = 8.685889638065037;
-constexpr double grazing = 0.0174524064373;  // cosine of 89 degrees
 
 /// Loss of a power [dB], finite.
 double decibels(double power) {

@@ -17,6 +17,10 @@
 
 namespace rovernet {
 
+/// Least cosine between a path and a wall's normal [-]: ways along a wall count as ways at 89
+/// degrees.
+inline constexpr double grazing = 0.0174524064373;
+
 /// A wall on a path.
 struct RayHit {
     enum class Kind : std::uint8_t {
@@ -31,8 +35,7 @@ struct RayHit {
     std::size_t material;
     /// Thickness of the wall as drawn, square to it [m].
     double thickness;
-    /// Cosine of the angle between the path and the wall's normal [-], 0.0175 (89 degrees) to 1:
-    /// ways along a wall count as ways at 89 degrees.
+    /// Cosine of the angle between the path and the wall's normal [-], `grazing` to 1.
     double cosine;
     /// Length of the path inside the wall [m]; 0 of a reflection.
     double length;

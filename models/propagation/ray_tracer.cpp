@@ -11,8 +11,7 @@
 namespace rovernet {
 namespace {
 
-constexpr double touching = 1e-9;            // [m]
-constexpr double grazing = 0.0174524064373;  // cosine of 89 degrees
+constexpr double touching = 1e-9;  // [m]
 
 double free_space(double length, Hertz f) { return std::max(0.0, free_space_db(length, f)); }
 
