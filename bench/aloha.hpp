@@ -38,10 +38,12 @@ inline double aloha_throughput(double load, Duration slot, int frames) {
                  .metrics = false});
     const auto count = std::make_shared<Count>();
     net.add_sink(Sink{count});
-    const Radio radio{.rate = {1e6}, .preamble = Duration{0}};
-    std::vector<NodeId> nodes;
-    for (std::uint32_t i = 0; i <= robots; ++i) {
-        nodes.push_back(net.add({.name = "", .at = {}, .radio = radio}));
+    const Radio receiver{.rate = {1e6}, .preamble = Duration{0}};
+    Radio sender = receiver;
+    sender.sensitivity = Dbm{200};  // hears nobody, which costs nothing: it would not listen
+    std::vector<NodeId> nodes = {net.add({.name = "", .at = {}, .radio = receiver})};
+    for (std::uint32_t i = 0; i < robots; ++i) {
+        nodes.push_back(net.add({.name = "", .at = {}, .radio = sender}));
     }
     Time t = start_of_run;
     for (int i = 0; i < frames; ++i) {
