@@ -310,7 +310,8 @@ NetworkSettings network_settings(const Scenario& scenario) {
     std::vector<std::string> notices;  // were told when the file was loaded
     settings.scene =
         scenario.walls ? scenario.walls : load_map(scenario.scene, scenario.file, notices);
-    settings.scene_changes = load_doors(scenario.scene, settings.scene);
+    settings.scene_changes =
+        scenario.changes ? *scenario.changes : load_doors(scenario.scene, settings.scene);
     return settings;
 }
 

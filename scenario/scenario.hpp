@@ -98,9 +98,10 @@ struct Scenario {
     std::string file;
     ScenarioTable scenario;
     SceneTable scene;
-    /// Scene if it is loaded already, by load_scenario() or for a Stage world; null: not yet, or an
-    /// open field.
+    /// Scene if it is loaded already; null: not yet, or an open field.
     std::shared_ptr<const Scene> walls;
+    /// Changes of `walls` by doors if they are known already, by a Study; null: not yet.
+    std::shared_ptr<const std::vector<SceneChange>> changes;
     /// Defaults of robots' radios, with the places of the keys that are given.
     Radio radio;
     RadioPlaces radio_places;

@@ -208,7 +208,9 @@ void Study::check_points_differ() const {
 
 Scenario Study::at(const Table& settings) {
     Scenario scenario = settings.entries.empty() ? base_ : file_.scenario(settings);
-    scenario.walls = walls(scenario).scene;
+    const Walls& known = walls(scenario);
+    scenario.walls = known.scene;
+    scenario.changes = known.changes;
     return scenario;
 }
 
@@ -219,6 +221,8 @@ const Study::Walls& Study::walls(const Scenario& scenario) {
         walls.scene = scenario.walls ? scenario.walls
                                      : load_map(scenario.scene, scenario.file, base_.notices);
         if (walls.scene) walls.digest = hash(wall_bytes(*walls.scene));
+        walls.changes = std::make_shared<const std::vector<SceneChange>>(
+            load_doors(scenario.scene, walls.scene));
     }
     return walls;
 }

@@ -56,6 +56,8 @@ class Study {
     struct Walls {
         std::shared_ptr<const Scene> scene;  ///< null: an open field
         std::string digest;
+        /// Scenes of its closed doors, which take longer to make than a run.
+        std::shared_ptr<const std::vector<SceneChange>> changes;
     };
 
     void check_points_differ() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/study.hpp"
 
+#include "experiment/build.hpp"
 #include "scenario/toml.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -211,6 +212,24 @@ TEST_CASE("study: other materials in the file beside the map are another point")
     };
     CHECK(id("3 dB") == id("3 dB"));
     CHECK(id("3 dB") != id("4 dB"));
+}
+
+TEST_CASE("study: scenes of closed doors are made once for all points that have them") {
+    const TemporaryFolder folder;
+    folder.write("m.pgm", "P2 2 2 255 255 255 255 255");
+    const std::string door =
+        "[[scene.door]]\nfrom = [\"8 m\", \"8 m\"]\nto = [\"9 m\", \"8 m\"]\ncloses = [\"1 s\"]\n";
+    Study study(
+        folder.write("s.toml", "[scene]\nmap = \"m.pgm\"\nsize = [\"20 m\", \"20 m\"]\n" + door +
+                                   two_robots +
+                                   "[study]\nvary.propagation.range = [\"10 m\", \"9 m\"]\n"),
+        {});
+    const auto of_first = study.scenario(0, 0).changes, of_second = study.scenario(1, 3).changes;
+    REQUIRE(of_first);
+    CHECK(of_first->size() == 1);
+    CHECK(of_first == of_second);
+    CHECK(network_settings(study.scenario(1, 3)).scene_changes.front().scene ==
+          of_first->front().scene);
 }
 
 TEST_CASE("study: another movement file under the same name is another point") {
