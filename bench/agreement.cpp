@@ -179,6 +179,10 @@ void aloha() {
 
 int main(int argc, char** argv) {
     const auto length = std::chrono::seconds{argc > 1 ? std::atoi(argv[1]) : 60};
+    if (length < 1s) {
+        fmt::print(stderr, "agreement: expected a length [s] of 1 or more, found {}\n", argv[1]);
+        return 2;
+    }
     fmt::print("{:<44} {:>10} {:>10} {:>10}\n", "", "rovernet", "expected", "off");
     bianchi(length);
     ns2_unicast(length);
