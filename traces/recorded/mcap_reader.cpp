@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -117,7 +118,10 @@ std::optional<McapMessages> McapReader::unpack(const McapRecord& chunk) {
                          static_cast<double>(messages.last) / 1e9, why));
         return std::nullopt;
     };
-    if (!from.is_done()) return broken("its length is wrong");
+    if (!from.is_done()) {
+        at_ = std::min(at_, next_chunk(chunk.offset + 1));  // it may claim bytes of other chunks
+        return broken("its length is wrong");
+    }
     if (compression != "zstd" && !compression.empty()) return broken("it is packed otherwise");
     if (size > largest_chunk) return broken("its size is wrong");
     if (compression.empty()) {

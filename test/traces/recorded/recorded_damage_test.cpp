@@ -189,14 +189,17 @@ std::vector<Variant> truncated(const Sample& s) {
 
 /// One thing wrong with the second chunk: its records are lost, and no others.
 std::vector<Variant> broken_chunks(const Sample& s) {
-    const std::size_t at = s.chunks[1].begin;
+    const std::size_t at = s.chunks[1].begin, length = s.chunks[1].size - mcap_record_head;
     std::string zeros = s.bytes, many = s.bytes;
     for (std::size_t i = at; i < s.chunks[1].end(); ++i) zeros[i] = '\0';
     for (std::size_t i = at + 60; i < s.chunks[1].end(); i += 97) many = flipped(many, i, 1);
     std::vector<Variant> all = {
         {"opcode of no record", flipped(s.bytes, at, 0x80)},
         {"opcode of another record", flipped(s.bytes, at, 0x01)},
-        {"length one more", flipped(s.bytes, at + length_at, 0x01)},
+        {"length one less", with_number(s.bytes, at + length_at, length - 1)},
+        {"length one more", with_number(s.bytes, at + length_at, length + 1)},
+        {"length up to the midst of another chunk",
+         with_number(s.bytes, at + length_at, s.chunks[3].begin + 20 - at)},
         {"length 2^63", with_number(s.bytes, at + length_at, huge)},
         {"length 2^64 - 1", with_number(s.bytes, at + length_at, ~std::uint64_t{0})},
         {"plain size 2^63", with_number(s.bytes, at + plain_size_at, huge)},
