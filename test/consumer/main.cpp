@@ -51,7 +51,7 @@ struct Listener {
 };
 
 double moved_into_range() {
-    Network net{{.propagation = Disc{.range = 10}}};
+    Network net{{.propagation = Disc{.range = {10}}}};
     const auto a = net.add({.name = "a", .at = {0, 0}});
     const auto b = net.add({.name = "b", .at = {20, 0}, .move = Homing{}});
     net.route(Shout{});
