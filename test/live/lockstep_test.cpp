@@ -223,6 +223,24 @@ TEST_CASE("lockstep: nor does the order in which controllers leave") {
     CHECK(run(0) == run(1));
 }
 
+TEST_CASE("lockstep: those who leave together do so by their robots, whoever came first") {
+    for (const bool is_a_first : {true, false}) {
+        CAPTURE(is_a_first);
+        Talk talk(three_in_a_row(), {.wait_for = 2});
+        talk.say(0, is_a_first ? hello_a : hello_b);
+        talk.say(1, is_a_first ? hello_b : hello_a);
+        std::vector<NodeId> stopped;
+        talk.session->on_input([&](const Input& input) { stopped.push_back(input.robot); });
+        talk.say(0, R"({"type":"bye"})");
+        talk.say(1, R"({"type":"bye"})");
+        std::vector<NodeId> in_order;
+        for (const char* name : {"A", "B", "C"}) {
+            in_order.push_back(*talk.session->network().find(name));
+        }
+        CHECK((stopped == in_order));
+    }
+}
+
 TEST_CASE("lockstep: robots are one controller's, and columns say what objects say") {
     Talk talk(three_in_a_row(), {.wait_for = 1});
     talk.say(0, hello_a);
