@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -39,6 +40,7 @@ class Served {
         pid_ = fork();
         if (pid_ < 0) fail_by_system("fork");
         if (pid_ == 0) {
+            prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive a bench whose output is cut
             dup2(ends[1], STDOUT_FILENO);
             dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
             execv(argv[0], argv.data());
