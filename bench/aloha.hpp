@@ -40,7 +40,7 @@ inline double aloha_throughput(double load, Duration slot, int frames) {
     net.add_sink(Sink{count});
     const Radio receiver{.rate = {1e6}, .preamble = Duration{0}};
     Radio sender = receiver;
-    sender.sensitivity = Dbm{200};  // hears nobody, which costs nothing: it would not listen
+    sender.sensitivity = Dbm{200};  // deaf: what senders hear decides nothing and takes long
     std::vector<NodeId> nodes = {net.add({.name = "", .at = {}, .radio = receiver})};
     for (std::uint32_t i = 0; i < robots; ++i) {
         nodes.push_back(net.add({.name = "", .at = {}, .radio = sender}));

@@ -33,7 +33,7 @@ struct Controller {
 
     std::optional<Connection> connection;  ///< none: it was lost
     HelloRequest hello;
-    std::vector<NodeId> own;  ///< robots, in ascending order
+    std::vector<NodeId> own;  ///< robots of the hello, in ascending order
     ClientId client = 0;      ///< in the session
     State state = State::owes;
     Time step_end = start_of_run;          ///< of the step that it waits for
@@ -58,13 +58,14 @@ class Controllers {
     std::size_t size() const { return all_.size(); }
     bool empty() const { return all_.empty(); }
 
-    /// Controller of a connection, if it has said hello.
+    /// Controller of a connection; null if it has not said hello.
     Controller* of(Connection connection);
+    /// Controller of that name, whether or not it is lost; null if there is none.
     Controller* named(std::string_view name);
 
     void add(Controller controller) { all_.push_back(std::move(controller)); }
     void remove(Connection connection);
-    /// Takes out those who said bye. @return them, by their first robots
+    /// Takes out those who said bye. @return them, in the order of their first robots
     std::vector<Controller> take_leaving();
 
     /// Names of those who owe a question.

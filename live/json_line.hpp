@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <concepts>
 #include <cstddef>
 #include <cstring>
 #include <string_view>
@@ -24,8 +23,7 @@ class JsonLine {
     /// Puts a number: the shortest text that is read as the same one. @return that text
     /// @param number  finite
     template <class Number>
-    requires std::integral<Number> || std::floating_point<Number> std::string_view put_number(
-        Number number) {
+    std::string_view put_number(Number number) {
         constexpr std::size_t longest = 32;
         const std::size_t before = text_.size();
         text_.resize(before + longest);

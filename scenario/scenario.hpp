@@ -100,7 +100,7 @@ struct Scenario {
     SceneTable scene;
     /// Scene if it is loaded already; null: not yet, or an open field.
     std::shared_ptr<const Scene> walls;
-    /// Changes of `walls` by doors if they are known already, by a Study; null: not yet.
+    /// Changes of `walls` by doors if a Study has made them already; null: not yet.
     std::shared_ptr<const std::vector<SceneChange>> changes;
     /// Defaults of robots' radios, with the places of the keys that are given.
     Radio radio;

@@ -56,7 +56,7 @@ class Study {
     struct Walls {
         std::shared_ptr<const Scene> scene;  ///< null: an open field
         std::string digest;
-        /// Scenes of its closed doors, which take longer to make than a run.
+        /// Scenes with its doors closed: making them may take longer than a run.
         std::shared_ptr<const std::vector<SceneChange>> changes;
     };
 

@@ -119,7 +119,7 @@ std::optional<McapMessages> McapReader::unpack(const McapRecord& chunk) {
         return std::nullopt;
     };
     if (!from.is_done()) {
-        at_ = std::min(at_, next_chunk(chunk.offset + 1));  // it may claim bytes of other chunks
+        at_ = std::min(at_, next_chunk(chunk.offset + 1));  // not behind a chunk that it covers
         return broken("its length is wrong");
     }
     if (compression != "zstd" && !compression.empty()) return broken("it is packed otherwise");
