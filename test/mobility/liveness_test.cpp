@@ -4,6 +4,7 @@
 #include "mobility/follow_wall.hpp"
 #include "mobility/random_walk.hpp"
 #include "mobility/wander.hpp"
+#include "mobility/waypoints.hpp"
 #include "test/mobility/lone_mover.hpp"
 #include "test/scene/drawn_map.hpp"
 
@@ -196,6 +197,25 @@ TEST_CASE("liveness: range finders that see less than they keep make no more leg
         CHECK(looks.legs <= 660);
         CHECK(looks.longest_pause < 30);  // it does not stand for ever
         CHECK(looks.through_walls == 0);
+    }
+}
+
+TEST_CASE("liveness: a way to a goal beside a wall has no more legs than cells, and it arrives") {
+    const Scene scene(rooms(0.5, 0.4));
+    Planners planners(scene);
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        const Meters radius{0.1};
+        LoneMover robot = placed(planners, 2 * i, radius);
+        // It stands at a wall, as an arc has left it.
+        robot.leg.heading = static_cast<double>(i);
+        robot.leg.end = start_of_run;
+        Driven drive{.speed = {0.7}, .until = start_of_run + from_seconds(20)};
+        while (robot.leg.end < *drive.until) REQUIRE(robot.walk(drive));
+        const Vec3 goal = placed(planners, 2 * i + 1, radius).leg.from;
+        Movement to = ToGoal{goal};
+        int legs = 0;
+        while (robot.walk(to)) REQUIRE(++legs < 24 * 12);
+        CHECK(robot.leg.to == goal);
     }
 }
 
