@@ -54,18 +54,18 @@ Vec3 place_on(const DrivenArc* arc, const Mover& mover, double chord) {
 /// off everything that the robot touches; 0 if it does now; infinity if none does.
 double turn_off(const std::vector<Contact>& contacts, double way, double sign) {
     constexpr double rounding = 1e-9;  // [rad]
-    double turn = 0;
-    for (bool is_blocked = true; is_blocked && turn < 2 * std::numbers::pi;) {
+    double turned = 0;
+    for (bool is_blocked = true; is_blocked && turned < 2 * std::numbers::pi;) {
         is_blocked = false;
         for (const Contact& each : contacts) {
-            const double off = sign * wrapped(way - each.towards) + turn;
+            const double off = sign * wrapped(way - each.towards) + turned;
             const double beyond = std::remainder(off, 2 * std::numbers::pi) + each.half_angle;
             if (beyond < 0 || beyond > 2 * each.half_angle - rounding) continue;
             is_blocked = true;
-            turn += 2 * each.half_angle - beyond;
+            turned += 2 * each.half_angle - beyond;
         }
     }
-    return turn < 2 * std::numbers::pi ? turn : std::numeric_limits<double>::infinity();
+    return turned < 2 * std::numbers::pi ? turned : std::numeric_limits<double>::infinity();
 }
 
 /// Time [s] of the longest part of the arc, of at most `time`, whose chord the robot's body can go
@@ -145,10 +145,10 @@ Leg Driven::straight_ahead(const Mover& mover, const DrivenArc& ahead, Duration 
 Leg Driven::along_arc(const Mover& mover, const DrivenArc& ahead, Duration time, Leg leg) {
     const double way = ahead.speed > 0 ? ahead.heading : ahead.heading + std::numbers::pi;
     const auto contacts = mover.scene().contacts(mover.position, mover.radius);
-    const double turn = turn_off(contacts, way, ahead.turn_rate > 0 ? 1 : -1);
-    if (turn > 0) {
+    const double to_turn = turn_off(contacts, way, ahead.turn_rate > 0 ? 1 : -1);
+    if (to_turn > 0) {
         // Held by what it touches, it turns until it points off that.
-        const double held = std::ceil(1e9 * (turn / std::abs(ahead.turn_rate)));  // [ns]
+        const double held = std::ceil(1e9 * (to_turn / std::abs(ahead.turn_rate)));  // [ns]
         if (held < 1e9 * longest_leg) {
             leg.end = std::min(leg.end, mover.now + Duration{static_cast<std::int64_t>(held)});
         }

@@ -138,7 +138,7 @@ TEST_CASE("live: Ctrl-C ends it within a second, with results and a goodbye") {
     const Json end = Json::parse(client.line());
     CHECK(end.at("reason") == "stopped");
     CHECK(live.wait().exit == 0);
-    CHECK(live.fingerprint() == end.at("fingerprint"));
+    CHECK(live.fingerprint() == end.at("fingerprint").get<std::string>());
     CHECK(live.replay().exit == 0);
     CHECK(Json::parse(content(live.folder.path("out/summary.json"))).at("sim_s") == 0.1);
 }
