@@ -5,6 +5,7 @@
 #include "live/address.hpp"
 #include "live/child.hpp"
 #include "live/door_link.hpp"
+#include "live/left_behind.hpp"
 #include "sim/error.hpp"
 
 #include <boost/asio.hpp>
@@ -273,7 +274,7 @@ struct Doors::State {
     std::vector<Child> children;
     std::list<Gate> gates;  // links refer to them
     std::optional<asio::local::stream_protocol::acceptor> local;
-    std::string unix_path;
+    std::optional<NotedFile> unix_path;
     Clock::time_point looked = Clock::now();
     bool has_closed = false;
     asio::steady_timer alarm{io};
@@ -282,9 +283,7 @@ struct Doors::State {
 
 Doors::Doors(Users users) : state_(std::make_unique<State>(std::move(users))) {}
 
-Doors::~Doors() {
-    if (!state_->unix_path.empty()) unlink(state_->unix_path.c_str());
-}
+Doors::~Doors() { Child::end(state_->children); }
 
 void Doors::start(const std::string& command) {
     Child child(command);
@@ -303,7 +302,7 @@ Address Doors::listen(const Address& address, Streams streams) {
 
 void Doors::listen_unix(const std::string& path) {
     state_->local.emplace(listen_on_path(state_->io, path));
-    state_->unix_path = path;
+    state_->unix_path.emplace(path);
     state_->accept(*state_->local);
 }
 
@@ -364,9 +363,11 @@ std::vector<std::string> Doors::close(std::chrono::milliseconds most) {
         state_->close(link);
     }
     std::vector<std::string> failed;
+    const auto last = Clock::now() + most;
     for (Child& child : state_->children) {
-        if (auto fault = child.wait(most); !fault.empty()) failed.push_back(std::move(fault));
+        if (auto fault = child.wait_until(last); !fault.empty()) failed.push_back(std::move(fault));
     }
+    Child::end(state_->children);
     return failed;
 }
 
