@@ -21,7 +21,7 @@ class LiveServer {
     explicit LiveServer(const LiveOptions& options)
         : options_(options),
           lockstep_(options.lockstep, [this](auto to, auto line) { send(to, line); }),
-          doors_({.line = [this](auto from, auto line) { lockstep_.receive(from, line); },
+          doors_({.line = [this](auto from, auto line) { return lockstep_.receive(from, line); },
                   .refuse = [this](auto to, const auto& why) { lockstep_.refuse(to, why); },
                   .closed = [this](auto gone) { lockstep_.lost(gone); }}) {}
 
