@@ -2,7 +2,6 @@
 #include "cli/options.hpp"
 #include "cli/run_output.hpp"
 #include "cli/serving.hpp"
-#include "cli/stop.hpp"
 #include "live/emulate/door.hpp"
 #include "live/emulate/namespaces.hpp"
 #include "live/player/door.hpp"
@@ -36,8 +35,7 @@ PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenar
             player_ports(a.reach.without_token(*a.player), robot_names(scenario), {}));
     }
     if (a.rosbridge) options.fronts.push_back(rosbridge_door(a.reach.with_token(*a.rosbridge)));
-    options.go_on = goes_on;
-    options.say = say_to_all;
+    options.say = announcer(a.json ? Announced::by_notice : Announced::by_output);
     options.most_late = time_of("--late", a.late);
     options.late_ends = a.on_late == "fail";
     return options;
@@ -45,8 +43,9 @@ PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenar
 
 void emulate(const EmulateArguments& a) {
     const Scenario scenario = scenario_of(a);
-    const PacedOptions options = emulation_options(a, scenario);
-    const HeldStop serving;
+    PacedOptions options = emulation_options(a, scenario);
+    ServingStop stop;
+    options.stop = stop.rules();
     const LiveResult result = run_paced(scenario, options);
     print_run(result.scenario, result.run, a.json);
     if (!a.json) {

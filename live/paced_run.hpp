@@ -43,7 +43,7 @@ struct PacedOptions {
     /// fault if `late_ends`. None: any.
     std::optional<Duration> most_late = {};
     bool late_ends = false;
-    std::function<bool()> go_on = [] { return true; };  ///< asked now and then; false ends the run
+    StopRules stop = {};
     /// Told what a person should know: addresses that are listened on.
     std::function<void(std::string_view)> say = [](std::string_view) {};
 };

@@ -138,6 +138,7 @@ class Keeper {
 
 [[noreturn]] void run_keeper(int parent, const std::vector<RobotDevice>& robots) {
     std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the parent
+    std::signal(SIGHUP, SIG_IGN);
     std::signal(SIGTERM, SIG_DFL);
     Keeper keeper(parent);
     try {
