@@ -152,6 +152,7 @@ Verification verify_replay(const std::string& path, const std::function<bool(dou
     RecordedReader trace(path);
     const ReplayedScenario replayed(trace.run(), path);
     const Scenario scenario = replayed.with({});
+    check_robots(trace.run(), scenario, path);
     Verification result;
     result.recorded_by = trace.run().version;
     result.version = code_version();
@@ -169,6 +170,7 @@ MetricValues recorded_metrics(const std::string& path, std::vector<std::string>&
     if (!trace.run().scenario.empty()) {
         const ReplayedScenario replayed(trace.run(), path);
         const Scenario scenario = replayed.with({});
+        check_robots(trace.run(), scenario, path);
         const NetworkSettings settings = network_settings(scenario);
         metrics = std::make_shared<Metrics>(start_of_run + warmup_of(scenario, settings),
                                             settings.metric_parts);
