@@ -92,7 +92,15 @@ bool is_movement(const std::string& path) {
 /// A movement file alone, as the document of a scenario that lasts as long.
 Value movement_alone(const std::string& path) {
     Table movement, scenario, document;
-    const Time end = MovementFile(path, MovementSyntax::tolerant).end();
+    const MovementFile file(path, MovementSyntax::tolerant);
+    const Time end = file.end();
+    if (end > last_of_run) {
+        throw InputError(
+            file.end_where(),
+            fmt::format("the movements end after {:.10g} s, expected at most 1e9 s (31 years); a "
+                        "scenario with [movement] file and a duration plays a part of them",
+                        seconds(end - start_of_run)));
+    }
     movement.set("file", fs::path(path).filename().string());
     scenario.set("name", fs::path(path).stem().string());
     scenario.set("duration", to_value(std::max(end - start_of_run, Duration{1'000'000'000})));
