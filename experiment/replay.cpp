@@ -7,6 +7,7 @@
 #include "experiment/session.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
+#include "files/input_file.hpp"
 #include "files/text_source.hpp"
 #include "sim/error.hpp"
 #include "traces/ns2/ns2_trace.hpp"
@@ -117,7 +118,9 @@ void run_until_difference(Session& session, const Verification& result,
 
 Scenario scenario_beside(const std::string& trace) {
     const auto path = std::filesystem::path(trace).parent_path() / "scenario.toml";
-    if (!std::filesystem::exists(path)) {
+    const InputKind kind = input_kind(trace);
+    if (kind != InputKind::stream) need_file(trace);
+    if (input_kind(path.string()) != InputKind::file) {
         throw InputError({trace},
                          fmt::format("there is no {}; expected an ns-2 trace that rovernet "
                                      "wrote, in the folder of its run",

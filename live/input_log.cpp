@@ -6,6 +6,7 @@
 #include "experiment/session.hpp"
 #include "experiment/version.hpp"
 #include "files/base64.hpp"
+#include "files/input_file.hpp"
 #include "live/json_object.hpp"
 #include "scenario/json.hpp"
 #include "scenario/toml.hpp"
@@ -259,7 +260,8 @@ class Replayed {
 /// Lines of a log, each read as JSON.
 class LogLines {
   public:
-    explicit LogLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    explicit LogLines(const std::string& path)
+        : path_((need_file(path), path)), file_(path, std::ios::binary) {
         if (!file_) throw InputError({.source = path}, "cannot be read");
     }
 
@@ -297,7 +299,7 @@ void read_head(const JsonElement& line, const std::string& folder, InputReplay& 
 }
 
 fs::path log_of(const std::string& path) {
-    return fs::is_directory(path) ? fs::path(path) / input_log_name : fs::path(path);
+    return input_kind(path) == InputKind::folder ? fs::path(path) / input_log_name : fs::path(path);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "files/input_file.hpp"
 #include "scenario/located.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/stage_world.hpp"
@@ -46,7 +47,7 @@ void refuse_others(const std::string& path) {
         {".tr", "a trace, not a scenario; rovernet trace stats shows its metrics"},
         {".json", "not a scenario; the scenario of a run is the file scenario.toml beside it"}};
     const std::string ending = fs::path(path).extension().string();
-    if (ending.empty() || !fs::is_regular_file(path)) return;
+    if (ending.empty() || input_kind(path) != InputKind::file) return;
     if (ending == ".cfg") {
         throw InputError(Location{path},
                          fmt::format("a configuration of Player, not a scenario; expected the "
@@ -76,7 +77,7 @@ Value world_alone(const std::string& path) {
 /// A movement file tells itself by its first sign that is no comment: `$`, `<`, a digit or gzip's
 /// mark; a TOML file begins with a letter, a quote or a bracket.
 bool is_movement(const std::string& path) {
-    if (fs::path(path).extension() == ".toml" || !fs::is_regular_file(path)) return false;
+    if (fs::path(path).extension() == ".toml" || input_kind(path) != InputKind::file) return false;
     std::ifstream file(path, std::ios::binary);
     for (char c = 0; file.get(c);) {
         if (c == '#') {
