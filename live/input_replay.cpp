@@ -4,6 +4,7 @@
 #include "experiment/run.hpp"
 #include "experiment/session.hpp"
 #include "files/base64.hpp"
+#include "files/input_file.hpp"
 #include "files/part_file.hpp"
 #include "live/input_log.hpp"
 #include "live/json_object.hpp"
@@ -147,7 +148,8 @@ class Replayed {
 /// Lines of a log, each read as JSON.
 class LogLines {
   public:
-    explicit LogLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    explicit LogLines(const std::string& path)
+        : path_((need_file(path), path)), file_(path, std::ios::binary) {
         if (!file_) throw InputError({.source = path}, "cannot be read");
     }
 
