@@ -162,7 +162,9 @@ struct Doors::State {
 
     void hand_over(const Shared& link) {
         if (!link->has_line()) {
-            if (!link->has_spoken && begins_strangely(link->input)) return refuse_first(link);
+            if (!link->has_spoken && link->begins_strangely()) {
+                return refuse(link, link->strange_beginning());
+            }
             const bool is_long = link->input.size() > longest_line;
             if (is_long || (link->input.size() > portion && input_of_all() > most_input)) {
                 refuse_long(link);
@@ -179,24 +181,6 @@ struct Doors::State {
         const bool is_first = !std::exchange(link->has_spoken, true);
         link->is_answered = false;
         if (!users.line(link->id, line) && is_first) link->is_closing = true;
-    }
-
-    /// Whether these first bytes cannot begin a JSON object.
-    static bool begins_strangely(std::string_view bytes) {
-        const std::size_t first = bytes.find_first_not_of(" \t\r");
-        return first != bytes.npos && bytes[first] != '{';
-    }
-
-    void refuse_first(const Shared& link) {
-        const std::string_view bytes = link->input;
-        constexpr std::size_t shown = 16;  // bytes
-        std::string found(bytes.substr(0, std::min(bytes.find_first_of("\r\n"), shown)));
-        std::replace_if(
-            found.begin(), found.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-        refuse(link, RequestError("bad_json", "",
-                                  fmt::format("found \"{}\"; expected a JSON object in the first "
-                                              "line, as docs/live.md says",
-                                              found)));
     }
 
     void refuse_long(const Shared& link) {

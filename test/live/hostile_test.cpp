@@ -397,12 +397,13 @@ TEST_CASE("hostile: the robots of controllers that are killed stop, and others m
                     long_live_row());
     const int port = live.port();
     LineClient good(port);
+    CHECK(Json::parse(good.ask("{}")).at("type") == "error");  // it is there, and nobody else
+    const std::size_t before = descriptors(live.process().pid());
     good.send_bytes(hello("\"A\"") + "\n");
     const auto is_taken = [&] {
         LineClient other(port);
         return Json::parse(other.ask(hello("\"B\""))).value("code", "") == "taken";
     };
-    std::size_t before = 0;
     for (int n = 1; n <= kills; ++n) {
         const bool leaves_unread = n % 2 == 0;
         do_and_be_killed([&] {
@@ -415,7 +416,6 @@ TEST_CASE("hostile: the robots of controllers that are killed stop, and others m
         if (n == 1) CHECK(Json::parse(good.line()).at("type") == "welcome");
         const std::string step = R"({"type":"step","n":)" + std::to_string(n) + "}";
         CHECK(Json::parse(good.ask(step)).at("n") == n);
-        if (n == 1) before = descriptors(live.process().pid());
     }
     CHECK(comes_true([&] { return descriptors(live.process().pid()) == before; }));
     CHECK_FALSE(is_taken());
