@@ -103,8 +103,10 @@ class Live {
             {"PROGRAM", "python3 " + folder.write("c.py", program)}};
         for (std::string& option : options) {
             for (const auto& [word, meaning] : meanings) {
-                const std::size_t at = option.find(word);
-                if (at != option.npos) option.replace(at, word.size(), meaning);
+                for (auto at = option.find(word); at != option.npos; at = option.find(word, at)) {
+                    option.replace(at, word.size(), meaning);
+                    at += meaning.size();
+                }
             }
         }
         return options;

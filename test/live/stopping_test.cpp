@@ -133,7 +133,9 @@ TEST_CASE("stopping: a controller ends with all that it has started, whatever it
 }
 
 TEST_CASE("stopping: a run that ends by itself ends what its controllers have left running") {
+    // It speaks once the program ignores signals.
     const std::string talk =
+        R"(while ! test -e PIDFILE; do sleep 0.01; done; )"
         R"((printf '%s\n' '{"type":"hello","protocol":1,"robots":["A"],"step":"1 s"}'; read a; )"
         R"(printf '%s\n' '{"type":"bye"}'; read a) )";
     const Live live({"--controller", "PROGRAM PIDFILE > /dev/null & " + talk}, live_row, stubborn);
