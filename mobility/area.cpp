@@ -110,24 +110,12 @@ std::optional<Vec3> Area::first_place(const Mover& mover, StartPlace start, Draw
 Vec3 straight_stop(const Mover& mover, Vec3 to) {
     const Scene& scene = mover.scene();
     const Vec3 from = mover.position;
-    const auto open = [&](Vec3 p) {
+    const auto at = [&](double share) { return share == 1 ? to : from + share * (to - from); };
+    const auto open = [&](double share) {
+        const Vec3 p = at(share);
         return scene.inside_map(p) && scene.passable(from, p, mover.radius);
     };
-    if (open(to)) return to;
-    const Vec3 way = to - from;
-    double good = 0;
-    double bad = 1;
-    constexpr int halvings = 40;
-    for (int i = 0; i < halvings; ++i) {
-        const double middle = 0.5 * (good + bad);
-        (open(from + middle * way) ? good : bad) = middle;
-    }
-    // The stop keeps off the very limit, where rounding would decide whether the next leg may
-    // begin.
-    const double off = least_leg / distance(from, to);
-    good -= off;
-    const Vec3 stop = from + good * way;
-    return good >= off && open(stop) ? stop : from;
+    return at(free_share(open, least_leg / distance(from, to)));
 }
 
 Vec3 direction_of(double angle) {

@@ -60,6 +60,24 @@ struct Area {
 /// Least length of a leg [m]: a robot that could go less far stands at an obstacle or a border.
 inline constexpr double least_leg = 1e-6;
 
+/// Share of a way that a mover can go, if `open` tells whether it can go a share of it: 1; or
+/// `off`, the share of a least_leg, less than up to where it can; 0 if that is less than a
+/// least_leg.
+template <class Open>
+double free_share(Open open, double off) {
+    if (open(1.0)) return 1;
+    double good = 0, bad = 1;
+    constexpr int halvings = 40;
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (good + bad);
+        (open(middle) ? good : bad) = middle;
+    }
+    // The stop keeps off the very limit, where rounding would decide whether the next leg may
+    // begin.
+    good -= off;
+    return good >= off && open(good) ? good : 0;
+}
+
 /// Point up to which the mover can go straight from where it is towards `to`: `to`, or a micrometre
 /// before it would touch an obstacle or leave the map; where it is, if it cannot go a least_leg.
 Vec3 straight_stop(const Mover& mover, Vec3 to);

@@ -68,23 +68,16 @@ double turn_off(const std::vector<Contact>& contacts, double way, double sign) {
     return turned < 2 * std::numbers::pi ? turned : std::numeric_limits<double>::infinity();
 }
 
-/// Time [s] of the longest part of the arc, of at most `time`, whose chord the robot's body can go
-/// from where it is; 0 if that is shorter than a least_leg.
-double free_time(const Mover& mover, const DrivenArc& arc, Duration time) {
+/// Time of the longest part of the arc, of at most `time`, whose chord the robot's body can go from
+/// where it is; 0 if that is shorter than a least_leg.
+Duration free_time(const Mover& mover, const DrivenArc& arc, Duration time) {
     const Scene& scene = mover.scene();
-    const auto open = [&](double t) {
-        const Vec3 to = arc.position(arc.since + from_seconds(t));
+    const auto open = [&](double share) {
+        const Vec3 to = arc.position(arc.since + from_seconds(share * seconds(time)));
         return scene.inside_map(to) && scene.passable(mover.position, to, mover.radius);
     };
-    if (open(seconds(time))) return seconds(time);
-    double good = 0, bad = seconds(time);
-    constexpr int halvings = 40;
-    for (int i = 0; i < halvings; ++i) {
-        const double middle = 0.5 * (good + bad);
-        (open(middle) ? good : bad) = middle;
-    }
-    const double off = least_leg / std::abs(arc.speed);
-    return good - off >= off && open(good - off) ? good - off : 0;
+    const double off = least_leg / (std::abs(arc.speed) * seconds(time));
+    return from_seconds(free_share(open, off) * seconds(time));
 }
 
 /// The leg on a straight way to `to`, where it ends.
@@ -155,7 +148,7 @@ Leg Driven::along_arc(const Mover& mover, const DrivenArc& ahead, Duration time,
         return leg;
     }
     leg.end = mover.now + time;
-    const Duration free = from_seconds(free_time(mover, ahead, time));
+    const Duration free = free_time(mover, ahead, time);
     if (free <= Duration{0}) return leg;  // it turns by a chord, and looks again
     leg.end = mover.now + free;
     if (arc) *arc = ahead;

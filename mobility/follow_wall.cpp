@@ -19,7 +19,6 @@ constexpr double quarter = std::numbers::pi / 2;
 Step leg_along(const Mover& mover, double direction, double way, MetersPerSecond speed,
                double away) {
     constexpr double enough = 1.0 / 16;  // of the way
-    constexpr Duration shortest_look{10'000'000};
     Vec3 farthest = mover.position;
     for (double turned = 0; turned < 2 * std::numbers::pi; turned += std::abs(away)) {
         const double at = direction + std::copysign(turned, away);

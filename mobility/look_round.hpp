@@ -12,6 +12,9 @@
 
 namespace rovernet {
 
+/// Time between two looks of a robot that hardly gets on: it looks no more often [ns].
+inline constexpr Duration shortest_look{10'000'000};
+
 /// What a robot's range finder measures all round: the way to the nearest wall, each degree.
 class LookRound {
   public:

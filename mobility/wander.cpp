@@ -13,8 +13,6 @@
 namespace rovernet {
 namespace {
 
-constexpr Duration shortest_look{10'000'000};  // a robot that is stuck looks no more often
-
 /// Way [m] that the body can go straight ahead, up to `most`.
 double free_way(const Mover& mover, double most) {
     const Vec3 far = mover.position + most * direction_of(mover.heading);
