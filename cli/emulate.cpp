@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "cli/diagnostics.hpp"
 #include "cli/options.hpp"
 #include "cli/run_output.hpp"
 #include "cli/serving.hpp"
 #include "cli/stop.hpp"
+#include "live/emulate/device_addresses.hpp"
 #include "live/emulate/door.hpp"
 #include "live/emulate/namespaces.hpp"
 #include "live/player/door.hpp"
@@ -51,6 +53,9 @@ void emulate(const EmulateArguments& a) {
     print_run(result.scenario, result.run, a.json);
     if (!a.json) {
         fmt::print(
+    if (!a.udp) {
+        for (const std::string& each : check_device_addresses(scenario)) notice(each);
+    }
             "late               {:.3f} ms at most, {:.1f} % of the times by more than 1 ms\n",
             1e3 * seconds(result.lateness->most), 100 * result.lateness->share());
     }
