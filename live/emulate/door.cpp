@@ -37,7 +37,8 @@ FrontDoor::Ports udp_ports(Address own, const Network& network) {
     return ports;
 }
 
-FrontDoor::Ports tap_ports(const Network& network) {
+FrontDoor::Ports tap_ports(const Network& network, const std::string& folder,
+                           const std::function<bool()>& go_on) {
     std::vector<RobotDevice> robots;
     for (const Device& device : devices(network)) {
         const NodeId robot{static_cast<std::uint32_t>(robots.size())};
@@ -46,7 +47,7 @@ FrontDoor::Ports tap_ports(const Network& network) {
                           .netmask = network.robot(robot).radio.netmask,
                           .mac = mac_bytes(device.mac).value()});
     }
-    const auto namespaces = std::make_shared<Namespaces>(std::move(robots));
+    const auto namespaces = std::make_shared<Namespaces>(std::move(robots), folder, go_on);
     FrontDoor::Ports ports;
     for (std::size_t i = 0; i < namespaces->robots().size(); ++i) {
         ports.push_back(std::make_unique<TapPort>(namespaces, i));
@@ -56,8 +57,12 @@ FrontDoor::Ports tap_ports(const Network& network) {
 
 }  // namespace
 
-FrontDoor tap_devices() {
-    return {.entries = {}, .make = packet_front<EthernetFormat>, .open_ports = tap_ports};
+FrontDoor tap_devices(const std::string& folder, std::function<bool()> go_on) {
+    return {.entries = {},
+            .make = packet_front<EthernetFormat>,
+            .open_ports = [folder, go_on = std::move(go_on)](const Network& network) {
+                return tap_ports(network, folder, go_on);
+            }};
 }
 
 FrontDoor udp_relay(const Address& first) {

@@ -4,6 +4,8 @@
 #include "live/address.hpp"
 #include "live/paced_run.hpp"
 
+#include <functional>
+#include <string>
 #include <string_view>
 
 namespace rovernet {
@@ -17,6 +19,8 @@ FrontDoor udp_relay(const Address& first);
 
 /// Door for programs that use the network as ever: each robot has a network namespace, and in it a
 /// TAP device with its addresses (EthernetFormat, Namespaces).
-FrontDoor tap_devices();
+/// @param folder  of the run's results, by which programs find it
+/// @param go_on   asked while the devices are made; false ends that
+FrontDoor tap_devices(const std::string& folder, std::function<bool()> go_on);
 
 }  // namespace rovernet
