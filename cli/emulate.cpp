@@ -28,12 +28,17 @@ struct EmulateArguments : FileArguments {
     bool json = false;
 };
 
+FrontDoor udp_door(const EmulateArguments& a, const Scenario& scenario) {
+    const Address first = a.reach.without_token(*a.udp);
+    check_udp_ports(first, robot_names(scenario).size());
+    return udp_relay(first);
+}
+
 PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenario) {
     PacedOptions options;
     options.folder = results_folder(a.out, scenario, a.options);
     options.speed = a.speed;
-    options.fronts.push_back(a.udp ? udp_relay(a.reach.without_token(*a.udp))
-                                   : tap_devices(options.folder, goes_on));
+    options.fronts.push_back(a.udp ? udp_door(a, scenario) : tap_devices(options.folder, goes_on));
     if (a.player) {
         options.fronts.push_back(
             player_ports(a.reach.without_token(*a.player), robot_names(scenario), {}));

@@ -4,6 +4,7 @@
 #include "live/address.hpp"
 #include "live/paced_run.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,9 @@ inline constexpr std::string_view relay_address = "127.0.0.1:7100";
 /// Door for programs that send datagrams (RelayFormat): the first robot's port is at `first`, the
 /// next one's at the next. With port 0 each has any that is free.
 FrontDoor udp_relay(const Address& first);
+/// Checks that there are ports for so many robots, before anything is made.
+/// @throws std::invalid_argument
+void check_udp_ports(const Address& first, std::size_t robots);
 
 /// Door for programs that use the network as ever: each robot has a network namespace, and in it a
 /// TAP device with its addresses (EthernetFormat, Namespaces).

@@ -149,8 +149,10 @@ TEST_CASE("emulate --udp: only this machine is listened to, and a port in use is
         return command(folder, options);
     };
     CHECK(emulate({"--udp", "0.0.0.0:7100"}).exit == 2);
-    CHECK(emulate({"--udp", "127.0.0.1:65534"}).err.find("expected 2 at most") !=
-          std::string::npos);
+    const Ended narrow = emulate({"--udp", "127.0.0.1:65534"});
+    CHECK(narrow.exit == 2);
+    CHECK(narrow.err.find("expected 2 at most") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder.path("out")));  // nothing is begun
     CHECK(emulate({"--udp", "127.0.0.1:0", "--late", "-1s"}).exit != 0);
     CHECK(emulate({"--udp", "127.0.0.1:0", "--on-late", "wait"}).exit == 2);
     Emulation first(scenario, {"--udp", "127.0.0.1:0"});
