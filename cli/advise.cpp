@@ -70,7 +70,8 @@ void make_block(const AdviseArguments& a, Study& study, Store& store,
     arguments.fail_fast = true;
     SweepOptions options;
     options.replications = replications;
-    const SweepResult result = run_study(arguments, study, store, std::move(options));
+    const SweepResult result = run_study(arguments, study, store, std::move(options),
+                                         a.store ? Finished::is_kept : Finished::is_lost);
     if (result.progress.left > 0) check_not_stopped(a);
     if (result.progress.failed == 0) return;
     const StoredRun& run = *result.failure;

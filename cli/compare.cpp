@@ -253,7 +253,8 @@ void compare(const CompareArguments& a) {
     const HeldStop until_gone;
     const PassingStore passing;
     Store store = open_store(a.store.value_or(passing.file()), study);
-    const SweepResult result = run_study(a, study, store);
+    const SweepResult result =
+        run_study(a, study, store, {}, a.store ? Finished::is_kept : Finished::is_lost);
     check_interrupted(a, result.progress.left == 0);
     Comparison comparison = compare_models(store, metric, a.baseline, a.margin);
     add_costs(comparison, study, store, [] { return stops_asked() > 0; });

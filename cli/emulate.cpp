@@ -3,7 +3,6 @@
 #include "cli/options.hpp"
 #include "cli/run_output.hpp"
 #include "cli/serving.hpp"
-#include "cli/stop.hpp"
 #include "live/emulate/device_addresses.hpp"
 #include "live/emulate/door.hpp"
 #include "live/emulate/inside.hpp"
@@ -34,18 +33,20 @@ FrontDoor udp_door(const EmulateArguments& a, const Scenario& scenario) {
     return udp_relay(first);
 }
 
-PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenario) {
+PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenario,
+                               const StopRules& stop) {
     PacedOptions options;
+    options.stop = stop;
     options.folder = results_folder(a.out, scenario, a.options);
     options.speed = a.speed;
-    options.fronts.push_back(a.udp ? udp_door(a, scenario) : tap_devices(options.folder, goes_on));
+    options.fronts.push_back(a.udp ? udp_door(a, scenario)
+                                   : tap_devices(options.folder, stop.go_on));
     if (a.player) {
         options.fronts.push_back(
             player_ports(a.reach.without_token(*a.player), robot_names(scenario), {}));
     }
     if (a.rosbridge) options.fronts.push_back(rosbridge_door(a.reach.with_token(*a.rosbridge)));
-    options.go_on = goes_on;
-    options.say = say_to_all;
+    options.say = announcer(a.json ? Announced::by_notice : Announced::by_output);
     options.most_late = time_of("--late", a.late);
     options.late_ends = a.on_late == "fail";
     return options;
@@ -56,8 +57,8 @@ void emulate(const EmulateArguments& a) {
     if (!a.udp) {
         for (const std::string& each : check_device_addresses(scenario)) notice(each);
     }
-    const PacedOptions options = emulation_options(a, scenario);
-    const HeldStop serving;
+    ServingStop stop;
+    const PacedOptions options = emulation_options(a, scenario, stop.rules());
     const LiveResult result = run_paced(scenario, options);
     print_run(result.scenario, result.run, a.json);
     if (!a.json) {

@@ -3,7 +3,6 @@
 #include "cli/options.hpp"
 #include "cli/run_output.hpp"
 #include "cli/serving.hpp"
-#include "cli/stop.hpp"
 #include "live/live_run.hpp"
 #include "live/player/door.hpp"
 #include "live/rosbridge/door.hpp"
@@ -27,6 +26,8 @@ struct LiveArguments : FileArguments {
     bool one_port = false, lockstep = false;
     Reach reach;
     bool json = false;
+
+    Announced announced() const { return json ? Announced::by_notice : Announced::by_output; }
 };
 
 std::string folder_of(const LiveArguments& a, const Scenario& scenario) {
@@ -44,8 +45,7 @@ LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
                                : a.on_loss == "wait" ? OnLoss::wait
                                                      : OnLoss::end;
     if (a.patience) options.patience = time_of("--patience", *a.patience);
-    options.go_on = goes_on;
-    options.say = say_to_all;
+    options.say = announcer(a.announced());
     return options;
 }
 
@@ -72,14 +72,18 @@ LiveResult run_by_clock(LiveArguments a) {
     if (a.lockstep) options.speed.reset();
     if (a.player) options.fronts.push_back(player_door(a, config, scenario));
     if (a.rosbridge) options.fronts.push_back(rosbridge_door(a.reach.with_token(*a.rosbridge)));
-    options.go_on = goes_on;
-    options.say = say_to_all;
+    ServingStop stop;
+    options.stop = stop.rules();
+    options.say = announcer(a.announced());
     return run_paced(scenario, options);
 }
 
 LiveResult run_lockstep(const LiveArguments& a) {
     const Scenario scenario = scenario_of(a);
-    return rovernet::run_live(scenario, lockstep_options(a, scenario));
+    LiveOptions options = lockstep_options(a, scenario);
+    ServingStop stop;
+    options.stop = stop.rules();
+    return rovernet::run_live(scenario, options);
 }
 
 void run_live(const LiveArguments& a) {
@@ -93,7 +97,6 @@ void run_live(const LiveArguments& a) {
     if (!is_by_clock && a.speed) {
         throw CommandEnd(usage, "live: --speed needs --player or --rosbridge");
     }
-    const HeldStop serving;
     const LiveResult result = is_by_clock ? run_by_clock(a) : run_lockstep(a);
     print_run(result.scenario, result.run, a.json);
     if (!result.fault.empty()) throw CommandEnd(failed, result.fault);

@@ -4,6 +4,7 @@
 #include "cli/options.hpp"
 #include "cli/text_table.hpp"
 #include "experiment/loss_table.hpp"
+#include "files/input_file.hpp"
 #include "scenario/json.hpp"
 #include "scenario/read_value.hpp"
 
@@ -43,7 +44,7 @@ LocateQuestion question_of(const LocateArguments& a) {
 
 /// Scenario of a file, or of the run whose folder it is.
 Scenario scenario_to_locate(LocateArguments a) {
-    if (std::filesystem::is_directory(a.file))
+    if (input_kind(a.file) == InputKind::folder)
         a.file = (std::filesystem::path(a.file) / "scenario.toml").string();
     return scenario_of(a);
 }

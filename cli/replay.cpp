@@ -4,14 +4,13 @@
 #include "cli/diagnostics.hpp"
 #include "cli/options.hpp"
 #include "cli/replay_inputs.hpp"
-#include "cli/stop.hpp"
 #include "cli/text_table.hpp"
 #include "cli/trace_commands.hpp"
 #include "cli/waiting.hpp"
 #include "experiment/run.hpp"
 #include "experiment/trace_input.hpp"
 #include "experiment/trace_play.hpp"
-#include "live/input_log.hpp"
+#include "live/input_replay.hpp"
 #include "scenario/json.hpp"
 #include "study/command_words.hpp"
 #include "study/day_store.hpp"
@@ -64,10 +63,9 @@ void print_verification(const ReplayArguments& a, const Verification& v) {
 void verify(const ReplayArguments& a) {
     const Verification v = [&] {
         Waiting waiting("replaying " + a.file);
-        const HeldStop replaying;
         return verify_replay(a.file, [&](double share) {
             waiting.tell(share);
-            return stops_asked() == 0;
+            return true;
         });
     }();
     for (const std::string& text : v.damage) notice(a.file + ": " + text);
@@ -106,7 +104,7 @@ PlayedDay play_radio(const ReplayArguments& a, const RecordedDay& day,
     Waiting waiting("replaying " + a.file + " with " + name);
     return day.play(set, [&](double share) {
         waiting.tell(share);
-        return stops_asked() == 0;
+        return true;
     });
 }
 
@@ -132,7 +130,6 @@ std::vector<DayRow> play_radios(const ReplayArguments& a, const Radios& radios) 
     std::vector<std::string> names = a.with;
     if (names.empty() && a.map) names.push_back("map " + *a.map);
     std::vector<DayRow> rows;
-    const HeldStop replaying;
     if (radios.plays_first) {
         std::vector<std::string> set;
         append(set, radios.as);
@@ -277,17 +274,14 @@ void play_with(const ReplayArguments& a) {
 
 void play_events(const ReplayArguments& a) {
     const TraceInput trace(a.file, {.format = Ns2Format::old_format, .mac = {}});
-    const HeldStop playing;
-    const bool is_whole =
-        play_trace(trace.text(), *a.speed,
-                   {.show = [](std::string_view line) { fmt::print("{}\n", line); },
-                    .goes_on =
-                        [] {
-                            std::fflush(stdout);
-                            return stops_asked() == 0;
-                        }});
+    play_trace(trace.text(), *a.speed,
+               {.show = [](std::string_view line) { fmt::print("{}\n", line); },
+                .goes_on =
+                    [] {
+                        std::fflush(stdout);
+                        return true;
+                    }});
     for (const std::string& text : trace.damage()) notice(a.file + ": " + text);
-    if (!is_whole) throw Interrupted();
 }
 
 }  // namespace

@@ -2,10 +2,9 @@
 #include "cli/replay_inputs.hpp"
 
 #include "cli/diagnostics.hpp"
-#include "cli/stop.hpp"
 #include "cli/waiting.hpp"
 #include "experiment/version.hpp"
-#include "live/input_log.hpp"
+#include "live/input_replay.hpp"
 #include "scenario/json.hpp"
 
 #include <fmt/format.h>
@@ -35,18 +34,35 @@ void print_inputs(const ReplayArguments& a, const InputReplay& replay) {
     }
 }
 
+void tell_of_log(const InputReplay& replay) {
+    if (replay.is_other_scenario) {
+        notice(fmt::format("{}: scenario.toml {}", replay.log,
+                           replay.has_own_scenario
+                               ? "beside it is not as it was run; the log's own text is"
+                               : "beside it is not as it was run"));
+    }
+    if (replay.torn) {
+        notice(fmt::format("{}:{}: the last line is torn, and left out", replay.log, *replay.torn));
+    }
+    if (replay.recorded.empty()) {
+        notice(replay.log + ": its run did not end; it is replayed up to its last input");
+    }
+    for (const std::string& other : replay.others) {
+        notice(other + ": another run that did not end; replay it by this name");
+    }
+}
+
 }  // namespace
 
 void verify_inputs(const ReplayArguments& a) {
     const InputReplay replay = [&] {
         Waiting waiting("replaying " + a.file);
-        const HeldStop replaying;
         return replay_inputs(a.file, [&](double share) {
             waiting.tell(share);
-            return stops_asked() == 0;
+            return true;
         });
     }();
-    if (replay.is_other_scenario) notice(a.file + ": scenario.toml is not as it was run");
+    tell_of_log(replay);
     print_inputs(a, replay);
     if (!replay.recorded.empty() && replay.recorded != replay.now) {
         throw CommandEnd(failed, a.file + ": the run differs from its fingerprint");

@@ -2,7 +2,6 @@
 #include "cli/serving.hpp"
 
 #include "cli/diagnostics.hpp"
-#include "cli/stop.hpp"
 #include "experiment/run_folder.hpp"
 #include "scenario/quantity.hpp"
 
@@ -51,12 +50,22 @@ Address Reach::without_token(const std::string& text) const {
     return read_loopback(text);
 }
 
-bool goes_on() { return stops_asked() == 0; }
+StopRules ServingStop::rules() {
+    return {.go_on = [] { return stops_asked() == 0; },
+            .writes =
+                [this](bool writes) {
+                    writing_.reset();
+                    if (writes) writing_.emplace();
+                }};
+}
 
-void say_to_all(std::string_view text) {
-    if (!text.starts_with("listening ") && !text.starts_with("for ")) return notice(text);
-    fmt::print("{}\n", text);
-    std::fflush(stdout);
+std::function<void(std::string_view)> announcer(Announced announced) {
+    if (announced == Announced::by_notice) return notice;
+    return [](std::string_view text) {
+        if (!text.starts_with("listening ") && !text.starts_with("for ")) return notice(text);
+        fmt::print("{}\n", text);
+        std::fflush(stdout);
+    };
 }
 
 }  // namespace rovernet::cli

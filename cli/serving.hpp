@@ -2,10 +2,13 @@
 #pragma once
 
 #include "cli/command_line.hpp"
+#include "cli/stop.hpp"
 #include "live/address.hpp"
+#include "live/logged_run.hpp"
 #include "scenario/scenario.hpp"
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,11 +37,23 @@ struct Reach {
     Address without_token(const std::string& text) const;
 };
 
-/// Whether nobody has asked it to stop.
-bool goes_on();
+/// Stop of a run that serves programs: a signal ends its run, of which it then writes the results;
+/// while a network is set up it ends the process at once.
+class ServingStop {
+  public:
+    /// Valid as long as this object.
+    StopRules rules();
 
-/// Says something to the person at the terminal; addresses and tokens on standard output, where
-/// programs read them.
-void say_to_all(std::string_view text);
+  private:
+    std::optional<HeldStop> writing_;
+};
+
+/// Where a run announces addresses and tokens.
+enum class Announced {
+    by_output,  ///< on standard output, where programs read them
+    by_notice,  ///< like all else that is told: standard output is for one document
+};
+/// What a run says to the person at the terminal, and to programs that wait for its addresses.
+std::function<void(std::string_view)> announcer(Announced announced);
 
 }  // namespace rovernet::cli

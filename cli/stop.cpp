@@ -2,6 +2,7 @@
 #include "cli/stop.hpp"
 
 #include "cli/commands.hpp"
+#include "live/left_behind.hpp"
 
 #include <csignal>
 #include <string_view>
@@ -19,6 +20,7 @@ void on_signal(int) {
     if (held > 0 && asked <= patience) return;
     constexpr std::string_view words = "rovernet: interrupted\n";
     (void)!write(STDERR_FILENO, words.data(), words.size());
+    clear_away();
     _exit(interrupted);
 }
 
@@ -27,6 +29,8 @@ void on_signal(int) {
 void end_on_signals() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    // Whoever starts it by nohup wants it to go on.
+    if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 HeldStop::HeldStop() { held = held + 1; }

@@ -7,7 +7,9 @@
 
 namespace rovernet::cli {
 
-/// Lets Ctrl-C (SIGINT) and SIGTERM end the process at once from now on, with exit code 130.
+/// Lets Ctrl-C (SIGINT), SIGTERM and SIGHUP end the process at once from now on, with exit code
+/// 130 and with the programs that it has started. SIGHUP does nothing where it is ignored already,
+/// as by nohup.
 void end_on_signals();
 
 /// While one of these lives, signals to stop are counted only, for a command that has something to

@@ -68,15 +68,17 @@ ScenarioOptions study_options(const StudyArguments& a) {
     return options;
 }
 
-SweepResult run_study(const StudyArguments& a, Study& study, Store& store, SweepOptions options) {
+SweepResult run_study(const StudyArguments& a, Study& study, Store& store, SweepOptions options,
+                      Finished finished) {
     options.workers = a.workers > 0 ? a.workers : std::max(1U, std::thread::hardware_concurrency());
     options.limits = limits_of(a, options.workers);
     options.fail_fast = a.fail_fast;
     SweepDisplay display;
     options.progress = [&](const SweepProgress& progress) { display.show(progress); };
-    options.stop = [] {
+    options.stop = [finished] {
         if (stops_asked() == 0) return Stop::no;
-        return stops_asked() == 1 ? Stop::when_idle : Stop::at_once;
+        const bool is_for_nothing = finished == Finished::is_lost || stops_asked() > 1;
+        return is_for_nothing ? Stop::at_once : Stop::when_idle;
     };
     const HeldStop until_kept;
     return rovernet::sweep(study, store, options);

@@ -5,8 +5,10 @@
 #include "cli/run_commands.hpp"
 #include "cli/slurm.hpp"
 #include "cli/study_run.hpp"
+#include "files/input_file.hpp"
 #include "scenario/json.hpp"
 #include "scenario/toml.hpp"
+#include "study/merge.hpp"
 #include "study/write_lock.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +34,7 @@ std::string store_path(const SweepArguments& a) {
 
 /// Words for what of a store is thrown away: "its 12 runs"; empty if it has none.
 std::string runs_in(const std::string& path) {
-    if (!std::filesystem::exists(path)) return "";
+    if (input_kind(path) == InputKind::nothing) return "";
     const Store store = Store::open(path);  // throws for a file that is something else
     try {
         const std::size_t runs = store.runs().size();
@@ -46,7 +48,7 @@ std::string runs_in(const std::string& path) {
 void begin_afresh(const SweepArguments& a, const std::string& path) {
     const std::string shards = path + ".slurm/shards";
     const bool has_shards =
-        std::filesystem::is_directory(shards) && !std::filesystem::is_empty(shards);
+        input_kind(shards) == InputKind::folder && !std::filesystem::is_empty(shards);
     const std::string runs = runs_in(path);
     if ((!runs.empty() || has_shards) && !a.yes) {
         const std::string question =
@@ -62,7 +64,7 @@ void begin_afresh(const SweepArguments& a, const std::string& path) {
             throw std::invalid_argument("not confirmed: nothing was changed");
     }
     std::optional<WriteLock> nobody_else_writes;  // or what they write is lost with its file
-    if (std::filesystem::exists(path)) nobody_else_writes.emplace(path);
+    if (input_kind(path) == InputKind::file) nobody_else_writes.emplace(path);
     for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path + ending);
     std::filesystem::remove_all(shards);
 }
@@ -145,6 +147,7 @@ void sweep(const SweepArguments& a) {
     const std::string path = store_path(a);
     if (a.fresh && !a.dry_run) begin_afresh(a, path);
     if (on_slurm) return submit_sweep(a, study, path);
+    for (const std::string& shard : a.merge) check_shard(shard);
     Store store = open_store(path, study);
     if (!a.merge.empty()) return merge_shards(a, study, store);
     SweepOptions options;

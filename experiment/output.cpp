@@ -28,7 +28,7 @@ void write_file(const std::string& path, std::string_view bytes) {
 void make_folder(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
-    if (std::filesystem::is_directory(path)) return;
+    if (!error && std::filesystem::is_directory(path, error)) return;
     throw RunError(fmt::format("{}: no folder can be made there ({}); give another with --out",
                                path, error ? error.message() : "a file is in the way"));
 }

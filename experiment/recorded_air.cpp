@@ -62,6 +62,7 @@ struct RecordedAir::Loaded {
           names(run.robots),
           scenario(replayed.with({})),
           settings(network_settings(scenario)) {
+        check_robots(run, scenario, path);
         if (!settings.scene) settings.scene = std::make_shared<Scene>();
     }
 

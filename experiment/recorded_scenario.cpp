@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <stdlib.h>
 #include <utility>
@@ -69,15 +70,6 @@ const std::string* text_at(Table& document, std::string_view table, std::string_
     return value ? value->string() : nullptr;
 }
 
-/// A folder for this process alone.
-std::string make_temporary_folder() {
-    std::string name = (fs::temp_directory_path() / "rovernet-replay-XXXXXX").string();
-    if (!mkdtemp(name.data())) {
-        throw RunError(fmt::format("{}: cannot be made: {}", name, std::strerror(errno)));
-    }
-    return name;
-}
-
 void put_file(const fs::path& path, const std::string& content) {
     fs::create_directories(path.parent_path());
     std::ofstream out(path, std::ios::binary);
@@ -88,8 +80,9 @@ void put_file(const fs::path& path, const std::string& content) {
 /// Whether a file of this name goes into its own folder below, and nowhere else.
 bool is_inside(const std::string& name) {
     const fs::path path(name);
-    return path.is_relative() && std::none_of(path.begin(), path.end(),
-                                              [](const fs::path& part) { return part == ".."; });
+    return name.find('\0') == name.npos && path.has_filename() && path.is_relative() &&
+           std::none_of(path.begin(), path.end(),
+                        [](const fs::path& part) { return part == ".."; });
 }
 
 }  // namespace
@@ -123,54 +116,114 @@ RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& 
     return recorded;
 }
 
-ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& path) {
+ReplayedScenario::Folder::Folder()
+    : path((fs::temp_directory_path() / "rovernet-replay-XXXXXX").string()) {
+    if (mkdtemp(path.data())) return;
+    throw RunError(fmt::format("{}: cannot be made: {}", path, std::strerror(errno)));
+}
+ReplayedScenario::Folder::~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+}
+
+std::string ReplayedScenario::find_file(const RecordedRun& run, const std::string& name) const {
+    const auto has_its_name = [&](const AttachedFile& file) { return file.name == name; };
+    if (std::any_of(run.files.begin(), run.files.end(), has_its_name)) return name;
+    if (std::find(run.broken.begin(), run.broken.end(), name) != run.broken.end()) {
+        throw InputError({.source = trace_}, fmt::format("the file {} inside is broken", name));
+    }
+    const fs::path beside = fs::absolute(trace_).parent_path() / name;
+    std::error_code ignored;
+    if (fs::exists(beside, ignored)) return beside.string();
+    throw InputError({.source = trace_},
+                     fmt::format("its scenario names the file {}, which is neither inside nor "
+                                 "beside it",
+                                 name));
+}
+
+ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& path) : trace_(path) {
     if (run.scenario.empty()) {
         throw InputError({.source = path},
                          "there is no scenario in this trace: its network was made in code");
     }
     Value parsed = parse_toml(run.scenario, path);
     Table& document = *parsed.table();
-    folder_ = make_temporary_folder();
     for (const AttachedFile& file : run.files) {
-        if (is_inside(file.name)) put_file(fs::path(folder_) / file.name, file.content);
+        if (!is_inside(file.name)) continue;
+        try {
+            put_file(fs::path(folder_.path) / file.name, file.content);
+        } catch (const fs::filesystem_error&) {  // a file is inside where another has its folder
+            throw InputError({.source = path},
+                             fmt::format("the file {} inside cannot be unpacked", file.name));
+        }
     }
-    const fs::path home = fs::absolute(path).parent_path();
-    const auto find_file = [&](const std::string& name) {
-        const bool is_attached = std::any_of(run.files.begin(), run.files.end(),
-                                             [&](const auto& file) { return file.name == name; });
-        return is_attached ? name : (home / name).string();
-    };
     constexpr std::pair<const char*, const char*> keys[] = {
         {"scene", "map"}, {"scene", "world"}, {"movement", "file"}};
     for (const auto& [table, key] : keys) {
         const std::string* name = text_at(document, table, key);
-        if (name) document.find(table)->table()->set(key, find_file(*name));
+        if (name) document.find(table)->table()->set(key, find_file(run, *name));
     }
     Value* scene = document.find("scene");
     Value* floors = scene && scene->table() ? scene->table()->find("floor") : nullptr;
     if (floors && floors->array()) {
         for (Value& each : *floors->array()) {
             const Value* map = each.table() ? each.table()->find("map") : nullptr;
-            if (map && map->string()) each.table()->set("map", find_file(*map->string()));
+            if (map && map->string()) each.table()->set("map", find_file(run, *map->string()));
         }
     }
     Value* places = scene && scene->table() ? scene->table()->find("world_path") : nullptr;
     if (places && places->array()) {
+        const fs::path home = fs::absolute(path).parent_path();
         for (Value& each : *places->array()) {
             if (each.string()) each = (home / *each.string()).string();
         }
     }
-    file_ = folder_ + "/scenario.toml";
+    file_ = folder_.path + "/scenario.toml";
     put_file(file_, to_toml(document));
 }
 
-ReplayedScenario::~ReplayedScenario() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
+Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
+    try {
+        return load_scenario(file_, {.set = set});
+    } catch (const InputError& error) {
+        // The folder is nothing that the user knows.
+        Location where = error.where();
+        if (!where.source.starts_with(folder_.path + "/")) throw;
+        where.source.replace(0, folder_.path.size() + 1, trace_ + ": ");
+        throw InputError(where, error.message());
+    }
 }
 
-Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
-    return load_scenario(file_, {.set = set});
+void check_robots(const RecordedRun& run, const Scenario& scenario, const std::string& path) {
+    const std::vector<std::string>& names = run.robots;
+    std::size_t robots = 0;
+    const auto expect = [&](const std::string& name) {
+        if (robots == names.size()) {
+            throw InputError({.source = path},
+                             fmt::format("its scenario has a robot \"{}\", number {}; {}", name,
+                                         robots, run.names_in_words()));
+        }
+        if (names[robots] != name) {
+            throw InputError({.source = path},
+                             fmt::format("robot {} is \"{}\" by the names of the trace, and "
+                                         "\"{}\" in the scenario inside",
+                                         robots, names[robots], name));
+        }
+        ++robots;
+    };
+    std::set<std::string> in_tables;
+    for (const RobotTable& table : scenario.robots) {
+        for (int i = 0; i < table.count.value_or(1); ++i) {
+            expect(table.name_of(i));
+            in_tables.insert(table.name_of(i));
+        }
+    }
+    for (const FileRobot& robot : scenario.movement.robots) {
+        if (!in_tables.contains(robot.name)) expect(robot.name);
+    }
+    if (robots == names.size()) return;
+    throw InputError({.source = path},
+                     fmt::format("its scenario has {} robots; {}", robots, run.names_in_words()));
 }
 
 }  // namespace rovernet

@@ -28,18 +28,33 @@ RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& 
 class ReplayedScenario {
   public:
     /// @param path  of the trace, for errors, and for files that were not attached
-    /// @throws InputError if there is none, or it is no TOML
+    /// @throws InputError if there is none, it is no TOML, or a file that it names is broken or
+    ///         cannot be unpacked
     ReplayedScenario(const RecordedRun& run, const std::string& path);
-    ReplayedScenario(const ReplayedScenario&) = delete;
-    ~ReplayedScenario();
 
     /// Scenario with its map loaded, and these assignments "path=value" over it, see set_option().
     /// @throws InputError for what is wrong with it
     Scenario with(const std::vector<std::string>& set) const;
 
   private:
-    std::string folder_;  // folder of the attached files
-    std::string file_;    // path of the scenario in it
+    /// A folder for this process alone, gone with its object.
+    struct Folder {
+        Folder();
+        Folder(const Folder&) = delete;
+        ~Folder();
+        std::string path;
+    };
+
+    /// Name of a file of the scenario, as from its folder.
+    std::string find_file(const RecordedRun& run, const std::string& name) const;
+
+    std::string trace_;  // its path
+    Folder folder_;      // folder of the attached files
+    std::string file_;   // path of the scenario in it
 };
+
+/// Checks that a trace names the robots of the scenario inside, in their order: robots of records
+/// are found by these names. @param path  of the trace. @throws InputError if they differ
+void check_robots(const RecordedRun& run, const Scenario& scenario, const std::string& path);
 
 }  // namespace rovernet

@@ -7,6 +7,7 @@
 #include "experiment/session.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
+#include "files/input_file.hpp"
 #include "files/text_source.hpp"
 #include "sim/error.hpp"
 #include "traces/ns2/ns2_trace.hpp"
@@ -117,7 +118,9 @@ void run_until_difference(Session& session, const Verification& result,
 
 Scenario scenario_beside(const std::string& trace) {
     const auto path = std::filesystem::path(trace).parent_path() / "scenario.toml";
-    if (!std::filesystem::exists(path)) {
+    const InputKind kind = input_kind(trace);
+    if (kind != InputKind::stream) need_file(trace);
+    if (input_kind(path.string()) != InputKind::file) {
         throw InputError({trace},
                          fmt::format("there is no {}; expected an ns-2 trace that rovernet "
                                      "wrote, in the folder of its run",
@@ -152,6 +155,7 @@ Verification verify_replay(const std::string& path, const std::function<bool(dou
     RecordedReader trace(path);
     const ReplayedScenario replayed(trace.run(), path);
     const Scenario scenario = replayed.with({});
+    check_robots(trace.run(), scenario, path);
     Verification result;
     result.recorded_by = trace.run().version;
     result.version = code_version();
@@ -169,6 +173,7 @@ MetricValues recorded_metrics(const std::string& path, std::vector<std::string>&
     if (!trace.run().scenario.empty()) {
         const ReplayedScenario replayed(trace.run(), path);
         const Scenario scenario = replayed.with({});
+        check_robots(trace.run(), scenario, path);
         const NetworkSettings settings = network_settings(scenario);
         metrics = std::make_shared<Metrics>(start_of_run + warmup_of(scenario, settings),
                                             settings.metric_parts);

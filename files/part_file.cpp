@@ -37,7 +37,8 @@ int create_locked(const std::string& part) {
     }
 }
 
-/// Whether `name` is `whole`.N.part.
+}  // namespace
+
 bool is_part_of(std::string_view whole, std::string_view name) {
     constexpr std::string_view ending = ".part";
     if (name.size() <= whole.size() + 1 + ending.size()) return false;
@@ -48,14 +49,13 @@ bool is_part_of(std::string_view whole, std::string_view name) {
            std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-}  // namespace
-
-PartFile::PartFile(std::string path, Failed failed) : path_(std::move(path)), failed_(failed) {
+PartFile::PartFile(std::string path, Failed failed, Orphans orphans)
+    : path_(std::move(path)), failed_(failed) {
     std::error_code ignored;
     const auto status = fs::status(path_, ignored);
     // A rename would replace a device by a file.
     if (exists(status) && !is_regular_file(status)) fail("it exists and is no regular file");
-    remove_orphans();
+    if (orphans == Orphans::are_removed) remove_orphans();
     for (auto n = static_cast<std::uint64_t>(getpid());; ++n) {
         const std::string part = fmt::format("{}.{}.part", path_, n);
         file_ = create_locked(part);
@@ -107,6 +107,12 @@ void PartFile::close() {
 void PartFile::give_name() {
     close();
     if (std::rename(part_.c_str(), path_.c_str()) != 0) fail(std::strerror(errno));
+    part_.clear();
+    discard();
+}
+
+void PartFile::keep() {
+    close();
     part_.clear();
     discard();
 }

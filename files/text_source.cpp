@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "files/text_source.hpp"
 
+#include "files/input_file.hpp"
+
 #include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <limits>
+#include <new>
+#include <unistd.h>
 #include <zstd.h>
 
 namespace rovernet {
@@ -24,18 +27,16 @@ void TextSource::Close::operator()(gzFile_s* file) const { gzclose(file); }
 void TextSource::Close::operator()(ZSTD_DCtx_s* context) const { ZSTD_freeDCtx(context); }
 
 TextSource::TextSource(const std::string& path, Reads reads) : name_(path), buffer_(portion) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path, ignored);
-    const bool is_there = std::filesystem::exists(status);
-    if (is_there && reads == Reads::once && std::filesystem::is_directory(status)) {
-        fail("cannot read the file: it is a folder");
-    }
-    if (is_there && reads == Reads::twice && !std::filesystem::is_regular_file(status)) {
+    if (reads == Reads::twice && input_kind(path) == InputKind::stream) {
         fail("is not a file; a movement file is read twice, so it has to be one");
     }
-    errno = 0;
-    file_.reset(gzopen(path.c_str(), "rb"));
-    if (!file_) fail(fmt::format("cannot open the file: {}", std::strerror(errno)));
+    InputFile input(path);
+    const int descriptor = input.release();
+    file_.reset(gzdopen(descriptor, "rb"));
+    if (!file_) {
+        close(descriptor);
+        throw std::bad_alloc();
+    }
     gzbuffer(file_.get(), packed_portion);
     detect_zstd();
     skip_mark();

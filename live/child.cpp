@@ -64,51 +64,52 @@ Child::Child(std::string command) : command_(std::move(command)) {
         ::close(socket_);
         throw RunError(fmt::format("{}: {}", command_, std::strerror(error)));
     }
+    noted_.emplace(pid_);
 }
 
 Child::Child(Child&& other) noexcept
     : command_(std::move(other.command_)),
       pid_(std::exchange(other.pid_, -1)),
       socket_(std::exchange(other.socket_, -1)),
-      status_(other.status_) {}
+      fault_(std::move(other.fault_)),
+      has_ended_(other.has_ended_),
+      noted_(std::move(other.noted_)) {}
 
 Child::~Child() {
     if (socket_ >= 0) ::close(socket_);
-    end();
+    if (pid_ >= 0) end_groups(std::span(&pid_, 1));
 }
 
 int Child::take_socket() { return std::exchange(socket_, -1); }
 
 bool Child::has_ended() {
-    if (pid_ >= 0 && waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = -1;
-    return pid_ < 0;
-}
-
-/// Asks it to end, and ends it if it does not.
-void Child::end() {
-    for (const int signal : {SIGTERM, SIGKILL}) {
-        if (has_ended()) return;
-        kill(-pid_, signal);
-        constexpr int looks = 20;
-        for (int i = 0; i < looks && !has_ended(); ++i) std::this_thread::sleep_for(look_every);
+    siginfo_t found{};
+    constexpr int look = WEXITED | WNOHANG | WNOWAIT;
+    if (has_ended_ || waitid(P_PID, static_cast<id_t>(pid_), &found, look) != 0) return true;
+    has_ended_ = found.si_pid == pid_;
+    if (!has_ended_) return false;
+    if (found.si_code != CLD_EXITED) {
+        fault_ = fmt::format("{} ended by signal {}", command_, found.si_status);
+    } else if (found.si_status != 0) {
+        fault_ = fmt::format("{} ended with {}", command_, found.si_status);
     }
-    if (pid_ >= 0 && waitpid(pid_, &status_, 0) == pid_) pid_ = -1;
+    return true;
 }
 
-std::string Child::wait(std::chrono::milliseconds most) {
-    const auto until = std::chrono::steady_clock::now() + most;
-    while (!has_ended() && std::chrono::steady_clock::now() < until) {
+std::string Child::wait_until(std::chrono::steady_clock::time_point most) {
+    while (!has_ended() && std::chrono::steady_clock::now() < most) {
         std::this_thread::sleep_for(look_every);
     }
-    if (!has_ended()) {
-        end();
-        return {};
+    return fault_;
+}
+
+void Child::end(std::vector<Child>& children) {
+    std::vector<pid_t> leaders;
+    for (Child& each : children) {
+        if (each.pid_ >= 0) leaders.push_back(std::exchange(each.pid_, -1));
     }
-    if (WIFSIGNALED(status_)) {
-        return fmt::format("{} ended by signal {}", command_, WTERMSIG(status_));
-    }
-    const int code = WEXITSTATUS(status_);
-    return code == 0 ? std::string() : fmt::format("{} ended with {}", command_, code);
+    end_groups(leaders);
+    for (Child& each : children) each.noted_.reset();
 }
 
 }  // namespace rovernet

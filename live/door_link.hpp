@@ -3,6 +3,7 @@
 
 #include "live/doors.hpp"
 #include "live/input_rate.hpp"
+#include "live/request.hpp"
 
 #include <boost/asio.hpp>
 
@@ -27,6 +28,20 @@ struct DoorLink {
         const std::size_t end = input.find('\n', searched);
         searched = std::min(end, input.size());
         return end != std::string::npos;
+    }
+
+    /// Whether its bytes so far cannot begin a JSON object.
+    bool begins_strangely() const {
+        const std::size_t first = input.find_first_not_of(" \t\r");
+        return first != input.npos && input[first] != '{';
+    }
+    RequestError strange_beginning() const {
+        constexpr std::size_t shown = 16;  // [bytes]
+        std::string found = input.substr(0, std::min(input.find_first_of("\r\n"), shown));
+        const auto is_odd = [](char c) { return c < ' ' || c > '~'; };
+        std::replace_if(found.begin(), found.end(), is_odd, '?');
+        return {"bad_json", "",
+                "found \"" + found + "\"; expected a JSON object in the first line"};
     }
 
     Socket socket;

@@ -5,6 +5,7 @@
 #include "live/address.hpp"
 #include "live/child.hpp"
 #include "live/door_link.hpp"
+#include "live/left_behind.hpp"
 #include "sim/error.hpp"
 
 #include <boost/asio.hpp>
@@ -59,11 +60,21 @@ struct Doors::State {
     using Watched = std::shared_ptr<Watch>;
 
     void add(Socket socket, const Streams* streams = nullptr) {
-        if (links.size() >= most_connections) return;
+        if (links.size() >= most_connections && !make_room()) return;
         const auto link = std::make_shared<DoorLink>(std::move(socket), next++, streams);
         links[link->id] = link;
         if (streams) streams->opened(link->id);
         read(link);
+    }
+
+    /// Closes the oldest connection that has said nothing. @return whether there was one
+    bool make_room() {
+        const auto silent = std::find_if(links.begin(), links.end(),
+                                         [](const auto& each) { return !each.second->has_spoken; });
+        if (silent == links.end()) return false;
+        const Shared link = silent->second;  // close() takes it off the table
+        close(link);
+        return true;
     }
 
     template <class Acceptor>
@@ -151,31 +162,38 @@ struct Doors::State {
 
     void hand_over(const Shared& link) {
         if (!link->has_line()) {
+            if (!link->has_spoken && link->begins_strangely()) {
+                return refuse(link, link->strange_beginning());
+            }
             const bool is_long = link->input.size() > longest_line;
             if (is_long || (link->input.size() > portion && input_of_all() > most_input)) {
-                refuse(link);
+                refuse_long(link);
             }
             return;
         }
         std::size_t length = link->searched;
-        if (length > longest_line) return refuse(link);
+        if (length > longest_line) return refuse_long(link);
         std::string line = link->input.substr(0, length);
         link->input.erase(0, length + 1);
         link->searched = 0;
         if (link->input.empty()) link->input.shrink_to_fit();
         if (line.ends_with('\r')) line.pop_back();
-        link->has_spoken = true;
+        const bool is_first = !std::exchange(link->has_spoken, true);
         link->is_answered = false;
-        users.line(link->id, line);
+        if (!users.line(link->id, line) && is_first) link->is_closing = true;
     }
 
-    void refuse(const Shared& link) {
+    void refuse_long(const Shared& link) {
+        refuse(link, RequestError("too_long", "",
+                                  fmt::format("expected lines of {} bytes at most", longest_line)));
+    }
+
+    /// Tells a client what is wrong, obeys nothing any more, and closes once it is told.
+    void refuse(const Shared& link, const RequestError& why) {
         link->input.clear();
         link->input.shrink_to_fit();
-        users.refuse(link->id,
-                     RequestError("too_long", "",
-                                  fmt::format("expected lines of {} bytes at most", longest_line)));
         link->is_closing = true;
+        users.refuse(link->id, why);
     }
 
     void write(const Shared& link) {
@@ -273,7 +291,7 @@ struct Doors::State {
     std::vector<Child> children;
     std::list<Gate> gates;  // links refer to them
     std::optional<asio::local::stream_protocol::acceptor> local;
-    std::string unix_path;
+    std::optional<NotedFile> unix_path;
     Clock::time_point looked = Clock::now();
     bool has_closed = false;
     asio::steady_timer alarm{io};
@@ -282,11 +300,12 @@ struct Doors::State {
 
 Doors::Doors(Users users) : state_(std::make_unique<State>(std::move(users))) {}
 
-Doors::~Doors() {
-    if (!state_->unix_path.empty()) unlink(state_->unix_path.c_str());
-}
+Doors::~Doors() { Child::end(state_->children); }
 
 void Doors::start(const std::string& command) {
+    if (state_->children.size() >= most_connections) {
+        throw RunError(fmt::format("{}: expected {} programs at most", command, most_connections));
+    }
     Child child(command);
     Socket socket(state_->io);
     socket.assign(asio::generic::stream_protocol(AF_UNIX, 0), child.take_socket());
@@ -303,7 +322,7 @@ Address Doors::listen(const Address& address, Streams streams) {
 
 void Doors::listen_unix(const std::string& path) {
     state_->local.emplace(listen_on_path(state_->io, path));
-    state_->unix_path = path;
+    state_->unix_path.emplace(path);
     state_->accept(*state_->local);
 }
 
@@ -350,8 +369,9 @@ void Doors::wait(std::chrono::nanoseconds most) {
 
 std::vector<std::string> Doors::close(std::chrono::milliseconds most) {
     state_->has_closed = true;
-    state_->users = {
-        .line = [](auto, auto) {}, .refuse = [](auto, auto&) {}, .closed = [](auto) {}};
+    state_->users = {.line = [](auto, auto) { return true; },
+                     .refuse = [](auto, auto&) {},
+                     .closed = [](auto) {}};
     for (State::Gate& gate : state_->gates) {
         if (gate.streams) gate.streams.emplace();  // nobody is told any more
     }
@@ -364,9 +384,11 @@ std::vector<std::string> Doors::close(std::chrono::milliseconds most) {
         state_->close(link);
     }
     std::vector<std::string> failed;
+    const auto last = Clock::now() + most;
     for (Child& child : state_->children) {
-        if (auto fault = child.wait(most); !fault.empty()) failed.push_back(std::move(fault));
+        if (auto fault = child.wait_until(last); !fault.empty()) failed.push_back(std::move(fault));
     }
+    Child::end(state_->children);
     return failed;
 }
 

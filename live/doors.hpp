@@ -27,6 +27,11 @@ namespace rovernet {
 /// nothing grows with a controller that asks without reading, and lines may be sent ahead.
 /// A stream of bytes is read as it comes, and its client may be told things without asking.
 ///
+/// A connection from outside whose first line is no JSON object is told so and closed, by its first
+/// byte if that says so, and nothing of it is obeyed. Any page in a browser may have it send a
+/// request (HTTP) to an address of this machine, with lines that the page has chosen in its body;
+/// but a request begins with a word, never with a brace (RFC 9110, 9.1).
+///
 /// | limit                               | value           | beyond it                 |
 /// |-------------------------------------|-----------------|---------------------------|
 /// | line                                | 1 MiB           | "too_long", closed        |
@@ -34,15 +39,19 @@ namespace rovernet {
 /// | what a stream says in a second      | InputRate       | it is not read for a while|
 /// | messages to a stream, not taken yet | 1,024 or 4 MiB  | told so, closed in 1 s    |
 /// | bytes to a stream, not taken yet    | 256 KiB         | what it says is not read  |
-/// | connections                         | 500             | closed at once            |
+/// | connections                         | 500             | see below                 |
 /// | time until a line or message is whole | 60 s          | closed                    |
 /// | silence of the client's machine     | 30 s            | asked 3 times, in 30 s    |
+///
+/// One connection more takes the place of the oldest that has not said a whole line or message yet.
+/// If all have, it is closed at once.
 class Doors {
   public:
     using Connection = std::uint32_t;
     /// What is told of connections. The functions may call send().
     struct Users {
-        std::function<void(Connection from, std::string_view line)> line;
+        /// @return whether it is a line of their protocol at all
+        std::function<bool(Connection from, std::string_view line)> line;
         std::function<void(Connection to, const RequestError& why)> refuse;
         std::function<void(Connection gone)> closed;
     };

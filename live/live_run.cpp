@@ -2,6 +2,7 @@
 #include "live/live_run.hpp"
 
 #include "live/doors.hpp"
+#include "live/input_log.hpp"
 #include "live/web_sockets.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ class LiveServer {
     explicit LiveServer(const LiveOptions& options)
         : options_(options),
           lockstep_(options.lockstep, [this](auto to, auto line) { send(to, line); }),
-          doors_({.line = [this](auto from, auto line) { lockstep_.receive(from, line); },
+          doors_({.line = [this](auto from, auto line) { return lockstep_.receive(from, line); },
                   .refuse = [this](auto to, const auto& why) { lockstep_.refuse(to, why); },
                   .closed = [this](auto gone) { lockstep_.lost(gone); }}) {}
 
@@ -37,12 +38,12 @@ class LiveServer {
     }
 
     /// Serves controllers until the run is over or begins anew.
-    void serve() {
+    void serve(InputLog& log) {
         asked_ = Clock::now();
         while (lockstep_.state() == Lockstep::State::runs) {
-            if (!options_.go_on()) return lockstep_.end_run("stopped", {});
+            if (!options_.stop.go_on()) return lockstep_.end_run("stopped", {});
             if (lockstep_.is_due()) {
-                lockstep_.advance(options_.go_on);
+                lockstep_.advance(options_.stop.go_on);
                 asked_ = Clock::now();
                 continue;
             }
@@ -50,6 +51,7 @@ class LiveServer {
             doors_.wait(200ms);
             lose_patience();
             lose_hope();
+            log.keep_up();
         }
     }
 
@@ -59,7 +61,7 @@ class LiveServer {
         append_metrics(metrics, run.metrics);
         lockstep_.tell_end(run.fingerprint, metrics);
         web_.close(400ms);
-        const bool is_hurried = !options_.go_on();
+        const bool is_hurried = !options_.stop.go_on();
         const auto failed = doors_.close(is_hurried ? 400ms : 10s);
         std::string fault = lockstep_.fault();
         if (is_hurried) return fault;
@@ -122,15 +124,16 @@ class LiveServer {
 /// One run, from its start to its end or to a reset. @return nothing if it begins anew
 std::optional<RunResult> run_once(const Scenario& scenario, const LiveOptions& options,
                                   LiveServer& server) {
-    const auto drive = [&](ScenarioRun& run) {
+    const auto drive = [&](ScenarioRun& run, InputLog& log) {
         server.lockstep().begin(run.session(), scenario, [&] { return run.fingerprint().text(); });
-        server.serve();
+        server.serve(log);
         return server.lockstep().state() == Lockstep::State::over;
     };
     try {
-        return run_logged(scenario, options.folder, drive);
+        return run_logged(scenario, options.folder, options.stop, drive);
     } catch (const Interrupted&) {
-        if (server.lockstep().state() != Lockstep::State::restarts) throw;
+        const bool restarts = server.lockstep().state() == Lockstep::State::restarts;
+        if (!restarts || !options.stop.go_on()) throw;
         return std::nullopt;
     }
 }

@@ -24,7 +24,7 @@ struct LiveOptions {
     std::optional<std::string> unix_path = {};  ///< path of a Unix socket
     Lockstep::Settings lockstep = {};
     std::optional<std::chrono::nanoseconds> patience = {};  ///< for a question, of real time
-    std::function<bool()> go_on = [] { return true; };  ///< asked now and then; false ends the run
+    StopRules stop = {};
     /// Told what a person should know: addresses, who is waited for.
     std::function<void(std::string_view)> say = [](std::string_view) {};
 };

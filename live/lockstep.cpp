@@ -9,6 +9,14 @@
 #include <tuple>
 
 namespace rovernet {
+namespace {
+
+/// Whether a fault of a whole line is that it is no JSON object.
+bool is_about_json(std::string_view code) {
+    return code == "bad_json" || code == "bad_utf8" || code == "too_deep" || code == "bad_type";
+}
+
+}  // namespace
 
 Lockstep::Lockstep(Settings settings, Tell tell) : settings_(settings), tell_(std::move(tell)) {}
 
@@ -29,8 +37,8 @@ void Lockstep::begin(Session& session, const Scenario& scenario,
     }
 }
 
-void Lockstep::receive(Connection from, std::string_view line) {
-    if (state_ != State::runs) return;
+bool Lockstep::receive(Connection from, std::string_view line) {
+    if (state_ != State::runs) return true;
     try {
         const Controller* controller = controllers_.of(from);
         Request request = reader_.read(
@@ -39,7 +47,9 @@ void Lockstep::receive(Connection from, std::string_view line) {
         std::visit([&](auto& each) { handle(from, each); }, request);
     } catch (const RequestError& fault) {
         tell_(from, error_line(fault, reader_.number()));
+        return !fault.at().empty() || !is_about_json(fault.code());
     }
+    return true;
 }
 
 /// Lets a controller that was lost go on where it was. @return whether it is one

@@ -58,7 +58,8 @@ class Lockstep {
                std::function<std::string()> fingerprint);
 
     /// A controller's line, without its end. What is wrong with it is told to the controller.
-    void receive(Connection from, std::string_view line);
+    /// @return whether it is a JSON object
+    bool receive(Connection from, std::string_view line);
     /// Tells a controller that its line cannot be read at all.
     void refuse(Connection to, const RequestError& fault) { tell_(to, error_line(fault, {})); }
     /// A connection has gone, whether or not it had said hello.

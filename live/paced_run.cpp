@@ -3,6 +3,7 @@
 
 #include "live/address.hpp"
 #include "live/doors.hpp"
+#include "live/input_log.hpp"
 #include "live/web_sockets.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ class PacedServer {
     }
 
     /// Serves clients until the run is over.
-    void serve(Session& session, const Scenario& scenario) {
+    void serve(Session& session, const Scenario& scenario, InputLog& log) {
         session_ = &session;
         session.step(start_of_run);  // movements may draw where robots begin
         for (Open& each : open_) {
@@ -39,9 +40,10 @@ class PacedServer {
         }
         started_ = options_.clock();
         promised_ = start_of_run;
-        while (!is_over() && options_.go_on()) {
+        while (!is_over() && options_.stop.go_on()) {
             catch_up();
             doors_.wait(promise(spare_time()));
+            log.keep_up();
         }
         look();  // it may have been told to stop while it was late
         session_ = nullptr;
@@ -219,7 +221,7 @@ class PacedServer {
         const Time present = options_.speed ? by_clock() : now();
         do {
             catch_up();
-        } while (now() < present && now() < next_stop() && options_.go_on());
+        } while (now() < present && now() < next_stop() && options_.stop.go_on());
         return true;
     }
 
@@ -283,11 +285,12 @@ class PacedServer {
 
 LiveResult run_paced(Scenario scenario, const PacedOptions& options) {
     PacedServer server(options);
-    RunResult result = run_logged(scenario, options.folder, [&](ScenarioRun& run) {
-        server.serve(run.session(), scenario);
+    const auto drive = [&](ScenarioRun& run, InputLog& log) {
+        server.serve(run.session(), scenario, log);
         if (Table counts = server.report(); !counts.entries.empty()) run.add_part("live", counts);
         return true;
-    });
+    };
+    RunResult result = run_logged(scenario, options.folder, options.stop, drive);
     server.close();
     return {std::move(result), std::move(scenario), server.fault(), server.lateness()};
 }

@@ -46,7 +46,7 @@ struct PacedOptions {
     bool late_ends = false;
     /// Real time, by which the run is paced.
     std::function<std::chrono::steady_clock::time_point()> clock = std::chrono::steady_clock::now;
-    std::function<bool()> go_on = [] { return true; };  ///< asked now and then; false ends the run
+    StopRules stop = {};
     /// Told what a person should know: addresses that are listened on.
     std::function<void(std::string_view)> say = [](std::string_view) {};
 };

@@ -93,6 +93,7 @@ void SteppedRun::begin() {
 }
 
 void SteppedRun::reset(std::optional<std::uint64_t> seed) {
+    if (log_) log_->discard();
     log_.reset();
     run_.reset();
     if (seed) scenario_.scenario.seed = *seed;
@@ -172,6 +173,7 @@ bool SteppedRun::step(std::uint64_t most_events, const std::function<bool()>& go
     do {
         is_whole = session.advance(end, most_events);
     } while (!is_whole && go_on());
+    if (log_) log_->keep_up();
     look();
     return is_whole;
 }

@@ -16,6 +16,7 @@
 #include <list>
 #include <map>
 #include <optional>
+#include <simdjson.h>
 #include <utility>
 
 namespace rovernet {
@@ -51,6 +52,38 @@ struct Gate {
     Doors::Streams users;
 };
 
+using Request = http::request<http::empty_body>;
+
+bool is_base64(char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' ||
+           c == '/';
+}
+
+/// What is wrong with a request whoever asks; empty if nothing.
+std::string fault_of(const Request& request) {
+    const auto& fields = request.base();
+    // RFC 9112, 3.2: exactly one Host. RFC 6455, 11.3: neither field of the handshake twice; 10.2
+    // trusts the one Origin.
+    const std::size_t hosts = fields.count(http::field::host);
+    if (hosts > 1 || (hosts == 0 && request.version() >= 11)) return "expected one Host";
+    for (const http::field each : {http::field::origin, http::field::sec_websocket_key,
+                                   http::field::sec_websocket_version}) {
+        if (fields.count(each) <= 1) continue;
+        const auto name = http::to_string(each);
+        return fmt::format("expected one {}", std::string_view(name.data(), name.size()));
+    }
+    if (!websocket::is_upgrade(request)) return {};
+    // RFC 6455, 4.1: the base64 of 16 bytes.
+    constexpr std::string_view ending = "==";
+    constexpr std::size_t letters = 22;  // 16 bytes in 6 bits each
+    const auto field = fields[http::field::sec_websocket_key];
+    const std::string_view key(field.data(), field.size());
+    const bool is_key = key.size() == letters + ending.size() && key.ends_with(ending) &&
+                        std::all_of(key.begin(), key.begin() + letters, is_base64);
+    if (is_key) return {};
+    return "Sec-WebSocket-Key: expected 16 bytes in base64";
+}
+
 /// One client's connection.
 struct Client {
     Client(asio::ip::tcp::socket socket, WebSockets::Connection number, const Gate& entered)
@@ -79,7 +112,7 @@ struct WebSockets::State {
     using Shared = std::shared_ptr<Client>;
 
     void add(asio::ip::tcp::socket socket, const Gate& gate) {
-        if (clients.size() >= most_connections) return;
+        if (clients.size() >= most_connections && !make_room()) return;
         error_code ignored;
         socket.set_option(asio::ip::tcp::no_delay(true), ignored);
         socket.set_option(asio::socket_base::send_buffer_size(system_buffer), ignored);
@@ -93,9 +126,22 @@ struct WebSockets::State {
                          });
     }
 
+    /// Closes the oldest connection that is not let in. @return whether there was one
+    bool make_room() {
+        const auto outside = std::find_if(clients.begin(), clients.end(),
+                                          [](const auto& each) { return !each.second->is_open; });
+        if (outside == clients.end()) return false;
+        const Shared client = outside->second;  // remove() takes it off the table
+        remove(client);
+        return true;
+    }
+
     /// Lets a client in, or tells it why not.
     void answer(const Shared& client) {
         const auto& request = client->request.get();
+        if (const std::string fault = fault_of(request); !fault.empty()) {
+            return refuse(client, http::status::bad_request, fault);
+        }
         if (!websocket::is_upgrade(request)) {
             return refuse(client, http::status::upgrade_required,
                           "this address is one for WebSockets");
@@ -167,8 +213,13 @@ struct WebSockets::State {
             const bool is_too_much = input.size() > portion && input_of_all() > most_input;
             return is_too_much ? say_goodbye(client, close_code::try_again_later) : read(client);
         }
-        client->gate.users.received(client->id,
-                                    {static_cast<const char*>(input.cdata().data()), input.size()});
+        const std::string_view message{static_cast<const char*>(input.cdata().data()),
+                                       input.size()};
+        // Beast does not see that an empty last frame leaves a character cut.
+        if (client->stream.got_text() && !simdjson::validate_utf8(message)) {
+            return say_goodbye(client, close_code::bad_payload);
+        }
+        client->gate.users.received(client->id, message);
         if (client->gate.users.has_rate) client->rate.add(1, input.size(), Clock::now());
         input.clear();
         if (input.capacity() > portion) input.shrink_to_fit();

@@ -22,7 +22,10 @@ namespace rovernet {
 /// | messages to a client, not taken yet| 1,024 or 4 MiB | closed, 1013                  |
 /// | bytes to a client, not taken yet   | 256 KiB        | what it says is not read      |
 /// | silence of a client                | 15 s           | pinged; after 30 s it is gone |
-/// | connections                        | 500            | closed at once                |
+/// | connections                        | 500            | see below                     |
+///
+/// One connection more takes the place of the oldest that is not let in yet. If all are, it is
+/// closed at once.
 ///
 /// The longest message that waits for a client does not count in those 4 MiB.
 class WebSockets {

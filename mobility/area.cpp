@@ -124,9 +124,10 @@ Vec3 straight_stop(const Mover& mover, Vec3 to) {
     }
     // The stop keeps off the very limit, where rounding would decide whether the next leg may
     // begin.
-    good -= least_leg / distance(from, to);
+    const double off = least_leg / distance(from, to);
+    good -= off;
     const Vec3 stop = from + good * way;
-    return good > 0 && open(stop) ? stop : from;
+    return good >= off && open(stop) ? stop : from;
 }
 
 Vec3 direction_of(double angle) {

@@ -61,7 +61,7 @@ struct Area {
 inline constexpr double least_leg = 1e-6;
 
 /// Point up to which the mover can go straight from where it is towards `to`: `to`, or a micrometre
-/// before it would touch an obstacle or leave the map; where it is, if it cannot go at all.
+/// before it would touch an obstacle or leave the map; where it is, if it cannot go a least_leg.
 Vec3 straight_stop(const Mover& mover, Vec3 to);
 
 /// The vector of length 1 at `angle` [rad], counter-clockwise from the x axis.

@@ -29,8 +29,9 @@ struct DrivenArc {
 ///
 /// Its way is an arc, made of chords whose ends lie on it, so that nothing drifts. No point of a
 /// chord is farther than `chord` from the arc: at 1 m/s and 1 rad/s a chord takes 89 ms. A chord
-/// goes only as far as the robot's body can; then the robot turns in place, or stands still if the
-/// command does not turn. A command that follows another one shares its `arc`.
+/// goes only as far as the robot's body can. A robot that touches a wall and heads into it turns in
+/// place until it heads along the wall, and then leaves it on an arc; if the command does not turn
+/// it stands still. A command that follows another one shares its `arc`.
 struct Driven {
     static constexpr AtDoors at_doors = AtDoors::drives;
 
@@ -42,6 +43,14 @@ struct Driven {
     std::shared_ptr<DrivenArc> arc = {};
 
     Step next_leg(Mover& mover);
+
+  private:
+    // Leg of a robot that does not turn: as far ahead as it can, in `time` at most. `leg`: it
+    // stands.
+    Leg straight_ahead(const Mover& mover, const DrivenArc& ahead, Duration time, Leg leg);
+    // Leg of a robot that turns: on a chord of `time` at most, or held by what it touches. `leg`:
+    // it turns in place until the command ends.
+    Leg along_arc(const Mover& mover, const DrivenArc& ahead, Duration time, Leg leg);
 };
 
 }  // namespace rovernet

@@ -15,15 +15,22 @@ namespace {
 constexpr double quarter = std::numbers::pi / 2;
 
 /// Leg along `direction`, as far as the body can go; turned away from the wall, by `away` [rad], as
-/// often as it takes to go at all.
+/// often as it takes to go on, or into the direction that lets it go the farthest.
 Step leg_along(const Mover& mover, double direction, double way, MetersPerSecond speed,
                double away) {
+    constexpr double enough = 1.0 / 16;  // of the way
+    constexpr Duration shortest_look{10'000'000};
+    Vec3 farthest = mover.position;
     for (double turned = 0; turned < 2 * std::numbers::pi; turned += std::abs(away)) {
         const double at = direction + std::copysign(turned, away);
         const Vec3 to = straight_stop(mover, mover.position + way * direction_of(at));
-        if (distance(mover.position, to) > least_leg) return straight_leg(mover, to, speed);
+        if (distance(mover.position, to) > enough * way) return straight_leg(mover, to, speed);
+        if (distance(mover.position, to) > distance(mover.position, farthest)) farthest = to;
     }
-    return Blocked{mover.position};
+    const double left = distance(mover.position, farthest);
+    if (left <= least_leg) return Blocked{mover.position};
+    const Duration time = std::max(from_seconds(left / speed.value), shortest_look);
+    return straight_leg(mover, farthest, mover.now + time);
 }
 
 }  // namespace
@@ -45,12 +52,13 @@ Step FollowWall::next_leg(Mover& mover) {
         return leg_along(mover, mover.heading, way, speed, away);
     }
     const double across = look.way_towards(look.direction(*wall) + 2 * quarter);
-    gap = std::min(gap, (look.way(*wall) + across) / 2);  // the middle of a narrow way
+    if (across < range.value) gap = std::min(gap, (look.way(*wall) + across) / 2);  // a narrow way
     const double error = look.way(*wall) - gap;
     const double to_wall = std::atan2(error, stride.value);
     const double along = look.direction(*wall) - sign * (quarter - to_wall);
     const double most = std::max(stride.value, error / 2);
-    const double before_next = look.way_towards(along) - gap;  // to the wall at a corner
+    const double ahead = look.way_towards(along);
+    const double before_next = ahead < range.value ? ahead - gap : most;  // to the wall at a corner
     if (before_next > least_leg)
         return leg_along(mover, along, std::min(most, before_next), speed, away);
     return leg_along(mover, along - sign * quarter, stride.value, speed, away);

@@ -36,10 +36,20 @@ double Wander::turn(const Mover& mover) {
         double left = progress.draws.uniform(mover) * sum;
         while (chosen + 1 < weights.size() && left >= weights[chosen]) left -= weights[chosen++];
     } else {
-        const auto farthest = std::max_element(look.ways().begin(), look.ways().end());
-        chosen = static_cast<std::size_t>(farthest - look.ways().begin());
+        chosen = farthest(look, mover);
     }
     return wrapped(static_cast<double>(chosen) * LookRound::step);
+}
+
+/// Where it sees nothing within its range, any direction is as good as another.
+std::size_t Wander::farthest(const LookRound& look, const Mover& mover) {
+    const double most = *std::max_element(look.ways().begin(), look.ways().end());
+    std::vector<std::size_t> equal;
+    for (std::size_t beam = 0; beam < look.ways().size(); ++beam)
+        if (look.way(beam) == most) equal.push_back(beam);
+    if (equal.size() == 1) return equal.front();
+    const double drawn = progress.draws.uniform(mover) * static_cast<double>(equal.size());
+    return equal[std::min(static_cast<std::size_t>(drawn), equal.size() - 1)];
 }
 
 Step Wander::next_leg(Mover& mover) {

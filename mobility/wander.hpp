@@ -5,15 +5,18 @@
 #include "mobility/movement.hpp"
 #include "sim/fields.hpp"
 
+#include <cstddef>
 #include <string_view>
 
 namespace rovernet {
+
+class LookRound;
 
 /// A robot that avoids obstacles on its own, by what its range finder measures: it goes straight
 /// ahead until an obstacle is within `keep` of its body, or for `run`. Then it looks all round,
 /// turns into a direction drawn among those that are free for more than twice `keep`, the more
 /// likely the farther they are free, and goes on. If none is that free it turns into the one that
-/// is free the farthest.
+/// is free the farthest; one is drawn if several are, as beyond the range.
 ///
 /// It needs a map. Robots do not see one another.
 struct Wander {
@@ -48,6 +51,8 @@ struct Wander {
   private:
     /// Angle to the direction in which it goes on [rad], counter-clockwise.
     double turn(const Mover& mover);
+    // Beam that measures most; one is drawn if several do.
+    std::size_t farthest(const LookRound& look, const Mover& mover);
 };
 
 }  // namespace rovernet

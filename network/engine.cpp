@@ -123,7 +123,32 @@ void Engine::count_events() {
             "event limit of {} reached at {:.9f} s; raise [scenario] event_limit, or {}", limit,
             seconds(world.now), advice));
     }
-    check_at_ = std::min(limit, events.scheduled() + most_pending - events.size());
+    if (events.scheduled() > look_at_) {
+        look_at_ = events.scheduled() + Liveness::most_events;
+        legs_.look(world.now);
+        others_.look(world.now);
+    }
+    check_at_ = std::min({limit, look_at_, events.scheduled() + most_pending - events.size()});
+    if (!legs_.is_counting(world.now) && !others_.is_counting(world.now)) return;
+    check_at_ = 0;
+    count_next();
+}
+
+void Engine::count_next() {
+    using Kind = Occurrence::Kind;
+    const auto& [kind, node, unused] = world.events.next();
+    const bool is_of_robot =
+        kind != Kind::action && kind != Kind::link_change && kind != Kind::scene_change;
+    Liveness& watch = kind == Kind::leg_end ? legs_ : others_;
+    if (!is_of_robot || !watch.is_counting(world.now) || !watch.is_stuck(node)) return;
+    const Vec3 at = world.legs.position(node, world.now);
+    throw StalledRun(
+        fmt::format("robot \"{}\" at ({:.6f}, {:.6f}) m: {} events at {:.9f} s of the run, and "
+                    "time hardly goes "
+                    "on; {} asks for events without end",
+                    names[node.value], at.x, at.y, Liveness::most_events, seconds(world.now),
+                    kind == Kind::leg_end ? "its movement"
+                                          : "its protocol, or what it is to do on a message,"));
 }
 
 bool Engine::advance(Time end, std::uint64_t most_events) {

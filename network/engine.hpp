@@ -4,6 +4,7 @@
 #include "network/applications.hpp"
 #include "network/channel.hpp"
 #include "network/link_monitor.hpp"
+#include "network/liveness.hpp"
 #include "network/mac.hpp"
 #include "network/motion.hpp"
 #include "network/name_table.hpp"
@@ -12,6 +13,7 @@
 #include "network/world.hpp"
 #include "traces/metrics.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -42,7 +44,8 @@ class Engine {
     /// Serves events up to `end`, in order, at most so many. It begins what has not begun: the run
     /// itself, movements, the watch of links. The clock stands at `end` when all are served.
     /// @return whether `end` is reached; otherwise there are events left
-    /// @throws RunError at the limits of events
+    /// @throws RunError   at the limits of events
+    /// @throws StalledRun if the events of a robot do not let time go on
     bool advance(Time end, std::uint64_t most_events);
     /// Checks a robot's id that a user gave.
     /// @throws std::out_of_range if there is no such robot
@@ -76,11 +79,17 @@ class Engine {
     [[gnu::noinline]] void change_scene();
     // Facts for sinks that begin now.
     RunInfo run_info() const;
-    // Looks at the limits of events, and when that is needed next.
+    // Looks at the limits of events and at the growth of time, and when that is needed next.
     void count_events();
+    // Counts the next event, while time hardly grows. @throws StalledRun
+    void count_next();
 
     // Number of scheduled events up to which no limit can be reached.
     std::uint64_t check_at_ = 0;
+    // Number of scheduled events after which the clock is looked at.
+    std::uint64_t look_at_ = Liveness::most_events;
+    // A leg lasts 10 ns at least, on average; other events of a robot may be many at a time.
+    Liveness legs_{std::chrono::milliseconds(1)}, others_{std::chrono::microseconds(1)};
 };
 
 }  // namespace rovernet

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "files/input_file.hpp"
 #include "scenario/located.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/stage_world.hpp"
@@ -46,7 +47,7 @@ void refuse_others(const std::string& path) {
         {".tr", "a trace, not a scenario; rovernet trace stats shows its metrics"},
         {".json", "not a scenario; the scenario of a run is the file scenario.toml beside it"}};
     const std::string ending = fs::path(path).extension().string();
-    if (ending.empty() || !fs::is_regular_file(path)) return;
+    if (ending.empty() || input_kind(path) != InputKind::file) return;
     if (ending == ".cfg") {
         throw InputError(Location{path},
                          fmt::format("a configuration of Player, not a scenario; expected the "
@@ -76,7 +77,7 @@ Value world_alone(const std::string& path) {
 /// A movement file tells itself by its first sign that is no comment: `$`, `<`, a digit or gzip's
 /// mark; a TOML file begins with a letter, a quote or a bracket.
 bool is_movement(const std::string& path) {
-    if (fs::path(path).extension() == ".toml" || !fs::is_regular_file(path)) return false;
+    if (fs::path(path).extension() == ".toml" || input_kind(path) != InputKind::file) return false;
     std::ifstream file(path, std::ios::binary);
     for (char c = 0; file.get(c);) {
         if (c == '#') {
@@ -92,7 +93,15 @@ bool is_movement(const std::string& path) {
 /// A movement file alone, as the document of a scenario that lasts as long.
 Value movement_alone(const std::string& path) {
     Table movement, scenario, document;
-    const Time end = MovementFile(path, MovementSyntax::tolerant).end();
+    const MovementFile file(path, MovementSyntax::tolerant);
+    const Time end = file.end();
+    if (end > last_of_run) {
+        throw InputError(
+            file.end_where(),
+            fmt::format("the movements end after {:.10g} s, expected at most 1e9 s (31 years); a "
+                        "scenario with [movement] file and a duration plays a part of them",
+                        seconds(end - start_of_run)));
+    }
     movement.set("file", fs::path(path).filename().string());
     scenario.set("name", fs::path(path).stem().string());
     scenario.set("duration", to_value(std::max(end - start_of_run, Duration{1'000'000'000})));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "files/input_file.hpp"
 #include "scenario/scene_table.hpp"
 #include "scenario/toml.hpp"
 #include "scene/doors.hpp"
@@ -28,7 +29,7 @@ Material made_of(const MaterialTable& table, std::optional<Meters> usual_height)
 /// The materials file beside a map: NAME.materials.toml for NAME.png or NAME.yaml.
 std::vector<MaterialTable> sidecar(const fs::path& map) {
     const fs::path path = fs::path(map).replace_extension(".materials.toml");
-    if (!fs::is_regular_file(path)) return {};
+    if (input_kind(path.string()) != InputKind::file) return {};
     Table scene;
     scene.set("materials", read_toml(path.string()));
     return read_scene(Value(std::move(scene))).materials;
@@ -41,7 +42,7 @@ OccupancyGrid load_grid(const FloorTable& floor, const fs::path& path) {
         throw InputError(floor.map_where,
                          "map: a map.yaml has its own size; leave out the key size");
     }
-    if (!yaml && fs::is_regular_file(path) && !floor.size) {
+    if (!yaml && input_kind(path.string()) == InputKind::file && !floor.size) {
         throw InputError(floor.map_where,
                          fmt::format("map: \"{}\" is a picture without a scale; expected a ROS "
                                      "map.yaml, or also size = [\"40 m\", \"20 m\"]",

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/toml.hpp"
 
+#include "files/input_file.hpp"
+
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -15,7 +16,6 @@
 namespace rovernet {
 namespace {
 
-namespace fs = std::filesystem;
 constexpr std::size_t largest_file = 64U << 20;
 
 Location location(const std::string& source, const toml::source_region& region) {
@@ -212,6 +212,10 @@ std::string parse_message(std::string_view description) {
     return fmt::format("not TOML: {}{}{}", description, advice.empty() ? "" : "; ", advice);
 }
 
+[[noreturn]] void fail_long(const std::string& source) {
+    throw InputError({source}, "larger than 64 MiB; expected a scenario file");
+}
+
 /// Text of the whole stream. @throws InputError if it is longer than 64 MiB
 std::string bounded_text(std::istream& in, const std::string& source) {
     std::string text;
@@ -219,9 +223,7 @@ std::string bounded_text(std::istream& in, const std::string& source) {
     while (in.read(portion.data(), static_cast<std::streamsize>(portion.size())) ||
            in.gcount() > 0) {
         text.append(portion.data(), static_cast<std::size_t>(in.gcount()));
-        if (text.size() > largest_file) {
-            throw InputError({source}, "larger than 64 MiB; expected a scenario file");
-        }
+        if (text.size() > largest_file) fail_long(source);
     }
     return text;
 }
@@ -243,17 +245,13 @@ Value read_toml(const std::string& path) {
         static const std::string text = bounded_text(std::cin, "standard input");
         return parse_toml(text, "standard input");
     }
-    std::error_code error;
-    const auto status = fs::status(path, error);
-    if (!fs::exists(status)) throw InputError({path}, "no such file; check the path");
-    if (fs::is_directory(status)) {
+    const InputKind kind = input_kind(path);
+    if (kind == InputKind::nothing) throw InputError({path}, "no such file; check the path");
+    if (kind == InputKind::folder) {
         throw InputError({path}, "a directory; expected a scenario file (.toml) in it");
     }
-    std::ifstream file(path, std::ios::binary);
-    std::string text = bounded_text(file, path);
-    if (file.bad() || !file.is_open()) {
-        throw InputError({path}, "cannot be read; check its permissions");
-    }
+    const std::string text = InputFile(path).read(largest_file + 1);
+    if (text.size() > largest_file) fail_long(path);
     return parse_toml(text, path);
 }
 

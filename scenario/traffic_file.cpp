@@ -38,7 +38,8 @@ std::vector<Word> words_of(std::string_view line) {
 
 class TrafficReader {
   public:
-    explicit TrafficReader(const std::string& path) : lines_(TextSource(path)) {}
+    explicit TrafficReader(const std::string& path)
+        : lines_(TextSource(path, TextSource::Reads::once)) {}
 
     TrafficFile read() {
         while (const auto line = lines_.next()) {
@@ -209,7 +210,7 @@ void TrafficReader::tell(App& app) {
         app.rate = rate(value);
         app.interval.reset();
     } else if (key.text == "maxpkts_") {
-        app.most = amount(value, 0, "a number of packets");
+        app.most = amount(value, 0, "a number of packets from 0 to 1e9");
     } else if (key.text == "random_") {
         random_ += amount(value, 0, "0 or 1") != 0;
     } else {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/image.hpp"
 
+#include "files/input_file.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <string_view>
 
@@ -27,13 +27,12 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 }
 
 File open(const std::string& path) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path, ignored);
-    if (!std::filesystem::exists(status))
-        fail(path, "no such file; expected a PNG or PGM image; check the path");
-    if (std::filesystem::is_directory(status))
+    const InputKind kind = input_kind(path);
+    if (is_no_path(kind))
+        fail(path, fmt::format("{}; expected a PNG or PGM image; check the path", fault_of(kind)));
+    if (kind == InputKind::folder)
         fail(path, "is a directory; expected a PNG or PGM image; name a file in it");
-    if (!std::filesystem::is_regular_file(status))
+    if (kind != InputKind::file)
         fail(path, "is not a regular file; expected a PNG or PGM image; copy it to a file");
     File file(std::fopen(path.c_str(), "rb"));
     if (!file) fail(path, "cannot be opened; expected a readable image; check its permissions");

@@ -48,7 +48,8 @@ class MapFrame {
         const double y = p.v * cell_height_;
         return {origin_.x + (cosine_ * x - sine_ * y), origin_.y + (sine_ * x + cosine_ * y), z};
     }
-    double floor() const { return origin_.z; }           ///< height on which the map lies [m]
+    double floor() const { return origin_.z; }  ///< height on which the map lies [m]
+    double yaw() const { return yaw_; }         ///< direction of its rows [rad], counter-clockwise
     double cell_width() const { return cell_width_; }    ///< [m]
     double cell_height() const { return cell_height_; }  ///< [m]
     /// A map in this place, all of whose cells are free.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/obstacles.hpp"
 
+#include "sim/math.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,7 +89,37 @@ bool near_obstacle(const WallIndex& index, const MapFrame& frame, Vec3 a, Vec3 b
     return false;
 }
 
+/// Contact with a box at squared distance `squared` > 0 of p, in the map's own axes.
+Contact contact_with(const Box& box, Vec3 p, double squared, double radius) {
+    const double x = std::clamp(p.x, box.x0, box.x1) - p.x;
+    const double y = std::clamp(p.y, box.y0, box.y1) - p.y;
+    const bool is_corner = x != 0 && y != 0;
+    const double share = is_corner ? std::min(radius / std::sqrt(squared), 1.0) : 1;
+    return {math::atan2(y, x), math::atan2(share, std::sqrt(1 - share * share))};
+}
+
 }  // namespace
+
+void Obstacles::add_contacts(Vec3 p, Meters radius, std::vector<Contact>& out) const {
+    const WallIndex& index = *index_;
+    if (index.empty()) return;
+    const Vec3 q = on_map(frame_.to_cells(p), frame_);
+    const double reach = radius.value + contact_gap;
+    const double width = WallIndex::tile_size * frame_.cell_width();
+    const double height = WallIndex::tile_size * frame_.cell_height();
+    const int top = tile_of(q.y + reach, height, index.tile_rows());
+    const int right = tile_of(q.x + reach, width, index.tile_columns());
+    for (int j = tile_of(q.y - reach, height, index.tile_rows()); j <= top; ++j)
+        for (int i = tile_of(q.x - reach, width, index.tile_columns()); i <= right; ++i)
+            for (const CellRectangle& r : index.tile(i, j)) {
+                const Box box = box_of(r, frame_);
+                const double squared = squared_distance(q, box);
+                if (squared == 0 || squared > reach * reach) continue;
+                out.push_back(
+                    contact_with(box, q, squared, std::max(radius.value - touching, 0.0)));
+                out.back().towards += frame_.yaw();
+            }
+}
 
 double Obstacles::clearance(Vec3 p) const {
     const WallIndex& index = *index_;

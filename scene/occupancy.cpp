@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/occupancy.hpp"
 
+#include "files/input_file.hpp"
 #include "scene/image.hpp"
 #include "sim/error.hpp"
 
@@ -78,11 +79,11 @@ class MapFile {
 
     std::string text() const {
         std::error_code ignored;
-        const auto status = std::filesystem::status(path_, ignored);
-        if (!std::filesystem::exists(status))
+        const InputKind kind = input_kind(path_);
+        if (is_no_path(kind))
             fail(YAML::Mark::null_mark(),
-                 "no such file; expected a map's YAML file; check the path");
-        if (!std::filesystem::is_regular_file(status))
+                 fmt::format("{}; expected a map's YAML file; check the path", fault_of(kind)));
+        if (kind != InputKind::file)
             fail(YAML::Mark::null_mark(),
                  "is not a regular file; expected a map's YAML file; name a file");
         if (std::filesystem::file_size(path_, ignored) > max_bytes)

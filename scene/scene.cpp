@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -212,6 +213,24 @@ bool Scene::passable(Vec3 a, Vec3 b, Meters radius) const {
     if (!plans_.empty()) return passable_by_storeys(*this, a, b, radius);
     return std::all_of(obstacles_.begin(), obstacles_.end(),
                        [&](const Obstacles& map) { return map.passable(a, b, radius); });
+}
+
+std::vector<Contact> Scene::contacts(Vec3 p, Meters radius) const {
+    if (!plans_.empty()) return storey_at(p.z).contacts(p, radius);
+    std::vector<Contact> all;
+    if (open_field()) return all;
+    for (const Obstacles& map : obstacles_) map.add_contacts(p, radius, all);
+    const CellPoint c = frame_.to_cells(p);
+    const double gap_u = contact_gap / frame_.cell_width();
+    const double gap_v = contact_gap / frame_.cell_height();
+    constexpr double quarter = std::numbers::pi / 2;
+    const std::array<bool, 4> borders{c.u >= grid_.columns - gap_u, c.v >= grid_.rows - gap_v,
+                                      c.u <= gap_u, c.v <= gap_v};
+    for (std::size_t side = 0; side < borders.size(); ++side) {
+        const double towards = frame_.yaw() + quarter * static_cast<double>(side);
+        if (borders[side]) all.push_back({towards, quarter});
+    }
+    return all;
 }
 
 std::vector<WallRectangle> Scene::wall_rectangles() const {

@@ -115,6 +115,9 @@ class Scene {
     /// Exact: the distance from the segment to each obstacle, less 1e-9 m, against the radius. From
     /// one storey to another, each part of the way is held against the obstacles of its storey.
     bool passable(Vec3 a, Vec3 b, Meters radius) const;
+    /// What a disc of that radius [m] at p touches: obstacles of its storey, and the map's border,
+    /// which its middle must not cross.
+    std::vector<Contact> contacts(Vec3 p, Meters radius) const;
 
     /// Corners of the smallest upright box around the maps [m]; both (0, 0) on an open field.
     Vec3 lower_left() const { return lower_left_; }

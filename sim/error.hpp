@@ -56,6 +56,13 @@ class RunError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Error of a run whose time does not go on: the events of a robot follow one another without end.
+/// It is a fault of a movement, a protocol or a reaction, never of an input.
+class StalledRun : public RunError {
+  public:
+    using RunError::RunError;
+};
+
 /// Suggestion for a word that is not known: "did you mean \"...\"?", or "" if no candidate is near.
 ///
 /// The nearest candidate is the one with the least edit distance: letters to insert, remove or

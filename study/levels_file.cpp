@@ -36,7 +36,7 @@ class LevelsReader {
   public:
     LevelsReader(const std::string& path, const Radio& radio, std::optional<Dbm> floor,
                  Receivers receivers)
-        : lines_(TextSource(path)), radio_(radio), floor_(floor) {
+        : lines_(TextSource(path, TextSource::Reads::once)), radio_(radio), floor_(floor) {
         read_head(receivers);
     }
 
@@ -95,13 +95,19 @@ class LevelsReader {
         return column_[static_cast<std::size_t>(std::find(known.begin(), known.end(), name) -
                                                 known.begin())];
     }
-    double number(std::string_view name, std::string_view expected) const {
-        const auto i = column(name);
-        return i ? any_number(words_[*i], lines_.where(), expected) : 0;
-    }
     Vec3 place(std::string_view x, std::string_view y, std::string_view z) const {
-        constexpr std::string_view metres = "a coordinate [m]";
-        return {number(x, metres), number(y, metres), number(z, metres)};
+        const auto metres = [&](std::string_view name) {
+            const auto i = column(name);
+            return i ? coordinate(words_[*i], lines_.where()) : 0;
+        };
+        return {metres(x), metres(y), metres(z)};
+    }
+    /// Level [dBm]: the noise of 1 Hz is -174 dBm, and no radio sends more than 100 dBm.
+    double level_of(const Word& word) const {
+        constexpr std::string_view expected = "a level from -300 to 100 [dBm]";
+        const double dbm = any_number(word, lines_.where(), expected);
+        if (!(dbm >= -300 && dbm <= 100)) fail_at(lines_.where(), word, expected);
+        return dbm;
     }
 
     KnownLink link() {
@@ -117,8 +123,7 @@ class LevelsReader {
                              "an empty level needs --floor, the level [dBm] below which nothing "
                              "was received");
         }
-        const double dbm =
-            link.unseen ? floor_->value : any_number(level, lines_.where(), "a level [dBm]");
+        const double dbm = link.unseen ? floor_->value : level_of(level);
         link.loss = received_power(radio_, radio_, Db{0}).value - dbm;
         const auto word = [&](std::string_view name) {
             const auto i = column(name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/merge.hpp"
 
+#include "files/input_file.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -40,9 +41,23 @@ void merge(Store& store, const std::string& path) {
     }
 }
 
+void check_shard(const std::string& path) {
+    if (input_kind(path) == InputKind::nothing) return;
+    need_file(path);
+    // The first bytes of a SQLite database: https://www.sqlite.org/fileformat.html, 1.3. A process
+    // that was killed as it began leaves an empty file.
+    constexpr std::string_view magic{"SQLite format 3", 16};
+    const std::string begin = InputFile(path).read(magic.size());
+    if (begin.empty() || begin == magic) return;
+    throw InputError({path}, "no store of a study; expected the store of a shard");
+}
+
 void merge_and_remove(Store& store, const std::string& path) {
     // The journal of a killed process comes into the file; a process that writes keeps us out.
-    if (!std::filesystem::exists(path)) throw InputError({path}, "there is no such shard");
+    if (input_kind(path) == InputKind::nothing) {
+        throw InputError({path}, "there is no such shard");
+    }
+    check_shard(path);
     Store::open_to_write(path);
     // A shard without runs may not say whose it is: its process ended too early for that.
     if (!Store::open(path).runs().empty()) merge(store, path);

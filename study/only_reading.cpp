@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "study/only_reading.hpp"
 
+#include <fmt/format.h>
+
 #include <sqlite3.h>
+#include <stdexcept>
 #include <string_view>
 
 namespace rovernet {
@@ -26,7 +29,30 @@ int allow(void* denied, int action, const char* first, const char* second, const
     }
 }
 
+/// Number of statements in `sql`, at most 2; one that is wrong counts, and ends the count.
+int statements_in(sqlite3* database, const char* sql) {
+    int count = 0;
+    while (*sql != '\0' && count < 2) {
+        sqlite3_stmt* statement = nullptr;
+        const char* rest = sql;
+        const int code = sqlite3_prepare_v2(database, sql, -1, &statement, &rest);
+        if (code != SQLITE_OK || statement) ++count;  // none: blanks and comments alone
+        sqlite3_finalize(statement);
+        if (code != SQLITE_OK || rest == sql) break;
+        sql = rest;
+    }
+    return count;
+}
+
 }  // namespace
+
+void need_one_statement(sqlite3* database, const std::string& sql) {
+    const int count = statements_in(database, sql.c_str());
+    if (count == 1) return;
+    throw std::invalid_argument(
+        fmt::format("--sql: found {}; expected one, such as SELECT * FROM result",
+                    count == 0 ? "no statement" : "more than one statement"));
+}
 
 OnlyReading::OnlyReading(sqlite3* database) : database_(database) {
     sqlite3_set_authorizer(database_, allow, &denied_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 struct sqlite3;
 
 namespace rovernet {
@@ -20,5 +22,8 @@ class OnlyReading {
     sqlite3* database_;
     bool denied_ = false;
 };
+
+/// Checks that a question is one statement. @throws std::invalid_argument
+void need_one_statement(sqlite3* database, const std::string& sql);
 
 }  // namespace rovernet

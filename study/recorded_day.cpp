@@ -53,6 +53,7 @@ RecordedDay::RecordedDay(const std::string& path) {
     run_ = trace.run();
     scenario_ = std::make_unique<ReplayedScenario>(run_, path);
     const Scenario scenario = scenario_->with({});
+    check_robots(run_, scenario, path);
     const auto metrics = metrics_of(scenario, network_settings(scenario));
     const auto deliveries = std::make_shared<Deliveries>();
     Sink sinks[] = {Sink(DayLogSink{log_}), Sink(metrics), Sink(deliveries)};

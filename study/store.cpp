@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/store.hpp"
 
+#include "files/input_file.hpp"
 #include "scenario/json.hpp"
 #include "sim/error.hpp"
 #include "study/only_reading.hpp"
@@ -11,7 +12,6 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
-#include <filesystem>
 #include <map>
 #include <sqlite3.h>
 
@@ -152,15 +152,18 @@ Store::Store(std::string path, std::unique_ptr<Database> database)
 }
 
 Store Store::open(const std::string& path) {
-    if (!std::filesystem::is_regular_file(path)) {
+    if (input_kind(path) == InputKind::nothing) {
         throw InputError({path}, "no such store; rovernet sweep FILE makes one");
     }
+    need_file(path);
     return told(
         path, [&] { return Store(path, std::make_unique<Database>(path, SQLite::OPEN_READONLY)); });
 }
 
 Store Store::open_to_write(const std::string& path) {
-    if (std::filesystem::is_directory(path)) throw InputError({path}, "a directory, not a store");
+    const InputKind kind = input_kind(path);
+    if (kind == InputKind::folder) throw InputError({path}, "a directory, not a store");
+    if (kind != InputKind::nothing) need_file(path);
     auto lock = std::make_unique<WriteLock>(path);
     return told(path, [&] {
         auto database =
@@ -367,6 +370,7 @@ void Store::for_each_value(
 void Store::query(const std::string& sql,
                   const std::function<void(const std::vector<std::string>&)>& row) const {
     const OnlyReading guard(database_->sqlite.getHandle());
+    need_one_statement(database_->sqlite.getHandle(), sql);
     try {
         SQLite::Statement select(database_->sqlite, sql);
         std::vector<std::string> cells;

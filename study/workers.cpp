@@ -112,6 +112,7 @@ void Workers::start(Worker& worker) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (getppid() != parent) _exit(1);  // it died before we could ask to be told
         std::signal(SIGINT, SIG_IGN);       // Ctrl-C is for the supervisor
+        std::signal(SIGHUP, SIG_IGN);       // so is the end of a terminal
         std::signal(SIGTERM, SIG_DFL);
         dup2(words, STDERR_FILENO);
         close(ends[0]);

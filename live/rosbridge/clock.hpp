@@ -5,6 +5,8 @@
 #include "live/rosbridge/request.hpp"
 #include "sim/time.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -27,6 +29,8 @@ class RosClock {
         Time until;  ///< end of the step, not before the time at which it begins
     };
 
+    /// Number of a client's steps that are not over.
+    std::size_t steps(Connection client) const;
     /// Begins a step: time goes on until its end, or until that of a longer one, and stands still.
     void begin(Step step);
     /// Stops time now, for a client.
@@ -35,7 +39,8 @@ class RosClock {
     /// Lets time go on, whoever holds it.
     /// @return calls of steps that it overtakes, the oldest first
     std::vector<Step> unpause();
-    /// A client has left. Its steps are not over, as other clients may wait for their ends.
+    /// A client has left. Its steps are not over, as other clients may wait for the end of the last
+    /// one; its calls are forgotten.
     /// @return as unpause(), if that lets time go on; none otherwise
     std::vector<Step> left(Connection client);
     /// Ends the steps that do not go on beyond now.
@@ -50,8 +55,9 @@ class RosClock {
     Time limit() const { return limit_; }
 
   private:
-    std::vector<Step> steps_;       // those that are not over
-    std::set<Connection> holders_;  // clients that have paused time, or stepped
+    std::vector<Step> steps_;        // those that are not over
+    std::optional<Time> of_nobody_;  // end of the last step whose client has left
+    std::set<Connection> holders_;   // clients that have paused time, or stepped
     Time limit_ = never;
 };
 

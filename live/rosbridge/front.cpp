@@ -11,7 +11,8 @@ namespace rovernet {
 namespace {
 
 constexpr std::size_t most_subscriptions = 256;
-constexpr int aborted = 6;  // action_msgs/GoalStatus
+constexpr std::size_t most_steps = 64;  // of a client, that are not over
+constexpr int aborted = 6;              // action_msgs/GoalStatus
 
 /// The first multiple of a period after a time.
 Time multiple_after(Time time, Duration period) {
@@ -184,6 +185,13 @@ void RosbridgeFront::carry_out(Client& client, RosLevel level) { client.level = 
 
 void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
     const auto& [text, robot, command, time] = call.arguments;
+    const bool is_step = call.service.kind() == RosServiceKind::step;
+    if (is_step && clock_.steps(client.connection) >= most_steps) {
+        throw RequestError("too_many", "service",
+                           fmt::format("{} steps of this client are not over yet; expected {} at "
+                                       "most",
+                                       most_steps, most_steps));
+    }
     std::optional<std::uint64_t> uid;
     if (command) uid = robots_->carry_out(*robot, *command, client.connection);
     switch (call.service.kind()) {

@@ -98,6 +98,10 @@ void BonnMotionReader::keep(PlaceColumns columns, std::uint64_t count) {
         coordinates_.push_back(w.place.y);
         if (columns.z) coordinates_.push_back(w.place.z);
         ++end_.back();
+        if (w.time > std::max(end, last_of_run)) {
+            end_where = numbers_.line();
+            end_where.column = w.column;
+        }
         end = std::max(end, w.time);
     });
 }

@@ -54,8 +54,10 @@ class WaypointLine {
 
   private:
     void begin(const BonnMotionNumbers& n) {
-        now_ = {.time = moment(n.value(), n.word(), n.line()), .place = {}, .first = !before_};
-        time_column_ = n.word().column;
+        now_ = {.time = moment(n.value(), n.word(), n.line()),
+                .place = {},
+                .first = !before_,
+                .column = n.word().column};
         if (before_ && now_.time < before_->time) {
             fail_at(n.line(), n.word(), "a later time than that of the waypoint before");
         }
@@ -64,7 +66,7 @@ class WaypointLine {
         if (before_ && now_.time == before_->time) {
             if (now_.place == before_->place) return std::nullopt;
             Location where = n.line();
-            where.column = time_column_;
+            where.column = now_.column;
             throw InputError(where,
                              "found another place at the time of the waypoint before, "
                              "expected a time at least 1 ns later");
@@ -96,7 +98,6 @@ class WaypointLine {
     std::uint32_t nodes_ = 0;
     int empty_line_ = 0;  ///< the first; 0 = none yet
     Waypoint now_ = {};
-    int time_column_ = 0;
     std::optional<Waypoint> before_;  ///< of the same node
 };
 

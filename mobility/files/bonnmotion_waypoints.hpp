@@ -65,6 +65,7 @@ struct Waypoint {
     Time time = {};
     Vec3 place = {};     ///< [m]
     bool first = false;  ///< the first of its node
+    int column = 1;      ///< of the time in its line
 };
 
 /// The first of `candidates` that the whole file agrees with, and how many waypoints there are.

@@ -65,7 +65,10 @@ class FcdReader final : public MovementFile::Reader {
     FcdReader(TextSource source, MovementSyntax syntax)
         : tags_(std::move(source)), tolerant_(syntax == MovementSyntax::tolerant) {
         enter_root();
-        while (read_step()) end = time_;
+        while (read_step()) {
+            end = time_;
+            if (end > last_of_run) end_where = step_where_;
+        }
         scanned_ = true;
         states_.shrink_to_fit();
         start_over();
@@ -114,6 +117,7 @@ class FcdReader final : public MovementFile::Reader {
     std::vector<State> states_;  ///< by robot
 
     std::uint64_t step_ = 0;  ///< number of the current timestep, from 1
+    Location step_where_;     ///< its place, if it is later than the longest run
     Time time_ = start_of_run;
     Time time_before_ = start_of_run;
     std::vector<Sighting> now_;
@@ -156,6 +160,10 @@ bool FcdReader::read_step() {
     const Word word = needed("time");
     time_before_ = time_;
     time_ = moment(word, tags_.where());
+    if (time_ > last_of_run) {
+        step_where_ = tags_.where();
+        step_where_.column = word.column;
+    }
     if (step_ > 0 && time_ <= time_before_) {
         fail_at(tags_.where(), word, "a later time than that of the timestep before");
     }

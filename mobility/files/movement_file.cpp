@@ -74,7 +74,9 @@ void fail_changed(const std::string& file) {
 }
 
 MovementFile::MovementFile(const std::string& path, MovementSyntax syntax)
-    : reader_(reader_of(path, syntax)) {}
+    : reader_(reader_of(path, syntax)) {
+    if (reader_->end_where.source.empty()) reader_->end_where.source = path;
+}
 MovementFile::~MovementFile() = default;
 MovementFile::MovementFile(MovementFile&&) noexcept = default;
 MovementFile& MovementFile::operator=(MovementFile&&) noexcept = default;
@@ -82,6 +84,7 @@ MovementFile& MovementFile::operator=(MovementFile&&) noexcept = default;
 const std::vector<FileRobot>& MovementFile::robots() const { return reader_->robots; }
 const std::vector<std::string>& MovementFile::notices() const { return reader_->notices; }
 Time MovementFile::end() const { return reader_->end; }
+const Location& MovementFile::end_where() const { return reader_->end_where; }
 std::optional<MovementCommand> MovementFile::next() { return reader_->next(); }
 
 }  // namespace rovernet

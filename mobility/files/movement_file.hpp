@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/error.hpp"
 #include "sim/geometry.hpp"
 #include "sim/time.hpp"
 
@@ -27,6 +28,9 @@ struct MovementCommand {
     double speed = 0;   ///< [m/s], >= 0
     Time arrival = {};  ///< > time
 };
+
+/// End of the longest run, of 1e9 s: a file that goes on after it can be played in part only.
+inline constexpr Time last_of_run = start_of_run + Duration{1'000'000'000'000'000'000};
 
 /// A robot that a movement file names.
 struct FileRobot {
@@ -61,6 +65,8 @@ class MovementFile {
     const std::vector<std::string>& notices() const;
     /// Time at which the last command ends.
     Time end() const;
+    /// Place of that command in the file; the whole file unless it ends after the longest run.
+    const Location& end_where() const;
 
     /// The next command, in order of time, then as in the file; none at the end.
     std::optional<MovementCommand> next();

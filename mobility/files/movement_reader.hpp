@@ -19,6 +19,7 @@ struct MovementFile::Reader {
     std::vector<FileRobot> robots;
     std::vector<std::string> notices;
     Time end = start_of_run;
+    Location end_where = {};  ///< set if `end` is after last_of_run
 };
 
 /// The notice that says that `legs` legs of a file are in memory.

@@ -58,14 +58,16 @@ class SetdestReader final : public MovementFile::Reader {
     SetdestReader(TextSource source, MovementSyntax syntax)
         : lines_(std::move(source)), tolerant_(syntax == MovementSyntax::tolerant) {
         scan();
+        const std::uint64_t skipped = skipped_;  // reading again counts again
         sort_robots();
         if (!in_order_) keep();
         if (!in_order_ || places_late_) replay();
         note_end();
+        if (end > last_of_run) find_end();
         start_over();
-        if (skipped_ > 0) {
-            notices.push_back(fmt::format("{} line{} left out; the first: {}", skipped_,
-                                          skipped_ == 1 ? " is" : "s are", first_skipped_));
+        if (skipped > 0) {
+            notices.push_back(fmt::format("{} line{} left out; the first: {}", skipped,
+                                          skipped == 1 ? " is" : "s are", first_skipped_));
         }
     }
 
@@ -91,6 +93,7 @@ class SetdestReader final : public MovementFile::Reader {
     void keep();
     void replay();
     void note_end();
+    void find_end();
     void start_over();
     MovementCommand follow(std::uint32_t robot, const SetdestLine& line);
     MovementCommand unkept(const KeptLine& kept);
@@ -237,6 +240,19 @@ void SetdestReader::replay() {
 void SetdestReader::note_end() {
     end = last_;
     for (const Course& course : courses_) end = std::max(end, course.arrival());
+}
+
+/// Finds the line of the command that ends last: the last one of the robot that arrives then, or
+/// any of that time.
+void SetdestReader::find_end() {
+    lines_.rewind();
+    Time latest_so_far = start_of_run;
+    while (next_line()) {
+        if (line_.kind == SetdestLine::Kind::place || line_.time < latest_so_far) continue;
+        if (end != last_ && courses_[known_robot()].arrival() != end) continue;
+        latest_so_far = line_.time;
+        end_where = lines_.where();
+    }
 }
 
 void SetdestReader::start_over() {

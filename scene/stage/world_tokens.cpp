@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/stage/world_tokens.hpp"
 
+#include "files/input_file.hpp"
 #include "scene/stage/world_scanner.hpp"
 #include "scene/stage/world_search.hpp"
 
@@ -54,12 +55,12 @@ class Loader {
 };
 
 std::string Loader::text_of(const std::string& path, const Location& where) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path, ignored);
-    if (!std::filesystem::exists(status)) {
-        throw InputError(where, "no such file; expected a world file; check the path");
+    const InputKind kind = input_kind(path);
+    if (is_no_path(kind)) {
+        throw InputError(where,
+                         fmt::format("{}; expected a world file; check the path", fault_of(kind)));
     }
-    if (!std::filesystem::is_regular_file(status)) {
+    if (kind != InputKind::file) {
         throw InputError(where, "is not a regular file; expected a world file; name a file");
     }
     std::ifstream file(path, std::ios::binary);
@@ -67,6 +68,7 @@ std::string Loader::text_of(const std::string& path, const Location& where) {
         throw InputError(where,
                          "cannot be opened; expected a readable file; check its permissions");
     }
+    std::error_code ignored;
     const std::uintmax_t size = std::filesystem::file_size(path, ignored);
     if (size > most_bytes_a_file || (bytes_ += size) > most_bytes) {
         throw InputError(where,

@@ -3,13 +3,13 @@
 
 #include "experiment/build.hpp"
 #include "files/text_source.hpp"
+#include "files/word.hpp"
 #include "models/link_gain.hpp"
 #include "scenario/toml.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -26,6 +26,7 @@ class CsvTable {
         while (const auto line = lines.next()) {
             if (line->empty() || line->front() == '#') continue;
             (names_.empty() ? names_ : rows_.emplace_back()) = cells(*line);
+            if (!rows_.empty()) lines_.push_back(lines.where());
             if (!rows_.empty() && rows_.back().size() != names_.size()) {
                 throw InputError(lines.where(), fmt::format("found {} fields, expected {}",
                                                             rows_.back().size(), names_.size()));
@@ -39,17 +40,19 @@ class CsvTable {
             throw InputError({path_, 1, 0}, fmt::format("no column \"{}\"", name));
         return rows_[row][static_cast<std::size_t>(at - names_.begin())];
     }
-    double number(std::size_t row, std::string_view name) const {
-        const std::string& cell = text(row, name);
-        double out = 0;
-        const char* const end = cell.data() + cell.size();
-        const auto [rest, error] = std::from_chars(cell.data(), end, out);
-        if (error != std::errc{} || rest != end) {
-            throw InputError(
-                {path_, 0, 0},
-                fmt::format("{}: found \"{}\", expected a number in row {}", name, cell, row + 1));
-        }
-        return out;
+    /// Coordinate [m].
+    double metres(std::size_t row, std::string_view name) const {
+        return coordinate(word(row, name), lines_[row]);
+    }
+    double number(std::size_t row, std::string_view name, double low, double high) const {
+        const std::string expected = fmt::format("{}, a number from {} to {}", name, low, high);
+        const double value = any_number(word(row, name), lines_[row], expected);
+        if (!(value >= low && value <= high)) fail_at(lines_[row], word(row, name), expected);
+        return value;
+    }
+    [[noreturn]] void fail(std::size_t row, std::string_view name,
+                           std::string_view expected) const {
+        fail_at(lines_[row], word(row, name), expected);
     }
 
   private:
@@ -65,9 +68,21 @@ class CsvTable {
         return out;
     }
 
+    /// A cell with its column in the line.
+    Word word(std::size_t row, std::string_view name) const {
+        const std::string& cell = text(row, name);
+        int column = 1;
+        for (const std::string& each : rows_[row]) {
+            if (&each == &cell) break;
+            column += static_cast<int>(each.size()) + 1;
+        }
+        return {cell, column};
+    }
+
     std::string path_;
     std::vector<std::string> names_;
     std::vector<std::vector<std::string>> rows_;
+    std::vector<Location> lines_;  // of the rows
 };
 
 /// Building without its levels. @param map  line of [scene], or nothing
@@ -96,9 +111,18 @@ std::map<std::string, std::pair<std::uint32_t, Vec3>> receivers(const CsvTable& 
     for (std::size_t i = 0; i < table.size(); ++i) {
         out[table.text(i, name)] = {
             static_cast<std::uint32_t>(i),
-            {table.number(i, "x_m"), table.number(i, "y_m"), table.number(i, "z_m")}};
+            {table.metres(i, "x_m"), table.metres(i, "y_m"), table.metres(i, "z_m")}};
     }
     return out;
+}
+
+/// The receiver that a row of levels names.
+const std::pair<std::uint32_t, Vec3>& receiver_of(
+    const CsvTable& levels, std::size_t row, std::string_view name,
+    const std::map<std::string, std::pair<std::uint32_t, Vec3>>& known) {
+    const auto found = known.find(levels.text(row, name));
+    if (found == known.end()) levels.fail(row, name, fmt::format("a known {}", name));
+    return found->second;
 }
 
 void add_level(KnownLinks& known, const Radio& radio, const std::string& place, Vec3 from,
@@ -133,10 +157,10 @@ MeasuredBuilding measured_flat(const std::string& folder) {
     const auto anchors = receivers(CsvTable(folder + "/flat/anchors.csv"), "anchor");
     for (std::size_t i = 0; i < cells.size(); ++i) {
         KnownLinks& known = cells.text(i, "set") == "calibration" ? out.first : out.second;
-        add_level(known, out.scenario.radio,
-                  cells.text(i, "cell_x") + " " + cells.text(i, "cell_y"),
-                  {cells.number(i, "x_m"), cells.number(i, "y_m"), tag_height},
-                  anchors.at(cells.text(i, "anchor")), cells.number(i, "mean_rssi_dbm"));
+        add_level(
+            known, out.scenario.radio, cells.text(i, "cell_x") + " " + cells.text(i, "cell_y"),
+            {cells.metres(i, "x_m"), cells.metres(i, "y_m"), tag_height},
+            receiver_of(cells, i, "anchor", anchors), cells.number(i, "mean_rssi_dbm", -300, 100));
     }
     return out;
 }
@@ -149,11 +173,12 @@ MeasuredBuilding measured_lab(const std::string& folder) {
         KnownLinks& known = set == "1" ? out.first : out.second;
         for (std::size_t i = 0; i < links.size(); ++i) {
             if (links.text(i, "set") != set) continue;
-            const Vec3 at{links.number(i, "x_m"), links.number(i, "y_m"), links.number(i, "z_m")};
-            const auto& sensor = sensors.at(links.text(i, "sensor"));
+            const Vec3 at{links.metres(i, "x_m"), links.metres(i, "y_m"), links.metres(i, "z_m")};
+            const auto& sensor = receiver_of(links, i, "sensor", sensors);
             const std::string place = set == "1" ? fmt::format("{} {} {}", at.x, at.y, at.z)
                                                  : place_near(out.first, sensor.first, at);
-            add_level(known, out.scenario.radio, place, at, sensor, links.number(i, "median_dbm"));
+            add_level(known, out.scenario.radio, place, at, sensor,
+                      links.number(i, "median_dbm", -300, 100));
         }
     }
     return out;

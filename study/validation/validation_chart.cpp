@@ -28,8 +28,8 @@ std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points
     return front;
 }
 
-const ValidationPoint& point_of(const ValidationPanel& panel, const std::string& label,
-                                const std::string& series) {
+const ValidationPoint& point_of(const ValidationPanel& panel, std::string_view label,
+                                std::string_view series) {
     for (const ValidationPoint& point : panel.points) {
         if (point.label == label && point.series == series) return point;
     }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -68,8 +69,8 @@ void set_costs(ValidationPanel& panel, std::span<const TimedMethod> methods, con
 std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points);
 
 /// Point of that label and series. @throws std::out_of_range if there is none
-const ValidationPoint& point_of(const ValidationPanel& panel, const std::string& label,
-                                const std::string& series = "");
+const ValidationPoint& point_of(const ValidationPanel& panel, std::string_view label,
+                                std::string_view series = "");
 
 /// Two digits of a cost or a ratio of costs, without an exponent: "1400000", "0.0043".
 std::string two_digits(double value);

@@ -53,14 +53,15 @@ bool handles_signals(pid_t pid) {
     return false;
 }
 
-/// Sends SIGTERM to a command in the midst of its work.
-Ended stopped(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+/// Sends a signal to a command in the midst of its work.
+Ended stopped(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+              int signal = SIGTERM) {
     const Process process(folder, arguments);
     for (int i = 0; i < 2000 && !handles_signals(process.pid()); ++i) {
         std::this_thread::sleep_for(5ms);
     }
     std::this_thread::sleep_for(300ms);
-    kill(process.pid(), SIGTERM);
+    kill(process.pid(), signal);
     return process.wait();
 }
 
@@ -97,6 +98,7 @@ TEST_CASE(
         CHECK(ended.exit == 130);
         CHECK(ended.err.find("interrupted") != std::string::npos);
         CHECK(parts_in(folder.path("")).empty());
+        CHECK(stopped(folder, arguments, SIGHUP).exit == 130);
     }
     for (const char* written : {"picture.svg", "moves.tcl", "out/summary.json", "out/trace.tr"}) {
         CHECK_FALSE(fs::exists(folder.path(written)));
@@ -116,6 +118,47 @@ at = ["1 m", "1 m"]
 )");
     CHECK(stopped(folder, {"run", file, "--out", folder.path("out")}).exit == 130);
     CHECK_FALSE(fs::exists(folder.path("out")));
+}
+
+TEST_CASE("a signal ends a replay at once, also while it reads a long log or plays it") {
+    const TemporaryFolder folder;
+    std::string text = endless;
+    text.replace(text.find("100000000"), 9, "60");
+    text.replace(text.find("count = 50"), 10, "count = 2");
+    text.replace(text.find("ns2 = \"new\""), 11, "ns2 = \"old\"");
+    const std::string file = folder.write("s.toml", text);
+    REQUIRE(command(folder, {"run", file, "--out", folder.path("out")}).exit == 0);
+    const std::string trace = content(folder.path("out/trace.tr"));
+    {
+        // A trace, again and again, takes long to read.
+        std::ofstream longer(folder.path("out/long.tr"), std::ios::binary);
+        for (std::size_t bytes = 0; bytes < 400'000'000; bytes += trace.size()) longer << trace;
+    }
+    const std::string longer = folder.path("out/long.tr");
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"replay", longer, "--verify"},
+             {"replay", longer, "--with", "propagation.model=friis"},
+             {"replay", longer, "--speed", "1"}}) {
+        CAPTURE(words[2]);
+        for (const int signal : {SIGINT, SIGHUP}) {
+            CHECK(stopped(folder, words, signal).exit == 130);
+        }
+    }
+    const std::string inputs =
+        folder.write("inputs.jsonl", R"({"version":"0","scenario":"0","seed":1}
+{"end_ns":90000000000000000,"fingerprint":"0"}
+)");
+    folder.write("scenario.toml", endless);
+    CHECK(stopped(folder, {"replay", inputs, "--verify"}).exit == 130);
+}
+
+TEST_CASE("a signal ends a comparison that keeps nothing, and its workers, at once") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", endless);
+    const Ended ended =
+        stopped(folder, {"compare", file, "--models", "friis,log_distance", "--replications", "2"});
+    CHECK(ended.exit == 130);
+    CHECK(ended.err.find("--store") != std::string::npos);
 }
 
 TEST_CASE("a signal ends a question in SQL") {

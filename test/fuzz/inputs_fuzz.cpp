@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Any file is a log of inputs that is replayed, the same every time, or an InputError.
-#include "live/input_log.hpp"
+#include "live/input_replay.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 

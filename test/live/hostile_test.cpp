@@ -105,7 +105,9 @@ TEST_CASE(
     std::list<LineClient> players;
     std::list<WebClient> pages;
     const auto enters_player = [&] {
-        return players.emplace_back(served.player).bytes(32).size() == 32;
+        LineClient& player = players.emplace_back(served.player);
+        player.send_bytes(request(1, 0, 5, be32(pull)));  // whoever has said nothing makes room
+        return player.bytes(32).size() == 32 && !player.bytes(40).empty();
     };
     const auto enters_rosbridge = [&] { return pages.emplace_back(served.rosbridge).is_in(); };
     for (std::size_t i = 0; i < most_connections; ++i) REQUIRE(enters_player());
@@ -118,6 +120,116 @@ TEST_CASE(
     pages.front().socket().reset();
     CHECK(comes_true(enters_rosbridge));
     served.end();
+}
+
+TEST_CASE(
+    "hostile: connections that say nothing make room for one that speaks, through each door") {
+    const Served served;
+    const Live controlled({"--listen-json", "127.0.0.1:0", "--unix", "SOCKET"}, long_live_row());
+    const int port = controlled.port();
+    controlled.said("listening on /");
+    const std::string door = controlled.folder.path("door");
+    const std::string early = R"({"type":"step","n":1})";
+
+    LineClient first(port);  // has spoken, though nothing that makes sense: it stays
+    CHECK(Json::parse(first.ask(early)).at("code") == "hello_first");
+    WebClient page(served.rosbridge);  // is let in, and says nothing: it stays
+    CHECK(page.is_in());
+    Good good(served);
+    std::list<LineClient> silent;
+    for (std::size_t i = 0; i < most_connections + 20; ++i) {
+        i % 2 == 0 ? silent.emplace_back(port) : silent.emplace_back(door);
+        silent.back().send_bytes(R"({"type":)");  // no whole line
+        silent.emplace_back(served.player);
+        silent.emplace_back(served.rosbridge).send_bytes("GET / HTTP/1.1\r\n");
+    }
+    LineClient by_port(port), by_path(door);
+    CHECK(Json::parse(by_port.ask(early)).at("code") == "hello_first");
+    CHECK(Json::parse(by_path.ask(early)).at("code") == "hello_first");
+    CHECK(Json::parse(first.ask(early)).at("code") == "hello_first");
+    CHECK(silent.front().line().empty());  // the oldest has gone
+    CHECK(WebClient(served.rosbridge).is_in());
+    CHECK(Json::parse(page.ask(call_time)).at("result") == true);
+    good.speed();
+    Good(served).speed();
+    served.end();
+    controlled.process().interrupt();
+    CHECK(controlled.wait().exit == 0);
+}
+
+TEST_CASE("hostile: whatever a page sends in a request, through any door, no robot is driven") {
+    const Served served;
+    const Live controlled(
+        {"--listen-json", "127.0.0.1:0", "--unix", "SOCKET", "--listen-web", "127.0.0.1:0"},
+        long_live_row());
+    const int web = read_port(controlled.said("listening on ws://"));
+    controlled.said("listening on /");
+    const std::string lines =
+        hello("\"A\"") + "\n" + R"({"type":"step","n":1,"do":{"A":{"v":1}}})" + "\n";
+    const std::string orders = mode(pull) + device(4, 0) + rovernet::test::drive(1, 0);
+    for (const std::string method : {"POST", "GET", "OPTIONS", "X", "!#$%&'*+-.^_`|~"}) {
+        for (const std::string& body : {lines, orders}) {
+            CAPTURE(method);
+            const std::string bytes =
+                method +
+                " / HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\nContent-Type: text/plain\r\n\r\n" + body;
+            LineClient by_port(controlled.port()), by_path(controlled.folder.path("door"));
+            for (LineClient* client : {&by_port, &by_path}) {
+                client->send_bytes(bytes);
+                const std::string answer = client->bytes(100'000);  // to its end
+                CHECK(answer.find("welcome") == std::string::npos);
+            }
+            LineClient player(served.player), ros(served.rosbridge), page(web);
+            CHECK(player.bytes(32).size() == 32);
+            for (LineClient* client : {&player, &ros, &page}) {
+                client->send_bytes(bytes);
+                CHECK(client->bytes(100'000).find("101 ") == std::string::npos);
+            }
+        }
+    }
+    CHECK(Good(served).speed() == 0);
+    served.end();
+    controlled.process().interrupt();
+    CHECK(controlled.wait().exit == 0);
+    CHECK(controlled.replay().out.starts_with("identical: 0 inputs"));
+}
+
+TEST_CASE("hostile: a connection whose first line is no JSON object is told so and closed") {
+    const Live live({"--listen-json", "127.0.0.1:0"}, long_live_row());
+    const int port = live.port();
+    const std::string rest = hello("\"A\"") + "\n";
+    for (const std::string& first :
+         {std::string("hello"), std::string(), std::string(" \t\r"), std::string("[1]"),
+          std::string("[{}]"), std::string("\"{}\""), std::string("1"), std::string("null"),
+          std::string("{"), std::string("{}}"), std::string("{} {}"),
+          std::string("{\"type\":\"\xff\"}"), std::string("{'type':'hello'}"),
+          R"({"a":)" + nested(50'000) + "}", std::string(3, '\0'), std::string("\x16\x03\x01", 3),
+          std::string("\xef\xbb\xbf{}"), nested(50'000)}) {
+        CAPTURE(first.substr(0, 20));
+        LineClient client(port);
+        client.send_bytes(first + "\n" + rest);
+        const std::string answer = client.line();
+        if (!answer.empty()) CHECK(Json::parse(answer).at("type") == "error");
+        CHECK(client.line().empty());
+    }
+    // Its first byte is enough, and a first line may not be endless.
+    for (const std::string& first :
+         {std::string("P"), std::string("  ["), "{" + std::string(std::size_t{2} << 20U, ' ')}) {
+        CAPTURE(first.substr(0, 20));
+        LineClient client(port);
+        client.send_bytes(first);
+        client.line();
+        CHECK(client.line().empty());
+    }
+    LineClient typist(port);  // a JSON object that is wrong is told, and may be corrected
+    for (const std::string words : {R"({"type":"step","n":1})", "{}", R"({"type":"hullo"})", "x"}) {
+        CAPTURE(words);
+        CHECK(Json::parse(typist.ask(words)).at("type") == "error");
+    }
+    CHECK(Json::parse(typist.ask(hello("\"A\""))).at("type") == "welcome");
+    live.process().interrupt();
+    CHECK(live.wait().exit == 0);
 }
 
 TEST_CASE("hostile: a Player client's sizes and counts are not believed") {
@@ -159,6 +271,7 @@ TEST_CASE("hostile: ROS clients with messages that are too long, too deep, or no
 TEST_CASE("hostile: controllers with lines that are too deep or no text") {
     const Live live({"--listen-json", "127.0.0.1:0"});
     LineClient odd(live.port());
+    CHECK(Json::parse(odd.ask("{}")).at("code") == "missing_key");
     CHECK(Json::parse(odd.ask(nested(50'000))).at("code") == "too_deep");
     CHECK(Json::parse(odd.ask("{\"type\":\"\xff\"}")).at("code") == "bad_utf8");
     CHECK(Json::parse(odd.ask(std::string(3, '\0'))).at("code") == "bad_json");
@@ -284,12 +397,13 @@ TEST_CASE("hostile: the robots of controllers that are killed stop, and others m
                     long_live_row());
     const int port = live.port();
     LineClient good(port);
+    CHECK(Json::parse(good.ask("{}")).at("type") == "error");  // it is there, and nobody else
+    const std::size_t before = descriptors(live.process().pid());
     good.send_bytes(hello("\"A\"") + "\n");
     const auto is_taken = [&] {
         LineClient other(port);
         return Json::parse(other.ask(hello("\"B\""))).value("code", "") == "taken";
     };
-    std::size_t before = 0;
     for (int n = 1; n <= kills; ++n) {
         const bool leaves_unread = n % 2 == 0;
         do_and_be_killed([&] {
@@ -302,7 +416,6 @@ TEST_CASE("hostile: the robots of controllers that are killed stop, and others m
         if (n == 1) CHECK(Json::parse(good.line()).at("type") == "welcome");
         const std::string step = R"({"type":"step","n":)" + std::to_string(n) + "}";
         CHECK(Json::parse(good.ask(step)).at("n") == n);
-        if (n == 1) before = descriptors(live.process().pid());
     }
     CHECK(comes_true([&] { return descriptors(live.process().pid()) == before; }));
     CHECK_FALSE(is_taken());

@@ -82,7 +82,7 @@ LiveResult run(const Given& given) {
                                   front->takes_ = given.telling_takes;
                                   return front;
                               }});
-    options.go_on = [&, looks = 0]() mutable {
+    options.stop.go_on = [&, looks = 0]() mutable {
         constexpr int stopped_at = 3, ended_at = 20;
         if (looks == stopped_at) clock.put_forward(given.away);
         return ++looks < ended_at;

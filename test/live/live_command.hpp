@@ -68,6 +68,7 @@ inline std::string said(const TemporaryFolder& folder, const std::string& words,
 /// A live run in the background.
 class Live {
   public:
+    /// @param options  in which SOCKET and PIDFILE stand for files in the folder
     /// @param program  text of the Python program that is meant by "PROGRAM" in an option
     explicit Live(std::vector<std::string> options, const std::string& file = live_row,
                   const std::string& program = {})
@@ -96,9 +97,18 @@ class Live {
                                        const std::string& program) {
         options.insert(options.begin(),
                        {"live", folder.write("s.toml", file), "--out", folder.path("out")});
-        std::replace(options.begin(), options.end(), std::string("SOCKET"), folder.path("door"));
-        std::replace(options.begin(), options.end(), std::string("PROGRAM"),
-                     "python3 " + folder.write("c.py", program));
+        const std::pair<std::string, std::string> meanings[] = {
+            {"SOCKET", folder.path("door")},
+            {"PIDFILE", folder.path("pid")},
+            {"PROGRAM", "python3 " + folder.write("c.py", program)}};
+        for (std::string& option : options) {
+            for (const auto& [word, meaning] : meanings) {
+                for (auto at = option.find(word); at != option.npos; at = option.find(word, at)) {
+                    option.replace(at, word.size(), meaning);
+                    at += meaning.size();
+                }
+            }
+        }
         return options;
     }
 

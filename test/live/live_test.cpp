@@ -138,7 +138,7 @@ TEST_CASE("live: Ctrl-C ends it within a second, with results and a goodbye") {
     const Json end = Json::parse(client.line());
     CHECK(end.at("reason") == "stopped");
     CHECK(live.wait().exit == 0);
-    CHECK(live.fingerprint() == end.at("fingerprint"));
+    CHECK(live.fingerprint() == end.at("fingerprint").get<std::string>());
     CHECK(live.replay().exit == 0);
     CHECK(Json::parse(content(live.folder.path("out/summary.json"))).at("sim_s") == 0.1);
 }
@@ -214,7 +214,7 @@ TEST_CASE("live: hostile connections are closed, take little memory and hold nob
 
     LineClient endless(port);
     const std::string megabyte(std::size_t{1} << 20U, 'x');
-    endless.send_bytes(megabyte);
+    endless.send_bytes("{" + megabyte);
     endless.send_bytes(megabyte);
     CHECK(Json::parse(endless.line()).at("code") == "too_long");
     CHECK(endless.line().empty());
@@ -222,7 +222,7 @@ TEST_CASE("live: hostile connections are closed, take little memory and hold nob
 
     // Somebody who asks and never reads is not read any more.
     LineClient deaf(port);
-    std::string questions;
+    std::string questions = "{}\n";
     for (int i = 0; i < 20'000; ++i) questions += "nonsense\n";
     std::thread asks([&] {
         for (int i = 0; i < 100; ++i) {
@@ -238,7 +238,10 @@ TEST_CASE("live: hostile connections are closed, take little memory and hold nob
 
     // The one beyond the limit is closed at once, and those who drop out free their places.
     std::vector<LineClient> crowd;
-    for (int i = 0; i < 498; ++i) crowd.emplace_back(port);
+    for (int i = 0; i < 498; ++i) {
+        const std::string answer = crowd.emplace_back(port).ask("{}");
+        CHECK(Json::parse(answer).at("type") == "error");
+    }
     LineClient beyond(port);
     CHECK(beyond.line().empty());
     for (auto& each : crowd) each.reset();
@@ -389,6 +392,35 @@ driver ( name "relay" provides [ "6666:opaque:0" ] )
     CHECK(missing.err.find("two.cfg:3") != std::string::npos);
     CHECK(run({"live", file("r1"), "--speed", "2"}).exit == 2);
     CHECK(run({"live", file("r1"), "--player", "0.0.0.0:6665"}).exit == 2);
+}
+
+TEST_CASE("live: with --json standard output is one document, and addresses are notices") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", live_row);
+    const std::string any = "127.0.0.1:0", out = folder.path("out");
+    const std::vector<std::vector<std::string>> commands = {
+        {"live", file, "--out", out, "--listen-json", any, "--listen-web", any, "--unix",
+         folder.path("door")},
+        {"live", file, "--out", out, "--player", any, "--rosbridge", any},
+        {"emulate", file, "--out", out, "--udp", any, "--player", any, "--rosbridge", any},
+    };
+    for (std::vector<std::string> words : commands) {
+        CAPTURE(words[4]);
+        words.emplace_back("--json");
+        const Process process(folder, words);
+        for (int i = 0; i < 2000; ++i, std::this_thread::sleep_for(5ms)) {
+            if (content(folder.path("stderr")).find("listening on ") != std::string::npos) break;
+        }
+        std::this_thread::sleep_for(100ms);
+        process.interrupt();
+        const Ended ended = process.wait();
+        CAPTURE(ended.out);
+        CHECK(ended.exit == 0);
+        CHECK(Json::accept(ended.out));
+        CHECK(Json::parse(ended.out, nullptr, false).contains("fingerprint"));
+        CHECK(ended.err.find("listening on ") != std::string::npos);
+        CHECK(ended.out.find("listening on ") == std::string::npos);
+    }
 }
 
 }  // namespace live_test

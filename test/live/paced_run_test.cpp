@@ -3,8 +3,8 @@
 #include "live/paced_run.hpp"
 
 #include "live/address.hpp"
-#include "live/input_log.hpp"
 #include "live/input_rate.hpp"
+#include "live/input_replay.hpp"
 #include "test/live/line_client.hpp"
 #include "test/live/parrot.hpp"
 #include "test/live/talk.hpp"
@@ -45,7 +45,7 @@ class Paced {
                      return std::make_unique<FrontUnderTest>(std::move(carrier), more...);
                  },
              .farewell = [](std::size_t lost) { return fmt::format("lost {}\n", lost); }});
-        options.go_on = [this] { return !stopped_; };
+        options.stop.go_on = [this] { return !stopped_; };
         std::promise<void> opened;
         options.say = [&](std::string_view text) {
             said_.emplace_back(text);

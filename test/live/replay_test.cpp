@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs with clients of several kinds at once are made again from their log, without the clients.
-#include "live/input_log.hpp"
+#include "live/input_replay.hpp"
 #include "live/player/door.hpp"
 #include "live/rosbridge/door.hpp"
 #include "sim/error.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/input_log.hpp"
+#include "live/input_replay.hpp"
 #include "live/paced_run.hpp"
 #include "test/cli/process.hpp"
 #include "test/scene/temporary_folder.hpp"

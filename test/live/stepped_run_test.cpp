@@ -2,6 +2,7 @@
 // A run that is taken step by step by a program in this process.
 #include "live/stepped_run.hpp"
 
+#include "live/input_replay.hpp"
 #include "test/live/talk.hpp"
 
 #include <doctest/doctest.h>

@@ -142,6 +142,20 @@ TEST_CASE("web sockets: what breaks the protocol or a limit is closed with the R
     CHECK(long_one.reason() == 1009);
     no_text.send("\xff");
     CHECK(no_text.reason() == 1007);
+    for (const std::string cut : {"a\xc3", "\xed", "\xe2\x82", "\xf0\x9f\x98"}) {
+        // A character that is cut, and where the end of its message may be found.
+        for (const std::string last : {"", "b"}) {
+            CAPTURE(cut);
+            CAPTURE(last);
+            WebClient whole(echo.port), in_frames(echo.port);
+            whole.send(cut + last);
+            CHECK(whole.reason() == 1007);
+            in_frames.send(cut, WebClient::text, false);
+            in_frames.send("?", WebClient::ping);
+            in_frames.send(last, WebClient::more);
+            CHECK(in_frames.reason() == 1007);
+        }
+    }
     unmasked.socket().send_bytes("\x81\x01x");
     CHECK(unmasked.reason() == 1002);
     CHECK(echo.has(0));
@@ -231,6 +245,31 @@ TEST_CASE("web sockets: requests of strange pages, for strange hosts, or for no 
     CHECK(answer("null") == "403");
     CHECK(answer("null", "/?token=" + echo.token) == "101");
     CHECK(answer("", "/", "rebound.example:" + std::to_string(echo.port)) == "403");
+    CHECK(answer("", "/", own + "\r\nHost: " + own) == "400");
+    CHECK(answer("", "/", own + "\r\nSec-WebSocket-Version: 13") == "400");
+    CHECK(answer("", "/", own + "\r\nOrigin: http://" + own + "\r\nOrigin: null") == "400");
+    CHECK(answer("", "/", own + "\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==") == "400");
+    LineClient hostless(echo.port);
+    hostless.send_bytes("GET / HTTP/1.1\r\n\r\n");
+    CHECK(hostless.line().starts_with("HTTP/1.1 400 "));
+    struct Key {
+        const char* text;
+        const char* status;
+    };
+    for (const Key& key :
+         {Key{"", "400"}, Key{"x", "400"}, Key{"dGhlIHNhbXBsZQ==", "400"},
+          Key{"dGhlIHNhbXBsZSBub25jZQ", "400"}, Key{"dGhlIHNhbXBsZSBub25jZQ=", "400"},
+          Key{"dGhlIHNhbXBsZSBub25jZSE=", "400"}, Key{"dGhlIHNhbXBsZSBub25jZQ==x", "400"},
+          Key{"dGhlIHNhbX!sZSBub25jZQ==", "400"}, Key{"dGhlIHNhbXBsZSBub25jZSEhISEhISE=", "400"},
+          Key{"AAAAAAAAAAAAAAAAAAAAAA==", "101"}}) {
+        CAPTURE(key.text);
+        LineClient client(echo.port);
+        client.send_bytes("GET / HTTP/1.1\r\nHost: " + own +
+                          "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                          "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: " +
+                          key.text + "\r\n\r\n");
+        CHECK(client.line().substr(9, 3) == key.status);
+    }
     LineClient browser(echo.port);
     browser.send_bytes("GET / HTTP/1.1\r\nHost: " + own + "\r\n\r\n");
     CHECK(browser.line().starts_with("HTTP/1.1 426 "));

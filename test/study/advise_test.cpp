@@ -16,6 +16,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace advise_test {
@@ -108,7 +109,7 @@ DecisionRule rule_of(double tolerance) {
         .tolerance = tolerance, .bounds = bounds_of("delivery_ratio"), .family = 5, .most = 150};
 }
 
-const JudgedCandidate& judged(const Advice& advice, const std::string& name) {
+const JudgedCandidate& judged(const Advice& advice, std::string_view name) {
     const auto at = std::find_if(advice.judged.begin(), advice.judged.end(),
                                  [&](const JudgedCandidate& each) { return each.name == name; });
     REQUIRE(at != advice.judged.end());

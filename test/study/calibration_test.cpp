@@ -46,7 +46,7 @@ count = 6
 move = { model = "random_waypoint", area = [["0 m", "0 m"], ["300 m", "300 m"]] }
 )";
 
-const CalibratedModel& model(const std::vector<CalibratedModel>& all, const std::string& name) {
+const CalibratedModel& model(const std::vector<CalibratedModel>& all, std::string_view name) {
     const auto at = std::find_if(all.begin(), all.end(),
                                  [&](const CalibratedModel& m) { return m.model == name; });
     REQUIRE(at != all.end());

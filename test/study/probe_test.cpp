@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace probe_test {
@@ -31,7 +32,7 @@ Scenario scenario_from(const std::string& text) {
     return load_scenario(folder.write("s.toml", text), {});
 }
 
-const PerturbationEffect& named(const Probe& probe, const std::string& name) {
+const PerturbationEffect& named(const Probe& probe, std::string_view name) {
     const auto found = std::find_if(probe.perturbations.begin(), probe.perturbations.end(),
                                     [&](const PerturbationEffect& p) { return p.name == name; });
     REQUIRE(found != probe.perturbations.end());

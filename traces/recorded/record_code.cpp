@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "traces/recorded/record_code.hpp"
 
+#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -162,8 +163,15 @@ class Decoder {
         return node == everyone ? std::nullopt : std::optional(node);
     }
     MessageId message() { return {whole<std::uint32_t>()}; }
+    /// Number that a place or a speed can be: those of a Network are so too.
+    double real() {
+        constexpr double largest = 1e15;
+        const double value = from_.real();
+        if (!(std::abs(value) <= largest)) in_range_ = false;
+        return value;
+    }
     Vec3 vector() {
-        const double x = from_.real(), y = from_.real(), z = from_.real();
+        const double x = real(), y = real(), z = real();
         return {x, y, z};
     }
     Frame frame() {
@@ -251,14 +259,15 @@ Moved Decoder::record<Moved>() {
     leg.start = after(time_, from_.signed_varint());
     const auto end = from_.varint();
     if (end > 0) leg.end = after(leg.start, unfolded(end - 1));
+    if (leg.end < leg.start) in_range_ = false;
     leg.from = leg.to = vector();
     const auto parts = byte(moves | heads | turns);
     if (parts & moves) {
         leg.velocity = vector();
         leg.to = vector();
     }
-    if (parts & heads) leg.heading = from_.real();
-    if (parts & turns) leg.turning = from_.real();
+    if (parts & heads) leg.heading = real();
+    if (parts & turns) leg.turning = real();
     return r;
 }
 template <>

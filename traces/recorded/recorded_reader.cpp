@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -34,6 +35,34 @@ std::vector<std::string> lines_of(std::string_view text) {
     return lines;
 }
 
+constexpr std::string_view names_file = "robots.txt";
+
+/// Calls visit(robot) for each robot that the record tells of, also for those that a frame comes
+/// from or goes to; `everyone` may be among them.
+template <class Visit>
+void for_each_robot(const Record& record, Visit visit) {
+    const auto visit_frame = [&](const Frame& frame) {
+        visit(frame.sender);
+        visit(frame.next_hop);
+    };
+    std::visit(
+        [&](const auto& r) {
+            if constexpr (requires { r.node; }) visit(r.node);
+            if constexpr (requires { r.to; }) visit(r.from), visit(r.to);
+            if constexpr (requires { r.frame; }) visit_frame(r.frame);
+            if constexpr (requires { r.heard_from; }) visit(r.heard_from.value_or(everyone));
+            if constexpr (requires { r.air; }) {
+                visit_frame(r.air.frame);
+                visit(r.air.heard_from.value_or(everyone));
+            }
+            if constexpr (requires { r.reception; }) visit(r.reception.node);
+            if constexpr (requires { r.receptions; }) {
+                for (const Reception& rx : r.receptions) visit(rx.node);
+            }
+        },
+        record);
+}
+
 }  // namespace
 
 bool is_recorded_trace(const std::string& path) {
@@ -45,7 +74,15 @@ bool is_recorded_trace(const std::string& path) {
            begin == mcap_magic;
 }
 
+std::string RecordedRun::names_in_words() const {
+    const bool is_broken = std::find(broken.begin(), broken.end(), names_file) != broken.end();
+    const std::string_view why = is_broken ? "is broken" : "is missing";
+    return fmt::format("the trace names {}", robots.size()) +
+           (has_names ? "" : fmt::format(": the file {} inside {}", names_file, why));
+}
+
 RecordedReader::RecordedReader(const std::string& path) : path_(path), file_(path) {
+    run_.has_names = false;
     bool has_profile = false, has_metadata = false;
     while (const auto record = file_.next()) {
         if (record->opcode == McapOpcode::header) {
@@ -66,9 +103,14 @@ RecordedReader::RecordedReader(const std::string& path) : path_(path), file_(pat
     for (std::size_t i = 0; i < run_.robots.size(); ++i) legs_.add({});
 }
 
+void RecordedReader::fail(const std::string& message) const {
+    throw InputError({.source = path_}, message);
+}
+
 void RecordedReader::read_metadata(std::string_view content) {
     ByteReader from(content);
     if (from.text() != "rovernet") return;
+    const std::string before = run_.scenario;
     ByteReader entries(from.text());
     while (entries.left() > 0) {
         const std::string_view key = entries.text(), value = entries.text();
@@ -77,11 +119,12 @@ void RecordedReader::read_metadata(std::string_view content) {
         if (key == "seed") run_.seed = number_in<std::uint64_t>(value);
         if (key == "replication") run_.replication = number_in<std::uint32_t>(value);
         if (key == "format" && number_in<std::uint32_t>(value) != recorded_format) {
-            throw InputError({.source = path_},
-                             fmt::format("a recorded trace of format {}; this version reads "
-                                         "format {}",
-                                         value, recorded_format));
+            fail(fmt::format("a recorded trace of format {}; this version reads format {}", value,
+                             recorded_format));
         }
+    }
+    if (!before.empty() && before != run_.scenario) {
+        fail("two scenarios are inside, which differ; expected one");
     }
 }
 
@@ -94,13 +137,24 @@ void RecordedReader::read_attachment(std::string_view content) {
     const auto crc = from.fixed<std::uint32_t>();
     if (!from.is_done() ||
         (crc != 0 && mcap_crc(content.substr(0, content.size() - sizeof crc)) != crc)) {
-        return file_.tell(fmt::format("the file {} inside is broken", file.name));
+        file_.tell(fmt::format("the file {} inside is broken", file.name));
+        run_.broken.push_back(std::move(file.name));
+        return;
     }
-    if (file.name == "robots.txt") {
-        run_.robots = lines_of(file.content);
-    } else {
-        run_.files.push_back(std::move(file));
+    const auto differ = [&](bool is_so) {
+        if (is_so) fail(fmt::format("two files {} are inside, which differ", file.name));
+    };
+    if (file.name == names_file) {
+        std::vector<std::string> names = lines_of(file.content);
+        differ(std::exchange(run_.has_names, true) && names != run_.robots);
+        run_.robots = std::move(names);
+        return;
     }
+    for (const AttachedFile& other : run_.files) {
+        if (other.name != file.name) continue;
+        return differ(other.content != file.content);
+    }
+    run_.files.push_back(std::move(file));
 }
 
 /// Unpacks the next chunk that is whole. @return false at the end of the file
@@ -154,14 +208,20 @@ bool RecordedReader::take_message(std::string_view content) {
     from.fixed<std::uint32_t>();  // sequence
     const auto ns = from.fixed<std::uint64_t>();
     from.fixed<std::uint64_t>();  // the same time again
-    constexpr auto last = std::numeric_limits<std::int64_t>::max();
-    if (from.failed() || ns > static_cast<std::uint64_t>(last)) return false;
+    constexpr auto last = std::uint64_t{1}
+                          << 62;  // [ns], 146 years: later times can be added to it
+    if (from.failed() || ns > last) return false;
     now_ = Time{Duration{static_cast<std::int64_t>(ns)}};
     const std::string_view bytes = from.take(from.left());
     has_record_ = channel != message_channel;
     if (!has_record_) return define(bytes);
-    if (!decode(channel, now_, bytes, receptions_, record_) || !meet(record_)) return false;
-    if (const auto* moved = std::get_if<Moved>(&record_)) legs_.replace(moved->node, moved->leg);
+    if (!decode(channel, now_, bytes, receptions_, record_) || !has_message(record_)) return false;
+    meet(record_);
+    ++records_;
+    if (const auto* moved = std::get_if<Moved>(&record_)) {
+        if (moved->leg.start < legs_.leg(moved->node).start) return false;
+        legs_.replace(moved->node, moved->leg);
+    }
     std::visit(
         [&](auto& r) {
             const auto ours = [&](MessageId& slot) { slot = *slots_[slot.index()]; };
@@ -182,7 +242,13 @@ bool RecordedReader::define(std::string_view bytes) {
     if (!decode(now_, bytes, slot, message, kind)) return false;
     // The run used a slot again before it made a new one, so that slots are small numbers.
     constexpr std::uint32_t most = 1 << 22;
-    if (slot.value >= most || !meet(message.origin)) return false;
+    if (slot.value >= most || (kind.empty() && message.to == message.origin)) return false;
+    for (const NodeId end : {message.origin, message.to}) meet(end);
+    constexpr std::uint32_t most_flows = 1 << 20;
+    if (message.flow > most_flows) {
+        fail(fmt::format("record {} is of flow {}; expected at most {}", records_ + 1, message.flow,
+                         most_flows));
+    }
     if (slot.index() >= slots_.size()) slots_.resize(slot.index() + 1);
     message.kind = *kinds_.emplace(kind).first;
     auto& ours = slots_[slot.index()];
@@ -192,46 +258,44 @@ bool RecordedReader::define(std::string_view bytes) {
     return true;
 }
 
-/// Makes room for the robot. A leg that was in a broken chunk may have brought it, so that any
-/// number that is not absurd is one. @return whether it can be one
-bool RecordedReader::meet(NodeId robot) {
+/// Checks that the trace names the robot, and makes room for it; `everyone` is none.
+void RecordedReader::meet(NodeId robot) {
+    if (robot == everyone) return;
+    // Robots that were added later to a network made in code have no names; the leg that brought
+    // one may have been in a broken chunk.
     constexpr std::size_t most_more = 1 << 20;
-    if (robot.index() >= run_.robots.size() + most_more) return false;
+    const std::size_t named = run_.robots.size();
+    if (robot.index() >= named + (run_.scenario.empty() && run_.has_names ? most_more : 0)) {
+        fail(fmt::format("record {} is of robot {}; {}", records_ + 1, robot.value,
+                         run_.names_in_words()));
+    }
     while (legs_.size() <= robot.index()) legs_.add({});
-    return true;
 }
 
-/// Makes room for the robots of the record. @return whether they and its message can be
-bool RecordedReader::meet(const Record& record) {
+void RecordedReader::meet(const Record& record) {
+    for_each_robot(record, [&](NodeId robot) { meet(robot); });
+}
+
+/// Whether the record's message, if it is about one, was defined.
+bool RecordedReader::has_message(const Record& record) const {
     const auto is_message = [&](MessageId slot) {
         return slot.index() < slots_.size() && slots_[slot.index()];
     };
     return std::visit(
         [&](const auto& r) {
-            bool can_be = true;
-            if constexpr (requires { r.node; }) can_be = meet(r.node);
-            if constexpr (requires { r.to; }) can_be = meet(r.from) && meet(r.to);
-            if constexpr (requires { r.message; }) can_be = can_be && is_message(r.message);
-            if constexpr (requires { r.frame; }) {
-                can_be = can_be && meet(r.frame.sender) && is_message(r.frame.message);
-            }
+            if constexpr (requires { r.message; }) return is_message(r.message);
+            if constexpr (requires { r.frame; }) return is_message(r.frame.message);
             if constexpr (requires { r.air; }) {
-                const bool has_message = r.air.kind == AirFrame::data;
-                can_be =
-                    meet(r.air.frame.sender) && (!has_message || is_message(r.air.frame.message));
+                return r.air.kind != AirFrame::data || is_message(r.air.frame.message);
             }
-            if constexpr (requires { r.reception; }) can_be = can_be && meet(r.reception.node);
-            if constexpr (requires { r.receptions; }) {
-                for (const Reception& rx : r.receptions) can_be = can_be && meet(rx.node);
-            }
-            return can_be;
+            return true;
         },
         record);
 }
 
 void RecordedReader::read(const Sink& sink) {
     const auto name = [this](NodeId node) -> std::string_view {
-        return run_.robots.at(node.index());
+        return node.index() < run_.robots.size() ? std::string_view(run_.robots[node.index()]) : "";
     };
     sink.begin({.scenario = [this] { return run_.scenario; },
                 .robots = run_.robots.size(),

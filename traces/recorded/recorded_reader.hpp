@@ -27,6 +27,13 @@ struct RecordedRun {
     std::vector<std::string> robots;
     /// Files that the scenario names.
     std::vector<AttachedFile> files;
+    /// Names of files inside that are broken: what they hold is not known.
+    std::vector<std::string> broken;
+    /// A whole robots.txt is inside, which may be empty.
+    bool has_names = true;
+
+    /// Number of robots that have names, and why there is none if it is no file that says so.
+    std::string names_in_words() const;
 };
 
 /// Whether the file begins as a recorded trace does. A pipe is none: what it has can be read once.
@@ -38,6 +45,10 @@ bool is_recorded_trace(const std::string& path);
 ///
 ///     RecordedReader reader("runs/rescue-s7/trace.mcap");
 ///     while (const Record* record = reader.next()) sink.on(*record, reader.context());
+///
+/// Whatever a record is about can be looked up: its robots are among those that the trace names,
+/// and its message is defined. Robots of a network that was made in code may have been added later;
+/// they have no names.
 ///
 /// Not in the records: keys of random draws (0), and levels of receptions (none). A file without an
 /// end is read up to its last whole chunk. A broken chunk is left out: behind it the messages are
@@ -51,10 +62,11 @@ class RecordedReader {
 
     const RecordedRun& run() const { return run_; }
     /// Next record, good until the next call; null at the end.
+    /// @throws InputError if it is of a robot that the trace does not name, or of a flow too many
     const Record* next();
     /// Legs and messages as the run had them when it made the record.
     RecordContext context() const { return {legs_, messages_}; }
-    /// Drives a sink by all records that are left: begin, on, finish.
+    /// Drives a sink by all records that are left: begin, on, finish. @throws InputError as next()
     void read(const Sink& sink);
     /// What is broken or missing in what was read so far, as sentences; empty: nothing.
     const std::vector<std::string>& damage() const { return file_.damage(); }
@@ -68,15 +80,18 @@ class RecordedReader {
     void tell_missing_chunks(std::string_view statistics);
     bool take_message(std::string_view content);
     bool define(std::string_view bytes);
-    bool meet(const Record& record);
-    bool meet(NodeId robot);
+    bool has_message(const Record& record) const;
+    void meet(const Record& record);
+    void meet(NodeId robot);
+    [[noreturn]] void fail(const std::string& message) const;
 
     std::string path_;
     McapReader file_;
     RecordedRun run_;
     ByteReader chunk_{{}};  // what is left of the current chunk
     std::uint64_t chunk_offset_ = 0;
-    std::uint32_t chunks_ = 0;  // so far
+    std::uint32_t chunks_ = 0;   // so far
+    std::uint64_t records_ = 0;  // so far
     Time now_ = start_of_run;
     Record record_;
     bool has_record_ = false;  // the last message was a record, not a definition

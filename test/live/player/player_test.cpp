@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The Player server without sockets: against what the original said to real clients (captures in
 // test/data/player), and against the geometry of what it tells.
-#include "live/input_log.hpp"
+#include "live/input_replay.hpp"
 #include "live/player/front.hpp"
 #include "test/live/player/player_talk.hpp"
 

@@ -62,8 +62,26 @@ TEST_CASE("rosbridge clock: a step of a client that has left goes on while anoth
     CHECK(clock.next() == start_of_run + 10ms);
     CHECK(clock.limit() == start_of_run + 10ms);
     CHECK(clock.left(3).empty());  // it held nothing
-    CHECK(ids(clock.left(1)) == "a");
+    CHECK(clock.left(1).empty());  // nobody waits for the answer to "a"
     CHECK(clock.limit() == never);
+    CHECK(clock.next() == never);
+}
+
+TEST_CASE("rosbridge clock: of the steps of clients that have left only the last end is kept") {
+    RosClock clock;
+    CHECK(clock.pause(1, start_of_run).empty());
+    for (RosClock::Connection client = 2; client < 1000; ++client) {
+        clock.begin(step("a", client * 1ms, client));
+        clock.begin(step("b", 5ms, client));
+        CHECK(clock.left(client).empty());
+        CHECK(clock.steps(client) == 0);
+    }
+    CHECK(clock.limit() == start_of_run + 999ms);
+    CHECK(clock.next() == start_of_run + 999ms);
+    CHECK_FALSE(clock.is_step_end(start_of_run + 5ms));
+    CHECK(clock.is_step_end(start_of_run + 999ms));
+    CHECK(clock.end_steps(start_of_run + 999ms).empty());
+    CHECK(clock.next() == never);
 }
 
 }  // namespace clock_test

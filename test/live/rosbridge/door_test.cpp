@@ -2,7 +2,7 @@
 // The rosbridge server by real sockets, and its log. test/npm/roslib.mjs is a client of others.
 #include "live/rosbridge/door.hpp"
 
-#include "live/input_log.hpp"
+#include "live/input_replay.hpp"
 #include "test/live/talk.hpp"
 #include "test/live/web_client.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -30,7 +30,7 @@ class Server {
         PacedOptions options;
         options.folder = folder_.path("out");
         options.fronts.push_back(rosbridge_door({"127.0.0.1", 0}));
-        options.go_on = [this] { return !stopped_; };
+        options.stop.go_on = [this] { return !stopped_; };
         std::promise<int> opened;
         options.say = [&](std::string_view text) {
             const std::string words = "listening on 127.0.0.1:";

@@ -513,6 +513,30 @@ TEST_CASE("rosbridge: steps of several clients are each as long as they were ask
     CHECK(talk.session.network().now() == start_of_run + 400ms);
 }
 
+TEST_CASE("rosbridge: a client has 64 steps that are not over at most, and is told so") {
+    RosTalk talk(three_in_a_row());
+    talk.come(1);
+    const auto step = [&](int id, Front::Connection client) {
+        return talk.ask(R"({"op":"call_service","id":")" + std::to_string(id) +
+                            R"(","service":"/simulation/step","args":{"seconds":0.1}})",
+                        client);
+    };
+    for (int id = 0; id < 64; ++id) CHECK(step(id, 0).empty());
+    for (int id = 64; id < 70; ++id) {
+        const auto told = step(id, 0);
+        REQUIRE(told.size() == 1);
+        CHECK(told[0]["op"] == "service_response");
+        CHECK(told[0]["id"] == std::to_string(id));
+        CHECK(told[0]["result"] == false);
+        CHECK(told[0]["values"].get<std::string>().find("64") != std::string::npos);
+    }
+    CHECK(step(0, 1).empty());  // another client has its own
+    talk.run_until(1s);
+    CHECK(talk.told(0).size() == 64);
+    CHECK(talk.session.network().now() == start_of_run + 100ms);
+    CHECK(step(70, 0).empty());
+}
+
 TEST_CASE("rosbridge: robots stop when the client that drove them last has gone") {
     RosTalk talk(three_in_a_row());
     talk.come(1);

@@ -53,8 +53,7 @@ TEST_CASE("movement file: what is none says so") {
     CHECK(error_of("\x1f\x8b").starts_with("file: cannot read the file"));
     CHECK(error_of("# a comment only\n") == "");
     const TemporaryFolder folder;
-    CHECK(movement_error(folder.path("missing")) ==
-          "missing: cannot open the file: No such file or directory");
+    CHECK(movement_error(folder.path("missing")) == "missing: cannot read the file: no such file");
     CHECK(movement_error(folder.path("missing/file")) != "");
     CHECK_THROWS_AS(MovementFile(folder.path("")), InputError);
     CHECK_THROWS_AS(MovementFile(""), InputError);

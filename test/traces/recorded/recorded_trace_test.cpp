@@ -69,7 +69,7 @@ struct Recorded {
         const auto old_text =
             std::make_shared<Ns2Trace>(folder / "old.tr", Ns2Format::old_format, MacTrace::on);
         const auto new_text = std::make_shared<Ns2Trace>(folder / "new.tr");
-        trace->begin(info());
+        trace->begin(info(400));
         stream.sinks = {Sink(trace), Sink(all), Sink(fingerprint), Sink(old_text), Sink(new_text)};
         RandomRecords(stream, seed).run(20, records);
         for (const Sink& sink : stream.sinks) sink.finish();
@@ -98,6 +98,34 @@ TEST_CASE("a recorded trace gives back the records of the run, in its order") {
         CHECK(recorded.read_back(&damage) == recorded.all->records);
         CHECK(damage.empty());
     }
+}
+
+/// What a reader says of a trace of `named` robots in which robot `last` arrives.
+std::string said_of(std::size_t named, std::uint32_t last, const std::string& scenario) {
+    TempFolder folder;
+    RecordedTrace trace(folder / "t.mcap", {.version = "1", .scenario = scenario});
+    RunInfo run = info(named);
+    run.scenario = {};
+    trace.begin(run);
+    trace.on(Arrived{at(5), NodeId{0}}, {Legs(), MessageTable()});
+    trace.on(Arrived{at(7), NodeId{last}}, {Legs(), MessageTable()});
+    trace.finish();
+    trace.close();
+    try {
+        RecordedReader reader(folder / "t.mcap");
+        while (reader.next()) continue;
+        return reader.damage().empty() ? "nothing" : reader.damage().front();
+    } catch (const InputError& error) {
+        return error.message();
+    }
+}
+
+TEST_CASE("a recorded trace names all robots of its records, or says which one it does not") {
+    CHECK(said_of(3, 2, "[scenario]\n") == "nothing");
+    CHECK(said_of(3, 3, "[scenario]\n") == "record 2 is of robot 3; the trace names 3");
+    // Robots may have been added later to a network that was made in code.
+    CHECK(said_of(3, 3, "") == "nothing");
+    CHECK(said_of(3, 4'000'000, "") == "record 2 is of robot 4000000; the trace names 3");
 }
 
 TEST_CASE("a recorded trace keeps what the run was") {

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "live/input_replay.hpp"
+
+#include "experiment/run.hpp"
+#include "experiment/session.hpp"
+#include "files/base64.hpp"
+#include "files/input_file.hpp"
+#include "files/part_file.hpp"
+#include "live/input_log.hpp"
+#include "live/json_object.hpp"
+#include "scenario/toml.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t latest = std::uint64_t{1} << 62U;  // [ns]
+constexpr auto largest = ~std::uint64_t{0};
+
+Duration logged_time(const JsonElement& element) {
+    return Duration{static_cast<std::int64_t>(element.whole_number(0, latest))};
+}
+
+NodeId logged_robot(const JsonElement& element, const Network& network) {
+    const auto robot = network.find(element.text());
+    if (!robot) element.fail("unknown_robot", fmt::format("no robot {}", element.text()));
+    return *robot;
+}
+
+Vec3 logged_place(const JsonElement& list) {
+    std::vector<double> at;
+    for (const auto& item : list.array()) {
+        at.push_back(JsonElement{item, list.path}.number(goal_places));
+    }
+    if (at.size() != 3) list.fail("bad_value", "expected [x, y, z]");
+    return {at[0], at[1], at[2]};
+}
+
+SendCommand logged_message(const JsonElement& to, const std::optional<JsonElement>& hops,
+                           const JsonElement& port, const JsonElement& data,
+                           const std::optional<JsonElement>& size, const Network& network) {
+    SendCommand send;
+    if (hops && hops->whole_number(1, 1) == 1) send.to = everyone;
+    if (to.text() != "*") send.to = logged_robot(to, network);
+    send.port = static_cast<std::uint16_t>(port.whole_number(0, 65'535));
+    auto bytes = from_base64(data.text());
+    if (!bytes) data.fail("bad_base64", "expected base64");
+    send.payload = std::move(*bytes);
+    if (size) send.size = static_cast<std::uint32_t>(size->whole_number(0, 65'535));
+    return send;
+}
+
+/// Reads a line that is neither the first nor the last.
+Input input_in(const JsonElement& line, const Network& network) {
+    static constexpr std::array<std::string_view, 17> keys = {
+        "t_ns",  "n",  "client",  "robot", "do",   "v",    "w",    "timeout_ns", "goal",
+        "speed", "at", "heading", "to",    "hops", "port", "data", "size"};
+    const auto [t, n, client, robot, what, v, w, timeout, goal, speed, at, heading, to, hops, port,
+                data, size] = members(line, keys);
+    const auto given = [&](const auto& member, std::string_view key) -> const JsonElement& {
+        return needed(member, line, key, "a line of inputs.jsonl");
+    };
+    Input input{.time = start_of_run + logged_time(given(t, "t_ns")),
+                .robot = logged_robot(given(robot, "robot"), network),
+                .client = std::string(given(client, "client").text()),
+                .number = given(n, "n").whole_number(0, largest),
+                .command = StopCommand{}};
+    const JsonElement& act = given(what, "do");
+    const std::string_view name = act.text();
+    if (name == "velocity") {
+        DriveCommand drive{{given(v, "v").number(drive_speeds)},
+                           {given(w, "w").number(drive_turns)}};
+        if (timeout) drive.timeout = logged_time(*timeout);
+        input.command = drive;
+    } else if (name == "goal") {
+        input.command = GoalCommand{logged_place(given(goal, "goal")),
+                                    {given(speed, "speed").number(goal_speeds)}};
+    } else if (name == "place") {
+        input.command =
+            PlaceCommand{logged_place(given(at, "at")), {given(heading, "heading").number(any)}};
+    } else if (name == "send") {
+        input.command = logged_message(given(to, "to"), hops, given(port, "port"),
+                                       given(data, "data"), size, network);
+    } else if (name != "stop") {
+        act.fail("bad_value", "expected velocity, goal, stop, place or send");
+    }
+    return input;
+}
+
+/// Run that is made again from the lines of its log.
+class Replayed {
+  public:
+    Replayed(const Scenario& scenario, const std::function<bool(double)>& progress)
+        : session_(scenario), progress_(progress) {
+        session_.network().add_sink(fingerprint_);
+    }
+
+    /// Takes a line. @return whether it is the last one
+    bool take(const JsonElement& line, InputReplay& result) {
+        simdjson::dom::element found;
+        if (line.object().at_key("end_ns").get(found) == simdjson::SUCCESS) {
+            const auto [end, fingerprint] =
+                members(line, std::array<std::string_view, 2>{"end_ns", "fingerprint"});
+            result.recorded = needed(fingerprint, line, "fingerprint", "a text").text();
+            run_to(start_of_run + logged_time(*end));
+            return true;
+        }
+        const Input input = input_in(line, session_.network());
+        if (input.time < session_.network().now()) {
+            line.fail("out_of_range", "this input is before the one above it");
+        }
+        run_to(input.time);
+        session_.carry_out(driver_of(input.robot), input.robot, input.command);
+        ++result.inputs;
+        return false;
+    }
+
+    std::string fingerprint() const { return fingerprint_->text(); }
+
+  private:
+    ClientId driver_of(NodeId robot) {
+        if (const auto driver = session_.driver(robot)) return *driver;
+        const ClientId driver = session_.attach({robot});
+        session_.set_hearing(driver, false);
+        return driver;
+    }
+
+    void run_to(Time time) {
+        constexpr std::uint64_t events_a_slice = 4096;
+        while (!session_.advance(time, events_a_slice)) {
+            const double share = seconds(session_.network().now()) / seconds(session_.end());
+            if (progress_ && !progress_(share)) throw Interrupted();
+        }
+    }
+
+    Session session_;
+    const std::function<bool(double)>& progress_;
+    std::shared_ptr<Fingerprint> fingerprint_ = std::make_shared<Fingerprint>();
+};
+
+/// Lines of a log, each read as JSON.
+class LogLines {
+  public:
+    explicit LogLines(const std::string& path)
+        : path_((need_file(path), path)), file_(path, std::ios::binary) {
+        if (!file_) throw InputError({.source = path}, "cannot be read");
+    }
+
+    /// The next line; nothing at the end, or if the line is the last one and torn.
+    std::optional<JsonElement> next() {
+        if (!std::getline(file_, text_)) return std::nullopt;
+        ++number_;
+        simdjson::dom::element document;
+        const auto error = parser_.parse(text_).get(document);
+        if (error == simdjson::SUCCESS) return JsonElement{document, {}};
+        is_torn_ = file_.eof();
+        if (is_torn_) return std::nullopt;
+        throw InputError(where(),
+                         fmt::format("expected a JSON object: {}", simdjson::error_message(error)));
+    }
+    Location where() const { return {.source = path_, .line = number_, .column = 1}; }
+    /// Line that was not written to its end.
+    std::optional<int> torn() const { return is_torn_ ? std::optional(number_) : std::nullopt; }
+
+  private:
+    std::string path_;
+    std::ifstream file_;
+    std::string text_;
+    simdjson::dom::parser parser_;
+    int number_ = 0;
+    bool is_torn_ = false;
+};
+
+/// Reads the first line. @return the scenario that was run, as far as it can be known
+ScenarioFile read_head(const JsonElement& line, const fs::path& folder, InputReplay& result) {
+    const auto [version, scenario, seed, toml] =
+        members(line, std::array<std::string_view, 4>{"version", "scenario", "seed", "toml"});
+    result.recorded_by = needed(version, line, "version", "a text").text();
+    const std::string path = folder / "scenario.toml";
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    const auto wanted = needed(scenario, line, "scenario", "a text").text();
+    result.is_other_scenario = text_digest(text.str()) != wanted;
+    result.has_own_scenario = toml && result.is_other_scenario;
+    if (!result.has_own_scenario) return {path, {}};
+    return {parse_toml(toml->text(), result.log), path, {}};
+}
+
+/// Parts of logs in a folder, the newest first.
+std::vector<fs::path> parts_in(const fs::path& folder) {
+    std::vector<std::pair<fs::file_time_type, fs::path>> found;
+    std::error_code ignored;
+    for (fs::directory_iterator entry(folder, ignored), end; entry != end;
+         entry.increment(ignored)) {
+        if (!is_part_of(input_log_name, entry->path().filename().native())) continue;
+        found.emplace_back(entry->last_write_time(ignored), entry->path());
+    }
+    std::sort(found.begin(), found.end(), std::greater<>());
+    std::vector<fs::path> parts;
+    for (auto& [time, path] : found) parts.push_back(std::move(path));
+    return parts;
+}
+
+/// Finds the log that a path means. @return it, and those that lie beside it in a folder
+std::pair<fs::path, std::vector<fs::path>> logs_of(const std::string& path) {
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored)) return {path, {}};
+    const fs::path whole = fs::path(path) / input_log_name;
+    std::vector<fs::path> parts = parts_in(path);
+    if (parts.empty() || fs::exists(whole, ignored)) return {whole, std::move(parts)};
+    fs::path newest = parts.front();
+    parts.erase(parts.begin());
+    return {std::move(newest), std::move(parts)};
+}
+
+}  // namespace
+
+bool has_input_log(const std::string& path) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) return fs::exists(logs_of(path).first, ignored);
+    return path.ends_with(".jsonl") ||
+           is_part_of(input_log_name, fs::path(path).filename().native());
+}
+
+InputReplay replay_inputs(const std::string& path, const std::function<bool(double)>& progress) {
+    const auto [log, others] = logs_of(path);
+    InputReplay result;
+    result.log = log.string();
+    result.others.assign(others.begin(), others.end());
+    LogLines lines(result.log);
+    try {
+        const auto head = lines.next();
+        if (!head) throw InputError(lines.where(), "expected the first line of a log of inputs");
+        const fs::path folder = log.has_parent_path() ? log.parent_path() : ".";
+        const Scenario scenario = load_scenario(read_head(*head, folder, result));
+        Replayed replayed(scenario, progress);
+        for (auto line = lines.next(); line; line = lines.next()) {
+            if (replayed.take(*line, result)) break;
+        }
+        result.now = replayed.fingerprint();
+        result.torn = lines.torn();
+    } catch (const RequestError& fault) {
+        throw InputError(lines.where(), fmt::format("{}: {}", fault.at(), fault.what()));
+    } catch (const std::invalid_argument& fault) {
+        throw InputError(lines.where(), fault.what());
+    }
+    return result;
+}
+
+}  // namespace rovernet

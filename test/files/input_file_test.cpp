@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "files/input_file.hpp"
+
+#include "files/text_source.hpp"
+#include "sim/error.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/stat.h>
+#include <thread>
+
+namespace input_file_test {
+using namespace rovernet;
+
+namespace {
+
+/// What is said of a path that is read; what was read if nothing.
+std::string said(const std::string& path) {
+    try {
+        return "read: " + InputFile(path).read(100);
+    } catch (const InputError& error) {
+        CHECK(error.where().source == path);
+        return error.message();
+    }
+}
+
+}  // namespace
+
+TEST_CASE("input file: whatever a path leads to is read or told what it is") {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_symlink("loop", folder.path("loop"));
+    std::filesystem::create_symlink("b", folder.path("a"));
+    std::filesystem::create_symlink("a", folder.path("b"));
+    std::filesystem::create_symlink("x.txt", folder.path("link"));
+    folder.write("x.txt", "text");
+    const std::string begin = "cannot read the file: ";
+    CHECK(said(folder.path("x.txt")) == "read: text");
+    CHECK(said(folder.path("link")) == "read: text");
+    CHECK(said(folder.path("none")) == begin + "no such file");
+    CHECK(said(folder.path("x.txt/y")) == begin + "no such file");
+    CHECK(said(folder.path("loop")) == begin + "a loop of symbolic links");
+    CHECK(said(folder.path("a")) == begin + "a loop of symbolic links");
+    CHECK(said(folder.path(".")) == begin + "it is a folder");
+    CHECK(said(folder.path(std::string(300, 'x'))) ==
+          begin + "its folder cannot be entered, or its name is too long");
+    for (const char* endless : {"/dev/zero", "/dev/full", "/dev/urandom"}) {
+        CHECK(said(endless) == begin + "it is a device, not a regular file");
+    }
+    CHECK(said("/dev/null") == "read: ");
+    CHECK(said("") == begin + "no such file");
+}
+
+TEST_CASE("input file: a FIFO is read when somebody writes, also late, and told when nobody does") {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.path("fifo");
+    REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+    std::thread writer([&] { std::ofstream(path) << "late"; });
+    CHECK(said(path) == "read: late");
+    writer.join();
+    CHECK(said(path) == "cannot read the file: it is a FIFO into which nobody has written for 5 s");
+}
+
+TEST_CASE("input file: what has to be a regular file is no pipe") {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.path("fifo");
+    REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+    CHECK_THROWS_WITH_AS(
+        need_file(path),
+        (path + ": cannot read the file: it is a pipe, not a regular file").c_str(), InputError);
+    CHECK_THROWS_AS(TextSource(path, TextSource::Reads::twice), InputError);
+    need_file(folder.write("x.txt", ""));
+}
+
+}  // namespace input_file_test
