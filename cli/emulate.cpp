@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
+#include "cli/diagnostics.hpp"
 #include "cli/options.hpp"
 #include "cli/run_output.hpp"
 #include "cli/serving.hpp"
+#include "live/emulate/device_addresses.hpp"
 #include "live/emulate/door.hpp"
-#include "live/emulate/namespaces.hpp"
+#include "live/emulate/inside.hpp"
+#include "live/emulate/robot_network.hpp"
 #include "live/player/door.hpp"
 #include "live/rosbridge/door.hpp"
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <csignal>
-#include <cstring>
-#include <unistd.h>
+#include <charconv>
+#include <pwd.h>
+#include <sys/types.h>
 
 namespace rovernet::cli {
 namespace {
@@ -25,11 +27,20 @@ struct EmulateArguments : FileArguments {
     bool json = false;
 };
 
-PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenario) {
+FrontDoor udp_door(const EmulateArguments& a, const Scenario& scenario) {
+    const Address first = a.reach.without_token(*a.udp);
+    check_udp_ports(first, robot_names(scenario).size());
+    return udp_relay(first);
+}
+
+PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenario,
+                               const StopRules& stop) {
     PacedOptions options;
+    options.stop = stop;
     options.folder = results_folder(a.out, scenario, a.options);
     options.speed = a.speed;
-    options.fronts.push_back(a.udp ? udp_relay(a.reach.without_token(*a.udp)) : tap_devices());
+    options.fronts.push_back(a.udp ? udp_door(a, scenario)
+                                   : tap_devices(options.folder, stop.go_on));
     if (a.player) {
         options.fronts.push_back(
             player_ports(a.reach.without_token(*a.player), robot_names(scenario), {}));
@@ -43,9 +54,11 @@ PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenar
 
 void emulate(const EmulateArguments& a) {
     const Scenario scenario = scenario_of(a);
-    PacedOptions options = emulation_options(a, scenario);
+    if (!a.udp) {
+        for (const std::string& each : check_device_addresses(scenario)) notice(each);
+    }
     ServingStop stop;
-    options.stop = stop.rules();
+    const PacedOptions options = emulation_options(a, scenario, stop.rules());
     const LiveResult result = run_paced(scenario, options);
     print_run(result.scenario, result.run, a.json);
     if (!a.json) {
@@ -58,19 +71,51 @@ void emulate(const EmulateArguments& a) {
 
 struct InArguments {
     std::string robot;
-    std::optional<std::uint64_t> run;
+    std::optional<std::string> run, user;
     std::vector<std::string> program;
 };
 
+std::optional<long> whole_number_of(const std::string& text) {
+    long number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
+}
+
+/// The user of a name or a number.
+uid_t user_of(const std::string& text) {
+    if (const passwd* const found = getpwnam(text.c_str())) return found->pw_uid;
+    constexpr long largest = 4'294'967'294;
+    const auto number = whole_number_of(text);
+    if (number && *number >= 0 && *number <= largest) return static_cast<uid_t>(*number);
+    throw CommandEnd(usage, fmt::format("--user: there is no user {}", text));
+}
+
+WantedRun wanted_run(const InArguments& a) {
+    WantedRun wanted;
+    if (a.user) wanted.user = user_of(*a.user);
+    if (!a.run) return wanted;
+    constexpr long largest = 1 << 22;  // of Linux
+    const auto number = whole_number_of(*a.run);
+    if (number && (*number < 1 || *number > largest)) {
+        throw CommandEnd(
+            usage, fmt::format("--run {}: expected a process, from 1 to {}, or a folder", *a.run,
+                               largest));
+    }
+    if (number) {
+        wanted.process = static_cast<pid_t>(*number);
+    } else {
+        wanted.folder = *a.run;
+    }
+    return wanted;
+}
+
 void run_in(const InArguments& a) {
-    enter_namespace(a.robot, a.run ? std::optional(static_cast<pid_t>(*a.run)) : std::nullopt);
-    std::vector<std::string> words = a.program;
-    std::vector<char*> arguments;
-    for (std::string& each : words) arguments.push_back(each.data());
-    arguments.push_back(nullptr);
-    std::signal(SIGPIPE, SIG_DFL);
-    execvp(arguments.front(), arguments.data());
-    throw CommandEnd(failed, fmt::format("{}: {}", words.front(), std::strerror(errno)));
+    const RobotNetwork network = find_network(a.robot, wanted_run(a));
+    const ProgramEnd end = run_inside(network, a.program);
+    if (!end.run_ended_it) end_like(end.status);
+    throw CommandEnd(failed, fmt::format("the run in {} has ended, and {} with it",
+                                         folder_text(network.folder), a.program.front()));
 }
 
 }  // namespace
@@ -111,11 +156,15 @@ void add_emulate(Command app) {
 void add_in(Command app) {
     const auto [command, a] = add_command(
         app, "in", "Run a program with the network of a robot of rovernet emulate", run_in);
-    command.add_examples({"rovernet in A -- ping 10.0.0.2"});
+    command.add_examples(
+        {"rovernet in A -- ping 10.0.0.2", "rovernet in --run runs/emulate-s1 A -- ping 10.0.0.2"});
     command.add_option("ROBOT", a.robot, "name of the robot").required();
     command.add_option("PROGRAM", a.program, "program and its arguments, behind --").required();
-    command.add_option("--run", a.run, "process of the run, if several have such a robot")
-        .range(1, 1 << 22);
+    command.add_option("--run", a.run,
+                       "process of the run or folder of its results, if several have such a robot");
+    command.add_option("--user", a.user,
+                       "user whose run it is, for root; that user reads and changes what the "
+                       "program sends (default: your own)");
 }
 
 }  // namespace rovernet::cli

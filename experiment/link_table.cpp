@@ -26,12 +26,11 @@ std::string mac_of(std::uint32_t number) {
 class Addresses {
   public:
     using Make = std::string (*)(std::uint32_t);
-    Addresses(const Medium& medium, std::size_t robots, std::optional<std::string> Radio::*given,
+    Addresses(const std::vector<const Radio*>& radios, std::optional<std::string> Radio::*given,
               Make make)
         : given_(given), make_(make) {
-        for (std::uint32_t i = 0; i < robots; ++i) {
-            if (const auto& address = medium.stations().radio(NodeId{i}).*given)
-                taken_.insert(*address);
+        for (const Radio* const radio : radios) {
+            if (const auto& address = radio->*given) taken_.insert(in_small_letters(*address));
         }
     }
 
@@ -43,6 +42,14 @@ class Addresses {
     }
 
   private:
+    /// A mac is the same one in capital letters.
+    static std::string in_small_letters(std::string text) {
+        for (char& c : text) {
+            if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+        }
+        return text;
+    }
+
     std::optional<std::string> Radio::*given_;
     Make make_;
     std::set<std::string> taken_;
@@ -90,16 +97,41 @@ struct History {
 
 }  // namespace
 
-std::vector<Device> devices(const Medium& medium, const std::vector<std::string>& names) {
-    Addresses ips(medium, names.size(), &Radio::ip, ip_of);
-    Addresses macs(medium, names.size(), &Radio::mac, mac_of);
+namespace {
+
+std::vector<Device> devices(const std::vector<const Radio*>& radios,
+                            const std::vector<std::string>& names) {
+    Addresses ips(radios, &Radio::ip, ip_of);
+    Addresses macs(radios, &Radio::mac, mac_of);
     std::vector<Device> all;
     for (std::uint32_t i = 0; i < names.size(); ++i) {
-        const Radio& radio = medium.stations().radio(NodeId{i});
+        const Radio& radio = *radios[i];
         all.push_back({names[i], ips.of(radio, NodeId{i}), macs.of(radio, NodeId{i}), radio.essid,
                        radio.frequency, radio.mode, radio.encryption});
     }
     return all;
+}
+
+}  // namespace
+
+std::vector<Device> devices(const Medium& medium, const std::vector<std::string>& names) {
+    std::vector<const Radio*> radios;
+    for (std::uint32_t i = 0; i < names.size(); ++i) {
+        radios.push_back(&medium.stations().radio(NodeId{i}));
+    }
+    return devices(radios, names);
+}
+
+std::vector<Device> devices(const Scenario& scenario) {
+    std::vector<const Radio*> radios;
+    std::vector<std::string> names;
+    for (const RobotTable& robot : scenario.robots) {
+        for (int i = 0; i < robot.count.value_or(1); ++i) {
+            radios.push_back(&robot.radio);
+            names.push_back(robot.name_of(i));
+        }
+    }
+    return devices(radios, names);
 }
 
 std::vector<Device> devices(const Network& network) {

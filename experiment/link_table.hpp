@@ -39,6 +39,8 @@ struct LinkTable {
 std::vector<Device> devices(const Network& network);
 /// Devices of the stations of a medium, which have these names.
 std::vector<Device> devices(const Medium& medium, const std::vector<std::string>& names);
+/// Devices of the robots that a scenario makes, in their order, before it makes them.
+std::vector<Device> devices(const Scenario& scenario);
 
 /// Visits the tables of all robots now, or of `robot` only, one after the other: the memory is that
 /// of one table, n rows for n robots.

@@ -20,7 +20,8 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
-constexpr Duration longest_wait = 50ms;        // then events go on, Ctrl-C is seen
+constexpr Duration longest_wait = 10ms;        // then it looks at the clock; Ctrl-C is seen
+constexpr Duration shortest_wait = 1ms;        // the same, if it must hardly be late
 
 /// Fronts with their doors around one session, and the clock.
 class PacedServer {
@@ -37,12 +38,14 @@ class PacedServer {
             each.front->begin(session, scenario);
             if (each.door.open_ports) open_ports(each);
         }
-        started_ = Clock::now();
+        started_ = options_.clock();
+        promised_ = start_of_run;
         while (!is_over() && options_.stop.go_on()) {
             catch_up();
-            doors_.wait(spare_time());
+            doors_.wait(promise(spare_time()));
             log.keep_up();
         }
+        look();  // it may have been told to stop while it was late
         session_ = nullptr;
     }
 
@@ -142,7 +145,7 @@ class PacedServer {
     /// Simulated time of the clock.
     Time by_clock() const {
         if (!options_.speed) return never;
-        const std::chrono::duration<double> wall = Clock::now() - started_;
+        const std::chrono::duration<double> wall = options_.clock() - started_;
         return start_of_run +
                from_seconds(std::min(wall.count() * *options_.speed, seconds(session_->end())));
     }
@@ -168,13 +171,39 @@ class PacedServer {
     void hold_clock() {
         if (!options_.speed || by_clock() <= limit()) return;
         const std::chrono::duration<double> run_for(seconds(limit()) / *options_.speed);
-        started_ = Clock::now() - std::chrono::duration_cast<Clock::duration>(run_for);
+        started_ = options_.clock() - std::chrono::duration_cast<Clock::duration>(run_for);
+    }
+
+    /// Looks at the clock, and notes by how much it comes later than promised: what clients said
+    /// meanwhile has waited, whether or not anything was due.
+    void look() {
+        hold_clock();
+        if (!options_.speed) return;
+        const Time present = by_clock();
+        if (present > promised_) {
+            const Duration behind = real_time(present - promised_);
+            lateness_.add_look(behind);
+            judge(behind, present);
+        }
+        promised_ = present;
+    }
+
+    /// Promises to look again within some real time. @return it
+    Duration promise(Duration wait) {
+        look();
+        if (options_.speed) {
+            const double simulated_s = seconds(wait) * *options_.speed;
+            const Duration simulated =
+                from_seconds(std::min(simulated_s, seconds(session_->end())));
+            promised_ = std::min(promised_ + simulated, limit());
+        }
+        return wait;
     }
 
     /// Runs on to the time of the clock or to the next stop, for a slice of events at most, and to
     /// the end of all events of one time.
     void catch_up() {
-        hold_clock();
+        look();
         const Time until = std::min(next_stop(), by_clock());
         is_behind_ = until > now() && !session_->advance(until, events_a_slice);
         if (is_behind_) session_->step(now());
@@ -198,11 +227,17 @@ class PacedServer {
 
     void note_lateness() {
         if (!options_.speed) return;
-        const Duration behind = Clock::now() - started_ - real_time(now() - start_of_run);
+        const Duration behind = options_.clock() - started_ - real_time(now() - start_of_run);
         lateness_.add(behind);
+        judge(behind, now());
+    }
+
+    /// Says that it is late, or ends the run, if it is later than it may be.
+    /// @param at  simulated time
+    void judge(Duration behind, Time at) {
         if (!options_.most_late || behind <= *options_.most_late || !fault_.empty()) return;
         const std::string text = fmt::format("{:.1f} ms behind the clock at {:.6f} s",
-                                             1e3 * seconds(behind), seconds(now()));
+                                             1e3 * seconds(behind), seconds(at));
         if (options_.late_ends) {
             fault_ = text;
         } else if (!std::exchange(has_told_late_, true)) {
@@ -219,9 +254,18 @@ class PacedServer {
     Duration spare_time() {
         if (is_behind_) return 0ms;
         const Time stop = next_stop();
-        if (stop <= now()) return longest_wait;  // it waits for a client
+        const Duration longest = longest_wait_now();
+        if (stop <= now()) return longest;  // it waits for a client
         if (!options_.speed) return 0ms;
-        return std::clamp<Duration>(real_time(stop - by_clock()), 0ms, longest_wait);
+        return std::clamp<Duration>(real_time(stop - by_clock()), 0ms, longest);
+    }
+
+    /// Longest wait, after which it would have noticed that it had been away: a part of what it may
+    /// be late.
+    Duration longest_wait_now() const {
+        constexpr int looks = 4;
+        if (!options_.most_late) return longest_wait;
+        return std::clamp<Duration>(*options_.most_late / looks, shortest_wait, longest_wait);
     }
 
     const PacedOptions& options_;
@@ -230,7 +274,8 @@ class PacedServer {
     std::list<Open> open_;
     Session* session_ = nullptr;  // while it is served
     Clock::time_point started_;
-    bool is_behind_ = false;  // the time of the clock
+    Time promised_ = start_of_run;  // time of the clock by which it looks again
+    bool is_behind_ = false;        // the time of the clock
     Lateness lateness_;
     bool has_told_late_ = false;
     std::string fault_;

@@ -7,6 +7,7 @@
 #include "live/packet_port.hpp"
 #include "scenario/scenario.hpp"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -43,6 +44,8 @@ struct PacedOptions {
     /// fault if `late_ends`. None: any.
     std::optional<Duration> most_late = {};
     bool late_ends = false;
+    /// Real time, by which the run is paced.
+    std::function<std::chrono::steady_clock::time_point()> clock = std::chrono::steady_clock::now;
     StopRules stop = {};
     /// Told what a person should know: addresses that are listened on.
     std::function<void(std::string_view)> say = [](std::string_view) {};

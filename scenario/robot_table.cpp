@@ -200,6 +200,9 @@ void read_radio(const Value& value, const std::string& name, Radio& out, RadioPl
     find("sensitivity", places.sensitivity);
     find("frequency", places.frequency);
     find("rate", places.rate);
+    find("ip", places.ip);
+    find("netmask", places.netmask);
+    find("mac", places.mac);
 }
 
 RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_place) {

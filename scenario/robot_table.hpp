@@ -107,6 +107,7 @@ struct ReactionTable {
 /// has those of [radio] for the keys that it does not give.
 struct RadioPlaces {
     Location sensitivity = {}, frequency = {}, rate = {};
+    Location ip = {}, netmask = {}, mac = {};
 };
 /// Reads [radio], or a robot's own table, over `out`; places of keys that are not there stay as
 /// they are.

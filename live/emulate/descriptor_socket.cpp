@@ -8,7 +8,7 @@
 namespace rovernet {
 namespace {
 
-constexpr std::size_t longest_text = 1024;  // [bytes]
+constexpr std::size_t longest_text = 8192;  // [bytes] a path is in it
 
 /// Room for one descriptor beside a message.
 union Room {

@@ -4,7 +4,7 @@
 #include "live/emulate/tap.hpp"
 
 #include <cstddef>
-#include <optional>
+#include <functional>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -14,15 +14,18 @@ namespace rovernet {
 /// Network namespaces, one for each robot, with its TAP device in it. A user who may not make them
 /// gets a user namespace around them, in which that is allowed.
 ///
-/// They belong to a process of their own, the keeper, so that this one stays where it is. The
-/// keeper hands a namespace to every process that asks (enter_namespace) at the abstract Unix
-/// socket "rovernet/PID/ROBOT", where PID is this process; the system decides who may enter. The
-/// keeper ends when this process does, however that ends: then nothing is left but programs that
-/// still run in a namespace.
+/// They belong to a process of their own, the keeper (run_keeper), so that this one stays where it
+/// is. The keeper hands a namespace to this user's processes that ask (RobotNetwork). It ends when
+/// this process does, however that ends, and the programs in the namespaces before it: then nothing
+/// is left.
 class Namespaces {
   public:
-    /// @throws RunError if namespaces or devices cannot be made
-    explicit Namespaces(std::vector<RobotDevice> robots);
+    /// @param folder  of the run's results, by which programs find it
+    /// @param go_on   asked now and then; false: it is not waited for any more
+    /// @throws RunError if namespaces or devices cannot be made; Interrupted
+    Namespaces(std::vector<RobotDevice> robots, const std::string& folder,
+               const std::function<bool()>& go_on);
+    /// Waits for the end of the programs in them.
     ~Namespaces();
     Namespaces(const Namespaces&) = delete;
     Namespaces& operator=(const Namespaces&) = delete;
@@ -32,7 +35,7 @@ class Namespaces {
     int take_device(std::size_t robot);
 
   private:
-    void receive_devices();
+    void receive_devices(const std::function<bool()>& go_on);
     void end();
 
     std::vector<RobotDevice> robots_;
@@ -40,10 +43,5 @@ class Namespaces {
     int keeper_socket_ = -1;
     pid_t keeper_ = -1;
 };
-
-/// Moves this process, which must have one thread, into the namespace of a robot of a run.
-/// @param run  process of that run; may be left out if one run only has a robot of that name
-/// @throws std::invalid_argument if there is none, or several; RunError
-void enter_namespace(const std::string& robot, std::optional<pid_t> run);
 
 }  // namespace rovernet

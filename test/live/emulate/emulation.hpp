@@ -29,12 +29,12 @@ class Emulation {
         std::vector<std::string> said;
         for (int i = 0; i < 4000 && said.size() < ports; ++i, std::this_thread::sleep_for(5ms)) {
             const std::string told = said_to_person();
-            if (!told.empty() && told.find("for a page: ") == told.npos) break;  // it failed
             std::ifstream out(folder.path("stdout"));
             said.clear();
             for (std::string line; std::getline(out, line) && !out.eof();) {
                 if (line.starts_with("listening on ")) said.push_back(line);
             }
+            if (!told.empty() && told.find("for a page: ") == told.npos) break;  // it failed
         }
         return said;
     }

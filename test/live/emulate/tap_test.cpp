@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The commands `emulate` and `in`: the kernel's own network as the programs of robots. Where
 // network namespaces or TAP devices are forbidden, the tests say so and pass.
-#include "test/live/emulate/emulation.hpp"
+#include "test/live/emulate/tap_run.hpp"
 
 #include <doctest/doctest.h>
 
@@ -17,44 +17,6 @@ using namespace rovernet::test;
 using namespace std::chrono_literals;
 
 namespace {
-
-/// A and B hear one another, and a ping takes 2 ms each way: 84 bytes at 11 Mb/s behind a preamble.
-/// W is out of range.
-const std::string scenario = R"([scenario]
-name = "tap"
-duration = "90 s"
-[propagation]
-model = "friis"
-[radio]
-sensitivity = "-70 dBm"
-preamble = "1.94 ms"
-[[robot]]
-name = "A"
-at = ["0 m", "0 m"]
-[[robot]]
-name = "B"
-at = ["150 m", "0 m"]
-[[robot]]
-name = "W"
-at = ["1 km", "0 m"]
-)";
-
-/// The emulation, if this machine allows it.
-std::unique_ptr<Emulation> emulated(const std::string& text = scenario) {
-    auto emulation = std::make_unique<Emulation>(
-        text, std::vector<std::string>{"--late", "60 s", "--set", "scenario.seed=1"});
-    if (emulation->listening(3).size() == 3) return emulation;
-    MESSAGE("skipped: no TAP devices in namespaces here: " << emulation->said_to_person());
-    CHECK(emulation->said_to_person().find("there is --udp") != std::string::npos);
-    return nullptr;
-}
-
-/// A program with a robot's network.
-Process in(const TemporaryFolder& folder, const Emulation& run, const std::string& robot,
-           std::vector<std::string> program) {
-    program.insert(program.begin(), {"in", robot, "--run", std::to_string(run.pid()), "--"});
-    return {folder, std::move(program)};
-}
 
 /// Sends pings by the kernel. @return round trips [ms] of those that came back
 std::vector<double> ping(const Emulation& run, const std::string& robot, const std::string& to,
@@ -81,16 +43,10 @@ bool has_ping() {
     return has;
 }
 
-/// Whether something of a run is left on the machine.
-bool has_doors(pid_t run) {
-    return content("/proc/net/unix").find("@rovernet/" + std::to_string(run) + "/") !=
-           std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("emulate: the kernel's pings cross the radio, and the run is replayed without them") {
-    const auto run = has_ping() ? emulated() : nullptr;
+    const auto run = has_ping() ? emulated_by_tap() : nullptr;
     if (!run) return;
     const std::vector<double> times = ping(*run, "A", "10.0.0.2", 20);
     CHECK(times.size() == 20);
@@ -108,9 +64,9 @@ TEST_CASE("emulate: the kernel's pings cross the radio, and the run is replayed 
 }
 
 TEST_CASE("emulate: a radio that loses a fifth each way loses 36 % of the pings") {
-    std::string lossy = scenario;
+    std::string lossy = tap_scenario;
     lossy.insert(lossy.find("preamble"), "success_rate = 0.8\n");
-    const auto run = has_ping() ? emulated(lossy) : nullptr;
+    const auto run = has_ping() ? emulated_by_tap(lossy) : nullptr;
     if (!run) return;
     // Each knows the other's address beforehand: asking for it could be lost, too.
     const TemporaryFolder folder;
@@ -123,9 +79,9 @@ TEST_CASE("emulate: a radio that loses a fifth each way loses 36 % of the pings"
 }
 
 TEST_CASE("emulate: a megabyte by TCP arrives whole") {
-    std::string fast = scenario;
+    std::string fast = tap_scenario;
     fast.replace(fast.find("1.94 ms"), 7, "20 us");
-    const auto run = emulated(fast);
+    const auto run = emulated_by_tap(fast);
     if (!run) return;
     const TemporaryFolder at_b, at_a;
     const Process server = in(at_b, *run, "B", {"python3", "-c", R"(
@@ -159,7 +115,7 @@ print(got == f"{len(sent)} {hashlib.sha256(sent).hexdigest()}", len(sent))
 }
 
 TEST_CASE("emulate: nothing is left of a run that is killed") {
-    const auto run = emulated();
+    const auto run = emulated_by_tap();
     if (!run) return;
     CHECK(has_doors(run->pid()));
     CHECK(content("/proc/net/dev").find("wlan0") == std::string::npos);  // not among the machine's
@@ -176,7 +132,7 @@ TEST_CASE("in: no run, no such robot, no such program") {
     };
     CHECK(try_in({"A"}).exit == 2);
     CHECK(try_in({"A", "--run", "4194300", "--", "true"}).exit != 0);
-    const auto run = emulated();
+    const auto run = emulated_by_tap();
     if (!run) return;
     const std::string pid = std::to_string(run->pid());
     const Ended unknown = try_in({"X", "--run", pid, "--", "true"});

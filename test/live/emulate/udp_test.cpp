@@ -7,7 +7,10 @@
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace udp_test {
@@ -117,6 +120,27 @@ TEST_CASE("emulate: behind the clock it warns once, or fails if it is told to") 
     CHECK(fails.replay().exit == 0);
 }
 
+TEST_CASE("emulate: a process that is stopped while nothing is due is late, and fails if told to") {
+    for (const std::string on_late : {"warn", "fail"}) {
+        CAPTURE(on_late);
+        Emulation run(scenario, {"--udp", "127.0.0.1:0", "--late", "300ms", "--on-late", on_late});
+        const std::vector<int> ports = run.ports(4);
+        const Datagrams a(ports[0]), b(ports[1]);
+        b.send("who I am");
+        a.send(to_b + "the clock goes");
+        CHECK_FALSE(b.next(20s).empty());
+        constexpr auto stopped_for = 700ms;
+        kill(run.pid(), SIGSTOP);
+        std::this_thread::sleep_for(stopped_for);
+        kill(run.pid(), SIGCONT);
+        std::this_thread::sleep_for(100ms);
+        const Ended ended = run.stop();
+        CHECK(ended.exit == (on_late == "fail" ? 1 : 0));
+        CHECK(ended.err.find("ms behind the clock at") != std::string::npos);
+        if (on_late == "warn") CHECK(run.summary().at("live").at("late_max_s") > 0.6);
+    }
+}
+
 TEST_CASE("emulate --udp: only this machine is listened to, and a port in use is told") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", scenario);
@@ -125,8 +149,10 @@ TEST_CASE("emulate --udp: only this machine is listened to, and a port in use is
         return command(folder, options);
     };
     CHECK(emulate({"--udp", "0.0.0.0:7100"}).exit == 2);
-    CHECK(emulate({"--udp", "127.0.0.1:65534"}).err.find("expected 2 at most") !=
-          std::string::npos);
+    const Ended narrow = emulate({"--udp", "127.0.0.1:65534"});
+    CHECK(narrow.exit == 2);
+    CHECK(narrow.err.find("expected 2 at most") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder.path("out")));  // nothing is begun
     CHECK(emulate({"--udp", "127.0.0.1:0", "--late", "-1s"}).exit != 0);
     CHECK(emulate({"--udp", "127.0.0.1:0", "--on-late", "wait"}).exit == 2);
     Emulation first(scenario, {"--udp", "127.0.0.1:0"});
