@@ -86,6 +86,11 @@ void put(JsonLine& line, const SendCommand& command, const Network& network) {
     if (command.size) put(line, "size", *command.size);
 }
 
+bool has_results(const fs::path& folder) {
+    std::error_code ignored;
+    return fs::exists(folder / "summary.json", ignored);
+}
+
 }  // namespace
 
 std::string text_digest(const std::string& text) {
@@ -97,8 +102,10 @@ InputLog::InputLog(const std::string& folder, const Scenario& scenario)
             PartFile::Orphans::are_kept) {
     const std::string document = to_toml(document_in(folder, scenario));
     // A folder that has results has the scenario of those, until new ones take their place.
-    const fs::path path(folder);
-    if (!fs::exists(path / "summary.json")) write_file(path / "scenario.toml", document);
+    if (!has_results(folder)) {
+        scenario_ = fs::path(folder) / "scenario.toml";
+        write_file(scenario_, document);
+    }
     Table head;
     head.set("version", code_version());
     head.set("scenario", text_digest(document));
@@ -109,7 +116,14 @@ InputLog::InputLog(const std::string& folder, const Scenario& scenario)
 }
 
 InputLog::~InputLog() {
-    if (!has_inputs_) return;
+    if (is_finished_) return;
+    if (!has_inputs_) {
+        if (!scenario_.empty() && !has_results(scenario_.parent_path())) {
+            std::error_code ignored;
+            fs::remove(scenario_, ignored);
+        }
+        return;
+    }
     try {
         flush();
         file_.keep();
@@ -151,7 +165,7 @@ void InputLog::finish(Duration simulated, std::string_view fingerprint) {
     lines_.put(to_json_line(Value(std::move(line))) + "\n");
     flush();
     file_.give_name();
-    has_inputs_ = false;
+    is_finished_ = true;
 }
 
 }  // namespace rovernet

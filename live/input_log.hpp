@@ -7,6 +7,7 @@
 #include "scenario/scenario.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -42,7 +43,7 @@ class InputLog {
     /// @param folder  of the run
     /// @throws RunError if a file cannot be written
     InputLog(const std::string& folder, const Scenario& scenario);
-    /// Keeps the part, if there is any input in it and it is not discarded.
+    /// Keeps the part and the scenario, if there is any input and they are not discarded.
     ~InputLog();
     InputLog(const InputLog&) = delete;
     InputLog& operator=(const InputLog&) = delete;
@@ -51,7 +52,7 @@ class InputLog {
     void add(const Input& input, const Network& network);
     /// Writes what is a second old: to be called now and then. @throws RunError
     void keep_up();
-    /// Has the part removed with its object: the run begins anew.
+    /// Has both removed with its object: the run begins anew.
     void discard();
     /// Writes the last line, and gives the file its name. @throws RunError
     void finish(Duration simulated, std::string_view fingerprint);
@@ -63,6 +64,8 @@ class InputLog {
     PartFile file_;
     JsonLine lines_;           // not written yet
     bool has_inputs_ = false;  // that are worth a part
+    bool is_finished_ = false;
+    std::filesystem::path scenario_;  // the one that it has written
     Clock::time_point written_ = Clock::now();
 };
 
