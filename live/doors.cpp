@@ -161,10 +161,10 @@ struct Doors::State {
     }
 
     void hand_over(const Shared& link) {
+        if (!link->has_spoken && link->begins_strangely()) {
+            return refuse(link, link->strange_beginning());
+        }
         if (!link->has_line()) {
-            if (!link->has_spoken && link->begins_strangely()) {
-                return refuse(link, link->strange_beginning());
-            }
             const bool is_long = link->input.size() > longest_line;
             if (is_long || (link->input.size() > portion && input_of_all() > most_input)) {
                 refuse_long(link);

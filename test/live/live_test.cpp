@@ -247,7 +247,7 @@ TEST_CASE("live: hostile connections are closed, take little memory and hold nob
     for (auto& each : crowd) each.reset();
     CHECK(Json::parse(good.ask(R"({"type":"step","n":11})")).at("n") == 11);
     LineClient late(port);
-    CHECK(Json::parse(late.ask("[]")).at("code") == "bad_type");
+    CHECK(Json::parse(late.ask("[]")).at("code") == "bad_json");
 
     good.send_bytes("{\"type\":\"bye\"}\n");
     CHECK(Json::parse(good.line()).at("type") == "end");
