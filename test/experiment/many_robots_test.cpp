@@ -123,7 +123,7 @@ TEST_CASE("a flood bench counts the same, recorded or not, also frames that are 
     for (const ReceptionChoice reception :
          {ReceptionChoice::threshold, ReceptionChoice::collision}) {
         const FloodBench plain{.reception = reception, .cpu_s = 1e-9};
-        FloodBench recorded = plain;
+        FloodBench recorded{.reception = reception, .cpu_s = 1e-9};
         recorded.recorded = true;
         const auto a = flood_bench(plain, 500), b = flood_bench(recorded, 500);
         CHECK(a.transmissions == b.transmissions);
