@@ -101,6 +101,7 @@ Table as_table(const Fit& fit) {
     table.set("loss_error_db", c.loss_error);
     const auto& r = fit.repeatability;
     table.set("repeatability_db", r && r->levels > 0 ? Value(r->rms) : Value());
+    table.set("one_level_db", r && r->levels > 0 ? Value(r->one_level()) : Value());
     table.set("repeated", std::uint64_t{r ? r->levels : 0});
     Array models;
     for (const CalibratedModel& m : c.models) models.push_back(as_table(m));
@@ -172,8 +173,9 @@ void print_known(const Fit& fit) {
     }
     if (fit.repeatability && fit.repeatability->levels > 0) {
         fmt::print(
-            "repeatability {:.2f} dB: {} levels were measured again, and differ by so much\n",
-            fit.repeatability->rms, fit.repeatability->levels);
+            "repeatability {:.2f} dB: {} levels were measured again, and differ by so much; a model "
+            "that is right would be {:.2f} dB off\n",
+            fit.repeatability->rms, fit.repeatability->levels, fit.repeatability->one_level());
     }
     if (!(c.loss_error <= Calibration::enough)) {
         fmt::print(

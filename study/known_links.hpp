@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -120,10 +121,14 @@ enum class Receivers { known, may_be_unknown };
 KnownLinks read_levels(const std::string& path, const Scenario& scenario, std::optional<Dbm> floor,
                        Receivers receivers = Receivers::known);
 
-/// How well measurements repeat: nobody predicts them better.
+/// How well measurements repeat.
 struct Repeatability {
     std::size_t levels = 0;  ///< that were measured again
     double rms = 0;          ///< root mean square difference to the place's first level [dB]
+
+    /// Error of one level [dB], and so that of a model that is right: two levels with independent
+    /// errors differ by sqrt(2) times as much.
+    double one_level() const { return rms / std::numbers::sqrt2; }
 };
 /// Repeatability of two sets of measured levels together.
 Repeatability repeatability(const KnownLinks& first, const KnownLinks& second);

@@ -67,6 +67,14 @@ std::uint64_t frames_within(const MediumRecord& record, const std::vector<Medium
     return frames;
 }
 
+/// Receivers per frame that a model finds.
+double receivers_per_frame(const MediumRecord& record, const MediumReplay& replay,
+                           std::uint64_t frames) {
+    constexpr double no_limit = 1e9;  // [s]
+    const auto all = replay.answer(record, frames, no_limit);
+    return static_cast<double>(all.receivers) / static_cast<double>(all.frames);
+}
+
 /// CPU time per frame [s] of passes that take a turn. Where making the medium takes longer than its
 /// answers do, fewer passes have to be enough.
 double cost_in_turn(const MediumRecord& record, const MediumReplay& replay, std::uint64_t frames,
@@ -161,9 +169,11 @@ MediumCosts measure_medium(const MediumRecord& record, const std::vector<Scenari
             seen[i].push_back(cost_in_turn(record, replays[i], costs.frames, costs.turn_s));
         }
     }
-    for (auto& each : seen) {
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        auto& each = seen[i];
         std::sort(each.begin(), each.end());
-        costs.models.push_back({each[each.size() / 2], each.front(), each.back()});
+        costs.models.push_back({each[each.size() / 2], each.front(), each.back(),
+                                receivers_per_frame(record, replays[i], costs.frames)});
     }
     return costs;
 }

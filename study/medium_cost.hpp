@@ -58,6 +58,7 @@ class MediumReplay {
 /// receivers.
 struct MediumCost {
     double median_s = 0, low_s = 0, high_s = 0;  ///< [s] per frame, of the turns
+    double receivers = 0;  ///< found per frame: a model of more reach has more to answer
 };
 
 /// Costs of several models, measured on one record in turns.

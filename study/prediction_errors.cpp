@@ -8,8 +8,16 @@ namespace rovernet {
 
 void Predictions::add(std::size_t i, std::optional<double> loss, bool up) {
     const KnownLink& link = known_.links[i];
-    if (loss && !link.unseen) errors_.emplace_back(*loss - link.loss, i);
+    GroupErrors& group = decisions_.groups[link.group];
+    if (loss && !link.unseen) {
+        const double error = *loss - link.loss;
+        errors_.emplace_back(error, i);
+        ++group.losses;
+        group.squares += error * error;
+    }
     if (link.distance() > decided_within_.value) return;
+    ++group.decisions;
+    group.wrong += up != link.up();
     ++decisions_.decisions;
     if (up && !link.up()) ++decisions_.false_up;
     if (!up && link.up()) ++decisions_.false_down;

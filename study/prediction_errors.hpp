@@ -5,12 +5,21 @@
 #include "study/known_links.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace rovernet {
+
+/// Share of one group in the errors: groups are independent of one another.
+struct GroupErrors {
+    std::size_t losses = 0;
+    double squares = 0;  ///< sum of squared errors [dB^2]
+    std::size_t decisions = 0, wrong = 0;
+};
 
 /// Errors of predicted losses: predicted less known [dB], and decisions on links.
 struct PredictionErrors {
@@ -21,6 +30,7 @@ struct PredictionErrors {
     std::size_t decisions = 0;   ///< links that the next two values are about
     std::size_t false_up = 0;    ///< called up, but down
     std::size_t false_down = 0;  ///< called down, but up
+    std::map<std::uint32_t, GroupErrors> groups = {};  ///< by KnownLink::group
 
     double wrong() const {
         return decisions == 0

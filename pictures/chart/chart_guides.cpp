@@ -7,7 +7,6 @@ namespace rovernet {
 namespace {
 
 constexpr const char* guide_color = "#9a9a9a";
-constexpr const char* band_color = "#ececec";
 
 }  // namespace
 
@@ -21,7 +20,7 @@ void draw_band(Svg& svg, const Chart& chart, const ChartFrame& frame, LabelPlace
                      {"y", top},
                      {"width", box.right - box.left},
                      {"height", box.bottom - top},
-                     {"fill", band_color}});
+                     {"fill", chart_band_color}});
     const double width = text_width(chart.band_label, chart_text_size);
     const double baseline = box.bottom - rise;
     svg.text(box.right - inset, baseline, chart.band_label,

@@ -13,13 +13,9 @@
 namespace rovernet {
 namespace {
 
-constexpr double label_size = 12, panel_title_size = 14;  // [px]
-constexpr double line_height = 15, title_line = 19;       // [px]
+constexpr double title_line = 19;                         // [px]
 constexpr double tick_length = 4;                         // [px]
 constexpr double label_room = 20;                         // [px] of the label of an axis
-constexpr const char* ink = "#333333";
-constexpr const char* grid = "#e4e4e4";
-constexpr Color note_color{0x55, 0x55, 0x55};
 constexpr double slope_sin = 0.6428, slope_cos = 0.7660;  // of texts that rise by 40 degrees
 constexpr double most_slanted = 130;                      // [px] of their length
 
@@ -99,7 +95,7 @@ ChartPanel::ChartPanel(const Chart& chart, const ChartLayout& layout, std::size_
     : chart_(chart), width_(layout.width), number_(number), view_(view_of(chart)) {
     constexpr std::size_t title_lines = 3, note_lines = 12;
     place_axes(layout.height);
-    title_ = lines_of({chart.title}, width_, panel_title_size, title_lines);
+    title_ = lines_of({chart.title}, width_, chart_title_size, title_lines);
     notes_ = lines_of(notes(), width_, chart_text_size, note_lines);
     legend_ = chart_legend(chart, view_, room_for_marks(view_, frame_), width_);
 }
@@ -149,7 +145,7 @@ void ChartPanel::place_below() {
 }
 
 std::size_t ChartPanel::stride_below() const {
-    constexpr double least = line_height / slope_sin;  // [px]
+    constexpr double least = chart_line_height / slope_sin;  // [px]
     return slanted_ ? stride(frame_.x, frame_.box.right - frame_.box.left, least) : 1;
 }
 
@@ -162,23 +158,24 @@ double ChartPanel::head() const {
 double ChartPanel::foot() const {
     constexpr double gap = 6;  // [px]
     return texts_below_ + (chart_.x_label.empty() ? 0 : label_room) + legend_.height(width_) +
-           static_cast<double>(notes_.size()) * line_height + gap;
+           static_cast<double>(notes_.size()) * chart_line_height + gap;
 }
 
 void ChartPanel::draw(Svg& svg, PicturePoint corner, double head_of_row) const {
     svg.open("g", {{"class", "panel"},
                    {"transform",
                     fmt::format("translate({} {})", svg_number(corner.x), svg_number(corner.y))}});
-    double y = panel_title_size - head_of_row;
+    double y = chart_title_size - head_of_row;
     for (const auto& line : title_) {
         svg.text(width_ / 2, y, line,
-                 {.size = panel_title_size, .anchor = TextAnchor::middle, .bold = true});
+                 {.size = chart_title_size, .anchor = TextAnchor::middle, .bold = true});
         y += title_line;
     }
     if (view_.points == 0) {
         const double middle = (frame_.box.left + frame_.box.right) / 2;
-        svg.text(middle, frame_.box.bottom / 2, "no results",
-                 {.size = panel_title_size, .anchor = TextAnchor::middle, .color = note_color});
+        svg.text(
+            middle, frame_.box.bottom / 2, "no results",
+            {.size = chart_title_size, .anchor = TextAnchor::middle, .color = chart_note_color});
     }
     draw_axes(svg);
     draw_points(svg);
@@ -223,8 +220,9 @@ void ChartPanel::draw_axes(Svg& svg) const {
     if (!heat_map() && !frame_.y.log && zero < box.bottom && zero > box.top) {
         axes.move(box.left, zero).horizontal(box.right);
     }
-    svg.add("path", {{"class", "grid"}, {"d", lines.text()}, {"stroke", grid}});
-    svg.add("path", {{"class", "axes"}, {"d", axes.text()}, {"fill", "none"}, {"stroke", ink}});
+    svg.add("path", {{"class", "grid"}, {"d", lines.text()}, {"stroke", chart_grid}});
+    svg.add("path",
+            {{"class", "axes"}, {"d", axes.text()}, {"fill", "none"}, {"stroke", chart_ink}});
     if (view_.points == 0) return;
     draw_texts_beside(svg);
     draw_texts_below(svg);
@@ -234,7 +232,8 @@ void ChartPanel::draw_texts_beside(Svg& svg) const {
     const Box& box = frame_.box;
     const double room = box.left - tick_length - (chart_.y_label.empty() ? 0 : label_room);
     const auto& ticks = frame_.y.ticks;
-    const std::size_t every = heat_map() ? stride(frame_.y, box.bottom - box.top, line_height) : 1;
+    const std::size_t every =
+        heat_map() ? stride(frame_.y, box.bottom - box.top, chart_line_height) : 1;
     svg.open("g", {{"class", "y-texts"}});
     for (std::size_t i = 0; i < ticks.size(); i += every) {
         const double y = frame_.at(frame_.x.low, ticks[i].value).y;
@@ -273,9 +272,10 @@ void ChartPanel::draw_labels(Svg& svg) const {
     const Box& box = frame_.box;
     const double middle = (box.top + box.bottom) / 2;
     if (!chart_.y_label.empty()) {
-        svg.open("g", {{"transform", rotation(-90, label_size, middle)}});
-        svg.text(label_size, middle, fitted(chart_.y_label, box.bottom - box.top, label_size),
-                 {.size = label_size, .anchor = TextAnchor::middle});
+        svg.open("g", {{"transform", rotation(-90, chart_label_size, middle)}});
+        svg.text(chart_label_size, middle,
+                 fitted(chart_.y_label, box.bottom - box.top, chart_label_size),
+                 {.size = chart_label_size, .anchor = TextAnchor::middle});
         svg.close();
     }
     if (heat_map() && view_.points > 0) {
@@ -292,16 +292,16 @@ void ChartPanel::draw_foot(Svg& svg) const {
     if (!chart_.x_label.empty()) {
         y += label_room;
         svg.text((box.left + box.right) / 2, y - 5,
-                 fitted(chart_.x_label, box.right - box.left, label_size),
-                 {.size = label_size, .anchor = TextAnchor::middle});
+                 fitted(chart_.x_label, box.right - box.left, chart_label_size),
+                 {.size = chart_label_size, .anchor = TextAnchor::middle});
     }
     svg.open("g", {{"class", "legend"}});
     legend_.draw(svg, {0, y}, width_);
     svg.close();
     y += legend_.height(width_);
     for (const auto& line : notes_) {
-        y += line_height;
-        svg.text(0, y - text_drop, line, {.size = chart_text_size, .color = note_color});
+        y += chart_line_height;
+        svg.text(0, y - text_drop, line, {.size = chart_text_size, .color = chart_note_color});
     }
 }
 

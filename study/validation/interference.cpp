@@ -66,7 +66,7 @@ ValidationPanel delivery_panel(std::string title, const ValidationScene& scene,
                                const std::vector<Variant>& variants, std::size_t replications) {
     const std::vector<VariantRuns> runs = paired_runs(scene, variants, replications);
     ValidationPanel panel{.title = std::move(title),
-                          .cost_label = "CPU of a run per transmission [ns]",
+                          .cost_label = "CPU per transmission [ns]",
                           .error_label = "error of a run's delivery ratio [-]",
                           .log_error = false};
     for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -101,7 +101,8 @@ ValidationChart interference_cut_chart(const ValidationSize& size) {
             .truth =
                 fmt::format("60 robots send at random, a message each 10 ms, {} replications under "
                             "`sinr`. True is a cut of "
-                            "{:g} dB, which leaves out only frames that are 10 dB below the noise.",
+                            "{:g} dB, which leaves out only frames that are 10 dB below the noise. "
+                            "CPU of the whole run.",
                             replications, complete_cut),
             .panels = {panel},
             .sentences = {fmt::format(
@@ -121,10 +122,12 @@ ValidationChart reception_chart(const ValidationSize& size) {
         .name = "reception",
         .title = "Which model of reception?",
         .truth = fmt::format("60 robots send at random, {} replications. True is `sinr` "
-                             "with all interference.",
+                             "with all interference. CPU of the whole run.",
                              replications),
         .panels = {delivery_panel("a message each 100 ms", storm("100 ms"), variants, replications),
                    delivery_panel("a message each 10 ms", storm("10 ms"), variants, replications)}};
+    chart.sentences = {
+        "`sinr` is taken as true: how wrong it is itself no measurement here tells."};
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint &threshold = panel.points[0], &collision = panel.points[1];
         chart.sentences.push_back(fmt::format(

@@ -105,6 +105,7 @@ ValidationPoint judged_drawing(const Propagation& model, const Scene& scene, con
 /// A drawing of the building: its cells, and whether the inside of thick walls is filled.
 struct Drawing {
     std::string label;
+    const char* series;
     std::shared_ptr<const Scene> scene;
 };
 
@@ -117,7 +118,7 @@ ValidationPanel drawing_panel(const Propagation& model, const std::vector<Drawin
     for (const Drawing& drawing : drawings) {
         ValidationPoint point = judged_drawing(model, *drawing.scene, exact, links);
         point.label = drawing.label;
-        point.series = drawing.label.ends_with("outline") ? "outline" : "filled";
+        point.series = drawing.series;
         panel.points.push_back(std::move(point));
         timed.push_back({[&] {
                              double sum = 0;
@@ -134,7 +135,7 @@ ValidationPanel drawing_panel(const Propagation& model, const std::vector<Drawin
 std::string cell_sentence(const ValidationPanel& panel) {
     const ValidationPoint &fine = point_of(panel, "5 cm", "filled"),
                           &coarse = point_of(panel, "20 cm", "filled"),
-                          &outline = point_of(panel, "5 cm outline", "outline");
+                          &outline = point_of(panel, "5 cm", "outline");
     return fmt::format(
         "{}: cells of 5 cm are {:.2g} dB off ({:+.2g} dB on average), those of 20 cm, wider than a "
         "wall, {:.2g} dB; the 5 cm map drawn as outlines is {:.2g} dB off.",
@@ -154,10 +155,11 @@ ValidationChart map_drawing_chart(const ValidationSize& size) {
     for (const int cm : {2, 5, 10, 20, 50}) {
         if (size.quick && cm < 5) continue;
         const OccupancyGrid filled = redrawn(office, exact, cm / 100.0);
-        drawings.push_back({fmt::format("{} cm", cm), std::make_shared<const Scene>(filled)});
+        const std::string label = fmt::format("{} cm", cm);
+        drawings.push_back({label, "filled", std::make_shared<const Scene>(filled)});
         if (cm > 10) continue;
-        drawings.push_back({fmt::format("{} cm outline", cm),
-                            std::make_shared<const Scene>(outline_walls(filled))});
+        drawings.push_back(
+            {label, "outline", std::make_shared<const Scene>(outline_walls(filled))});
     }
     ValidationChart chart{
         .name = "map_drawing",

@@ -102,8 +102,19 @@ struct JudgedModels {
         points.push_back({.label = std::string(model.name()),
                           .series = series,
                           .error = errors.rmse,
-                          .details = {{"wrong side of -65 dBm [%]", 100 * errors.wrong()}}});
+                          .details = {{"wrong side of -65 dBm [%]", 100 * errors.wrong()}},
+                          .parts = parts_of(errors)});
         models.push_back(model);
+    }
+
+  private:
+    /// Squared error [dB^2] of each receiver, weighted so that their mean is that of all levels.
+    static std::vector<double> parts_of(const PredictionErrors& errors) {
+        std::vector<double> parts;
+        const double a_group =
+            static_cast<double>(errors.losses) / static_cast<double>(errors.groups.size());
+        for (const auto& [group, of] : errors.groups) parts.push_back(of.squares / a_group);
+        return parts;
     }
 };
 
@@ -154,13 +165,15 @@ JudgedModels judged_models(const MeasuredBuilding& building, const ValidationSiz
 
 ValidationPanel building_panel(const MeasuredBuilding& building, const ValidationSize& size) {
     const JudgedModels judged = judged_models(building, size);
+    const Repeatability repeated = repeatability(building.first, building.second);
     ValidationPanel panel{.title = building.name,
-                          .error_label = "error on the other drive or day, rms [dB]",
-                          .joined = true,
-                          .unknowable = repeatability(building.first, building.second).rms,
+                          .error_label = "error on another drive or day, rms [dB]",
+                          .log_error = false,
+                          .unknowable = repeated.one_level(),
                           .points = judged.points};
     panel.unknowable_label =
-        fmt::format("measured twice: {:.2f} dB; nobody can be right here", *panel.unknowable);
+        fmt::format("{:.2f} dB between two measurements: a model that is right is {:.2f} dB off",
+                    repeated.rms, repeated.one_level());
     std::vector<TimedMethod> timed;
     for (const Propagation& model : judged.models) {
         timed.push_back({[&] {
@@ -175,15 +188,16 @@ ValidationPanel building_panel(const MeasuredBuilding& building, const Validatio
     return panel;
 }
 
-std::string best_sentence(const ValidationPanel& panel) {
-    const auto best =
-        std::min_element(panel.points.begin(), panel.points.end(),
-                         [](const auto& a, const auto& b) { return a.error < b.error; });
+std::string best_sentence(const ValidationPanel& panel, const Repeatability& repeated) {
+    const Nearest nearest = nearest_to_truth(panel, [](const ValidationPoint&) { return true; });
     return fmt::format(
-        "{}: the best is {} ({}), {:.2f} dB off; the same places measured again differ by {:.2f} "
-        "dB. friis is {:.2f} dB off.",
-        panel.title, best->label, best->series, best->error, *panel.unknowable,
-        point_of(panel, "friis", with_defaults).error);
+        "{}: {}, by the levels of {} receivers. Free space (friis) is {:.2f} dB off. The same "
+        "places measured again differ by {:.2f} dB, so that a model that is right would be {:.2f} "
+        "dB off.",
+        panel.title,
+        nearest_text(nearest, [](double error) { return fmt::format("{:.2f} dB off", error); }),
+        nearest.point->parts.size(), point_of(panel, "friis", with_defaults).error, repeated.rms,
+        repeated.one_level());
 }
 
 /// Whether rays are worth their cost, and what of it is due to the material of the walls.
@@ -229,6 +243,12 @@ void check_anchors(const ValidationPanel& panel, Promises& promises) {
 
 }  // namespace
 
+Db error_against(const MeasuredBuilding& building, const Propagation& model) {
+    const double all = errors_with_constant(building.first, building.second, model).rmse;
+    const double of_levels = repeatability(building.first, building.second).one_level();
+    return Db{std::sqrt(std::max(0.0, all * all - of_levels * of_levels))};
+}
+
 ValidationChart measured_chart(const std::string& folder, const ValidationSize& size,
                                Promises& promises) {
     ValidationChart chart{
@@ -243,7 +263,8 @@ ValidationChart measured_chart(const std::string& folder, const ValidationSize& 
     for (const auto& building : {measured_flat(folder), measured_lab(folder)}) {
         const ValidationPanel panel = building_panel(building, size);
         check_anchors(panel, promises);
-        chart.sentences.push_back(best_sentence(panel));
+        chart.sentences.push_back(
+            best_sentence(panel, repeatability(building.first, building.second)));
         chart.sentences.push_back(rays_sentence(panel));
         chart.panels.push_back(panel);
     }

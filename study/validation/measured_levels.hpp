@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/propagation/propagation.hpp"
 #include "scenario/scenario.hpp"
 #include "study/known_links.hpp"
 
@@ -24,5 +25,9 @@ MeasuredBuilding measured_flat(const std::string& folder);
 /// An open laboratory: a beacon heard by twelve sensors, medians of half an hour; the second set is
 /// another day.
 MeasuredBuilding measured_lab(const std::string& folder);
+
+/// Error of a model's losses in a building, root mean square [dB], without that of the levels
+/// themselves: with its one constant fitted to the first set, judged on the second.
+Db error_against(const MeasuredBuilding& building, const Propagation& model);
 
 }  // namespace rovernet

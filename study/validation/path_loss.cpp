@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/toml.hpp"
+#include "sim/math.hpp"
 #include "study/calibration.hpp"
 #include "study/free_parameters.hpp"
 #include "study/known_links.hpp"
 #include "study/medium_cost.hpp"
 #include "study/prediction_errors.hpp"
+#include "study/validation/measured_levels.hpp"
 #include "study/validation/validation_charts.hpp"
 #include "study/validation/validation_scene.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -19,7 +25,8 @@
 namespace rovernet {
 namespace {
 
-constexpr const char *as_given = "as given", *after_fit = "fitted", *reference_series = "reference";
+constexpr const char *as_given = "as given", *after_fit = "fitted", *reference_series = "reference",
+                     *fewer_paths = "the reference with fewer paths";
 
 /// Form of a model: keys of [propagation]. The label of the most detailed one is the name of the
 /// model.
@@ -34,13 +41,16 @@ constexpr std::array fewer_rays{
     Form{"rays, order 2, knife edge", "model = 'rays'\norder = 2\ndiffraction = 'knife_edge'"},
     Form{"rays, order 2, UTD", "model = 'rays'\norder = 2\ndiffraction = 'utd'"}};
 
-/// Model whose losses are taken as true, and cheaper forms of it.
+/// Model whose losses are taken as true, cheaper forms of it, and the building that it was held
+/// against.
 struct Truth {
     Form model;
     std::span<const Form> cheaper = {};
+    std::optional<Db> own_error = {};  ///< see error_against(); none if there is no measurement
+    const char* building = "";
 };
-constexpr Truth in_the_open{{"two_ray", "model = 'two_ray'\nform = 'exact'"}};
-constexpr Truth among_walls{{"rays", "model = 'rays'\norder = 3\ndiffraction = 'utd'"}, fewer_rays};
+constexpr Form exact_two_rays{"two_ray", "model = 'two_ray'\nform = 'exact'"};
+constexpr Form all_rays{"rays", "model = 'rays'\norder = 3\ndiffraction = 'utd'"};
 
 Table propagation_settings(Table propagation) {
     Table settings;
@@ -57,11 +67,21 @@ Table settings_of(const std::string& model) {
     return propagation_settings(std::move(propagation));
 }
 
-/// Variant, and the share of links that it decides wrongly.
+/// Variant, and the links that it decides wrongly.
 struct JudgedModel {
     Variant variant;
-    double wrong_links = 0;
+    PredictionErrors links = {};
 };
+
+/// Share of links decided wrongly in each group [%], weighted so that their mean is that of all.
+std::vector<double> wrong_by_group(const PredictionErrors& errors) {
+    std::vector<double> parts;
+    const double a_group =
+        static_cast<double>(errors.decisions) / static_cast<double>(errors.groups.size());
+    for (const auto& [group, of] : errors.groups)
+        parts.push_back(100 * static_cast<double>(of.wrong) / a_group);
+    return parts;
+}
 
 /// Models fitted to the reference on links of the scene, as by `rovernet advise`; quickly: on
 /// fewer.
@@ -76,158 +96,259 @@ Calibration calibrated(const Scenario& scenario, const std::string& reference,
     return out;
 }
 
-/// Share of the known links that a form decides wrongly.
-double wrong_links(const Scenario& scenario, const Calibration& calibration) {
+/// Errors of a form on the known links.
+PredictionErrors link_errors(const Scenario& scenario, const Calibration& calibration) {
     const Propagation model = scenario.propagation.make();
     Predictions predictions(calibration.known, calibration.decided_within);
     for (std::size_t i = 0; i < calibration.known.links.size(); ++i) {
         predictions.add(i, calibration.known.loss_by(model, calibration.known.links[i]));
     }
-    return predictions.errors().wrong();
+    return predictions.errors();
 }
 
 /// Models of a scene, the reference first.
 std::vector<JudgedModel> models_of(const ValidationScene& scene, const Truth& truth,
-                                   const ValidationSize& size) {
-    const Table settings = settings_of(truth.model);
-    std::vector<JudgedModel> out{{{truth.model.label, reference_series, settings}, 0}};
-    const Calibration calibration = calibrated(scene.scenario(settings), truth.model.label, size);
+                                   const Calibration& calibration) {
+    std::vector<JudgedModel> out{{{truth.model.label, reference_series, settings_of(truth.model)}}};
     for (const CalibratedModel& model : calibration.models) {
         if (!model.failure.empty()) continue;
-        if (model.as_given && model.model != "disc") {
-            out.push_back(
-                {{model.model, as_given, settings_of(model.model)}, model.as_given->wrong()});
-        }
+        if (model.as_given && model.model != "disc")
+            out.push_back({{model.model, as_given, settings_of(model.model)}, *model.as_given});
         if (model.parameters.empty()) continue;
-        const PredictionErrors& errors = model.left_out ? *model.left_out : model.fitted;
-        out.push_back({{model.model, after_fit, model.settings}, errors.wrong()});
+        out.push_back({{model.model, after_fit, model.settings},
+                       model.left_out ? *model.left_out : model.fitted});
     }
     for (const Form& form : truth.cheaper) {
         const Table fewer = settings_of(form);
         out.push_back(
-            {{form.label, as_given, fewer}, wrong_links(scene.scenario(fewer), calibration)});
+            {{form.label, fewer_paths, fewer}, link_errors(scene.scenario(fewer), calibration)});
     }
     return out;
 }
 
-std::vector<TurnCost> medium_costs(const ValidationScene& scene,
-                                   const std::vector<Variant>& variants,
-                                   const ValidationSize& size) {
+/// The truth with an error of its own, as large as against the measured building: a field of
+/// shadowing over its losses.
+Table moved_by_its_error(const Truth& truth) {
+    Table settings = settings_of(truth.model), shadowing;
+    shadowing.set("model", "field");
+    shadowing.set("sigma", fmt::format("{} dB", truth.own_error->value));
+    settings.set("shadowing", std::move(shadowing));
+    return settings;
+}
+
+/// Share of the known links that the truth decides wrongly if its losses have a normal error.
+double wrong_by_its_error(const Calibration& calibration, Db error) {
+    double wrong = 0, decisions = 0;
+    for (const KnownLink& link : calibration.known.links) {
+        if (link.distance() > calibration.decided_within.value) continue;
+        const double margin = std::abs(link.loss - link.budget);
+        wrong += math::erfc(margin / error.value / std::numbers::sqrt2) / 2;
+        ++decisions;
+    }
+    return wrong / decisions;
+}
+
+std::vector<MediumCost> medium_costs(const ValidationScene& scene,
+                                     const std::vector<Variant>& variants,
+                                     const ValidationSize& size) {
     std::vector<Scenario> scenarios;
     for (const Variant& variant : variants) scenarios.push_back(scene.scenario(variant.settings));
     const auto never_stopped = [] { return false; };
     const CostTurns turns{
         .turns = size.quick ? 1 : 5,
         .total_s = (size.quick ? 0.05 : 1.0) * static_cast<double>(variants.size())};
-    const MediumCosts costs = measure_medium(record_medium(scenarios.front(), never_stopped),
-                                             scenarios, turns, never_stopped);
-    std::vector<TurnCost> out;
-    for (const MediumCost& cost : costs.models) {
-        out.push_back({1e9 * cost.median_s, 1e9 * cost.low_s, 1e9 * cost.high_s});
+    std::vector<MediumCost> costs = measure_medium(record_medium(scenarios.front(), never_stopped),
+                                                   scenarios, turns, never_stopped)
+                                        .models;
+    costs.resize(variants.size());
+    return costs;
+}
+
+/// The two panels of a scene, and its sentences.
+struct ScenePanels {
+    ValidationPanel delivery, links;
+    std::vector<std::string> delivery_sentences, links_sentences;
+};
+
+constexpr const char* receivers_found = "receivers per frame";
+
+std::string off_in_a_run(double error) { return fmt::format("{:.2g} off", error); }
+std::string links_wrong(double error) { return fmt::format("{:.2g} % of the links wrong", error); }
+
+/// The model that is nearest to the truth, at what cost, and what a fit did to it. Forms of the
+/// truth itself do not compete: that they come near shows that paths converge.
+std::string nearest_sentence(const ValidationPanel& panel,
+                             const std::function<std::string(double)>& off) {
+    const ValidationPoint& reference = panel.points.front();
+    const Nearest nearest = nearest_to_truth(panel, [](const ValidationPoint& p) {
+        return p.series != reference_series && p.series != fewer_paths;
+    });
+    std::string out = fmt::format(
+        "{}: {}, at {} of the cost of {}.", panel.title, nearest_text(nearest, off),
+        two_digits(nearest.point->cost.median / reference.cost.median), reference.label);
+    if (nearest.point->series != after_fit) return out;
+    for (const ValidationPoint& p : panel.points) {
+        if (p.label == nearest.point->label && p.series == as_given)
+            out += fmt::format(" Without the fit: {}.", off(p.error));
     }
-    out.resize(variants.size());
     return out;
 }
 
-/// The two panels of a scene.
-struct ScenePanels {
-    ValidationPanel delivery, links;
-};
+/// How far the truth itself is known to be true; first of all sentences.
+std::string truth_sentence(const ValidationPanel& panel, const Truth& truth,
+                           const std::function<std::string(double)>& off) {
+    if (!truth.own_error) {
+        return fmt::format("{}: {} is taken as true; how wrong it is itself is not known here.",
+                           panel.title, truth.model.label);
+    }
+    return fmt::format(
+        "{}: {} is taken as true, and is {:.1f} dB off itself in a measured {}. Such an error "
+        "makes it {}: what is nearer agrees with the model, not with a building.",
+        panel.title, truth.model.label, truth.own_error->value, truth.building,
+        off(*panel.unknowable));
+}
+
+/// What is left of the error with fewer paths.
+std::string convergence_sentence(const ValidationPanel& panel,
+                                 const std::function<std::string(double)>& off) {
+    std::vector<std::string> forms;
+    for (const ValidationPoint& p : panel.points) {
+        if (p.series == fewer_paths) forms.push_back(fmt::format("{} {}", p.label, off(p.error)));
+    }
+    if (forms.empty()) return "";
+    return fmt::format("{}: forms of the truth itself, with fewer paths: {}.", panel.title,
+                       fmt::join(forms, "; "));
+}
+
+/// Models that cost more, or less, because their reach is another one.
+std::string reach_sentence(const ValidationPanel& panel) {
+    constexpr double much = 1.5;
+    std::vector<std::string> models;
+    for (const ValidationPoint& given : panel.points) {
+        if (given.series != as_given) continue;
+        for (const ValidationPoint& fitted : panel.points) {
+            if (fitted.series != after_fit || fitted.label != given.label) continue;
+            const double before = detail_of(given, receivers_found),
+                         after = detail_of(fitted, receivers_found);
+            const bool more = after > much * before && fitted.cost.median > given.cost.median;
+            const bool less = before > much * after && fitted.cost.median < given.cost.median;
+            if (more || less)
+                models.push_back(fmt::format("{} ({:.1f} receivers a frame instead of {:.1f})",
+                                             given.label, after, before));
+        }
+    }
+    if (models.empty()) return "";
+    return fmt::format("{}: a fit changes the cost by the reach, not by the model, of {}.",
+                       panel.title, fmt::join(models, ", "));
+}
 
 ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::size_t replications,
                       const ValidationSize& size) {
-    const std::vector<JudgedModel> models = models_of(scene, truth, size);
+    const Calibration calibration =
+        calibrated(scene.scenario(settings_of(truth.model)), truth.model.label, size);
+    const std::vector<JudgedModel> models = models_of(scene, truth, calibration);
     std::vector<Variant> variants;
     for (const JudgedModel& model : models) variants.push_back(model.variant);
+    const std::vector<MediumCost> costs = medium_costs(scene, variants, size);
+    if (truth.own_error) variants.push_back({"", "", moved_by_its_error(truth)});
     const std::vector<VariantRuns> runs = paired_runs(scene, variants, replications);
-    const std::vector<TurnCost> costs = medium_costs(scene, variants, size);
     ValidationPanel delivery{.title = scene.name,
-                             .cost_label = "CPU of the medium per transmission [ns]",
+                             .cost_label = "CPU per transmission [ns]",
                              .error_label = "error of a run's delivery ratio [-]",
-                             .log_error = false,
-                             .joined = true};
+                             .log_error = false};
     ValidationPanel links = delivery;
     links.error_label = "links decided wrongly [%]";
+    if (truth.own_error) {
+        delivery.unknowable = run_errors(runs.back(), runs.front()).mean;
+        links.unknowable = 100 * wrong_by_its_error(calibration, *truth.own_error);
+        delivery.unknowable_label = links.unknowable_label =
+            fmt::format("{} is {:.1f} dB off in a measured {}: here it would be so far off",
+                        truth.model.label, truth.own_error->value, truth.building);
+    }
     for (std::size_t i = 0; i < models.size(); ++i) {
-        const RunErrors errors = run_errors(runs[i], runs.front());
+        const MediumCost& cost = costs[i];
         ValidationPoint point{.label = variants[i].label,
                               .series = variants[i].series,
-                              .cost = costs[i],
-                              .error = 100 * models[i].wrong_links};
+                              .cost = {1e9 * cost.median_s, 1e9 * cost.low_s, 1e9 * cost.high_s},
+                              .error = 100 * models[i].links.wrong(),
+                              .details = {{receivers_found, cost.receivers}},
+                              .parts = wrong_by_group(models[i].links)};
         links.points.push_back(point);
+        const RunErrors errors = run_errors(runs[i], runs.front());
         point.error = errors.mean;
+        point.parts = errors.distances;
         if (errors.likely) {
             point.error_low = errors.likely->low;
             point.error_high = errors.likely->high;
         }
-        point.details = {{"bias [-]", errors.bias},
-                         {"replications", static_cast<double>(replications)}};
+        point.details.insert(
+            point.details.begin(),
+            {{"bias [-]", errors.bias}, {"replications", static_cast<double>(replications)}});
         delivery.points.push_back(std::move(point));
     }
-    return {delivery, links};
+    ScenePanels out{std::move(delivery), std::move(links), {}, {}};
+    out.delivery_sentences = {truth_sentence(out.delivery, truth, off_in_a_run),
+                              nearest_sentence(out.delivery, off_in_a_run),
+                              convergence_sentence(out.delivery, off_in_a_run),
+                              reach_sentence(out.delivery)};
+    out.links_sentences = {truth_sentence(out.links, truth, links_wrong),
+                           nearest_sentence(out.links, links_wrong),
+                           convergence_sentence(out.links, links_wrong)};
+    return out;
 }
 
-/// The point of least error that costs at most `cost` [ns], but for the reference.
-const ValidationPoint* best_within(const ValidationPanel& panel, double cost) {
-    const ValidationPoint* best = nullptr;
-    for (const ValidationPoint& p : panel.points) {
-        if (p.series == reference_series || p.cost.median > cost) continue;
-        if (!best || p.error < best->error) best = &p;
-    }
-    return best;
-}
+/// What is taken as true in the open and among walls.
+struct Truths {
+    Truth in_the_open{.model = exact_two_rays, .building = "open laboratory"};
+    Truth among_walls{.model = all_rays, .cheaper = fewer_rays, .building = "flat"};
+};
 
-std::string name_of(const ValidationPoint& p) { return p.label + " " + p.series; }
-
-/// The best model, the best that costs a hundredth, and what fitting did to that.
-std::string nearest_sentence(const ValidationPanel& panel) {
-    const ValidationPoint& reference = panel.points.front();
-    const ValidationPoint* best = best_within(panel, reference.cost.median);
-    const ValidationPoint* cheap = best_within(panel, 0.01 * reference.cost.median);
-    if (!best) return "";
-    const auto share = [&](const ValidationPoint& p) {
-        return two_digits(p.cost.median / reference.cost.median);
+Truths truths_of(const std::optional<std::string>& field) {
+    Truths out;
+    if (!field) return out;
+    const auto error = [](const MeasuredBuilding& building, const Form& form) {
+        Scenario scenario = building.scenario;
+        scenario.propagation = {};
+        read_propagation(*settings_of(form).find("propagation"), scenario.propagation);
+        return error_against(building, scenario.propagation.make().median());
     };
-    std::string out =
-        fmt::format("In the {}, {} comes nearest to {}: {:.2g} off, at {} of its cost.",
-                    panel.title, name_of(*best), reference.label, best->error, share(*best));
-    if (!cheap) return out;
-    if (cheap != best) {
-        out += fmt::format(" Of those that cost a hundredth {} comes nearest: {:.2g} off, at {}.",
-                           name_of(*cheap), cheap->error, share(*cheap));
-    }
-    if (cheap->series != after_fit) return out;
-    for (const ValidationPoint& p : panel.points) {
-        if (p.label == cheap->label && p.series == as_given)
-            out += fmt::format(" Without the fit it is {:.2g} off.", p.error);
-    }
+    out.in_the_open.own_error = error(measured_lab(*field), exact_two_rays);
+    out.among_walls.own_error = error(measured_flat(*field), all_rays);
     return out;
 }
 
 }  // namespace
 
-std::vector<ValidationChart> path_loss_charts(const ValidationSize& size) {
+std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
+                                              const std::optional<std::string>& field) {
     const std::size_t replications = size.of(40, 2);
-    std::vector<ScenePanels> panels;
-    panels.push_back(panels_of(open_field_scene(), in_the_open, replications, size));
-    panels.push_back(panels_of(office_scene(), among_walls, replications, size));
-    panels.push_back(panels_of(cave_scene(), among_walls, replications, size));
+    const Truths truths = truths_of(field);
+    std::vector<ScenePanels> scenes;
+    scenes.push_back(panels_of(open_field_scene(), truths.in_the_open, replications, size));
+    scenes.push_back(panels_of(office_scene(), truths.among_walls, replications, size));
+    scenes.push_back(panels_of(cave_scene(), truths.among_walls, replications, size));
     const std::string truth = fmt::format(
         "Robots on the move flood a message every two seconds, {} replications of each scene. True "
         "is the exact sum of two rays on the open field, and in the office and in the cave rays of "
         "three reflections with diffraction by UTD. Fitted: to losses of the true model on other "
-        "replications, as `rovernet advise` does.",
+        "replications, as `rovernet advise` does. Grey: what the truth would be off by if its "
+        "losses had the error that it has against measured levels. CPU of the medium alone.",
         replications);
-    ValidationChart delivery{
-        .name = "path_loss", .title = "Which path loss model, and is it fitted?", .truth = truth};
+    ValidationChart delivery{.name = "path_loss",
+                             .title = "How near do cheap models come to a detailed one?",
+                             .truth = truth};
     ValidationChart links{.name = "wrong_links",
                           .title = "How many links does a path loss model decide wrongly?",
                           .truth = truth};
-    for (ScenePanels& scene : panels) {
-        delivery.sentences.push_back(nearest_sentence(scene.delivery));
-        links.sentences.push_back(nearest_sentence(scene.links));
-        delivery.panels.push_back(std::move(scene.delivery));
-        links.panels.push_back(std::move(scene.links));
+    const auto append = [](ValidationChart& chart, ValidationPanel panel,
+                           const std::vector<std::string>& sentences) {
+        for (const std::string& sentence : sentences)
+            if (!sentence.empty()) chart.sentences.push_back(sentence);
+        chart.panels.push_back(std::move(panel));
+    };
+    for (ScenePanels& scene : scenes) {
+        append(delivery, std::move(scene.delivery), scene.delivery_sentences);
+        append(links, std::move(scene.links), scene.links_sentences);
     }
     return {delivery, links};
 }

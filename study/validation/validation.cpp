@@ -23,16 +23,15 @@ Validation validate(const ValidationSize& size, const std::optional<std::string>
     const auto begin = [&](std::string_view what) {
         if (tell) tell(what);
     };
-    std::optional<ValidationChart> measured;  // first, as its files may be missing
     if (field) {
         begin("measured buildings");
-        measured = measured_chart(*field, size, out.promises);
+        out.charts.push_back(measured_chart(*field, size, out.promises));
     } else {
         out.left_out.push_back("measured buildings are read from the folder that --field names");
     }
     begin("path loss models on three scenes");
-    out.charts = path_loss_charts(size);
-    if (measured) out.charts.push_back(std::move(*measured));
+    for (ValidationChart& chart : path_loss_charts(size, field))
+        out.charts.push_back(std::move(chart));
     begin("lengths of walls");
     out.charts.push_back(wall_length_chart(size, out.promises));
     begin("cells of maps");

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "study/validation/validation_chart.hpp"
 
+#include "study/distributions.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -26,6 +29,64 @@ std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points
         if (front.empty() || points[i].error < points[front.back()].error) front.push_back(i);
     }
     return front;
+}
+
+namespace {
+
+/// Whether the mean difference of the parts of two errors is told from 0 at that level.
+bool told_apart(const ValidationPoint& a, const ValidationPoint& b, double level) {
+    constexpr std::size_t fewest = 6;
+    const std::size_t n = std::min(a.parts.size(), b.parts.size());
+    if (n < fewest) return false;
+    const auto count = static_cast<double>(n);
+    double mean = 0, squares = 0;
+    for (std::size_t i = 0; i < n; ++i) mean += (a.parts[i] - b.parts[i]) / count;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double off = a.parts[i] - b.parts[i] - mean;
+        squares += off * off;
+    }
+    const double error = std::sqrt(squares / (count - 1) / count);
+    return std::abs(mean) > t_critical(count - 1, level) * error;
+}
+
+std::string name_of(const ValidationPoint& p) {
+    return p.series.empty() ? p.label : p.label + " " + p.series;
+}
+
+}  // namespace
+
+Nearest nearest_to_truth(const ValidationPanel& panel,
+                         const std::function<bool(const ValidationPoint&)>& takes) {
+    constexpr double level = 0.05;
+    std::vector<const ValidationPoint*> points;
+    for (const ValidationPoint& p : panel.points) {
+        if (takes(p)) points.push_back(&p);
+    }
+    std::stable_sort(points.begin(), points.end(),
+                     [](const auto* a, const auto* b) { return a->error < b->error; });
+    if (points.empty()) return {};
+    Nearest out{.point = points.front()};
+    const double pairs = std::max(1.0, static_cast<double>(points.size() - 1));
+    for (const ValidationPoint* p : points) {
+        if (p != out.point && !told_apart(*out.point, *p, level / pairs)) out.alike.push_back(p);
+    }
+    return out;
+}
+
+std::string nearest_text(const Nearest& nearest, const std::function<std::string(double)>& off) {
+    constexpr std::size_t most_named = 3;
+    if (nearest.alike.empty())
+        return fmt::format("{} is nearest, {}", name_of(*nearest.point), off(nearest.point->error));
+    std::string out = fmt::format("{} ({}) is not told apart from ", name_of(*nearest.point),
+                                  off(nearest.point->error));
+    const std::size_t named = std::min(most_named, nearest.alike.size());
+    for (std::size_t i = 0; i < named; ++i) {
+        if (i > 0) out += i + 1 == nearest.alike.size() ? " and " : ", ";
+        out += fmt::format("{} ({})", name_of(*nearest.alike[i]), off(nearest.alike[i]->error));
+    }
+    if (named < nearest.alike.size())
+        out += fmt::format(" and {} more", nearest.alike.size() - named);
+    return out;
 }
 
 const ValidationPoint& point_of(const ValidationPanel& panel, std::string_view label,

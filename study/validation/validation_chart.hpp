@@ -4,6 +4,7 @@
 #include "study/validation/turns.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,6 +27,9 @@ struct ValidationPoint {
     double error = 0;         ///< error in the panel's unit, >= 0
     std::optional<double> error_low = {}, error_high = {};  ///< interval around the error
     std::vector<Detail> details = {};  ///< details, with the same names in all points of a panel
+    /// Shares of the error that are independent, such as of each replication, in the same order in
+    /// all points of a panel: their mean is the error, or its square.
+    std::vector<double> parts = {};
 };
 
 /// Methods that answer one question on one scene.
@@ -33,8 +37,7 @@ struct ValidationPanel {
     std::string title = {};
     std::string cost_label = "CPU per link [ns]";
     std::string error_label = {};  ///< error and its unit
-    bool log_error = true;         ///< logarithmic axis; an error of 0 stands at its lower edge
-    bool joined = false;           ///< a line joins points of one label: before and after a fit
+    bool log_error = true;         ///< logarithmic axis; an error of 0 stands at its left end
     /// Error below which the truth itself is not known, and why.
     std::optional<double> unknowable = {};
     std::string unknowable_label = {};
@@ -67,6 +70,25 @@ void set_costs(ValidationPanel& panel, std::span<const TimedMethod> methods, con
 /// Points that no other point of the panel beats in both, cost (median) and error; in the order of
 /// their costs.
 std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points);
+
+/// The point of least error, and those that the parts of its error do not tell apart from it.
+struct Nearest {
+    const ValidationPoint* point = nullptr;  ///< null: there is none
+    std::vector<const ValidationPoint*> alike = {};
+};
+
+/// Finds the point of least error of those that `takes` wants. Another one is told apart if
+/// Student's interval for the mean difference of their parts, at 95 % for all pairs together
+/// (Bonferroni), leaves out 0. Fewer than six parts tell nothing apart: if all of five differences
+/// have one sign, chance does that in 6 % of cases.
+Nearest nearest_to_truth(const ValidationPanel& panel,
+                         const std::function<bool(const ValidationPoint&)>& takes);
+
+/// The winner in words, or that there is none: "multi_wall fitted is nearest, 4.01 dB off" or
+/// "disc fitted (0.012 off) is not told apart from friis as given (0.013 off)".
+/// @param nearest  with a point
+/// @param off  words for an error, such as "4.01 dB off"
+std::string nearest_text(const Nearest& nearest, const std::function<std::string(double)>& off);
 
 /// Point of that label and series. @throws std::out_of_range if there is none
 const ValidationPoint& point_of(const ValidationPanel& panel, std::string_view label,

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,7 +43,9 @@ ValidationChart reception_chart(const ValidationSize& size);
 /// Shadowing that is redrawn, kept by link, or a field of both places: how often links flip.
 ValidationChart shadowing_chart(const ValidationSize& size);
 /// Path loss models as given and fitted: the delivery ratio, and wrong links.
-std::vector<ValidationChart> path_loss_charts(const ValidationSize& size);
+/// @param field  folder of measurements, to say how wrong the model is that is taken as true
+std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
+                                              const std::optional<std::string>& field);
 /// Cells and drawing of a map.
 ValidationChart map_drawing_chart(const ValidationSize& size);
 /// Losses measured in buildings. @param folder  with flat/ and lab/

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "study/validation/validation_report.hpp"
 
-#include "pictures/chart/chart.hpp"
+#include "pictures/chart/dot_plot.hpp"
 #include "pictures/draw/svg.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 namespace rovernet {
 namespace {
@@ -21,66 +20,67 @@ double axis_begin(const ValidationPanel& panel) {
     return panel.log_error ? std::max(share * largest, panel.unknowable.value_or(0) / 2) : 0;
 }
 
-ChartPoint chart_point(const ValidationPoint& p, double begin) {
-    const auto shown = [&](std::optional<double> v) {
-        return v ? std::optional(std::max(*v, begin)) : std::nullopt;
-    };
-    return {.x = p.cost.median,
-            .y = std::max(p.error, begin),
-            .low = shown(p.error_low),
-            .high = shown(p.error_high),
-            .x_low = p.cost.low,
-            .x_high = p.cost.high,
-            .label = p.label};
+std::size_t series_named(DotPlot& plot, const std::string& name) {
+    const auto at = std::find(plot.series.begin(), plot.series.end(), name);
+    if (at == plot.series.end()) plot.series.push_back(name);
+    return static_cast<std::size_t>(std::find(plot.series.begin(), plot.series.end(), name) -
+                                    plot.series.begin());
 }
 
-ChartSeries& series_named(Chart& chart, const std::string& name) {
-    for (ChartSeries& series : chart.series) {
-        if (series.name == name) return series;
+/// Row of a label.
+DotRow& row_of(DotPlot& plot, const std::string& label) {
+    for (DotRow& row : plot.rows) {
+        if (row.name == label) return row;
     }
-    return chart.series.emplace_back(ChartSeries{.name = name});
+    return plot.rows.emplace_back(DotRow{.name = label});
 }
 
-/// Joins points of one label, which then stands at the last of them alone.
-void join_labels(Chart& chart) {
-    std::map<std::string, ChartPoint*> last;
-    for (ChartSeries& series : chart.series) {
-        for (ChartPoint& point : series.points) {
-            ChartPoint*& before = last[point.label];
-            if (before) {
-                chart.guides.push_back({.points = {*before, point}});
-                before->label.clear();
-            }
-            before = &point;
-        }
-    }
-}
-
-Chart chart_of(const ValidationPanel& panel) {
-    const double begin = axis_begin(panel);
-    Chart chart{.kind = ChartKind::scatter,
-                .title = panel.title,
-                .x_label = panel.cost_label,
-                .y_label = panel.error_label,
-                .log_x = true,
-                .log_y = begin > 0,
-                .y_limits = {.low = begin},
-                .band = panel.unknowable,
-                .band_label = panel.unknowable_label};
-    ChartGuide front{.dashed = true};
-    for (const std::size_t i : pareto_front(panel.points)) {
-        front.points.push_back(chart_point(panel.points[i], begin));
-    }
-    chart.guides.push_back(std::move(front));
+/// The panel as a dot plot, its rows from cheap to dear.
+DotPlot plot_of(const ValidationPanel& panel) {
+    DotPlot plot{.title = panel.title,
+                 .value_label = panel.error_label,
+                 .beside_label = panel.cost_label,
+                 .log = axis_begin(panel) > 0,
+                 .least = axis_begin(panel),
+                 .band = panel.unknowable,
+                 .band_label = panel.unknowable_label};
     bool below = false;
     for (const ValidationPoint& p : panel.points) {
-        series_named(chart, p.series).points.push_back(chart_point(p, begin));
-        below = below || p.error < begin;
+        row_of(plot, p.label)
+            .dots.push_back({.series = series_named(plot, p.series),
+                             .value = p.error,
+                             .low = p.error_low,
+                             .high = p.error_high,
+                             .beside = p.cost.median});
+        below = below || p.error < plot.least;
     }
-    if (panel.joined) join_labels(chart);
-    chart.note = "dashed: what nothing beats; whiskers along x: lowest and highest turn";
-    if (below) chart.note += fmt::format("; errors below {:.1g} stand at the lower edge", begin);
-    return chart;
+    for (const std::size_t i : pareto_front(panel.points)) {
+        const ValidationPoint& p = panel.points[i];
+        DotRow& row = row_of(plot, p.label);
+        row.bold = row.bold || plot.series[row.dots.back().series] == p.series;
+    }
+    std::stable_sort(plot.rows.begin(), plot.rows.end(), [](const DotRow& a, const DotRow& b) {
+        return a.dots.back().beside < b.dots.back().beside;
+    });
+    plot.note = "from cheap to dear; bold: nothing cheaper is nearer the truth";
+    if (below) plot.note += fmt::format("; errors below {:.1g} stand at the left end", plot.least);
+    return plot;
+}
+
+/// Whether every error of a panel is 0: a sentence says that better than a picture.
+bool all_right(const ValidationPanel& panel) {
+    return std::all_of(panel.points.begin(), panel.points.end(),
+                       [](const ValidationPoint& p) { return p.error == 0; });
+}
+
+/// Sentence about the panels that have no picture, or nothing.
+std::string not_drawn(const ValidationChart& chart) {
+    std::vector<std::string> titles;
+    for (const ValidationPanel& panel : chart.panels) {
+        if (all_right(panel)) titles.push_back(panel.title);
+    }
+    if (titles.empty()) return "";
+    return fmt::format(" No picture of: {}; every error is 0.", fmt::join(titles, ", "));
 }
 
 std::string csv_cell(const std::string& text) {
@@ -181,14 +181,14 @@ constexpr const char* introduction =
 }  // namespace
 
 std::string validation_svg(const ValidationChart& chart) {
-    std::vector<Chart> charts;
-    for (const ValidationPanel& panel : chart.panels) charts.push_back(chart_of(panel));
-    const int columns = std::clamp(static_cast<int>(charts.size()), 1, 3);
-    const double width = columns == 1 ? 760 : columns == 2 ? 600 : 500;  // [px]
-    return chart_svg(charts, {.title = chart.title,
-                              .width = width,
-                              .height = 360,
-                              .columns = charts.size() == 4 ? 2 : columns});
+    constexpr double widths[] = {760, 640, 520};  // [px] by plots side by side
+    std::vector<DotPlot> plots;
+    for (const ValidationPanel& panel : chart.panels) {
+        if (!all_right(panel)) plots.push_back(plot_of(panel));
+    }
+    if (plots.empty()) return "";
+    const std::size_t columns = plots.size() == 4 ? 2 : std::min<std::size_t>(plots.size(), 3);
+    return dot_plot_svg(plots, chart.title, widths[columns - 1], columns);
 }
 
 std::string validation_csv(const ValidationChart& chart) {
@@ -218,7 +218,8 @@ std::string validation_html(const Validation& validation) {
         for (const std::string& sentence : chart.sentences)
             out += fmt::format("<p>{}</p>\n", html_text(sentence));
         out += validation_svg(chart);
-        out += fmt::format("<p class=\"truth\">{}</p>\n", html_text(chart.truth));
+        out +=
+            fmt::format("<p class=\"truth\">{}</p>\n", html_text(chart.truth + not_drawn(chart)));
         for (const ValidationPanel& panel : chart.panels) {
             if (!panel.title.empty()) out += fmt::format("<h3>{}</h3>\n", xml_text(panel.title));
             out += html_table(rows_of(panel));
@@ -236,8 +237,8 @@ std::string validation_page(const Validation& validation) {
     for (const ValidationChart& chart : validation.charts) {
         out += fmt::format("## {}\n\n", chart.title);
         for (const std::string& sentence : chart.sentences) out += fmt::format("* {}\n", sentence);
-        out += fmt::format("\n![{0}](accuracy-{1}.svg)\n\n{2}\n\n", chart.title, chart.name,
-                           chart.truth);
+        out += fmt::format("\n![{0}](accuracy-{1}.svg)\n\n{2}{3}\n\n", chart.title, chart.name,
+                           chart.truth, not_drawn(chart));
         for (const ValidationPanel& panel : chart.panels) {
             if (!panel.title.empty()) out += fmt::format("**{}**\n\n", panel.title);
             out += markdown_table(rows_of(panel)) + "\n";

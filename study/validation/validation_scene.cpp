@@ -134,16 +134,15 @@ std::vector<VariantRuns> paired_runs(const ValidationScene& scene,
 }
 
 RunErrors run_errors(const VariantRuns& runs, const VariantRuns& truth) {
-    std::vector<double> distances;
     RunErrors out;
     const auto n = static_cast<double>(runs.delivery_ratio.size());
     for (std::size_t r = 0; r < runs.delivery_ratio.size(); ++r) {
         const double difference = runs.delivery_ratio[r] - truth.delivery_ratio[r];
-        distances.push_back(std::abs(difference));
-        out.mean += distances.back() / n;
+        out.distances.push_back(std::abs(difference));
+        out.mean += out.distances.back() / n;
         out.bias += difference / n;
     }
-    if (out.mean > 0) out.likely = interval_of(distances, bounds_of("delivery_ratio"));
+    if (out.mean > 0) out.likely = interval_of(out.distances, bounds_of("delivery_ratio"));
     return out;
 }
 

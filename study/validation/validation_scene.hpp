@@ -54,6 +54,7 @@ std::vector<VariantRuns> paired_runs(const ValidationScene& scene,
 
 /// Distances of the runs of a variant to those of the truth, pair by pair.
 struct RunErrors {
+    std::vector<double> distances = {};  ///< of each replication
     double mean = 0;                     ///< mean distance
     std::optional<MeanInterval> likely;  ///< its 95 % interval
     double bias = 0;                     ///< mean difference

@@ -14,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rovernet {
@@ -134,11 +135,13 @@ ValidationPoint judged_lengths(const WallMethod& method, const std::vector<WallL
                                const std::vector<double>& truth, double& worst) {
     constexpr double nothing = 1e-9;  // [m]
     double squares = 0, false_hits = 0, missed = 0, clear = 0, hit = 0, flipped = 0;
+    std::vector<double> parts;
     worst = 0;
     for (std::size_t i = 0; i < links.size(); ++i) {
         const double found = method.length(links[i]), error = std::abs(found - truth[i]);
         worst = std::max(worst, error);
         squares += error * error;
+        parts.push_back(rate * rate * error * error);
         const bool is_hit = truth[i] > nothing, seems_hit = found > nothing;
         (is_hit ? hit : clear) += 1;
         false_hits += !is_hit && seems_hit;
@@ -150,22 +153,22 @@ ValidationPoint judged_lengths(const WallMethod& method, const std::vector<WallL
             .error = rate * std::sqrt(squares / n),
             .details = {{"false hits [%]", 100 * false_hits / std::max(clear, 1.0)},
                         {"walls missed [%]", 100 * missed / std::max(hit, 1.0)},
-                        {"flipped decisions [%]", 100 * flipped / n}}};
+                        {"flipped decisions [%]", 100 * flipped / n}},
+            .parts = std::move(parts)};
 }
 
 /// What the naive ways cost, beside the exact one.
 std::string naive_sentence(const ValidationPanel& panel) {
     const ValidationPoint& exact = point_of(panel, "rovernet");
-    const ValidationPoint* best = nullptr;
-    for (const ValidationPoint& p : panel.points) {
-        if (p.label == "rovernet" || p.label == "every wall clipped") continue;
-        if (!best || p.error < best->error) best = &p;
-    }
+    const Nearest naive = nearest_to_truth(panel, [](const ValidationPoint& p) {
+        return p.label != "rovernet" && p.label != "every wall clipped";
+    });
+    const ValidationPoint& best = *naive.point;
     return fmt::format(
-        "The best of the naive ways here, {}, costs {:.2g} of the exact length, is {:.2g} dB off "
-        "(rms) and flips {:.2g} % of the decisions.",
-        best->label, best->cost.median / exact.cost.median, best->error,
-        detail_of(*best, "flipped decisions [%]"));
+        "Of the naive ways {}. {} costs {:.2g} times the exact length and flips {:.2g} % of the "
+        "decisions.",
+        nearest_text(naive, [](double error) { return fmt::format("{:.2g} dB off (rms)", error); }),
+        best.label, best.cost.median / exact.cost.median, detail_of(best, "flipped decisions [%]"));
 }
 
 }  // namespace

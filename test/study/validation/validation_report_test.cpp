@@ -16,7 +16,6 @@ namespace {
 ValidationPanel small_panel() {
     return {.title = "office",
             .error_label = "error [dB]",
-            .joined = true,
             .points = {{.label = "cheap",
                         .series = "as given",
                         .cost = {10, 9, 11},
@@ -74,11 +73,56 @@ TEST_CASE("validation: a promise is kept up to its limit, and one that is not br
 
 TEST_CASE("validation: the picture joins what was fitted, and shows errors of 0 at its edge") {
     const std::string svg = validation_svg(small_validation().charts[0]);
-    CHECK(count(svg, "class=\"guide\"") == 2);  // the front, and cheap
-    CHECK(count(svg, ">cheap</text>") == 1);
-    CHECK(count(svg, "slow &amp; poor") >= 1);
-    CHECK(count(svg, "errors below 5e-06 stand at the lower edge") == 1);
-    CHECK(count(svg, "left out") == 0);
+    CHECK(count(svg, "class=\"guide\"") == 2);  // cheap, on both scales
+    for (const char* name : {">cheap</text>", ">slow &amp; poor</text>", ">exact</text>"})
+        CHECK(count(svg, name) == 1);
+    CHECK(count(svg, "errors below 5e-06 stand at the left end") == 1);
+    // From cheap to dear.
+    CHECK(svg.find(">cheap</text>") < svg.find(">slow &amp; poor</text>"));
+    CHECK(svg.find(">slow &amp; poor</text>") < svg.find(">exact</text>"));
+}
+
+TEST_CASE("validation: a panel in which nothing is wrong is a sentence, no empty picture") {
+    Validation validation = small_validation();
+    ValidationPanel right = small_panel();
+    right.title = "hall";
+    for (ValidationPoint& point : right.points) point.error = 0;
+    validation.charts[0].panels.push_back(right);
+    CHECK(count(validation_svg(validation.charts[0]), "class=\"panel\"") == 1);
+    const std::string page = validation_page(validation);
+    CHECK(count(page, "No picture of: hall; every error is 0.") == 1);
+    CHECK(count(page, "**hall**") == 1);  // its numbers are there
+}
+
+TEST_CASE("validation: a winner is named where its parts tell it apart, and not elsewhere") {
+    const auto all = [](const ValidationPoint&) { return true; };
+    const auto words = [](double error) { return std::to_string(error).substr(0, 4) + " dB"; };
+    const auto panel_of = [](std::size_t n) {
+        ValidationPanel panel;
+        for (const char* label : {"a", "b", "c"}) panel.points.push_back({.label = label});
+        for (std::size_t i = 0; i < n; ++i) {
+            const double noise = i % 2 == 0 ? 1 : -1;
+            panel.points[0].parts.push_back(2 + noise);
+            panel.points[1].parts.push_back(2.1 - noise);  // nearly a's mean, far from its parts
+            panel.points[2].parts.push_back(4 + 1.01 * noise);
+        }
+        panel.points[0].error = 2;
+        panel.points[1].error = 2.1;
+        panel.points[2].error = 4;
+        return panel;
+    };
+    const ValidationPanel many = panel_of(20), few = panel_of(5);
+    const Nearest nearest = nearest_to_truth(many, all);
+    CHECK(nearest.point == &many.points[0]);
+    CHECK(nearest.alike == std::vector<const ValidationPoint*>{&many.points[1]});
+    CHECK(nearest_text(nearest, words) == "a (2.00 dB) is not told apart from b (2.10 dB)");
+    // Five parts tell nothing apart, however far the means are.
+    CHECK(nearest_to_truth(few, all).alike.size() == 2);
+    // A candidate alone, and against one that is always worse, is the nearest.
+    const Nearest without_b =
+        nearest_to_truth(many, [](const ValidationPoint& p) { return p.label != "b"; });
+    CHECK(nearest_text(without_b, words) == "a is nearest, 2.00 dB");
+    CHECK(!nearest_to_truth(many, [](const ValidationPoint&) { return false; }).point);
 }
 
 TEST_CASE("validation: the page needs no other file") {

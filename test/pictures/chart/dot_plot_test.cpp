@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/chart/dot_plot.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace dot_plot_test {
+using namespace rovernet;
+
+namespace {
+
+/// Rows of dots that lie on one another: the same values and costs.
+DotPlot crowded(std::size_t rows) {
+    DotPlot plot{.title = "crowded",
+                 .value_label = "error [dB]",
+                 .beside_label = "cost [ns]",
+                 .series = {"as given", "fitted"}};
+    for (std::size_t i = 0; i < rows; ++i) {
+        plot.rows.push_back(
+            {.name = "model " + std::to_string(i),
+             .dots = {{.series = 0, .value = 5, .beside = 10},
+                      {.series = 1, .value = 4, .low = 3, .high = 6, .beside = 10}}});
+    }
+    return plot;
+}
+
+std::size_t count(const std::string& text, const std::string& word) {
+    std::size_t n = 0;
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+    return n;
+}
+
+std::string drawn(const DotPlot& plot) { return dot_plot_svg({&plot, 1}, "", 640, 1); }
+
+}  // namespace
+
+TEST_CASE("dot plot: every name is written whole, however close the dots are") {
+    const std::string svg = drawn(crowded(20));
+    for (int i = 0; i < 20; ++i) CHECK(count(svg, ">model " + std::to_string(i) + "</text>") == 1);
+    CHECK(count(svg, "class=\"whisker\"") == 20);
+    CHECK(count(svg, "class=\"guide\"") == 40);  // on both scales
+    CHECK(count(svg, "class=\"mark\"") == 82);   // and two in the legend
+}
+
+TEST_CASE("dot plot: a value stands farther right than a smaller one, by its scale") {
+    DotPlot plot = crowded(1);
+    plot.series = {""};
+    plot.rows[0].dots = {
+        {.value = 1, .beside = 1}, {.value = 2, .beside = 10}, {.value = 4, .beside = 100}};
+    const std::string svg = drawn(plot);
+    std::vector<double> x;
+    const std::regex mark("class=\"mark\" d=\"M([0-9.]+)");
+    for (std::sregex_iterator at(svg.begin(), svg.end(), mark), end; at != end; ++at)
+        x.push_back(std::stod((*at)[1]));
+    REQUIRE(x.size() == 6);
+    CHECK(x[2] - x[1] == doctest::Approx(2 * (x[1] - x[0])).epsilon(0.01));  // linear
+    CHECK(x[5] - x[4] == doctest::Approx(x[4] - x[3]).epsilon(0.01));        // logarithmic
+    CHECK(x[3] > x[2]);
+}
+
+TEST_CASE("dot plot: a value of 0 stands at the left end of a logarithmic scale") {
+    DotPlot plot = crowded(1);
+    plot.log = true;
+    plot.least = 0.1;
+    plot.rows[0].dots = {{.value = 0, .beside = 1}, {.value = 0.1, .beside = 1}};
+    const std::string svg = drawn(plot);
+    const std::regex mark("class=\"mark\" d=\"M([0-9.]+)");
+    std::sregex_iterator at(svg.begin(), svg.end(), mark);
+    const std::string first = (*at)[1];
+    CHECK(first == (*++at)[1]);
+}
+
+TEST_CASE("dot plot: a band has a sign in the legend, and plots stand in rows of the picture") {
+    DotPlot plot = crowded(2);
+    CHECK(count(drawn(plot), "class=\"limit\"") == 0);
+    plot.band = 2;
+    plot.band_label = "grey & why";
+    const std::vector<DotPlot> plots(3, plot);
+    const std::string svg = dot_plot_svg(plots, "three", 400, 2);
+    CHECK(count(svg, "class=\"limit\"") == 3);
+    CHECK(count(svg, "grey &amp; why") == 3);
+    CHECK(count(svg, "class=\"panel\"") == 3);
+    CHECK(svg.find("width=\"864\"") != std::string::npos);  // two of 400 px with 32 px around
+    CHECK(svg == dot_plot_svg(plots, "three", 400, 2));
+}
+
+}  // namespace dot_plot_test
