@@ -36,7 +36,8 @@ Fit fit_of(const FitArguments& a, const Scenario& scenario) {
         value.where = {"--floor " + *a.floor, 0, 0, true};
         read_value(value, "floor", floor.emplace());
     }
-    Fit out{calibrate_to_levels(scenario, *a.links, floor), std::nullopt};
+    const Gains gains = a.gains ? Gains::by_transmitter : Gains::equal;
+    Fit out{calibrate_to_levels(scenario, *a.links, floor, gains), std::nullopt};
     out.repeatability = a.check ? check(out.calibration, scenario, *a.check, floor)
                                 : repeatability(out.calibration.known, {});
     return out;
@@ -87,7 +88,17 @@ Table as_table(const CalibratedModel& m) {
     table.set("checked", m.checked ? Value(as_table(*m.checked)) : Value());
     table.set("as_given", m.as_given ? Value(as_table(*m.as_given)) : Value());
     table.set("worst", std::move(worst));
-    table.set("toml", to_toml(m.settings));
+    Array gains;
+    for (const TransmitterGain& each : m.gains) {
+        Table row;
+        row.set("at_m", Array{each.at.x, each.at.y, each.at.z});
+        row.set("gain_db", each.gain.value);
+        row.set("se_by_group", each.gain.se_by_group);
+        gains.push_back(std::move(row));
+    }
+    table.set("gains", std::move(gains));
+    table.set("refusal", m.refusal.empty() ? Value() : Value(m.refusal));
+    table.set("toml", m.refusal.empty() ? Value(to_toml(m.settings)) : Value());
     return table;
 }
 
@@ -152,6 +163,29 @@ void print_calibrated(const Calibration& c) {
     fmt::print("{}", table.text());
 }
 
+/// Gains of the transmitters, by model.
+void print_gains(const Calibration& c) {
+    std::vector<const CalibratedModel*> models;
+    for (const CalibratedModel& m : c.models)
+        if (!m.gains.empty()) models.push_back(&m);
+    if (models.empty()) return;
+    std::vector<std::string> head{"sends at"};
+    for (const CalibratedModel* m : models) head.push_back(m->model);
+    TextTable table(head);
+    for (std::size_t t = 0; t < models.front()->gains.size(); ++t) {
+        const Vec3 at = models.front()->gains[t].at;
+        std::vector<std::string> row{fmt::format("({:.2f}, {:.2f}, {:.2f}) m", at.x, at.y, at.z)};
+        for (const CalibratedModel* m : models) {
+            const Coefficient& gain = m->gains[t].gain;
+            row.push_back(std::isfinite(gain.se_by_group)
+                              ? fmt::format("{:+.1f} +- {:.1f} dB", gain.value, gain.se_by_group)
+                              : fmt::format("{:+.1f} dB", gain.value));
+        }
+        table.add(row);
+    }
+    fmt::print("\ngains beyond their mean\n{}", table.text());
+}
+
 /// What the links are, and whether there are enough of them.
 void print_known(const Fit& fit) {
     const Calibration& c = fit.calibration;
@@ -173,7 +207,8 @@ void print_known(const Fit& fit) {
     }
     if (fit.repeatability && fit.repeatability->levels > 0) {
         fmt::print(
-            "repeatability {:.2f} dB: {} levels were measured again, and differ by so much; a model "
+            "repeatability {:.2f} dB: {} levels were measured again, and differ by so much; a "
+            "model "
             "that is right would be {:.2f} dB off\n",
             fit.repeatability->rms, fit.repeatability->levels, fit.repeatability->one_level());
     }
@@ -196,9 +231,13 @@ void print_fit(const Fit& fit) {
             "down (down), and are not;\nas given: rmse with the parameters of the file\n",
             c.known.group_name);
     }
+    print_gains(c);
     for (const CalibratedModel& m : c.models) {
-        if (m.parameters.empty()) continue;
-        fmt::print("\n{}", to_toml(m.settings));
+        if (!m.refusal.empty()) {
+            fmt::print("\n{} is not for a scenario: {}\n", m.model, m.refusal);
+        } else if (!m.parameters.empty()) {
+            fmt::print("\n{}", to_toml(m.settings));
+        }
     }
 }
 

@@ -64,6 +64,7 @@ void advise(const AdviseArguments& arguments);
 struct FitArguments : FileArguments {
     std::string to;
     std::optional<std::string> links, check, floor;
+    bool gains = false;
     bool json = false;
 };
 void fit(const FitArguments& arguments);

@@ -162,6 +162,9 @@ void add_fit(Command app) {
         .needs(links);
     fit.add_option("--floor", a.floor, "level below which nothing was received: an empty level_dbm")
         .needs(links);
+    fit.add_flag("--gains", a.gains,
+                 "each place that sends has a gain of its own, beyond the mean of all")
+        .needs(links);
     add_json(fit, a.json);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/calibration.hpp"
 
+#include "models/propagation/friis.hpp"
 #include "study/disc_fit.hpp"
 #include "study/free_parameters.hpp"
 #include "study/linear_calibration.hpp"
@@ -13,6 +14,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace rovernet {
@@ -32,26 +34,31 @@ std::set<std::uint32_t> groups_of(const KnownLinks& known) {
 void jackknife(LinearCalibration::Solution& fit,
                const std::vector<LinearCalibration::Solution>& without_a_group) {
     const auto groups = static_cast<double>(without_a_group.size());
-    for (std::size_t k = 0; k < fit.coefficients.size(); ++k) {
-        if (std::isfinite(fit.coefficients[k].se_by_group)) continue;
+    const auto fill = [&](Coefficient& whole, const auto& of) {
+        if (std::isfinite(whole.se_by_group)) return;
         double mean = 0, squares = 0;
-        for (const auto& each : without_a_group) mean += each.coefficients[k].value / groups;
+        for (const auto& each : without_a_group) mean += of(each).value / groups;
         for (const auto& each : without_a_group) {
-            const double off = each.coefficients[k].value - mean;
+            const double off = of(each).value - mean;
             squares += off * off;
         }
-        fit.coefficients[k].se_by_group = std::sqrt((groups - 1) / groups * squares);
-    }
+        whole.se_by_group = std::sqrt((groups - 1) / groups * squares);
+    };
+    for (std::size_t k = 0; k < fit.coefficients.size(); ++k)
+        fill(fit.coefficients[k], [&](const auto& each) { return each.coefficients[k]; });
+    for (std::size_t k = 0; k < fit.gains.size(); ++k)
+        fill(fit.gains[k].gain, [&](const auto& each) { return each.gains[k].gain; });
 }
 
 void calibrate_linear(const KnownLinks& known, const Scenario& scenario, Meters decided_within,
-                      CalibratedModel& out) {
-    const LinearCalibration linear(known, scenario, out.model);
+                      Gains gains, CalibratedModel& out) {
+    const LinearCalibration linear(known, scenario, out.model, gains);
     auto all = linear.fit([](const KnownLink&) { return true; });
     const auto take_parameters = [&] {
         FittedSettings settings = linear.settings(all);
         out.parameters = std::move(settings.parameters);
         out.settings = std::move(settings.tables);
+        out.gains = all.gains;
     };
     take_parameters();
     Predictions fitted(known, decided_within), left_out(known, decided_within);
@@ -141,7 +148,8 @@ std::optional<PredictionErrors> errors_as_given(const KnownLinks& known, const S
 }  // namespace
 
 std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& scenario,
-                                       const std::string& except, Meters decided_within) {
+                                       const std::string& except, Meters decided_within,
+                                       Gains gains) {
     std::vector<CalibratedModel> out;
     for_each_model([&]<class Model>() {
         CalibratedModel model;
@@ -151,7 +159,7 @@ std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& 
             if (model.model == "disc") {
                 calibrate_disc(known, decided_within, model);
             } else {
-                calibrate_linear(known, scenario, decided_within, model);
+                calibrate_linear(known, scenario, decided_within, gains, model);
             }
             model.as_given = errors_as_given(known, scenario, model.model, decided_within);
         } catch (const std::invalid_argument& e) {
@@ -161,7 +169,33 @@ std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& 
         }
         out.push_back(std::move(model));
     });
+    if (known.measured) refuse_absurd(out, scenario.radio.power);
     return out;
+}
+
+void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
+    constexpr double most_db = 30, much = 2, more_db = 3;
+    const auto error_of = [](const CalibratedModel& m) {
+        return m.left_out ? m.left_out->rmse : m.fitted.rmse;
+    };
+    const auto free_space = std::find_if(models.begin(), models.end(), [](const auto& m) {
+        return m.model == Friis::name && m.failure.empty();
+    });
+    for (CalibratedModel& model : models) {
+        if (!model.failure.empty() || model.fitted.losses == 0) continue;
+        for (const FittedParameter& p : model.parameters) {
+            if (p.key != "power" || std::abs(p.value - given_power.value) <= most_db) continue;
+            model.refusal =
+                fmt::format("its power of {:.4g} dBm is more than {} dB from the given {:.4g} dBm",
+                            p.value, most_db, given_power.value);
+        }
+        if (free_space == models.end() || !model.refusal.empty()) continue;
+        const double error = error_of(model), friis = error_of(*free_space);
+        if (error <= much * friis || error <= friis + more_db) continue;
+        model.refusal = fmt::format(
+            "its error of {:.1f} dB is far above the {:.1f} dB of free space with its own constant",
+            error, friis);
+    }
 }
 
 double loss_error_at_budget(const KnownLinks& known, const Scenario& scenario) {
@@ -224,14 +258,44 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
     return out;
 }
 
+namespace {
+
+/// @throws InputError if as many places send as have no gain each
+void check_transmitters(const KnownLinks& known, const std::string& path) {
+    constexpr std::size_t fewest = 2, most = 200;
+    std::set<std::tuple<double, double, double>> places;
+    for (const KnownLink& link : known.links) places.emplace(link.from.x, link.from.y, link.from.z);
+    if (places.size() >= fewest && places.size() <= most) return;
+    throw InputError({path, 0, 0},
+                     fmt::format("found {} places that send, expected {} to {}, whose gains differ"
+                                 "{}",
+                                 places.size(), fewest, most,
+                                 places.size() > most ? "; are from and to exchanged?" : ""));
+}
+
+}  // namespace
+
 Calibration calibrate_to_levels(const Scenario& scenario, const std::string& path,
-                                std::optional<Dbm> floor) {
+                                std::optional<Dbm> floor, Gains gains) {
     Calibration out;
     out.known = read_levels(path, scenario, floor);
+    if (gains == Gains::by_transmitter) check_transmitters(out.known, path);
     out.loss_error = loss_error_at_budget(out.known, scenario);
-    out.models = calibrate(out.known, scenario, "", Propagation::anything);
+    out.models = calibrate(out.known, scenario, "", Propagation::anything, gains);
     return out;
 }
+
+namespace {
+
+/// Gain of the transmitter at a place [dB]; 0, their mean, of one that is not known.
+double gain_at(const std::vector<TransmitterGain>& gains, Vec3 place) {
+    for (const TransmitterGain& each : gains) {
+        if (each.at == place) return each.gain.value;
+    }
+    return 0;
+}
+
+}  // namespace
 
 Repeatability check(Calibration& calibration, const Scenario& scenario, const std::string& path,
                     std::optional<Dbm> floor) {
@@ -253,7 +317,8 @@ Repeatability check(Calibration& calibration, const Scenario& scenario, const Kn
         const Propagation fitted = model_with(scenario, model.model, values);
         Predictions predictions(others, Propagation::anything);
         for (std::size_t i = 0; i < others.links.size(); ++i) {
-            const double loss = others.loss_by(fitted, others.links[i]) + constant;
+            const double loss = others.loss_by(fitted, others.links[i]) + constant -
+                                gain_at(model.gains, others.links[i].from);
             const bool up = loss <= others.links[i].budget;
             predictions.add(i, model.model == "disc" ? std::nullopt : std::optional(loss), up);
         }

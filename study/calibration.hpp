@@ -28,7 +28,9 @@ struct CalibratedModel {
     std::optional<PredictionErrors> as_given;  ///< with the scenario's own parameters
     std::optional<PredictionErrors> checked;   ///< on other links, see check()
     std::vector<WorstLink> worst;              ///< the five largest errors
+    std::vector<TransmitterGain> gains = {};   ///< if they were free
     std::string failure;                       ///< why it could not be fitted; empty: it was
+    std::string refusal = {};  ///< why nobody should use the fit; empty: see refuse_absurd()
 };
 
 /// Fits all listed models but `except` to the known links, in the order of the list: by least
@@ -37,8 +39,15 @@ struct CalibratedModel {
 /// Losses of walls are >= 0. With measured levels one constant is free in each model, as powers and
 /// gains are only roughly known: `excess` where a model has it, else the radios' power.
 /// Decisions are counted on links no longer than `decided_within`.
+/// @param gains  by_transmitter: of measured levels, each place that sends has a gain of its own in
+///               each model but the disc, beyond the mean of all
 std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& scenario,
-                                       const std::string& except, Meters decided_within);
+                                       const std::string& except, Meters decided_within,
+                                       Gains gains = Gains::equal);
+
+/// Refuses fits to measured levels that describe nothing: a power more than 30 dB from the given
+/// one, or an error of more than twice that of free space with its constant, and 3 dB more.
+void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power);
 
 /// Standard error [dB] of the loss that log_distance, fitted to the links, predicts where it
 /// crosses their mean budget: whether these are enough links. Not a number with one group.
@@ -76,8 +85,9 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
                                Db beyond = Db{std::numeric_limits<double>::infinity()});
 
 /// Calibrates to measured levels, see read_levels().
+/// @throws InputError as read_levels(); if gains are free and only one place sends
 Calibration calibrate_to_levels(const Scenario& scenario, const std::string& path,
-                                std::optional<Dbm> floor);
+                                std::optional<Dbm> floor, Gains gains = Gains::equal);
 /// Judges the calibrated models on other measured levels, from another day or drive.
 /// @return how well the levels of both files repeat
 Repeatability check(Calibration& calibration, const Scenario& scenario, const std::string& path,

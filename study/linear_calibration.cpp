@@ -31,7 +31,7 @@ Observations without(const Observations& all, const std::vector<bool>& held) {
 }  // namespace
 
 LinearCalibration::LinearCalibration(const KnownLinks& known, const Scenario& scenario,
-                                     std::string_view model)
+                                     std::string_view model, Gains gains)
     : known_(known), scenario_(scenario), model_(model), free_(free_parameters(model)) {
     losses_ = linear_losses(known, scenario, model, free_);
     const bool has_constant =
@@ -46,12 +46,28 @@ LinearCalibration::LinearCalibration(const KnownLinks& known, const Scenario& sc
                         [&](const LinearLoss& l) { return std::abs(l.columns[j]) < 1e-9; });
         if (!says_nothing) used_.push_back(j);
     }
+    if (gains == Gains::equal) return;
+    for (const KnownLink& link : known.links) {
+        const auto at = std::find(transmitters_.begin(), transmitters_.end(), link.from);
+        transmitter_.push_back(static_cast<std::size_t>(at - transmitters_.begin()));
+        if (at == transmitters_.end()) transmitters_.push_back(link.from);
+    }
 }
 
 LinearCalibration::Solution LinearCalibration::fit(
     const std::function<bool(const KnownLink&)>& takes) const {
-    if (used_.empty()) return {};
-    Observations data{.columns = used_.size()};
+    // Gains are beyond their mean, so that the last one is less the sum of the others.
+    std::vector<std::size_t> present;
+    for (std::size_t t = 0; t < transmitters_.size(); ++t) {
+        for (std::size_t i = 0; i < transmitter_.size(); ++i) {
+            if (transmitter_[i] != t || !takes(known_.links[i])) continue;
+            present.push_back(t);
+            break;
+        }
+    }
+    const std::size_t free_gains = present.empty() ? 0 : present.size() - 1;
+    Observations data{.columns = used_.size() + free_gains};
+    if (data.columns == 0) return {};
     std::vector<bool> unseen;
     for (std::size_t i = 0; i < losses_.size(); ++i) {
         const KnownLink& link = known_.links[i];
@@ -59,22 +75,48 @@ LinearCalibration::Solution LinearCalibration::fit(
         // As levels: what was not seen lies below.
         std::vector<double> row;
         for (const std::size_t j : used_) row.push_back(-losses_[i].columns[j]);
+        for (std::size_t g = 0; g < free_gains; ++g) {
+            const std::size_t t = transmitter_[i];
+            row.push_back(t == present[g] ? 1 : t == present.back() ? -1 : 0);
+        }
         data.add(row, losses_[i].offset - link.loss, link.group);
         unseen.push_back(link.unseen);
     }
     const bool all_seen = std::find(unseen.begin(), unseen.end(), true) == unseen.end();
-    return all_seen ? by_least_squares(data) : by_tobit(data, unseen);
+    Solution out = all_seen ? by_least_squares(data) : by_tobit(data, unseen);
+    take_gains(out, present);
+    return out;
+}
+
+/// Takes the gains from behind the coefficients of the parameters. One that no link tells is 0.
+void LinearCalibration::take_gains(Solution& solution,
+                                   const std::vector<std::size_t>& present) const {
+    if (transmitters_.empty()) return;
+    constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+    for (const Vec3 at : transmitters_)
+        solution.gains.push_back({at, {.se_plain = no_number, .se_by_group = no_number}});
+    double sum = 0;
+    for (std::size_t k = used_.size(); k < solution.coefficients.size(); ++k) {
+        const double gain = solution.coefficients[k].value;
+        solution.gains[present[k - used_.size()]].gain.value = gain;
+        sum += gain;
+    }
+    if (!present.empty()) solution.gains[present.back()].gain.value = -sum;
+    solution.coefficients.resize(used_.size());
+    solution.at_bound.resize(used_.size());
 }
 
 LinearCalibration::Solution LinearCalibration::by_least_squares(const Observations& data) const {
     std::vector<bool> held;
     for (const std::size_t j : used_) held.push_back(free_[j].non_negative);
+    held.resize(data.columns, false);
     const LinearFit fit = least_squares(data, held);
     Solution out{.coefficients = {}, .at_bound = fit.at_bound, .sigma = fit.sigma};
-    for (std::size_t k = 0; k < used_.size(); ++k) {
+    for (std::size_t k = 0; k < data.columns; ++k) {
         if (!fit.coefficients[k]) {
-            throw std::invalid_argument(fmt::format(
-                "the links do not tell {} from the other parameters", free_[used_[k]].key));
+            throw std::invalid_argument(
+                fmt::format("the links do not tell {} from the other parameters",
+                            k < used_.size() ? free_[used_[k]].key : "the gains"));
         }
         out.coefficients.push_back(*fit.coefficients[k]);
     }
@@ -84,17 +126,18 @@ LinearCalibration::Solution LinearCalibration::by_least_squares(const Observatio
 LinearCalibration::Solution LinearCalibration::by_tobit(const Observations& data,
                                                         const std::vector<bool>& unseen) const {
     constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-    Solution out{.coefficients = {}, .at_bound = std::vector<bool>(used_.size()), .sigma = 0};
-    out.coefficients.assign(used_.size(), {.se_plain = no_number, .se_by_group = no_number});
+    Solution out{.coefficients = {}, .at_bound = std::vector<bool>(data.columns), .sigma = 0};
+    out.coefficients.assign(data.columns, {.se_plain = no_number, .se_by_group = no_number});
     // What would be negative, and must not be, is held at 0: one after the other, the worst first.
     for (;;) {
         const TobitFit fit = tobit(without(data, out.at_bound), unseen);
         out.sigma = fit.sigma;
         std::optional<std::size_t> worst;
-        for (std::size_t k = 0, column = 0; k < used_.size(); ++k) {
+        for (std::size_t k = 0, column = 0; k < data.columns; ++k) {
             Coefficient& c = out.coefficients[k];
             c.value = out.at_bound[k] ? 0 : fit.coefficients[column++];
-            const bool wrong = free_[used_[k]].non_negative && c.value < 0;
+            const bool may_be_negative = k >= used_.size() || !free_[used_[k]].non_negative;
+            const bool wrong = !may_be_negative && c.value < 0;
             if (wrong && (!worst || c.value < out.coefficients[*worst].value)) worst = k;
         }
         if (!worst) return out;
@@ -107,6 +150,7 @@ double LinearCalibration::predict(const Solution& solution, std::size_t i) const
     for (std::size_t k = 0; k < used_.size(); ++k) {
         loss += solution.coefficients[k].value * losses_[i].columns[used_[k]];
     }
+    if (!solution.gains.empty()) loss -= solution.gains[transmitter_[i]].gain.value;
     return std::max(0.0, loss);
 }
 

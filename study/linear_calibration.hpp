@@ -26,6 +26,15 @@ struct FittedParameter {
     double se_plain = 0, se_by_group = 0;
 };
 
+/// Gains of transmitters: one for all, which the model's constant holds, or one for each.
+enum class Gains { equal, by_transmitter };
+
+/// Gain of a transmitter beyond the mean of all.
+struct TransmitterGain {
+    Vec3 at;           ///< its antenna [m]
+    Coefficient gain;  ///< [dB]
+};
+
 /// Parameters, and the tables of a scenario file that hold them.
 struct FittedSettings {
     std::vector<FittedParameter> parameters;
@@ -41,11 +50,13 @@ class LinearCalibration {
     struct Solution {
         std::vector<Coefficient> coefficients;
         std::vector<bool> at_bound;
-        double sigma = 0;  ///< [dB]
+        double sigma = 0;                         ///< [dB]
+        std::vector<TransmitterGain> gains = {};  ///< none if they are equal
     };
 
     /// @throws InputError, std::invalid_argument if the model cannot be asked
-    LinearCalibration(const KnownLinks& known, const Scenario& scenario, std::string_view model);
+    LinearCalibration(const KnownLinks& known, const Scenario& scenario, std::string_view model,
+                      Gains gains);
 
     /// Fits to the links that `takes` wants.
     /// @throws std::invalid_argument if they do not tell the parameters apart
@@ -57,6 +68,7 @@ class LinearCalibration {
   private:
     Solution by_least_squares(const Observations& data) const;
     Solution by_tobit(const Observations& data, const std::vector<bool>& unseen) const;
+    void take_gains(Solution& solution, const std::vector<std::size_t>& present) const;
     FittedParameter parameter(const Solution& solution, std::size_t j) const;
 
     const KnownLinks& known_;
@@ -64,7 +76,9 @@ class LinearCalibration {
     std::string model_;
     std::vector<FreeParameter> free_;
     std::vector<LinearLoss> losses_;
-    std::vector<std::size_t> used_;  // of the free parameters: those that matter for some link
+    std::vector<std::size_t> used_;   // of the free parameters: those that matter for some link
+    std::vector<Vec3> transmitters_;  // whose gains are free
+    std::vector<std::size_t> transmitter_;  // of each link, an index into these
 };
 
 }  // namespace rovernet

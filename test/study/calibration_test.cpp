@@ -8,6 +8,7 @@
 #include "models/propagation/log_distance.hpp"
 #include "scenario/toml.hpp"
 #include "scene/scene.hpp"
+#include "sim/random.hpp"
 #include "test/models/vectors.hpp"
 #include "test/scene/drawn_map.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -329,6 +330,107 @@ TEST_CASE("calibration: levels that were not seen count by the Tobit model") {
     CHECK(std::isfinite(model(some, "log_distance").parameters[0].se_by_group));
     // friis has no constant of its own: the radios' power takes it up.
     CHECK(model(some, "friis").parameters.at(0).key == "power");
+}
+
+TEST_CASE("calibration: each transmitter has a gain of its own, and models fit better for it") {
+    const test::TemporaryFolder folder;
+    const Scenario scenario = scenario_from(wanderers);
+    const auto write = [&](const std::string& name, double first, double floor) {
+        std::string out = "from_x_m,from_y_m,to_x_m,to_y_m,level_dbm,group\n";
+        const double gains[] = {4, -1, -3};  // [dB]
+        for (int i = 0; i < 300; ++i) {
+            const int t = i % 3;
+            const double d = first + 1.3 * i, error = std::sin(1.7 * i);
+            const double level = 16.53 - 50 - 30 * std::log10(d) + gains[t] + error;
+            out += fmt::format("{},0,{},0,{},{}\n", 1000 * t, 1000 * t + d,
+                               level < floor ? "" : fmt::format("{}", level), i % 7);
+        }
+        return folder.write(name, out);
+    };
+    for (const double floor : {-300.0, -105.0}) {  // all seen; many not
+        CAPTURE(floor);
+        const auto path = write("levels.csv", 2, floor);
+        const auto fitted = [&](Gains gains) {
+            return calibrate_to_levels(scenario, path, Dbm{floor}, gains);
+        };
+        const Calibration equal = fitted(Gains::equal);
+        Calibration free = fitted(Gains::by_transmitter);
+        const CalibratedModel& law = model(free.models, "log_distance");
+        REQUIRE(law.gains.size() == 3);
+        CHECK(law.gains[1].at == Vec3{1000, 0, 0});
+        CHECK(std::abs(law.gains[0].gain.value - 4) < 0.3);
+        CHECK(std::abs(law.gains[1].gain.value + 1) < 0.3);
+        CHECK(std::abs(law.gains[2].gain.value + 3) < 0.3);
+        CHECK(law.gains[0].gain.se_by_group > 0);
+        CHECK(law.gains[0].gain.se_by_group < 0.5);
+        CHECK(near(value(law, "exponent"), 3, 0.02));
+        // sin has 0.71 dB rms, the gains 2.9.
+        CHECK(law.left_out->rmse < 0.9);
+        CHECK(model(equal.models, "log_distance").left_out->rmse > 2.5);
+        CHECK(model(equal.models, "log_distance").gains.empty());
+        // Another day's levels of the same places have the same gains.
+        check(free, scenario, write("other.csv", 2.7, floor), Dbm{floor});
+        CHECK(model(free.models, "log_distance").checked->rmse < 0.9);
+        CHECK(model(free.models, "disc").gains.empty());
+    }
+    const auto fault = [&](const std::string& text) {
+        try {
+            calibrate_to_levels(scenario, folder.write("few.csv", text), {}, Gains::by_transmitter);
+            return std::string("no error");
+        } catch (const InputError& e) {
+            return e.message();
+        }
+    };
+    const std::string head = "from_x_m,from_y_m,to_x_m,to_y_m,level_dbm\n";
+    CHECK(fault(head + "0,0,1,0,-50\n0,0,2,0,-55\n").starts_with("found 1 places that send"));
+    std::string walk = head;
+    for (int i = 0; i < 201; ++i) walk += fmt::format("{},0,500,1,-50\n", i);
+    CHECK(fault(walk).ends_with("are from and to exchanged?"));
+}
+
+TEST_CASE("calibration: a fit that describes nothing is refused, with the reason") {
+    const auto fit_of = [](const char* name, double rmse, double power) {
+        CalibratedModel out;
+        out.model = name;
+        out.fitted = {.losses = 100, .rmse = rmse};
+        out.parameters = {{.key = "power", .unit = "dBm", .value = power}};
+        return out;
+    };
+    std::vector<CalibratedModel> models{fit_of("friis", 5, 12), fit_of("two_ray", 9.9, 12),
+                                        fit_of("rays", 54, 12), fit_of("itu_indoor", 6, 4212.4)};
+    refuse_absurd(models, Dbm{16.5});
+    CHECK(models[0].refusal.empty());
+    CHECK(models[1].refusal.empty());
+    CHECK(models[2].refusal ==
+          "its error of 54.0 dB is far above the 5.0 dB of free space with its own constant");
+    CHECK(models[3].refusal == "its power of 4212 dBm is more than 30 dB from the given 16.5 dBm");
+    // By real levels: a power that was given 40 dB too high.
+    const test::TemporaryFolder folder;
+    const auto path = folder.write("levels.csv", levels_of_a_law(-300));
+    const auto fitted =
+        calibrate_to_levels(scenario_from(wanderers + "[radio]\npower = \"80 dBm\"\n"), path, {});
+    CHECK(!model(fitted.models, "friis").refusal.empty());
+    CHECK(model(fitted.models, "log_distance").refusal.empty());  // its excess takes it up
+}
+
+TEST_CASE(
+    "levels: one level is the square root of two nearer the truth than two are to each other") {
+    KnownLinks first, second;
+    constexpr int places = 4000;
+    for (int i = 0; i < places; ++i) {
+        const auto error = [&](std::uint64_t which) {
+            return 3 * normal({.purpose = Purpose::placement,
+                               .b = which,
+                               .index = static_cast<std::uint64_t>(i)});
+        };
+        KnownLink link{};
+        link.place = std::to_string(i);
+        link.loss = 80 + error(1);
+        first.links.push_back(link);
+        link.loss = 80 + error(2);
+        second.links.push_back(link);
+    }
+    CHECK(std::abs(repeatability(first, second).one_level() - 3) < 0.1);
 }
 
 TEST_CASE("levels: what is wrong with a file is told with its place") {
