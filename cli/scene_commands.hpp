@@ -40,7 +40,7 @@ void where(const WhereArguments& arguments);
 
 struct DrawArguments : FileArguments {
     std::string at = "0 s";
-    std::optional<std::string> coverage;
+    std::optional<std::string> coverage, receiver;
     bool links = false;
     bool trails = false;
     bool axes = false;

@@ -51,10 +51,15 @@ void add_where(Command app) {
 void add_draw(Command app) {
     const auto [draw, a] = add_command(app, "draw", "Draw map, robots and radio", cli::draw);
     draw.add_examples({"rovernet draw examples/rescue/rescue.toml --links --at 10s -o rescue.svg",
-                       "rovernet draw examples/rescue/rescue.toml --coverage A -o coverage.svg"});
+                       "rovernet draw examples/rescue/rescue.toml --coverage A -o coverage.svg",
+                       "rovernet draw hall.toml --coverage AP --for rover -o coverage.svg"});
     add_file(draw, a, any_file);
     draw.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
-    draw.add_option("--coverage", a.coverage, "robot whose received power is shown");
+    Option coverage =
+        draw.add_option("--coverage", a.coverage, "robot whose received power is shown");
+    draw.add_option("--for", a.receiver,
+                    "robot whose radio and antenna's height receive it (default: like its own)")
+        .needs(coverage);
     draw.add_flag("--links", a.links, "show who hears whom");
     draw.add_flag("--trails", a.trails, "show where the robots have been");
     draw.add_option("--storey", a.storey, "storey that is drawn, the lowest is 1").shows_default();

@@ -251,6 +251,7 @@ void draw(const DrawArguments& a) {
     const Scenario scenario = scenario_of(a);
     const PictureOptions options{.at = time_in(scenario, a.at),
                                  .coverage = a.coverage,
+                                 .receiver = a.receiver,
                                  .links = a.links,
                                  .trails = a.trails,
                                  .storey = a.storey,

@@ -42,6 +42,7 @@ Transmitter transmitter(const Network& network, NodeId robot, Time at) {
     const NetworkSettings& settings = network.settings();
     return {.model = network.medium().stations().model(robot).median(),
             .radio = network.medium().stations().radio(robot),
+            .receiver = network.medium().stations().radio(robot),
             .antenna = network.medium().stations().antenna(robot, at, network.legs()),
             .heading = Radians{network.legs().leg(robot).heading_at(at)},
             .key = name_key(network.name(robot)),
@@ -65,7 +66,7 @@ void received_levels(const Transmitter& transmitter, std::span<const Vec3> anten
                           .seed = transmitter.seed,
                           .replication = transmitter.replication};
     transmitter.model.loss(links, {std::numeric_limits<double>::infinity()}, out_dbm);
-    for (double& v : out_dbm) v = received_power(radio, radio, Db{v}).value;
+    for (double& v : out_dbm) v = received_power(radio, transmitter.receiver, Db{v}).value;
     if (!radio.is_directional()) return;
     const Pose pose{transmitter.antenna, transmitter.heading};
     for (std::size_t i = 0; i < antennas.size(); ++i) {

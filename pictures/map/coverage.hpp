@@ -17,6 +17,7 @@ namespace rovernet {
 struct Transmitter {
     Propagation model;
     Radio radio = {};
+    Radio receiver = {};           ///< radio of the receivers
     Vec3 antenna = {};             ///< [m]
     double receivers_above = 0;    ///< [m] by which receivers' antennas are higher than its own
     Radians heading{0};            ///< [rad] of the robot, for a directional antenna
@@ -27,12 +28,12 @@ struct Transmitter {
     std::uint32_t replication = 0;
 };
 
-/// The robot as it stands at `at`. Its model is the median: shadowing of links belongs to pairs of
-/// robots, and there is no robot at most places. A field of shadowing belongs to places, and stays.
-/// The network outlives the transmitter.
+/// The robot as it stands at `at`, for receivers like its own. Its model is the median: shadowing
+/// of links belongs to pairs of robots, and there is no robot at most places. A field of shadowing
+/// belongs to places, and stays. The network outlives the transmitter.
 Transmitter transmitter(const Network& network, NodeId robot, Time at);
 
-/// Levels [dBm] at which a radio like the transmitter's own would receive it.
+/// Levels [dBm] at which the receivers' radio would receive it; a directional one turns to it.
 /// @param antennas  [m] of the receivers
 /// @param out_dbm   same size; every element written
 void received_levels(const Transmitter& transmitter, std::span<const Vec3> antennas,

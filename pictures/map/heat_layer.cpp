@@ -102,7 +102,7 @@ void define_gradient(Svg& svg) {
 
 HeatLayer::HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells)
     : map_(coverage(transmitter, plot.low, plot.high, cells)) {
-    const Radio& radio = transmitter.radio;
+    const Radio& radio = transmitter.receiver;
     lines_.push_back({radio.sensitivity, "sensitivity", false});
     if (radio.range_db) lines_.push_back({*radio.range_db, "range_db", true});
     double weakest = radio.sensitivity.value;

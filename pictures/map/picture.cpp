@@ -95,7 +95,7 @@ class Painter {
     double width_;  // of the picture, in its own points
     Network network_;
     std::shared_ptr<Trails> trails_ = std::make_shared<Trails>();
-    std::optional<NodeId> source_ = std::nullopt;
+    std::optional<NodeId> source_ = std::nullopt, receiver_ = std::nullopt;
     std::optional<Transmitter> transmitter_ = std::nullopt;
     std::optional<MapLayer> map_ = std::nullopt;
     std::optional<HeatLayer> heat_ = std::nullopt;
@@ -132,6 +132,7 @@ void Painter::run() {
                                    network_.size(), most_robots));
     }
     if (options_.coverage) source_ = robot_named(network_, *options_.coverage);
+    if (options_.receiver) receiver_ = robot_named(network_, *options_.receiver);
     network_.run_until(options_.at);
 
     const Scene& scene = network_.scene();
@@ -142,9 +143,13 @@ void Painter::run() {
     }
     if (source_) {
         transmitter_ = transmitter(network_, *source_, options_.at);
-        const std::size_t its_own = scene.storeys().number_at(network_.position(*source_).z);
+        const NodeId receiver = receiver_.value_or(*source_);
+        const Transmitter there = transmitter(network_, receiver, options_.at);
+        const std::size_t its_own = scene.storeys().number_at(network_.position(receiver).z);
+        const double above_floor = there.antenna.z - scene.storeys().floor(its_own);
+        transmitter_->receiver = there.radio;
         transmitter_->receivers_above =
-            scene.storeys().floor(storey()) - scene.storeys().floor(its_own);
+            scene.storeys().floor(storey()) + above_floor - transmitter_->antenna.z;
     }
     if (options_.links) links_.emplace(network_, options_.at, storey());
     if (options_.trails) ways_.emplace(*trails_, network_, options_.at, storey());
@@ -154,7 +159,8 @@ double Painter::shown_reach(const Extent& robots) const {
     constexpr double most = 4;  // times the size of the robots' extent
     const Radio& radio = transmitter_->radio;
     const double reach =
-        transmitter_->model.reach(link_budget(radio, radio), radio.frequency).value;
+        transmitter_->model.reach(link_budget(radio, transmitter_->receiver), radio.frequency)
+            .value;
     const double size = std::max(robots.width(), robots.height());
     const double limit = network_.size() > 1 ? most * size : 1e6;
     return std::min(reach, std::max(limit, 1.0));
@@ -247,7 +253,7 @@ std::string Painter::paint() {
     const double text_width = plot.right() + right - margin;
     const Time end = start_of_run + scenario_.scenario.duration;
     const Heading heading(shortened(scenario_.scenario.name, 100),
-                          picture_caption(network_, options_.at, end, storey(), source_),
+                          picture_caption(network_, options_.at, end, storey(), source_, receiver_),
                           text_width);
     plot.top = margin + heading.height();
 

@@ -12,10 +12,12 @@ namespace rovernet {
 /// Contents of a picture of a scenario, beyond map and robots.
 struct PictureOptions {
     Time at = start_of_run;
-    /// Robot whose level is drawn, as a heat map and with contours at its sensitivity and at its
-    /// range_db; as a radio like its own receives it, at the same antenna height, without
-    /// shadowing.
+    /// Robot whose level is drawn, as a heat map and with contours at the receivers' sensitivity
+    /// and range_db, without shadowing.
     std::optional<std::string> coverage = std::nullopt;
+    /// Robot whose radio receives it, at its antenna's height above the floor; the same if not
+    /// given.
+    std::optional<std::string> receiver = std::nullopt;
     bool links = false;   ///< links, coloured by margin
     bool trails = false;  ///< ways that the robots have gone
     int storey = 1;       ///< storey that is drawn, the lowest is 1

@@ -61,14 +61,16 @@ std::string presence_text(Presence presence) {
     return "";
 }
 
-void append_coverage(std::vector<std::string>& parts, const Network& network, NodeId source) {
+void append_coverage(std::vector<std::string>& parts, const Network& network, NodeId source,
+                     std::optional<NodeId> receiver) {
     constexpr std::size_t longest_name = 40;
     const RobotState robot = network.robot(source);
-    parts.push_back(
-        fmt::format("coverage of {}{}: {} for a radio like its own, antenna {:.6g} m up",
-                    shortened(robot.name, longest_name), presence_text(robot.presence),
-                    robot.propagation.is_random() ? "median level" : "level",
-                    robot.radio.antenna_height.value));
+    parts.push_back(fmt::format(
+        "coverage of {}{}: {} for {}, antenna {:.6g} m up", shortened(robot.name, longest_name),
+        presence_text(robot.presence), robot.propagation.is_random() ? "median level" : "level",
+        receiver ? "the radio of " + shortened(network.name(*receiver), longest_name)
+                 : "a radio like its own",
+        network.robot(receiver.value_or(source)).radio.antenna_height.value));
     parts.push_back(fmt::format("{:.4g} dBm at {:.6g} MHz", robot.radio.power.value,
                                 robot.radio.frequency.value / 1e6));
 }
@@ -76,7 +78,8 @@ void append_coverage(std::vector<std::string>& parts, const Network& network, No
 }  // namespace
 
 std::vector<std::string> picture_caption(const Network& network, Time at, Time end,
-                                         std::size_t storey, std::optional<NodeId> source) {
+                                         std::size_t storey, std::optional<NodeId> source,
+                                         std::optional<NodeId> receiver) {
     constexpr std::size_t most_models = 3;
     std::vector<std::string> parts{time_text(at, end)};
     if (network.scene().storeys().size() > 1) parts.push_back(storey_text(network.scene(), storey));
@@ -88,7 +91,7 @@ std::vector<std::string> picture_caption(const Network& network, Time at, Time e
         parts.push_back(fmt::format("and {} models more", models.size() - most_models));
     }
     if (!source) return parts;
-    append_coverage(parts, network, *source);
+    append_coverage(parts, network, *source, receiver);
     if (models.size() > 1) {
         parts.push_back("its model is " + model_text(network.robot(*source).propagation));
     }

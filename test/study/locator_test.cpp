@@ -71,6 +71,22 @@ TEST_CASE("locator: the bound is that of the closed form, with the power known o
     CHECK(checked == 128);
 }
 
+TEST_CASE("locator: on top of an anchor, which tells no direction, the others bound the place") {
+    const LocatorSettings settings = in_square(2);
+    const auto anchors = anchors_of("square10");
+    for (const double off : {0.0, 1e-9, 1e-3}) {
+        const Vec3 at{anchors[0].x + off, anchors[0].y, anchors[0].z};
+        const auto bound = Locator(settings).bound(anchors, at, Db{4});
+        CAPTURE(off);
+        REQUIRE(bound);
+        CHECK(std::isfinite(bound->value));
+        CHECK(bound->value >= 0);
+        CHECK(bound->value < 10);
+    }
+    // With one anchor more than there is, and itself alone: no place at all.
+    CHECK_FALSE(Locator(settings).bound({anchors.data(), 1}, anchors[0], Db{4}));
+}
+
 TEST_CASE("locator: anchors on one line tell no place on it, and two none with an unknown power") {
     CHECK_FALSE(Locator(in_square(2)).bound(anchors_of("collinear10"), {7, 0}, Db{4}));
     LocatorSettings unknown = in_square(2);

@@ -445,6 +445,35 @@ TEST_CASE("picture: the coverage of another storey is that through the ceiling")
     CHECK(below - expected == doctest::Approx(12 + spread));
 }
 
+TEST_CASE("picture: the coverage for another robot's radio is at its antenna, with its gain") {
+    const std::string access_point =
+        "[propagation]\nmodel = \"friis\"\n[[robot]]\nname = \"AP\"\nat = [\"0 m\", \"0 m\"]\n"
+        "radio = { antenna_height = \"5 m\" }\n";
+    const auto rover = [](const char* radio) {
+        return std::string("[[robot]]\nname = \"rover\"\nat = [\"20 m\", \"0 m\"]\nradio = { ") +
+               radio + " }\n";
+    };
+    const auto drawn = [&](const char* radio, std::optional<std::string> receiver) {
+        return draw_svg(scenario(access_point + rover(radio)),
+                        {.coverage = "AP", .receiver = std::move(receiver), .cells = 400});
+    };
+    const char* low = "antenna_height = \"1 m\"";
+    CHECK(drawn(low, "rover").find("for the radio of rover, antenna 1 m up") != std::string::npos);
+    CHECK(drawn(low, {}).find("for a radio like its own, antenna 5 m up") != std::string::npos);
+    // The link that the network has there is what the picture shows.
+    Network network(network_settings(scenario(access_point + rover("antenna_gain = \"7 dB\""))));
+    populate(network, scenario(access_point + rover("antenna_gain = \"7 dB\"")));
+    Transmitter t = transmitter(network, {0}, start_of_run);
+    const Transmitter rover_itself = transmitter(network, {1}, start_of_run);
+    const Vec3 there = rover_itself.antenna;
+    double like_its_own = 0, for_rover = 0;
+    received_levels(t, {&there, 1}, {&like_its_own, 1});
+    t.receiver = rover_itself.radio;
+    received_levels(t, {&there, 1}, {&for_rover, 1});
+    CHECK(for_rover == doctest::Approx(like_its_own + 7));
+    CHECK_THROWS_WITH_AS(drawn(low, "rovr"), doctest::Contains("\"rover\""), std::invalid_argument);
+}
+
 TEST_CASE("picture: an unknown robot and options out of range are the caller's fault") {
     const Scenario s = scenario(robot("alpha", 0, 0) + robot("beta", 5, 0));
     CHECK_THROWS_WITH_AS(draw_svg(s, {.coverage = "alpa"}), doctest::Contains("\"alpha\""),
