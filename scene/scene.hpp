@@ -163,6 +163,9 @@ class Scene {
     // The walls, if they are of one material, on one map and endless; null if not.
     const WallLayer* only_layer() const;
     void merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
+    template <class RateOf>
+    double sum_of_walls(Vec3 a, Vec3 b, double enough, std::vector<Crossing>& scratch,
+                        RateOf rate_of) const;
 
     OccupancyGrid grid_;
     MapFrame frame_;

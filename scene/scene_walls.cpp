@@ -42,13 +42,12 @@ void join(std::vector<Crossing>& crossings) {
 class SegmentInWalls {
   public:
     SegmentInWalls(std::span<const WallLayer> layers, const Storeys& storeys, Vec3 a, Vec3 b)
-        : layers_(layers), storeys_(storeys), a_(a), step_((1 / distance(a, b)) * (b - a)) {
-        if (is_one_map()) {
-            const MapFrame& frame = layers.front().frame;
-            const CellPoint from = frame.to_cells(a), to = frame.to_cells(b);
-            const double length = distance(a, b);
-            from_ = from;
-            cells_ = {(to.u - from.u) / length, (to.v - from.v) / length};
+        : layers_(layers), storeys_(storeys), a_(a), b_(b), length_(distance(a, b)) {
+        if (layers.size() == 1 && layers.front().is_endless()) {
+            only_ = &layers.front();
+            from_ = only_->frame.to_cells(a);
+            to_ = only_->frame.to_cells(b);
+            step_ = {(to_.u - from_.u) / length_, (to_.v - from_.v) / length_};
         }
         for (const WallLayer& layer : layers) {
             any_stair_ = any_stair_ || layer.faces->any_stair();
@@ -56,8 +55,17 @@ class SegmentInWalls {
         }
     }
 
-    /// Drawn thickness of the walls at a point that far along the segment [m].
-    double thickness(double along) const {
+    /// The walls, if they are of one material, on one map and endless; null if not.
+    const WallLayer* one_map() const { return only_; }
+    /// Writes the crossings with those.
+    void cross_one_map(std::vector<Crossing>& out) const {
+        only_->crossings(from_, to_, length_, out);
+    }
+
+    /// Drawn thickness of the walls in the middle of a crossing [m].
+    double thickness_in(const Crossing& c) const {
+        const double along = (c.entry + c.exit) / 2;
+        if (only_) return only_->thickness->at(on_one_map(along));
         double most = 0;
         on_maps(along, [&](const WallLayer& layer, CellPoint p) {
             most = std::max(most, layer.thickness->at(p));
@@ -66,6 +74,8 @@ class SegmentInWalls {
         return most;
     }
 
+    /// Each crossing is a wall: there are no stairs and no outlines.
+    bool each_is_wall() const { return !any_stair_ && !any_hollow_; }
     /// A crossing and the next one are of one wall: the segment has left it at a step of a stair,
     /// and comes back by the same face; or it is inside a wall that is drawn as an outline.
     bool is_one_wall(const Crossing& p, const Crossing& q) const {
@@ -74,8 +84,6 @@ class SegmentInWalls {
                (any_stair_ && common_face(p.exit, q.entry, p.material));
     }
 
-    /// Some face is the line of a stair.
-    bool may_touch() const { return any_stair_; }
     /// The segment comes by the face by which it leaves, and only touches steps of its stair.
     bool is_touch(const Crossing& first, const Crossing& last) const {
         if (!any_stair_) return false;
@@ -84,12 +92,11 @@ class SegmentInWalls {
     }
 
   private:
-    bool is_one_map() const { return layers_.size() == 1 && layers_.front().is_endless(); }
     /// Calls ask(layer, point) for the layers on the storey, until it answers false.
     template <class Ask>
     void on_maps(double along, Ask ask) const {
-        if (is_one_map()) {
-            ask(layers_.front(), {from_.u + along * cells_.u, from_.v + along * cells_.v});
+        if (only_) {
+            ask(*only_, on_one_map(along));
             return;
         }
         const Vec3 p = at(along);
@@ -97,7 +104,10 @@ class SegmentInWalls {
         for (const WallLayer& layer : layers_)
             if (layer.storey == storey && !ask(layer, layer.frame.to_cells(p))) return;
     }
-    Vec3 at(double along) const { return a_ + along * step_; }
+    CellPoint on_one_map(double along) const {
+        return {from_.u + along * step_.u, from_.v + along * step_.v};
+    }
+    Vec3 at(double along) const { return a_ + (along / length_) * (b_ - a_); }
     bool is_hollow(double along) const {
         bool found = false;
         on_maps(along, [&](const WallLayer& layer, CellPoint p) {
@@ -114,7 +124,7 @@ class SegmentInWalls {
         return face && face == faces->at(at(further), material) ? &faces->all()[*face] : nullptr;
     }
     const Faces* faces_at(double along) const {
-        if (is_one_map()) return layers_.front().faces.get();
+        if (only_) return only_->faces.get();
         const std::size_t storey = storeys_.number_at(at(along).z);
         const auto layer = std::find_if(layers_.begin(), layers_.end(),
                                         [&](const WallLayer& l) { return l.storey == storey; });
@@ -122,9 +132,11 @@ class SegmentInWalls {
     }
 
     std::span<const WallLayer> layers_;
+    const WallLayer* only_ = nullptr;
     const Storeys& storeys_;
-    Vec3 a_, step_;
-    CellPoint from_, cells_;  // of one map: a, and the way by metre
+    Vec3 a_, b_;
+    double length_;
+    CellPoint from_, to_, step_;  // a, b and the way by metre, of one map
     bool any_stair_ = false, any_hollow_ = false;
 };
 
@@ -133,6 +145,11 @@ class SegmentInWalls {
 /// @param crossings  in order along the segment
 template <class Visit>
 void visit_walls(std::span<const Crossing> crossings, const SegmentInWalls& segment, Visit visit) {
+    if (segment.each_is_wall()) {
+        for (const Crossing& c : crossings)
+            if (!visit(std::span(&c, 1), false)) return;
+        return;
+    }
     for (std::size_t i = 0, end = 0; i < crossings.size(); i = end) {
         end = i + 1;
         while (end < crossings.size() && segment.is_one_wall(crossings[end - 1], crossings[end]))
@@ -144,28 +161,13 @@ void visit_walls(std::span<const Crossing> crossings, const SegmentInWalls& segm
 
 double thickness_of(std::span<const Crossing> pieces, const SegmentInWalls& segment) {
     double most = 0;
-    for (const Crossing& c : pieces)
-        most = std::max(most, segment.thickness((c.entry + c.exit) / 2));
+    for (const Crossing& c : pieces) most = std::max(most, segment.thickness_in(c));
     return most;
 }
 
 double length_of(std::span<const Crossing> pieces) {
     double sum = 0;
     for (const Crossing& c : pieces) sum += c.length;
-    return sum;
-}
-
-/// Sum of what the walls take that a segment passes [dB], see Scene::wall_loss.
-/// @param rate_of  rate of a wall by its pieces
-template <class RateOf>
-double loss_of_walls(std::span<const Crossing> crossings, const SegmentInWalls& segment,
-                     double enough, RateOf rate_of) {
-    double sum = 0;
-    visit_walls(crossings, segment, [&](std::span<const Crossing> pieces, bool touched) {
-        const WallRate& rate = rate_of(pieces);
-        sum += (touched ? 0 : rate.per_crossing) + rate.per_metre * length_of(pieces);
-        return sum <= enough;
-    });
     return sum;
 }
 
@@ -232,8 +234,11 @@ std::vector<Wall> Scene::walls(Vec3 a, Vec3 b) const {
 
 bool Scene::passes_wall(Vec3 a, Vec3 b) const {
     if (wall_length(a, b, 0) == 0) return false;
+    const bool any_stair = std::any_of(layers_.begin(), layers_.end(), [](const WallLayer& layer) {
+        return layer.faces->any_stair();
+    });
+    if (!any_stair) return true;
     const SegmentInWalls segment(layers_, storeys_, a, b);
-    if (!segment.may_touch()) return true;
     const auto all = crossings(a, b);
     bool passes = false;
     visit_walls(all, segment, [&](std::span<const Crossing>, bool touched) {
@@ -243,29 +248,46 @@ bool Scene::passes_wall(Vec3 a, Vec3 b) const {
     return passes;
 }
 
+/// Sum of what the walls take that a segment passes [dB].
+/// @param rate_of  rate of a wall by its pieces in the segment
+template <class RateOf>
+double Scene::sum_of_walls(Vec3 a, Vec3 b, double enough, std::vector<Crossing>& scratch,
+                           RateOf rate_of) const {
+    if (layers_.empty() || a == b) return 0;
+    if (comes_before(b, a)) std::swap(a, b);
+    const SegmentInWalls segment(layers_, storeys_, a, b);
+    if (segment.one_map()) {
+        segment.cross_one_map(scratch);
+    } else {
+        merged_crossings(a, b, scratch);
+    }
+    double sum = 0;
+    visit_walls(scratch, segment, [&](std::span<const Crossing> pieces, bool touched) {
+        const WallRate& rate = rate_of(pieces, segment);
+        sum += (touched ? 0 : rate.per_crossing) + rate.per_metre * length_of(pieces);
+        return sum <= enough;
+    });
+    return sum;
+}
+
 double Scene::wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
                         std::vector<Crossing>& scratch) const {
-    if (comes_before(b, a)) std::swap(a, b);
-    crossings(a, b, scratch);
-    if (scratch.empty()) return 0;
-    return loss_of_walls(scratch, SegmentInWalls(layers_, storeys_, a, b), enough,
-                         [&](std::span<const Crossing> pieces) -> const WallRate& {
-                             return rates[pieces.front().material];
-                         });
+    return sum_of_walls(a, b, enough, scratch,
+                        [&](std::span<const Crossing> pieces, const auto&) -> const WallRate& {
+                            return rates[pieces.front().material];
+                        });
 }
 
 double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                         std::vector<Crossing>& scratch) const {
-    if (comes_before(b, a)) std::swap(a, b);
-    crossings(a, b, scratch);
-    if (scratch.empty()) return 0;
-    const SegmentInWalls segment(layers_, storeys_, a, b);
-    return loss_of_walls(scratch, segment, enough,
-                         [&](std::span<const Crossing> pieces) -> const WallRate& {
-                             const double thickness = thickness_of(pieces, segment);
-                             const bool heavy = thickness >= rates.thinnest_heavy.value;
-                             return (heavy ? rates.heavy : rates.light)[pieces.front().material];
-                         });
+    return sum_of_walls(
+        a, b, enough, scratch,
+        [&](std::span<const Crossing> pieces, const auto& segment) -> const WallRate& {
+            const bool heavy = std::any_of(pieces.begin(), pieces.end(), [&](const Crossing& c) {
+                return segment.thickness_in(c) >= rates.thinnest_heavy.value;
+            });
+            return (heavy ? rates.heavy : rates.light)[pieces.front().material];
+        });
 }
 
 Meters Scene::wall_thickness(Vec3 p) const {
