@@ -41,6 +41,8 @@ Table as_table(const LinkReport& report) {
         table.set("ceilings", static_cast<std::uint64_t>(report.ceilings));
         table.set("ceiling_loss_db", report.ceiling_loss.value);
     }
+    table.set("floors", static_cast<std::uint64_t>(report.floors));
+    table.set("floor_loss_db", report.floor_loss.value);
     if (const auto& rays = report.rays) {
         table.set("paths", static_cast<std::uint64_t>(rays->found));
         table.set("paths_left_out", static_cast<std::uint64_t>(rays->left_out));
@@ -76,14 +78,14 @@ void print_budget(const LinkReport& r) {
         if (!r.wall_losses.empty()) fmt::print(", {:.3f} dB", r.wall_losses[i].value);
         fmt::print("\n");
     }
-    if (!r.walls.empty()) {
+    if (r.wall_m > 0) {
         const bool sees_walls = !r.wall_losses.empty() || r.rays;
         fmt::print("  {:.3f} m of wall in all{}\n\n", r.wall_m,
                    sees_walls ? "" : "; model " + r.model + " does not see walls");
     }
-    if (r.ceilings > 0) {
-        fmt::print("  {} ceiling{}, {:.3f} dB\n\n", r.ceilings, r.ceilings == 1 ? "" : "s",
-                   r.ceiling_loss.value);
+    if (r.floors > 0) {
+        fmt::print("  {} {}{}, {:.3f} dB\n\n", r.floors, r.ceilings > 0 ? "ceiling" : "floor",
+                   r.floors == 1 ? "" : "s", r.floor_loss.value);
     }
     if (r.rays) print_paths(*r.rays);
     const auto line = [](std::string_view what, double value, std::string_view unit) {

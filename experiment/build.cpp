@@ -297,7 +297,7 @@ NetworkSettings network_settings(const Scenario& scenario) {
             located(scenario.propagation_where, [&] { return scenario.propagation.make(); }),
         .shadowing = scenario.shadowing,
         .fading = scenario.fading,
-        .floor_height = scenario.scene.floor_height,
+        .floor_height = scenario.scene.floor_height.value_or(no_storeys),
         .links = {.tolerance = scenario.links.tolerance, .min_dwell = scenario.links.min_dwell},
         .reception = scenario.reception.make(),
         .access = scenario.access.make(),

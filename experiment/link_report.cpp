@@ -4,6 +4,9 @@
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
 #include "models/medium/shadowed.hpp"
+#include "models/propagation/floors_between.hpp"
+#include "models/propagation/itu_indoor.hpp"
+#include "models/propagation/multi_wall.hpp"
 #include "models/propagation/rays.hpp"
 
 #include <fmt/format.h>
@@ -103,6 +106,13 @@ double loss_by(const Propagation& model, const Scene& scene, const Network& netw
     return db;
 }
 
+/// The model of what a robot sends, without shadowing.
+const Propagation& base_model(const Network& network, NodeId from) {
+    const Propagation& used = network.medium().stations().model(from);
+    const Shadowed* shadowed = used.as<Shadowed>();
+    return shadowed ? shadowed->base() : used;
+}
+
 /// What each wall of a link takes [dB]. A material with a loss of its own takes that; what the
 /// propagation model takes for the rest is in proportion to their lengths.
 std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, const LinkReport& link,
@@ -112,31 +122,55 @@ std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, cons
                 network, from, to, here, there);
 
     const auto& materials = network.scene().materials();
+    const MultiWall* counts = base_model(network, from).as<MultiWall>();
     std::vector<Db> losses;
     double left = link.path_loss.value - without_walls, plain_m = 0;
-    for (const Crossing& wall : link.walls) {
+    for (const Wall& wall : link.walls) {
         const Material& material = materials[wall.material];
         const WallRate rate = wall_rate(material, link.sender.frequency, 0);
-        losses.push_back({rate.per_crossing + rate.per_metre * wall.length});
+        losses.push_back(counts ? counts->wall_loss(wall, material, link.sender.frequency)
+                                : Db{rate.per_crossing + rate.per_metre * wall.length});
         left -= losses.back().value;
         if (material.follows_model()) plain_m += wall.length;
     }
-    for (std::size_t i = 0; i < losses.size(); ++i) {
-        const Crossing& wall = link.walls[i];
+    for (std::size_t i = 0; i < losses.size() && !counts; ++i) {
+        const Wall& wall = link.walls[i];
         if (materials[wall.material].follows_model())
             losses[i].value = left * wall.length / plain_m;
     }
     return losses;
 }
 
-/// What the ceilings between the antennas take [dB].
-Db ceiling_loss(const Network& network, NodeId from, NodeId to, Vec3 here, Vec3 there) {
+/// Floors between the antennas of a link, and what they take.
+struct Floors {
+    std::size_t ceilings = 0, number = 0;
+    Db loss{0};
+};
+
+Floors floors_between(const Network& network, NodeId from, NodeId to, Vec3 here, Vec3 there) {
     const Scene& scene = network.scene();
-    if (scene.storeys().ceilings_between(here.z, there.z).empty()) return Db{0};
-    const Propagation& model = network.medium().stations().model(from);
-    constexpr Meters no_floors{1e9};
-    return Db{loss_by(model, scene.with_walls_of(Scene()), network, from, to, here, there) -
-              loss_by(model, Scene(), network, from, to, here, there, no_floors)};
+    const Propagation& model = base_model(network, from);
+    const ItuIndoor* itu = model.as<ItuIndoor>();
+    Floors out{.ceilings = scene.storeys().ceilings_between(here.z, there.z).size()};
+    const LinkBatch batch{.frequency = {},
+                          .from = here,
+                          .to = {&there, 1},
+                          .to_keys = {},
+                          .floor_height = network.settings().floor_height};
+    out.number = itu && itu->floors ? static_cast<std::size_t>(*itu->floors)
+                 : scene.storeys().size() > 1
+                     ? out.ceilings
+                     : static_cast<std::size_t>(FloorCounter(batch).between(0).of_model);
+    if (out.number == 0) return out;
+    Propagation without = model;
+    if (itu) {
+        ItuIndoor level = *itu;
+        level.floors = 0;
+        without = level;
+    }
+    out.loss = {loss_by(model, scene.with_walls_of(Scene()), network, from, to, here, there) -
+                loss_by(without, Scene(), network, from, to, here, there, no_storeys)};
+    return out;
 }
 
 std::string why_down(const Network& network, NodeId from, NodeId to, const LinkReport& link) {
@@ -180,7 +214,7 @@ void add_parts(LinkReport& report, const Network& network, NodeId from, NodeId t
     if (model.shape() == LossShape::by_walls) {
         report.wall_losses = wall_losses(network, from, to, report, here, there);
     }
-    for (const Crossing& wall : report.walls) {
+    for (const Wall& wall : report.walls) {
         report.materials.push_back(network.scene().materials()[wall.material].name);
     }
 }
@@ -192,17 +226,20 @@ LinkReport report_at(const Network& network, NodeId from, NodeId to, Time at) {
     const LinkLosses& links = network.medium().links();
     const Pose here = stations.pose(from, at, legs), there = stations.pose(to, at, legs);
     const Vec3 a = here.antenna, b = there.antenna;
+    const Floors floors = floors_between(network, from, to, a, b);
     LinkReport report{.from = std::string(network.name(from)),
                       .to = std::string(network.name(to)),
                       .model = {},
                       .at = at,
                       .distance_m = distance(a, b),
-                      .walls = network.scene().crossings(a, b),
+                      .walls = network.scene().walls(a, b),
                       .materials = {},
                       .wall_losses = {},
                       .wall_m = network.scene().wall_length(a, b),
-                      .ceilings = network.scene().storeys().ceilings_between(a.z, b.z).size(),
-                      .ceiling_loss = ceiling_loss(network, from, to, a, b),
+                      .ceilings = floors.ceilings,
+                      .ceiling_loss = floors.ceilings > 0 ? floors.loss : Db{0},
+                      .floors = floors.number,
+                      .floor_loss = floors.loss,
                       .sender = stations.radio(from),
                       .receiver = stations.radio(to),
                       .path_loss = links.path_loss(from, to, at, legs),

@@ -95,7 +95,7 @@ void Account::begin(const RecordedFrame& frame) {
                       .margin = {},
                       .others = {}};
     here.margin = here.level - air_.medium().stations().radio(robot_).sensitivity;
-    for (const Crossing& wall : air_.walls(frame, robot_)) {
+    for (const Wall& wall : air_.walls(frame, robot_)) {
         ++here.walls;
         here.wall_m += wall.length;
     }

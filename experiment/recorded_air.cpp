@@ -214,9 +214,9 @@ Db RecordedAir::loss(const RecordedFrame& frame, NodeId to, Vec3 here, Vec3 ther
     return {std::max(0.0, db - fade.value)};
 }
 
-std::vector<Crossing> RecordedAir::walls(const RecordedFrame& frame, NodeId to) const {
+std::vector<Wall> RecordedAir::walls(const RecordedFrame& frame, NodeId to) const {
     const Scene& scene = medium_.settings().scene_at(frame.begin);
-    return scene.crossings(pose(frame.air.frame.sender, frame).antenna, pose(to, frame).antenna);
+    return scene.walls(pose(frame.air.frame.sender, frame).antenna, pose(to, frame).antenna);
 }
 
 }  // namespace rovernet

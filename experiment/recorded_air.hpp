@@ -71,7 +71,7 @@ class RecordedAir {
     /// own arrives without a delay.
     Arrival arrival(const RecordedFrame& frame, NodeId to) const;
     /// Walls between both antennas when the frame begins.
-    std::vector<Crossing> walls(const RecordedFrame& frame, NodeId to) const;
+    std::vector<Wall> walls(const RecordedFrame& frame, NodeId to) const;
 
     /// Robots whose radios are known: those of the scenario.
     std::size_t robots() const { return names_.size(); }

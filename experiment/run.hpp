@@ -143,12 +143,14 @@ struct LinkReport {
     std::string from, to, model;
     Time at;
     double distance_m;
-    std::vector<Crossing> walls;
+    std::vector<Wall> walls;
     std::vector<std::string> materials;  ///< materials of the walls, one each
     std::vector<Db> wall_losses;         ///< loss of each wall; part of the path loss
     double wall_m;
-    std::size_t ceilings;  ///< ceilings between the antennas
+    std::size_t ceilings;  ///< ceilings between the antennas, in a scene of several storeys
     Db ceiling_loss;       ///< loss of all of them; part of the path loss
+    std::size_t floors;    ///< floors between the antennas: the ceilings, or as the model counts
+    Db floor_loss;         ///< loss of all of them; part of the path loss
     Radio sender, receiver;
     Db path_loss;                         ///< all of it: walls and shadowing are in it
     std::optional<Db> shadowing;          ///< part of the path loss, if there is some

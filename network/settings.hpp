@@ -9,6 +9,7 @@
 #include "models/variation/fading.hpp"
 #include "models/variation/shadowing.hpp"
 #include "scene/scene_change.hpp"
+#include "scene/storeys.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 #include "traces/metric_values.hpp"
@@ -46,8 +47,8 @@ struct NetworkSettings {
     std::vector<SceneChange> scene_changes = {};
     /// Planners of the scene, if some are kept from an earlier run in it; see KeptPlanners.
     std::shared_ptr<Planners> planners = nullptr;
-    /// Height of one storey [m], for losses by floor.
-    Meters floor_height{3};
+    /// Height of one storey [m], for losses by floor; see LinkBatch.
+    Meters floor_height = no_storeys;
     /// Precision with which link changes are looked for.
     LinkSearch links = {};
     /// Reception model: what becomes of frames at a receiver.

@@ -31,7 +31,7 @@ World::World(NetworkSettings given)
               .seed = settings.seed,
               .replication = settings.replication}),
       phy(settings.access.phy()) {
-    if (!positive.contains(settings.floor_height.value)) {
+    if (settings.floor_height != no_storeys && !positive.contains(settings.floor_height.value)) {
         throw_out_of_range("network", "floor_height", positive.text, settings.floor_height.value);
     }
     if (&planners->scene() != scene) {

@@ -241,6 +241,7 @@ Scenario load_scenario(const ScenarioFile& file, const Table& settings) {
         scenario.walls = load_map(scenario.scene, scenario.file, scenario.notices);
     }
     note_places(scenario, scenario.walls.get());
+    note_antennas(scenario, scenario.walls.get());
     note_walls_twice(scenario, scenario.walls.get());
     return scenario;
 }

@@ -139,10 +139,7 @@ Table scene_document(const SceneTable& scene) {
     Table table;
     append_fields(table, scene);
     if (!scene.lenient) std::erase_if(table.entries, [](auto& e) { return e.key == "lenient"; });
-    if (!scene.floors.empty()) {
-        std::erase_if(table.entries, [](auto& e) { return e.key == "floor_height"; });
-        table.set("floor", floors_document(scene.floors));
-    }
+    if (!scene.floors.empty()) table.set("floor", floors_document(scene.floors));
     if (!scene.doors.empty()) table.set("door", doors_document(scene.doors));
     Table materials;
     for (const MaterialTable& material : scene.materials) {

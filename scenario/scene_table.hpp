@@ -87,8 +87,8 @@ struct SceneTable {
     std::optional<std::vector<std::string>> world_path;
     std::optional<std::vector<std::string>> bitmaps;
     bool lenient = false;
-    /// Height of one storey [m], for losses by floor; of no meaning with `floors`.
-    Meters floor_height{3};
+    /// Height of one storey [m], for losses by floor; none: there is one storey, or `floors`.
+    std::optional<Meters> floor_height;
     /// Height [m] of walls whose material has none, above their floor; none: endless, or up to the
     /// ceiling.
     std::optional<Meters> wall_height;
@@ -114,7 +114,8 @@ struct SceneTable {
                   "\"OLD=NEW\": bitmaps of the world by other names"),
             field("lenient", &SceneTable::lenient,
                   "a missing include or bitmap of the world is a notice, not an error"),
-            field("floor_height", &SceneTable::floor_height, positive, "of one storey"),
+            field("floor_height", &SceneTable::floor_height, positive,
+                  "of one storey; storeys are not counted if not given"),
             field("wall_height", &SceneTable::wall_height, positive,
                   "of walls whose material has none of its own; endless if not given"));
     }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rovernet {
@@ -191,6 +192,32 @@ void note_places(Scenario& scenario, const Scene* scene) {
     }
     beyond.note(scenario.notices);
     in_walls.note(scenario.notices);
+}
+
+void note_antennas(Scenario& scenario, const Scene* scene) {
+    const Storeys storeys = scene ? scene->storeys() : Storeys();
+    const Meters height = scenario.scene.floor_height.value_or(no_storeys);
+    const auto storey = [&](double z) {
+        return storeys.size() > 1 ? static_cast<double>(storeys.number_at(z))
+                                  : std::floor(z / height.value);
+    };
+    Affected elsewhere;
+    for (const RobotTable& robot : scenario.robots) {
+        const double above = robot.radio.antenna_height.value;
+        double stands = 0;  // a start that a movement draws is on the ground
+        for_each_start(robot, [&](Vec3 p, const Location&) { stands = p.z; });
+        const double storeys_up = storey(stands + above) - storey(stands);
+        if (!(std::abs(storeys_up) >= 1)) continue;
+        elsewhere.add([&] {
+            return fmt::format(
+                "{}: the antenna of robot \"{}\" is {:.6g} m above it, and so {:.0f} storey{} {}: "
+                "floors lie between it and antennas near it; expected an antenna_height within the "
+                "storey",
+                robot.radio_where.text(), robot.name, above, std::abs(storeys_up),
+                std::abs(storeys_up) == 1 ? "" : "s", storeys_up > 0 ? "higher" : "lower");
+        });
+    }
+    elsewhere.note(scenario.notices);
 }
 
 void note_walls_twice(Scenario& scenario, const Scene* scene) {

@@ -20,6 +20,11 @@ void note_unlikely(Scenario& scenario);
 /// @param scene  the scenario's; null: an open field
 void note_places(Scenario& scenario, const Scene* scene);
 
+/// Notices antennas that are on another storey than their robots: only their height puts them
+/// there.
+/// @param scene  the scenario's; null: an open field
+void note_antennas(Scenario& scenario, const Scene* scene);
+
 /// Notices walls that count twice: those of the map, and those of a usual building that the
 /// coefficient N of raytrace_2007 holds where it is above 22.
 /// @param scene  the scenario's; null: an open field

@@ -85,6 +85,8 @@ void Faces::make() const {
         i = end;
     }
     for (Face& face : made_.faces) measure(face);
+    made_.any_stair = std::any_of(made_.faces.begin(), made_.faces.end(),
+                                  [](const Face& face) { return face.deviation > 0; });
 }
 
 void Faces::measure(Face& face) const {
@@ -161,14 +163,18 @@ void Faces::add_outline(const Outline& outline, const std::vector<OutlineSide>& 
         const auto& d = sides[s].direction;
         const Point begin = joints[s].second, end = joints[(s + 1) % sides.size()].first;
         const double along = (end[0] - begin[0]) * d[0] + (end[1] - begin[1]) * d[1];
+        const OutlineEdge& first = outline[sides[s].first % outline.size()];
+        const OutlineEdge& last = outline[(sides[s].first + sides[s].count - 1) % outline.size()];
         const Vec3 out = frame.to_world({d[1] / width, -d[0] / height}) - frame.to_world({0, 0});
-        made_.faces.push_back({.from = world(begin),
-                               .to = along > 0 ? world(end) : world(begin),
-                               .normal = out,
-                               .length = std::max(along, 0.0),
-                               .deviation = sides[s].deviation,
-                               .material = outline[sides[s].first % outline.size()].material,
-                               .outline = number});
+        made_.faces.push_back(
+            {.from = world(begin),
+             .to = along > 0 ? world(end) : world(begin),
+             .normal = out,
+             .length = std::max(along, 0.0),
+             .deviation = sides[s].deviation,
+             .slants = std::min(std::abs(last.u1 - first.u0), std::abs(last.v1 - first.v0)) >= 2,
+             .material = first.material,
+             .outline = number});
     }
 }
 

@@ -27,6 +27,8 @@ struct Face {
     double length = 0;
     /// Farthest distance from the drawn outline to the face's line [m]; 0 if it runs along cells.
     double deviation = 0;
+    /// The drawn outline climbs by two cells and more along it; if not, what deviates is a bump.
+    bool slants = false;
     /// Thickness of the wall behind the face [m]: the median of three ways through its material,
     /// square to the face, each to the line of the face on the other side if that is nearly
     /// parallel; at most 5 m.
@@ -70,6 +72,8 @@ class Faces {
 
     /// All faces: map by map, outline by outline.
     std::span<const Face> all() const { return made().faces; }
+    /// One at least stands for a stair of cells, which its line does not follow.
+    bool any_stair() const { return made().any_stair; }
     /// The face on whose drawn outline a point lies, in plan, within a millionth of a cell.
     /// @param material  the face's
     std::optional<std::size_t> at(Vec3 p, std::size_t material) const;
@@ -94,6 +98,7 @@ class Faces {
     struct Made {
         std::vector<Face> faces;
         std::vector<Lines> maps;
+        bool any_stair = false;
     };
     const Made& made() const;
     void make() const;

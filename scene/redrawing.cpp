@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "scene/redrawing.hpp"
 
+#include "scene/hollow_walls.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rovernet {
@@ -47,65 +50,33 @@ void around(const OccupancyGrid& map, std::size_t cell, Visit visit) {
     }
 }
 
-bool on_edge(const OccupancyGrid& map, std::size_t cell) {
-    int there = 0;
-    around(map, cell, [&](std::size_t) { ++there; });
-    return there < 9;
-}
-
 bool all_around_occupied(const OccupancyGrid& map, std::size_t cell) {
     int occupied = 0;
     around(map, cell, [&](std::size_t i) { occupied += map.cells[i] == Cell::occupied; });
     return occupied == 9;
 }
 
-/// The wall that is nearest to each cell, in steps to one of 8 neighbours; -1: there is no wall.
-struct NearestWalls {
-    std::vector<int> steps;
-    std::vector<std::uint8_t> materials;
-};
-
-NearestWalls nearest_walls(const OccupancyGrid& map) {
-    NearestWalls out{std::vector(map.cells.size(), -1),
-                     std::vector<std::uint8_t>(map.cells.size(), 0)};
+/// Material of the wall that is nearest to each cell, in steps to one of 8 neighbours.
+std::vector<std::uint8_t> nearest_materials(const OccupancyGrid& map) {
+    std::vector<std::uint8_t> materials(map.cells.size(), 0);
+    std::vector<bool> reached(map.cells.size(), false);
     std::vector<std::size_t> queue;
     for (std::size_t i = 0; i < map.cells.size(); ++i) {
         if (map.cells[i] != Cell::occupied) continue;
-        out.steps[i] = 0;
-        out.materials[i] = map.material_of(i);
+        reached[i] = true;
+        materials[i] = map.material_of(i);
         queue.push_back(i);
     }
     for (std::size_t next = 0; next < queue.size(); ++next) {
         const std::size_t here = queue[next];
         around(map, here, [&](std::size_t i) {
-            if (out.steps[i] >= 0) return;
-            out.steps[i] = out.steps[here] + 1;
-            out.materials[i] = out.materials[here];
+            if (reached[i]) return;
+            reached[i] = true;
+            materials[i] = materials[here];
             queue.push_back(i);
         });
     }
-    return out;
-}
-
-/// Cells of an area between walls, joined by their sides.
-std::vector<std::size_t> area_of(const OccupancyGrid& map, std::size_t cell,
-                                 std::vector<bool>& seen) {
-    const auto columns = static_cast<std::size_t>(map.columns);
-    std::vector<std::size_t> area{cell};
-    seen[cell] = true;
-    const auto add = [&](bool there, std::size_t i) {
-        if (!there || seen[i] || map.cells[i] == Cell::occupied) return;
-        seen[i] = true;
-        area.push_back(i);
-    };
-    for (std::size_t next = 0; next < area.size(); ++next) {
-        const std::size_t here = area[next];
-        add(here % columns > 0, here - 1);
-        add((here + 1) % columns > 0, here + 1);
-        add(here >= columns, here - columns);
-        add(here + columns < map.cells.size(), here + columns);
-    }
-    return area;
+    return materials;
 }
 
 }  // namespace
@@ -145,21 +116,16 @@ OccupancyGrid outline_walls(const OccupancyGrid& map) {
 
 OccupancyGrid fill_walls(const OccupancyGrid& map, Meters widest) {
     OccupancyGrid out = map;
-    const NearestWalls walls = nearest_walls(map);
-    const double cell = std::max(map.cell_width, map.cell_height);
-    std::vector<bool> seen(map.cells.size(), false);
-    for (std::size_t i = 0; i < map.cells.size(); ++i) {
-        if (seen[i] || map.cells[i] == Cell::occupied) continue;
-        const std::vector<std::size_t> area = area_of(map, i, seen);
-        const bool is_hollow = std::all_of(area.begin(), area.end(), [&](std::size_t c) {
-            return !on_edge(map, c) && (2 * walls.steps[c] - 1) * cell <= widest.value;
-        });
-        if (!is_hollow) continue;
-        for (const std::size_t c : area) {
+    CellMap cells{map.columns, map.rows, std::max(map.cell_width, map.cell_height), {}};
+    for (const Cell cell : map.cells) cells.solid.push_back(cell == Cell::occupied);
+    const bool one_material = map.cell_materials.empty();
+    const auto materials = one_material ? std::vector<std::uint8_t>{} : nearest_materials(map);
+    for_each_hollow(cells, widest, [&](std::span<const std::size_t> hollow) {
+        for (const std::size_t c : hollow) {
             out.cells[c] = Cell::occupied;
-            if (!out.cell_materials.empty()) out.cell_materials[c] = walls.materials[c];
+            if (!one_material) out.cell_materials[c] = materials[c];
         }
-    }
+    });
     return out;
 }
 

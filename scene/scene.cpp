@@ -142,6 +142,7 @@ void Scene::build(std::vector<OccupancyGrid> maps, double bottom, double top) {
         }
     }
     faces_ = std::make_shared<const Faces>(std::move(walls));
+    for (WallLayer& layer : layers_) layer.faces = faces_;
     grid_ = maps.size() == 1 ? std::move(maps.front()) : planning_grid(maps);
     frame_ = MapFrame(grid_);
     obstacle_cells_ = solid_rectangles(grid_, Solid::obstacles);
@@ -156,17 +157,24 @@ void Scene::add_map(const OccupancyGrid& grid, double bottom, double top) {
         return std::make_shared<const WallIndex>(grid.columns, grid.rows, rectangles);
     };
     const auto used = materials_of(grid);
+    const std::size_t before = layers_.size();
     for (const std::uint8_t material : used) {
         const auto walls = solid_rectangles(grid, WallsOf{material});
-        const auto indexed = index(walls);
         layers_.push_back(
             {.frame = frame,
              .rectangles = walls,
-             .walls = indexed,
-             .thickness = std::make_shared<const WallThickness>(frame, indexed),
+             .walls = index(walls),
              .material = material,
              .bottom = bottom,
              .top = std::min(grid.origin.z + materials_[material].height.value, top)});
+    }
+    std::vector<std::shared_ptr<const WallIndex>> walls;
+    for (std::size_t i = before; i < layers_.size(); ++i) walls.push_back(layers_[i].walls);
+    const auto hollows = std::make_shared<const HollowWalls>(frame, std::move(walls));
+    for (std::size_t i = before; i < layers_.size(); ++i) {
+        WallLayer& layer = layers_[i];
+        layer.hollows = hollows;
+        layer.thickness = std::make_shared<const WallThickness>(frame, layer.walls, hollows);
     }
     const bool walls_are_all = used.size() == 1 && !has_unknown(grid);
     obstacles_.emplace_back(frame, walls_are_all ? layers_.back().walls

@@ -29,6 +29,15 @@ struct WallRectangle {
     double bottom, top;           ///< heights [m] between which it stands; infinite: endless
 };
 
+/// A wall that a segment a-b passes.
+struct Wall {
+    double entry;   ///< from a [m]
+    double exit;    ///< from a [m]
+    double length;  ///< inside its material [m]; gaps at steps and insides of outlines do not count
+    std::size_t material;  ///< index into the scene's materials
+    Meters thickness;      ///< as drawn, under the middle of the segment's way through it [m]
+};
+
 /// The world's walls: what radio, motion and pictures read. Never changes once built.
 ///
 /// A default Scene is an open field: no walls, no end. Walls are the union of the occupied cells of
@@ -74,6 +83,17 @@ class Scene {
     void crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
     std::vector<Crossing> crossings(Vec3 a, Vec3 b) const;
 
+    /// Walls that a segment passes, in order from a; each is there once.
+    ///
+    /// A wall that stands askew to the cells is drawn in steps, and a segment may leave it at each:
+    /// crossings between which the segment leaves and comes back by one face (see Faces) are of one
+    /// wall, and a segment that comes and leaves by the same face only touches it and passes
+    /// nothing. Crossings on both sides of the inside of a wall that is drawn as an outline (see
+    /// HollowWalls) are of one wall, too. Any other gap, however narrow, parts two walls.
+    std::vector<Wall> walls(Vec3 a, Vec3 b) const;
+    /// Whether a segment passes any of walls().
+    bool passes_wall(Vec3 a, Vec3 b) const;
+
     /// Total length inside walls [m]; the same bits from a to b as from b to a.
     double wall_length(Vec3 a, Vec3 b) const {
         return wall_length(a, b, std::numeric_limits<double>::infinity());
@@ -82,16 +102,14 @@ class Scene {
     /// says only that, any other is exact.
     double wall_length(Vec3 a, Vec3 b, double enough) const;
 
-    /// What the walls take from a signal [dB], by the rate of each material; may stop counting once
-    /// the total exceeds `enough` [dB]. The same bits from a to b as from b to a.
+    /// Loss through the walls of walls() [dB], by the rate of each wall's material; may stop
+    /// counting once the total exceeds `enough` [dB]. A wall that is only touched takes its loss
+    /// per metre. The same bits from a to b as from b to a.
     /// @param rates    one per material
     /// @param scratch  any vector, for its memory
     double wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
                      std::vector<Crossing>& scratch) const;
-    /// Loss through the walls [dB], by the rate of each wall's material and drawn thickness; the
-    /// thickness is that in the middle of the segment's way through the wall. A gap of up to two
-    /// cells is a step of a wall drawn askew and does not end it. `enough`, `scratch` and both
-    /// directions as above.
+    /// Loss as above, by the rate of each wall's material and drawn thickness.
     double wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                      std::vector<Crossing>& scratch) const;
     /// Drawn thickness of the walls of its storey at a point, whatever their height [m]; 0 outside
@@ -145,6 +163,9 @@ class Scene {
     // The walls, if they are of one material, on one map and endless; null if not.
     const WallLayer* only_layer() const;
     void merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
+    template <class RateOf>
+    double sum_of_walls(Vec3 a, Vec3 b, double enough, std::vector<Crossing>& scratch,
+                        RateOf rate_of) const;
 
     OccupancyGrid grid_;
     MapFrame frame_;

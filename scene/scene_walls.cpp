@@ -3,18 +3,16 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace rovernet {
 namespace {
 
 /// Gaps and pieces of wall up to this length [m] are none.
 constexpr double shortest = 1e-9;
-
-/// A gap no wider than this [cells] does not end a wall: one that stands askew to the cells is
-/// drawn in steps, and a ray leaves it at each.
-constexpr double widest_step = 2;
 
 bool comes_before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
@@ -40,33 +38,137 @@ void join(std::vector<Crossing>& crossings) {
     });
 }
 
-/// Sum of what the walls take that a segment crosses [dB], see Scene::wall_loss.
-/// @param crossings     in order along the segment
-/// @param step_at       gap that does not end a wall which begins that far along the segment [m]
-/// @param thickness_at  drawn thickness at a point that far along the segment [m]
-template <class StepAt, class ThicknessAt>
-double loss_of_walls(std::span<const Crossing> crossings, const WallRates& rates, double enough,
-                     StepAt step_at, ThicknessAt thickness_at) {
-    double sum = 0;
-    for (auto part = crossings.begin(); part != crossings.end() && sum <= enough;) {
-        const std::size_t material = part->material;
-        const double step = step_at(part->entry);
-        double end = part->exit, inside = 0;
-        bool heavy = false;
-        for (; part != crossings.end() && part->material == material && part->entry - end <= step;
-             ++part) {
-            heavy = heavy || thickness_at((part->entry + part->exit) / 2) >= rates.thinnest_heavy;
-            end = part->exit;
-            inside += part->length;
+/// Place of a segment among walls: what tells one wall from the next.
+class SegmentInWalls {
+  public:
+    SegmentInWalls(std::span<const WallLayer> layers, const Storeys& storeys, Vec3 a, Vec3 b)
+        : layers_(layers), storeys_(storeys), a_(a), b_(b), length_(distance(a, b)) {
+        if (layers.size() == 1 && layers.front().is_endless()) {
+            only_ = &layers.front();
+            from_ = only_->frame.to_cells(a);
+            to_ = only_->frame.to_cells(b);
+            step_ = {(to_.u - from_.u) / length_, (to_.v - from_.v) / length_};
         }
-        const WallRate& rate = (heavy ? rates.heavy : rates.light)[material];
-        sum += rate.per_crossing + rate.per_metre * inside;
+        for (const WallLayer& layer : layers) {
+            any_stair_ = any_stair_ || layer.faces->any_stair();
+            any_hollow_ = any_hollow_ || layer.hollows->any();
+        }
     }
-    return sum;
+
+    /// The walls, if they are of one material, on one map and endless; null if not.
+    const WallLayer* one_map() const { return only_; }
+    /// Writes the crossings with those.
+    void cross_one_map(std::vector<Crossing>& out) const {
+        only_->crossings(from_, to_, length_, out);
+    }
+
+    /// Drawn thickness of the walls in the middle of a crossing [m].
+    double thickness_in(const Crossing& c) const {
+        const double along = (c.entry + c.exit) / 2;
+        if (only_) return only_->thickness->at(on_one_map(along));
+        double most = 0;
+        on_maps(along, [&](const WallLayer& layer, CellPoint p) {
+            most = std::max(most, layer.thickness->at(p));
+            return true;
+        });
+        return most;
+    }
+
+    /// Each crossing is a wall: there are no stairs and no outlines.
+    bool each_is_wall() const { return !any_stair_ && !any_hollow_; }
+    /// A crossing and the next one are of one wall: the segment has left it at a step of a stair,
+    /// and comes back by the same face; or it is inside a wall that is drawn as an outline.
+    bool is_one_wall(const Crossing& p, const Crossing& q) const {
+        if (p.material != q.material) return false;
+        return (any_hollow_ && is_hollow((p.exit + q.entry) / 2)) ||
+               (any_stair_ && common_face(p.exit, q.entry, p.material));
+    }
+
+    /// The segment comes by the face by which it leaves, and only touches steps of its stair.
+    bool is_touch(const Crossing& first, const Crossing& last) const {
+        if (!any_stair_) return false;
+        const Face* face = common_face(first.entry, last.exit, first.material);
+        return face && face->slants;
+    }
+
+  private:
+    /// Calls ask(layer, point) for the layers on the storey, until it answers false.
+    template <class Ask>
+    void on_maps(double along, Ask ask) const {
+        if (only_) {
+            ask(*only_, on_one_map(along));
+            return;
+        }
+        const Vec3 p = at(along);
+        const std::size_t storey = storeys_.number_at(p.z);
+        for (const WallLayer& layer : layers_)
+            if (layer.storey == storey && !ask(layer, layer.frame.to_cells(p))) return;
+    }
+    CellPoint on_one_map(double along) const {
+        return {from_.u + along * step_.u, from_.v + along * step_.v};
+    }
+    Vec3 at(double along) const { return a_ + (along / length_) * (b_ - a_); }
+    bool is_hollow(double along) const {
+        bool found = false;
+        on_maps(along, [&](const WallLayer& layer, CellPoint p) {
+            found = layer.hollows->holds(p);
+            return !found;
+        });
+        return found;
+    }
+    /// Face on which the points that far along the segment lie; null if there is no such.
+    const Face* common_face(double along, double further, std::size_t material) const {
+        const Faces* faces = faces_at(along);
+        if (!faces || faces != faces_at(further)) return nullptr;
+        const auto face = faces->at(at(along), material);
+        return face && face == faces->at(at(further), material) ? &faces->all()[*face] : nullptr;
+    }
+    const Faces* faces_at(double along) const {
+        if (only_) return only_->faces.get();
+        const std::size_t storey = storeys_.number_at(at(along).z);
+        const auto layer = std::find_if(layers_.begin(), layers_.end(),
+                                        [&](const WallLayer& l) { return l.storey == storey; });
+        return layer == layers_.end() ? nullptr : layer->faces.get();
+    }
+
+    std::span<const WallLayer> layers_;
+    const WallLayer* only_ = nullptr;
+    const Storeys& storeys_;
+    Vec3 a_, b_;
+    double length_;
+    CellPoint from_, to_, step_;  // a, b and the way by metre, of one map
+    bool any_stair_ = false, any_hollow_ = false;
+};
+
+/// Calls visit(pieces, touched) for each wall that a segment passes, until it answers false:
+/// crossings of one wall in a row, and whether they only touch steps of one of its faces.
+/// @param crossings  in order along the segment
+template <class Visit>
+void visit_walls(std::span<const Crossing> crossings, const SegmentInWalls& segment, Visit visit) {
+    if (segment.each_is_wall()) {
+        for (const Crossing& c : crossings)
+            if (!visit(std::span(&c, 1), false)) return;
+        return;
+    }
+    for (std::size_t i = 0, end = 0; i < crossings.size(); i = end) {
+        end = i + 1;
+        while (end < crossings.size() && segment.is_one_wall(crossings[end - 1], crossings[end]))
+            ++end;
+        const auto pieces = crossings.subspan(i, end - i);
+        if (!visit(pieces, segment.is_touch(pieces.front(), pieces.back()))) return;
+    }
 }
 
-double widest_step_on(const MapFrame& frame) {
-    return widest_step * std::max(frame.cell_width(), frame.cell_height());
+double thickness_of(std::span<const Crossing> pieces, const SegmentInWalls& segment) {
+    double most = 0;
+    for (const Crossing& c : pieces) most = std::max(most, segment.thickness_in(c));
+    return most;
+}
+
+double length_of(std::span<const Crossing> pieces) {
+    double sum = 0;
+    for (const Crossing& c : pieces) sum += c.length;
+    return sum;
 }
 
 }  // namespace
@@ -116,39 +218,75 @@ double Scene::wall_length(Vec3 a, Vec3 b, double enough) const {
     return sum;
 }
 
+std::vector<Wall> Scene::walls(Vec3 a, Vec3 b) const {
+    std::vector<Wall> found;
+    const auto all = crossings(a, b);
+    if (all.empty()) return found;
+    const SegmentInWalls segment(layers_, storeys_, a, b);
+    visit_walls(all, segment, [&](std::span<const Crossing> pieces, bool touched) {
+        if (touched) return true;
+        found.push_back({pieces.front().entry, pieces.back().exit, length_of(pieces),
+                         pieces.front().material, Meters{thickness_of(pieces, segment)}});
+        return true;
+    });
+    return found;
+}
+
+bool Scene::passes_wall(Vec3 a, Vec3 b) const {
+    if (wall_length(a, b, 0) == 0) return false;
+    const bool any_stair = std::any_of(layers_.begin(), layers_.end(), [](const WallLayer& layer) {
+        return layer.faces->any_stair();
+    });
+    if (!any_stair) return true;
+    const SegmentInWalls segment(layers_, storeys_, a, b);
+    const auto all = crossings(a, b);
+    bool passes = false;
+    visit_walls(all, segment, [&](std::span<const Crossing>, bool touched) {
+        passes = !touched;
+        return !passes;
+    });
+    return passes;
+}
+
+/// Sum of what the walls take that a segment passes [dB].
+/// @param rate_of  rate of a wall by its pieces in the segment
+template <class RateOf>
+double Scene::sum_of_walls(Vec3 a, Vec3 b, double enough, std::vector<Crossing>& scratch,
+                           RateOf rate_of) const {
+    if (layers_.empty() || a == b) return 0;
+    if (comes_before(b, a)) std::swap(a, b);
+    const SegmentInWalls segment(layers_, storeys_, a, b);
+    if (segment.one_map()) {
+        segment.cross_one_map(scratch);
+    } else {
+        merged_crossings(a, b, scratch);
+    }
+    double sum = 0;
+    visit_walls(scratch, segment, [&](std::span<const Crossing> pieces, bool touched) {
+        const WallRate& rate = rate_of(pieces, segment);
+        sum += (touched ? 0 : rate.per_crossing) + rate.per_metre * length_of(pieces);
+        return sum <= enough;
+    });
+    return sum;
+}
+
 double Scene::wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
                         std::vector<Crossing>& scratch) const {
-    if (comes_before(b, a)) std::swap(a, b);
-    crossings(a, b, scratch);
-    double sum = 0;
-    for (const Crossing& c : scratch) {
-        sum += rates[c.material].per_crossing + rates[c.material].per_metre * c.length;
-        if (sum > enough) break;
-    }
-    return sum;
+    return sum_of_walls(a, b, enough, scratch,
+                        [&](std::span<const Crossing> pieces, const auto&) -> const WallRate& {
+                            return rates[pieces.front().material];
+                        });
 }
 
 double Scene::wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                         std::vector<Crossing>& scratch) const {
-    if (layers_.empty() || a == b) return 0;
-    if (comes_before(b, a)) std::swap(a, b);
-    const double length = distance(a, b);
-    const WallLayer* only = only_layer();
-    if (!only) {
-        merged_crossings(a, b, scratch);
-        const auto at = [&](double along) { return a + along / length * (b - a); };
-        return loss_of_walls(
-            scratch, rates, enough,
-            [&](double along) { return widest_step_on(storey_at(at(along).z).frame_); },
-            [&](double along) { return wall_thickness(at(along)); });
-    }
-    const CellPoint from = only->frame.to_cells(a), to = only->frame.to_cells(b);
-    const double u = (to.u - from.u) / length, v = (to.v - from.v) / length;
-    only->crossings(from, to, length, scratch);
-    return loss_of_walls(
-        scratch, rates, enough, [step = widest_step_on(only->frame)](double) { return step; },
-        [&](double along) {
-            return Meters{only->thickness->at({from.u + along * u, from.v + along * v})};
+    return sum_of_walls(
+        a, b, enough, scratch,
+        [&](std::span<const Crossing> pieces, const auto& segment) -> const WallRate& {
+            const bool heavy = std::any_of(pieces.begin(), pieces.end(), [&](const Crossing& c) {
+                return segment.thickness_in(c) >= rates.thinnest_heavy.value;
+            });
+            return (heavy ? rates.heavy : rates.light)[pieces.front().material];
         });
 }
 

@@ -2,12 +2,17 @@
 #pragma once
 
 #include "scene/material.hpp"
+#include "sim/units.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace rovernet {
+
+/// Height of a storey where heights tell nothing of storeys [m].
+inline constexpr Meters no_storeys{std::numeric_limits<double>::infinity()};
 
 /// Storeys of a scene, from below: the heights of their floors, and the ceilings between.
 ///

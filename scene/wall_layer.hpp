@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/faces.hpp"
+#include "scene/hollow_walls.hpp"
 #include "scene/map_frame.hpp"
 #include "scene/wall_index.hpp"
 #include "scene/wall_thickness.hpp"
@@ -20,11 +22,13 @@ struct WallLayer {
     MapFrame frame;
     std::vector<CellRectangle> rectangles;   ///< disjoint, as few as the map's cutting gives
     std::shared_ptr<const WallIndex> walls;  ///< of these rectangles
-    std::shared_ptr<const WallThickness> thickness;  ///< of these walls
-    std::size_t material = 0;                        ///< index into the scene's materials
-    std::size_t storey = 0;                          ///< of the map, the lowest is 0
-    double bottom = -endless;                        ///< [m] the walls stand from here ...
-    double top = endless;                            ///< ... to here, which is above them
+    std::shared_ptr<const WallThickness> thickness = {};  ///< of these walls
+    std::shared_ptr<const HollowWalls> hollows = {};      ///< of the map
+    std::shared_ptr<const Faces> faces = {};              ///< of all walls of the storey
+    std::size_t material = 0;                             ///< index into the scene's materials
+    std::size_t storey = 0;                               ///< of the map, the lowest is 0
+    double bottom = -endless;                             ///< [m] the walls stand from here ...
+    double top = endless;                                 ///< ... to here, which is above them
 
     /// They stand at all heights.
     bool is_endless() const { return bottom == -endless && top == endless; }

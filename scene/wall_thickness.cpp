@@ -8,13 +8,15 @@
 
 namespace rovernet {
 
-WallThickness::WallThickness(const MapFrame& frame, std::shared_ptr<const WallIndex> walls)
+WallThickness::WallThickness(const MapFrame& frame, std::shared_ptr<const WallIndex> walls,
+                             std::shared_ptr<const HollowWalls> hollows)
     : cell_width_(frame.cell_width()),
       cell_height_(frame.cell_height()),
-      walls_(std::move(walls)) {}
+      walls_(std::move(walls)),
+      hollows_(std::move(hollows)) {}
 
-/// Walks every line of cells in each of four directions; a run of solid cells is as thick as it is
-/// long.
+/// Walks every line of cells in each of four directions; a run of cells of the wall is as thick
+/// as it is long.
 void WallThickness::measure() const {
     const int columns = walls_->columns(), rows = walls_->rows();
     const auto number = [&](int column, int row) {
@@ -33,7 +35,7 @@ void WallThickness::measure() const {
             run.clear();
         };
         for (; column >= 0 && column < columns && row < rows; column += right, row += up) {
-            if (walls_->solid(column, row)) {
+            if (walls_->solid(column, row) || hollows_->holds(column, row)) {
                 run.push_back(number(column, row));
             } else {
                 end_run();

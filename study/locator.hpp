@@ -30,7 +30,7 @@ struct AnchorLoss {
 struct LocatorSettings {
     Propagation model;  ///< its median counts
     std::shared_ptr<const Scene> scene = std::make_shared<Scene>();
-    Meters floor_height{3};
+    Meters floor_height = no_storeys;
     Hertz frequency;
     Vec3 low, high;  ///< corners of the area of all places [m]; z does not count
     bool knows_power =

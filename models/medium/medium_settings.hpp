@@ -4,6 +4,7 @@
 #include "models/variation/fading.hpp"
 #include "models/variation/shadowing.hpp"
 #include "scene/scene_change.hpp"
+#include "scene/storeys.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
@@ -23,8 +24,8 @@ struct MediumSettings {
     const Scene* scene = nullptr;
     /// Scenes that follow it, in ascending order of time; they outlive the medium.
     std::span<const SceneChange> scene_changes = {};
-    /// Height of one storey [m].
-    Meters floor_height{3};
+    /// Height of one storey [m], see LinkBatch.
+    Meters floor_height = no_storeys;
     /// A frame arrives distance / c after it is sent; otherwise at once.
     bool propagation_delay = true;
     /// Losses of pairs at rest are kept (PairCache), instead of computing them again with every

@@ -22,8 +22,8 @@ struct FloorsBetween {
 };
 
 /// Counter of the floors of a batch's links. In a scene of several storeys they are its ceilings,
-/// whose losses are computed once; in another all are the model's, one every `floor_height`, and a
-/// thousand at most.
+/// whose losses are computed once; in another all are the model's, one every `floor_height`, if
+/// that is given, and a thousand at most.
 class FloorCounter {
   public:
     /// @param links  outlive this
@@ -41,6 +41,7 @@ class FloorCounter {
         const double here = links_.from.z, there = links_.to[i].z;
         FloorsBetween floors;
         if (ceilings_.empty()) {
+            if (links_.floor_height == no_storeys) return floors;
             const auto storey = [&](double z) { return std::floor(z / links_.floor_height.value); };
             constexpr double most = 1000;
             floors.of_model = std::min(std::abs(storey(there) - storey(here)), most);

@@ -73,7 +73,7 @@ void ItuSiteGeneral::loss(const LinkBatch& links, Db /*give_up*/, std::span<doub
     const auto is_clear = [&](Vec3 to) {
         if (los != LineOfSight::map) return los == LineOfSight::yes;
         return links.scene->storeys().ceilings_between(links.from.z, to.z).empty() &&
-               links.scene->wall_length(links.from, to, 0) == 0;
+               !links.scene->passes_wall(links.from, to);
     };
     for (std::size_t i = 0; i < out_db.size(); ++i) {
         const double d = links.distance(i);

@@ -23,13 +23,16 @@ double floors_db(const MultiWall& model, double k) {
     return model.floor_loss.value * power(k, (k + 2) / (k + 1) - model.floor_saving);
 }
 
+/// Rate of a material where walls that follow the model take `usual`.
+WallRate rate_with(const Material& material, Hertz f, Db usual) {
+    return material.follows_model() ? WallRate{usual.value, 0} : wall_rate(material, f, 0);
+}
+
 /// The rates of the scene's materials where walls that follow the model take `usual`.
 std::vector<WallRate> rates_with(const LinkBatch& links, Db usual) {
     std::vector<WallRate> rates;
-    for (const Material& material : links.scene->materials()) {
-        rates.push_back(material.follows_model() ? WallRate{usual.value, 0}
-                                                 : wall_rate(material, links.frequency, 0));
-    }
+    for (const Material& material : links.scene->materials())
+        rates.push_back(rate_with(material, links.frequency, usual));
     return rates;
 }
 
@@ -38,6 +41,12 @@ std::vector<WallRate> rates_with(const LinkBatch& links, Db usual) {
 Meters MultiWall::reach(Db loss, Hertz f) const {
     const double more = loss.value - at_1_m(*this, f);
     return {more < 0 ? 0 : math::exp10(more / (10 * exponent))};
+}
+
+Db MultiWall::wall_loss(const Wall& wall, const Material& material, Hertz f) const {
+    const bool heavy = wall.thickness.value >= thinnest_heavy_wall.value;
+    const WallRate rate = rate_with(material, f, heavy ? heavy_wall : light_wall);
+    return {rate.per_crossing + rate.per_metre * wall.length};
 }
 
 void MultiWall::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {

@@ -14,12 +14,13 @@ namespace rovernet {
 ///
 /// A wall takes what its material says. A wall whose material follows the model takes `light_wall`
 /// or `heavy_wall`, by its drawn thickness where the ray's middle in it lies: below 10 cm it is
-/// light. A gap of up to two cells is a step of a wall that stands askew to the cells, and does not
-/// end it. A ceiling of a scene of several storeys takes what its material says, or else counts in
-/// k; in another scene k counts the storeys of [scene] floor_height. The sum does not grow with the
-/// angle at which a wall is crossed, unless its material has a rate per metre. The loss jumps where
-/// a wall comes between, and where the thickness under the ray's middle passes 10 cm. Reflection
-/// and diffraction are left out: behind many walls the loss is an upper estimate.
+/// light. A wall counts once, however it is drawn and at whatever angle it is crossed, see
+/// Scene::walls(). A ceiling of a scene of several storeys takes what its material says, or else
+/// counts in k; in another scene k counts the storeys of [scene] floor_height, if that is given.
+/// The sum does not grow with the angle at which a wall is crossed, unless its material has a rate
+/// per metre. The loss jumps where a wall comes between, and where the thickness under the ray's
+/// middle passes 10 cm. Reflection and diffraction are left out: behind many walls the loss is an
+/// upper estimate.
 ///
 /// With the defaults at 2450 MHz `rovernet loss multi_wall` prints
 ///
@@ -68,6 +69,8 @@ struct MultiWall {
     Meters reach(Db loss, Hertz f) const;
     /// Fills out_db[i] [dB] for the i-th receiver; walls and floors come from the batch.
     void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+    /// What one wall takes of that [dB]. @param material  the wall's
+    Db wall_loss(const Wall& wall, const Material& material, Hertz f) const;
 };
 
 }  // namespace rovernet

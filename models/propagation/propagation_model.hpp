@@ -44,8 +44,9 @@ struct LinkBatch {
     std::span<const std::uint64_t> to_keys;
     /// Scene with its walls; never null in a Network.
     const Scene* scene = nullptr;
-    /// Height of one storey [m].
-    Meters floor_height{3};
+    /// Height of one storey [m], in a scene that has no floors of its own; no_storeys: antennas are
+    /// on one storey at all heights.
+    Meters floor_height = no_storeys;
     /// Seed and replication of random draws.
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;

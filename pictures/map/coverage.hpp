@@ -17,13 +17,13 @@ namespace rovernet {
 struct Transmitter {
     Propagation model;
     Radio radio = {};
-    Radio receiver = {};           ///< radio of the receivers
-    Vec3 antenna = {};             ///< [m]
-    double receivers_above = 0;    ///< [m] by which receivers' antennas are higher than its own
-    Radians heading{0};            ///< [rad] of the robot, for a directional antenna
-    std::uint64_t key = 0;         ///< key of the robot, for random draws
-    const Scene* scene = nullptr;  ///< not null; outlives the transmitter
-    Meters floor_height{3};        ///< [m] of one storey
+    Radio receiver = {};               ///< radio of the receivers
+    Vec3 antenna = {};                 ///< [m]
+    double receivers_above = 0;        ///< [m] by which receivers' antennas are higher than its own
+    Radians heading{0};                ///< [rad] of the robot, for a directional antenna
+    std::uint64_t key = 0;             ///< key of the robot, for random draws
+    const Scene* scene = nullptr;      ///< not null; outlives the transmitter
+    Meters floor_height = no_storeys;  ///< [m] of one storey
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
 };

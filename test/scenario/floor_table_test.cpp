@@ -101,6 +101,56 @@ TEST_CASE("floors: the walls of each storey and the ceiling stand in the way of 
     CHECK(report_link(friis, "a", "b", start_of_run).ceiling_loss.value == 0);
 }
 
+TEST_CASE("floors: a link says how many floors the model counts, and what they take") {
+    const Building building;
+    const std::string high =
+        "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n"
+        "radio = { antenna_height = \"6 m\" }\n"
+        "[[robot]]\nname = \"b\"\nat = [\"9 m\", \"0 m\"]\n";
+    const std::string model = "[propagation]\nmodel = \"multi_wall\"\n";
+    const std::string itu = "[propagation]\nmodel = \"itu_indoor\"\nenvironment = \"office\"\n";
+    const auto link = [&](const std::string& text) {
+        return report_link(building.scenario(text), "a", "b", start_of_run);
+    };
+    const LinkReport none = link(model + high);
+    CHECK(none.floors == 0);
+    CHECK(none.floor_loss.value == 0);
+    const std::string storeys = "[scene]\nfloor_height = \"3 m\"\n";
+    const LinkReport two = link(storeys + model + high);
+    CHECK(two.floors == 2);
+    CHECK(two.ceilings == 0);
+    CHECK(near(two.floor_loss.value, two.path_loss.value - none.path_loss.value));
+    CHECK(link(storeys + itu + high).floors == 2);
+    CHECK(near(link(storeys + itu + high).floor_loss.value, 14));
+    const LinkReport asked = link(itu + "floors = 1\n" + high);
+    CHECK(asked.floors == 1);
+    CHECK(near(asked.floor_loss.value, 14));
+    const auto own = "ceiling = { per_crossing = \"15 dB\" }\n";
+    const LinkReport building_link = link(ground(own) + upper() + model + robots);
+    CHECK(building_link.floors == 1);
+    CHECK(near(building_link.floor_loss.value, 15));
+}
+
+TEST_CASE("floors: an antenna that its height alone puts on another storey is a notice") {
+    const Building building;
+    const auto notices = [&](const std::string& text) { return building.scenario(text).notices; };
+    const auto robot = [](const char* z, const char* antenna) {
+        return fmt::format(
+            "[[robot]]\nname = \"AP\"\nat = [\"0.5 m\", \"0.5 m\", \"{}\"]\n"
+            "radio = {{ antenna_height = \"{}\" }}\n",
+            z, antenna);
+    };
+    const auto told = notices(ground() + upper() + robot("0 m", "3.2 m"));
+    REQUIRE(told.size() == 1);
+    for (const char* word : {"s.toml:13:9", "\"AP\"", "3.2 m", "1 storey higher", "antenna_height"})
+        CHECK(told[0].find(word) != std::string::npos);
+    CHECK(notices(ground() + upper() + robot("0 m", "2.5 m")).empty());
+    CHECK(notices(ground() + upper() + robot("3 m", "3.2 m")).empty());
+    CHECK(notices(ground() + upper() + robot("3 m", "-0.5 m")).size() == 1);
+    CHECK(notices("[scene]\nfloor_height = \"3 m\"\n" + robot("0 m", "3 m")).size() == 1);
+    CHECK(notices(robot("0 m", "3 m")).empty());
+}
+
 TEST_CASE("floors: a ceiling may be a slab of a material of ITU-R P.2040") {
     const Building building;
     const std::string model = "[propagation]\nmodel = \"multi_wall\"\n";

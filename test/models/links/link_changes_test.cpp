@@ -196,7 +196,7 @@ TEST_CASE("link changes: of a model that goes by heights they are exact between 
 
 TEST_CASE("link changes: a robot that comes down to the storey has the link after it was nearest") {
     const Scene field;
-    MovingPair pair{&field};
+    MovingPair pair{.scene = &field, .floor_height = Meters{3}};
     const ItuIndoor office{.environment = Environment::office};
     // Enough for 11 m, or 4 m through a floor.
     const Radio radio{.sensitivity = -55_dBm};

@@ -214,6 +214,37 @@ TEST_CASE("link changes: what dense sampling sees is found, for every model and 
     }
 }
 
+TEST_CASE("link changes: behind walls that stand askew, what dense sampling sees is found") {
+    constexpr auto time = 4s;
+    constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};
+    constexpr double cell = 0.05, side = 6, angle = 0.35;
+    OccupancyGrid map;  // walls of 15 cm, each 2 m long and 2 m from the next
+    map.columns = map.rows = static_cast<int>(side / cell);
+    map.cell_width = map.cell_height = cell;
+    for (int i = 0; i < map.columns * map.rows; ++i) {
+        const double x = (i % map.columns + 0.5) * cell, y = (i / map.columns + 0.5) * cell;
+        const double along = std::cos(angle) * x + std::sin(angle) * y;
+        const double across = std::cos(angle) * y - std::sin(angle) * x;
+        const auto part = [](double v, double every) { return v - every * std::floor(v / every); };
+        const bool wall = part(across, 2) < 0.15 && part(along, 3) < 2;
+        map.cells.push_back(wall ? Cell::occupied : Cell::free);
+    }
+    const Scene scene(map);
+    for (const Propagation& model : {Propagation(MultiWall{}), Propagation(ItuSiteGeneral{})}) {
+        test::Draw draw(41);
+        int seen = 0;
+        for (int round = 0; round < 40; ++round) {
+            CAPTURE(round);
+            MovingPair pair{&scene};
+            for (int i = 0; i < 2; ++i)
+                pair.add(model, random_leg(draw, side, time),
+                         {.power = {draw.uniform(-25, -20)}, .sensitivity = {-80}});
+            check_against_sampling(pair, a, b, time, search, seen);
+        }
+        CHECK(seen > 20);
+    }
+}
+
 TEST_CASE("link changes: between storeys, what dense sampling sees is found") {
     constexpr auto time = 4s;
     constexpr LinkSearch search{.tolerance = 1ms, .min_dwell = 1ms};

@@ -12,8 +12,9 @@ namespace rovernet::test {
 /// Two robots and the air between them.
 struct MovingPair {
     const Scene* scene;
+    Meters floor_height = no_storeys;
     Legs legs{};
-    Medium medium{{.scene = scene, .seed = 5}};
+    Medium medium{{.scene = scene, .floor_height = floor_height, .seed = 5}};
 
     void add(const Propagation& model, Leg leg, const Radio& radio = {}) {
         medium.add(radio, legs.size() + 1, model);

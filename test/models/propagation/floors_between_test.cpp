@@ -66,6 +66,36 @@ const Material concrete{.name = "concrete", .slab = ItuMaterial::concrete, .thic
 
 }  // namespace
 
+TEST_CASE("storeys: a scene that says nothing of them has one, however high antennas hang") {
+    const auto loss_at = [](const Propagation& model, double height, Hertz f, Meters storey) {
+        const Vec3 to{25, 0, height};
+        const std::uint64_t key = 2;
+        const Scene field;
+        LinkBatch link{.frequency = f,
+                       .from = {0, 0, 1},
+                       .to = {&to, 1},
+                       .from_key = 1,
+                       .to_keys = {&key, 1},
+                       .scene = &field};
+        if (storey != no_storeys) link.floor_height = storey;
+        double out = 0;
+        model.loss(link, {test::no_give_up}, {&out, 1});
+        return out;
+    };
+    const ItuIndoor office{.environment = Environment::office};
+    for (const Propagation& model : {Propagation(MultiWall{}), Propagation(office)})
+        for (const Hertz f : {2450_MHz, 5000_MHz}) {
+            const double slope = 1e-3;  // [dB] of a centimetre in height
+            const auto at = [&](double height, Meters storey) {
+                return loss_at(model, height, f, storey);
+            };
+            CHECK(near(at(2.99, no_storeys), at(3, no_storeys), slope));
+            CHECK(near(at(5.99, no_storeys), at(6, no_storeys), slope));
+            CHECK(near(at(-0.01, no_storeys), at(0, no_storeys), slope));
+            CHECK(at(3, Meters{3}) - at(2.99, Meters{3}) > 10);  // where a file asks for storeys
+        }
+}
+
 TEST_CASE("storeys: multi_wall between them has the losses of COST 231") {
     const test::Vectors vectors("cost231_multiwall.csv");
     constexpr int light = 1, heavy = 4, apart = 8;  // [cells]: 5 cm, 20 cm
