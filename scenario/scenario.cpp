@@ -274,6 +274,15 @@ ReceptionModel ReceptionTable::make() const {
     return Threshold{};
 }
 
+void read_value(const Value& value, std::string_view key, EifsRule& out) {
+    if (const bool* word = std::get_if<bool>(&value.data)) {
+        out = *word ? EifsRule::standard : EifsRule::none;
+        return;
+    }
+    const auto& words = EnumNames<EifsRule>::values;
+    out = static_cast<EifsRule>(read_choice(value, key, {words.begin(), words.end()}));
+}
+
 AccessModel AccessTable::make() const {
     if (model == AccessChoice::none) return NoAccess{};
     const auto most = static_cast<std::uint32_t>(queue);
@@ -286,8 +295,9 @@ Csma AccessTable::csma() const {
     timing.slot = slot.value_or(timing.slot);
     timing.sifs = sifs.value_or(timing.sifs);
     timing.difs = difs.value_or(timing.sifs + 2 * timing.slot);
-    timing.cca_time = cca_time.value_or(timing.cca_time);
-    timing.turnaround = turnaround.value_or(timing.turnaround);
+    const bool at_once = eifs == EifsRule::ns2;
+    timing.cca_time = cca_time.value_or(at_once ? Duration{0} : timing.cca_time);
+    timing.turnaround = turnaround.value_or(at_once ? Duration{0} : timing.turnaround);
     timing.rx_start_delay = rx_start_delay.value_or(timing.rx_start_delay);
     timing.cw_min = cw_min.value_or(timing.cw_min);
     timing.cw_max = std::max(cw_max.value_or(timing.cw_max), timing.cw_min);
