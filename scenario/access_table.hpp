@@ -55,8 +55,8 @@ struct AccessTable {
     /// Basic rates of csma [bit/s]: broadcasts and RTS go at the lowest, CTS and ACK at the highest
     /// that is not above the rate of what they answer.
     std::optional<std::vector<BitRate>> basic_rates = std::nullopt;
-    /// Frames after which csma waits longer (EIFS), as if an acknowledgement followed. With ns2 the
-    /// CCA time and the turnaround are 0, as there, if they are not given.
+    /// Frames after which csma waits longer (EIFS), as if an acknowledgement followed. With ns2
+    /// the defaults of the keys above are those of ns-2, see ns2_timing().
     EifsRule eifs = EifsRule::standard;
     /// Attempts at a unicast of csma, and at one behind an RTS, before it is given up (RET); 0: no
     /// end.

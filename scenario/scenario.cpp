@@ -292,12 +292,12 @@ AccessModel AccessTable::make() const {
 
 Csma AccessTable::csma() const {
     WifiTiming timing = timing_of(standard);
+    if (eifs == EifsRule::ns2) timing = ns2_timing(timing);
     timing.slot = slot.value_or(timing.slot);
     timing.sifs = sifs.value_or(timing.sifs);
     timing.difs = difs.value_or(timing.sifs + 2 * timing.slot);
-    const bool at_once = eifs == EifsRule::ns2;
-    timing.cca_time = cca_time.value_or(at_once ? Duration{0} : timing.cca_time);
-    timing.turnaround = turnaround.value_or(at_once ? Duration{0} : timing.turnaround);
+    timing.cca_time = cca_time.value_or(timing.cca_time);
+    timing.turnaround = turnaround.value_or(timing.turnaround);
     timing.rx_start_delay = rx_start_delay.value_or(timing.rx_start_delay);
     timing.cw_min = cw_min.value_or(timing.cw_min);
     timing.cw_max = std::max(cw_max.value_or(timing.cw_max), timing.cw_min);

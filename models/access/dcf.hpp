@@ -37,6 +37,15 @@ struct EnumNames<EifsRule> {
     static constexpr std::array<std::string_view, 3> values = {"standard", "ns2", "none"};
 };
 
+/// Times of a standard as ns-2.35 has them: energy is sensed at once, a station sends as it
+/// decides, and a backoff has 0 to CW - 1 slots.
+constexpr WifiTiming ns2_timing(WifiTiming timing) {
+    timing.cca_time = timing.turnaround = Duration{0};
+    --timing.cw_min;
+    --timing.cw_max;
+    return timing;
+}
+
 /// Settings of the 802.11 DCF. Defaults are those of 802.11b.
 struct Csma {
     static constexpr std::string_view name = "csma";

@@ -60,8 +60,8 @@ struct Listener {
         return net.add({.name = {}, .at = {x, 0}, .radio = radio});
     }
     /// `node` asks for the medium at `t`: a DIFS later its frame is on air, if it senses nothing.
-    void ask(NodeId node, Duration t, std::uint32_t bytes) {
-        net.at(start_of_run + t, [this, node, bytes] { net.unicast(node, everyone, "", bytes); });
+    void ask(NodeId node, Duration t, std::uint32_t bytes, NodeId to = everyone) {
+        net.at(start_of_run + t, [this, node, bytes, to] { net.unicast(node, to, "", bytes); });
     }
     /// Time [ns] from `end` to the begin of the station's next frame.
     Duration waits(Duration end) {
@@ -135,6 +135,19 @@ TEST_CASE("eifs: a frame that began while the station sent costs a DIFS") {
         l.ask(other, 0us, 1000);
         l.ask({0}, 500us, 10);
         CHECK(l.waits(990us) == expected);
+    }
+}
+
+TEST_CASE("eifs: a frame that was begun and given up for an acknowledgement costs a DIFS") {
+    for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
+                                         {EifsRule::ns2, eifs + difs},
+                                         {EifsRule::none, difs}}) {
+        Listener l(rule);
+        const NodeId asker = l.add(100), other = l.add(-200);
+        l.ask(asker, 0us, 1000, {0});  // until 990 us; the acknowledgement begins at 1000 us
+        l.ask(other, 945us, 1000);     // from 995 us on
+        l.ask({0}, 1500us, 10);
+        CHECK(l.waits(995us + 940us) == expected);
     }
 }
 
