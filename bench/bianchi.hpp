@@ -76,7 +76,7 @@ struct BianchiCell {
                            .cw_max = (window << stages) - 1,
                            .lowest_rate = rate},
                 .basic_rates = {rate},
-                .eifs = false,
+                .eifs = EifsRule::none,
                 .short_retries = 0,
                 .long_retries = 0,
                 .rts_threshold = asks ? 0U : 100'000U,
@@ -93,7 +93,7 @@ struct BroadcastCell {
 
     std::uint32_t header = data_header_bytes;  ///< [bytes]
 
-    Csma csma() const { return {.eifs = false, .header = header}; }
+    Csma csma() const { return {.eifs = EifsRule::none, .header = header}; }
     /// Share of the time in which payload reaches a station, of `n` that send.
     double throughput(int n) const {
         constexpr double preamble = 192, difs = 50;

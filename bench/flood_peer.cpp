@@ -3,6 +3,7 @@
 //   --movement=FILE --model=threshold|csma|csma_collision --header=36 --messages=20 --interval=3
 //   --ttl=100 --jitter=0.05
 //   --loss=two_ray --payload=64 --seed=1 --cca_us=13 --turnaround_us=5
+//   --eifs=standard|ns2
 // The loss is log-distance from the crossover on, of the same levels, unless it is two_ray.
 // threshold: a disc of 250 m. csma: 802.11b at 1 Mb/s over flat ground as ns-2 has it by default
 // (250 m decoded, 550 m sensed), with noise, interference and bit errors; csma_collision: with
@@ -70,6 +71,10 @@ NetworkSettings settings(const Options& options, bool listens) {
             out.reception = Collision{};
         }
         Csma csma{.header = static_cast<std::uint32_t>(options.number("header", 36))};
+        if (options.text("eifs", "standard") == "ns2") {
+            csma.eifs = EifsRule::ns2;
+            csma.timing = ns2_timing(csma.timing);
+        }
         const auto us = [&](const char* name, Duration otherwise) {
             return from_seconds(1e-6 * options.number(name, 1e6 * seconds(otherwise)));
         };

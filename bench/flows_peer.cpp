@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The flows of bench/peers in rovernet, for bench/peers/run: prints one line of JSON.
 //   --cell=FILE --sense=250 --rate=1 --payload=1000 --seconds=20 --seed=1
-//   --reception=collision|collision_later|sinr --header=34 --answers=lowest|standard
+//   --reception=collision|collision_later|sinr --eifs=standard|ns2 --header=34
+//   --answers=lowest|standard --cca_us=13 --turnaround_us=5
 // FILE and what it means: see peers/flows.tcl. Answers go at 1 Mb/s, as in ns-2, or by the
 // standard's basic rates, as in ns-3. The header is that of ns-2; of 802.11 and LLC alone it is 36.
 
@@ -63,6 +64,15 @@ ReceptionModel reception(const std::string& name) {
 
 Csma access(const Options& options) {
     Csma csma{.header = static_cast<std::uint32_t>(options.number("header", 34))};
+    if (options.text("eifs", "standard") == "ns2") {
+        csma.eifs = EifsRule::ns2;
+        csma.timing = ns2_timing(csma.timing);
+    }
+    const auto us = [&](const char* name, Duration otherwise) {
+        return from_seconds(1e-6 * options.number(name, 1e6 * seconds(otherwise)));
+    };
+    csma.timing.cca_time = us("cca_us", csma.timing.cca_time);
+    csma.timing.turnaround = us("turnaround_us", csma.timing.turnaround);
     if (options.text("answers", "lowest") == "lowest") csma.basic_rates = {{1e6}};
     return csma;
 }

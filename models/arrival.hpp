@@ -46,6 +46,8 @@ enum class Lock : std::uint8_t {
 /// frame as it goes on air.
 struct Sensing {
     NodeId node;
+    /// It is strong enough to be decoded. The access model is told what became of it.
+    bool decodable;
     /// Begin and end at the node.
     Time begin, end;
 };

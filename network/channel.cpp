@@ -107,11 +107,11 @@ void Channel::find_sensors(Flight& flight, Time end) {
     const Duration airtime = end - now;
     sensed_.clear();
     for (const Reception& r : flight.receivers.all()) {
-        sensed_.push_back({r.node, r.time - airtime, r.time});
+        sensed_.push_back({r.node, true, r.time - airtime, r.time});
     }
     for (const Medium::Found& s : sensors) {
         const Duration delay = medium.arrivals().delay(std::sqrt(s.squared_distance));
-        sensed_.push_back({s.node, now + delay, end + delay});
+        sensed_.push_back({s.node, false, now + delay, end + delay});
     }
     user_.sensed(sensed_);
 }

@@ -94,7 +94,7 @@ void Mac::tell_stations(const AirFrame& frame, std::span<const Reception> recept
         if (is_decoded(r.fate)) {
             access_->received(*this, r.node, air);
         } else {
-            access_->missed(*this, r.node);
+            access_->missed(*this, r.node, r.locked);
         }
     }
 }

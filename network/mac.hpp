@@ -84,7 +84,7 @@ class Mac final : public Air, public ChannelUser {
 
     // ChannelUser, for the channel.
     void arrived(const AirFrame& frame, const Arriving& part) override;
-    void sensed(std::span<const Sensing> nodes) override { access_->sensed(nodes); }
+    void sensed(std::span<const Sensing> nodes) override { access_->sensed(*this, nodes); }
 
   private:
     // Bit rate at which a frame goes: the sender's, unless the access model has its own.

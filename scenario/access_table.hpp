@@ -30,6 +30,11 @@ struct EnumNames<AccessChoice> {
     static constexpr std::array<std::string_view, 3> values = {"none", "aloha", "csma"};
 };
 
+/// Reads [access] eifs: a word, or, as in files of earlier versions, true (standard) or false
+/// (none).
+/// @throws InputError for anything else
+void read_value(const Value& value, std::string_view key, EifsRule& out);
+
 /// [access]: the chosen model and the parameters of all. Those of csma that are not given are its
 /// standard's; one that is given for a model that is not chosen is checked and kept.
 struct AccessTable {
@@ -50,8 +55,9 @@ struct AccessTable {
     /// Basic rates of csma [bit/s]: broadcasts and RTS go at the lowest, CTS and ACK at the highest
     /// that is not above the rate of what they answer.
     std::optional<std::vector<BitRate>> basic_rates = std::nullopt;
-    /// Waiting of csma after a frame with errors: longer (EIFS), as if an acknowledgement followed.
-    bool eifs = true;
+    /// Frames after which csma waits longer (EIFS), as if an acknowledgement followed. With ns2
+    /// the defaults of the keys above are those of ns-2, see ns2_timing().
+    EifsRule eifs = EifsRule::standard;
     /// Attempts at a unicast of csma, and at one behind an RTS, before it is given up (RET); 0: no
     /// end.
     int short_retries = Csma{}.short_retries;
@@ -83,7 +89,9 @@ struct AccessTable {
             field("basic_rates", &A::basic_rates,
                   "broadcasts and RTS go at the lowest, answers at the highest not above the "
                   "asker's"),
-            field("eifs", &A::eifs, "wait longer after a frame with errors"),
+            field("eifs", &A::eifs,
+                  "longer wait after a frame that was begun and lost (standard), sensed and not "
+                  "decoded (ns2), or none"),
             field("short_retries", &A::short_retries, non_negative, "attempts; 0: no end"),
             field("long_retries", &A::long_retries, non_negative, "behind an RTS; 0: no end"),
             field("rts_threshold", &A::rts_threshold, "larger unicasts ask with an RTS first"),

@@ -274,6 +274,15 @@ ReceptionModel ReceptionTable::make() const {
     return Threshold{};
 }
 
+void read_value(const Value& value, std::string_view key, EifsRule& out) {
+    if (const bool* word = std::get_if<bool>(&value.data)) {
+        out = *word ? EifsRule::standard : EifsRule::none;
+        return;
+    }
+    const auto& words = EnumNames<EifsRule>::values;
+    out = static_cast<EifsRule>(read_choice(value, key, {words.begin(), words.end()}));
+}
+
 AccessModel AccessTable::make() const {
     if (model == AccessChoice::none) return NoAccess{};
     const auto most = static_cast<std::uint32_t>(queue);
@@ -283,6 +292,7 @@ AccessModel AccessTable::make() const {
 
 Csma AccessTable::csma() const {
     WifiTiming timing = timing_of(standard);
+    if (eifs == EifsRule::ns2) timing = ns2_timing(timing);
     timing.slot = slot.value_or(timing.slot);
     timing.sifs = sifs.value_or(timing.sifs);
     timing.difs = difs.value_or(timing.sifs + 2 * timing.slot);

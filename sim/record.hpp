@@ -39,6 +39,8 @@ struct Reception {
     Fate fate = Fate::waiting;
     /// The application gets the message: it is the node's first copy, and for this node.
     bool delivered = false;
+    /// The receiver began to receive the frame. Of a lost frame `sinr` says whether it did.
+    bool locked = true;
 
     /// Order in which the receptions of a transmission are served: by time, then by node.
     friend bool operator<(const Reception& a, const Reception& b) {

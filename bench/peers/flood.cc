@@ -2,7 +2,8 @@
 /// The flood of bench/peers/run in ns-3.37; prints one line of JSON.
 ///
 /// Message k leaves node 37 k mod N at 1 s + k * interval. Who first hears it re-sends it after
-/// U(0, jitter) while its TTL is above 1; copies of a known message are counted and go no further.
+/// 1 us + U(0, jitter) while its TTL is above 1; copies of a known message are counted and go no
+/// further.
 ///   --channel=lean  SimpleNetDevice; a frame reaches every node within 250 m, nothing collides
 ///   --channel=wifi  802.11b ad hoc at 1 Mb/s, long preamble, no IP. --loss=range: 250 m and no
 ///                   more; --loss=two_ray: decoded to 250 m, sensed and interfering to 550 m
@@ -32,6 +33,7 @@ namespace {
 
 constexpr double decode_range = 250;  // [m]
 constexpr double first_message = 1;   // [s]
+constexpr double least_delay = 1e-6;  // [s], rovernet's
 
 struct Options : PeerOptions {
     std::string movement;
@@ -198,7 +200,7 @@ class Flood {
         known_[content.message][node] = true;
         ++delivered_[content.message];
         if (content.ttl > 1)
-            Simulator::Schedule(Seconds(delay_->GetValue()), &Flood::send, this, node,
+            Simulator::Schedule(Seconds(least_delay + delay_->GetValue()), &Flood::send, this, node,
                                 Content{content.message, content.ttl - 1});
         return true;
     }

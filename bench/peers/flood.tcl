@@ -3,7 +3,8 @@
 #   ns flood.tcl -movement FILE [-messages 20] [-interval 3] [-ttl 100] [-jitter 0.05] [-payload 64]
 #                [-seed 1] [-trace FILE]
 # Message k leaves node 37 k mod N at 1 s + k * interval. Who first hears it re-sends it after
-# U(0, jitter) while its TTL is above 1; copies of a known message are counted and go no further.
+# 1 us + U(0, jitter), as in rovernet, while its TTL is above 1; copies of a known message are counted
+# and go no further.
 # 802.11 at 1 Mb/s with ns-2's own defaults: two-ray ground at 914 MHz, decoded to 250 m, sensed and
 # interfering to 550 m. -trace writes the lines of agents and MAC; without it nothing is written.
 
@@ -76,8 +77,8 @@ if {$nodes == 0} {
 set ns_ [new Simulator]
 ns-random $option(-seed)
 set delay [new RandomVariable/Uniform]
-$delay set min_ 0
-$delay set max_ $option(-jitter)
+$delay set min_ 1e-6
+$delay set max_ [expr {1e-6 + $option(-jitter)}]
 
 if {$option(-trace) eq ""} {
     wireless $nodes [open /dev/null w] OFF OFF

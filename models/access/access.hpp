@@ -97,11 +97,12 @@ class Access {
     virtual bool listens() const { return false; }
     /// Takes note of nodes that will sense a frame that goes on air now, and from when until when.
     /// For models that listen, as are the next three.
-    virtual void sensed(std::span<const Sensing> /*nodes*/) {}
+    virtual void sensed(Air& /*air*/, std::span<const Sensing> /*nodes*/) {}
     /// Takes note that a frame ended at `node` and was received.
     virtual void received(Air& /*air*/, NodeId /*node*/, const AirFrame& /*frame*/) {}
-    /// Takes note that a frame ended at `node` and had errors.
-    virtual void missed(Air& /*air*/, NodeId /*node*/) {}
+    /// Takes note that a frame ended at `node`, which could decode it, and was lost.
+    /// @param locked  the receiver had begun to receive it, see Reception::locked
+    virtual void missed(Air& /*air*/, NodeId /*node*/, bool /*locked*/) {}
     /// Whether `frame` repeats one that `node` has already. It is asked once for each unicast
     /// received, and may remember that.
     virtual bool is_repeated(NodeId /*node*/, const AirFrame& /*frame*/) { return false; }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 namespace rovernet {
 
@@ -45,7 +46,8 @@ class Backoff {
     /// good frame ends meanwhile.
     void frame_lost(Time t, Duration eifs) { eifs_until_ = t + eifs; }
     /// Takes note that a frame ended without errors.
-    void frame_decoded() { eifs_until_ = long_ago; }
+    /// @return whether one with errors came before it: grant() may be earlier now
+    bool frame_decoded() { return std::exchange(eifs_until_, long_ago) != long_ago; }
 
     /// Begins a backoff of so many slots, which do not count before `from`.
     void begin(int slots, Time from) {

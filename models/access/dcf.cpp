@@ -138,6 +138,7 @@ void Dcf::transmit_data(Air& air, NodeId node) {
 Time Dcf::transmit(Air& air, const AirFrame& frame) {
     const Time end = air.transmit(frame);
     backoff(frame.frame.sender).energy(air.now(), end);
+    at(frame.frame.sender).sends_until = end;
     return end;
 }
 
@@ -185,21 +186,30 @@ void Dcf::finish(Air& air, NodeId node, Time end, std::optional<DropReason> reas
     }
 }
 
-void Dcf::sensed(std::span<const Sensing> nodes) {
-    for (const auto& [node, begin, end] : nodes) {
+void Dcf::sensed(Air& air, std::span<const Sensing> nodes) {
+    for (const auto& [node, decodable, begin, end] : nodes) {
         Listening& l = listening_[node.index()];
         l.backoff.energy(begin, end);
         l.on_air_until = std::max(l.on_air_until, end);
+    }
+    if (settings_.eifs != EifsRule::ns2) return;
+    for (const Sensing& each : nodes) {
+        if (!each.decodable) defer_as_ns2(air, each.node, each.end);
     }
 }
 
 void Dcf::received(Air& air, NodeId node, const AirFrame& frame) {
     Station& s = at(node);
-    backoff(node).frame_decoded();
+    const bool is_sooner = backoff(node).frame_decoded() && s.state == State::contending;
+    if (is_sooner) set_timer(air, node, backoff(node).grant(), access);
     if (frame.frame.next_hop == node) return answer_to(air, node, frame);
     if (frame.reserved == Duration{0}) return;
-    s.reserved_until = std::max(s.reserved_until, air.now() + frame.reserved);
-    backoff(node).energy(air.now(), air.now() + frame.reserved);
+    reserve(node, air.now(), air.now() + frame.reserved);
+}
+
+void Dcf::reserve(NodeId node, Time from, Time until) {
+    at(node).reserved_until = std::max(at(node).reserved_until, until);
+    backoff(node).energy(from, until);
 }
 
 /// Answers a frame for this node that has ended.
@@ -242,11 +252,20 @@ void Dcf::send_response(Air& air, NodeId node) {
     transmit(air, frame);
 }
 
-void Dcf::missed(Air& air, NodeId node) {
-    if (!settings_.eifs) return;
+void Dcf::missed(Air& air, NodeId node, bool locked) {
+    if (settings_.eifs == EifsRule::ns2) return defer_as_ns2(air, node, air.now());
+    if (settings_.eifs == EifsRule::none || !locked) return;
+    backoff(node).frame_lost(air.now(), eifs(air, node));
+}
+
+Duration Dcf::eifs(const Air& air, NodeId node) const {
     const WifiTiming& t = settings_.timing;
-    const Duration ack = air.airtime(control_frame(node, everyone, AirFrame::ack));
-    backoff(node).frame_lost(air.now(), t.sifs + ack + t.difs);
+    return t.sifs + air.airtime(control_frame(node, everyone, AirFrame::ack)) + t.difs;
+}
+
+void Dcf::defer_as_ns2(const Air& air, NodeId node, Time end) {
+    if (at(node).sends_until > end) return;
+    reserve(node, end, end + eifs(air, node));
 }
 
 bool Dcf::is_repeated(NodeId node, const AirFrame& frame) {

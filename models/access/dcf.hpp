@@ -6,6 +6,7 @@
 #include "models/phy/wifi.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -21,6 +22,30 @@
 
 namespace rovernet {
 
+/// Rule by which a station waits longer than a DIFS (EIFS: room for an acknowledgement that it
+/// would not understand) after a frame that it did not get.
+///
+/// - standard: after a frame that it had begun to receive, until a frame without errors ends;
+///   802.11-2020, 10.3.2.3.7
+/// - ns2: after each frame that it sensed, decodable or not, unless it is sending then; it is a
+///   reservation, so that a DIFS follows, and no other frame ends it
+/// - none: never
+enum class EifsRule { standard, ns2, none };
+/// Words of [access] eifs.
+template <>
+struct EnumNames<EifsRule> {
+    static constexpr std::array<std::string_view, 3> values = {"standard", "ns2", "none"};
+};
+
+/// Times of a standard as ns-2.35 has them: energy is sensed at once, a station sends as it
+/// decides, and a backoff has 0 to CW - 1 slots.
+constexpr WifiTiming ns2_timing(WifiTiming timing) {
+    timing.cca_time = timing.turnaround = Duration{0};
+    --timing.cw_min;
+    --timing.cw_max;
+    return timing;
+}
+
 /// Settings of the 802.11 DCF. Defaults are those of 802.11b.
 struct Csma {
     static constexpr std::string_view name = "csma";
@@ -33,8 +58,8 @@ struct Csma {
     /// not above the rate of what it answers (the lowest, if all are above). Not empty; in any
     /// order.
     std::vector<BitRate> basic_rates = mandatory_rates(WifiStandard::b);
-    /// Stations wait longer (EIFS) after a frame with errors.
-    bool eifs = true;
+    /// Frames after which stations wait longer.
+    EifsRule eifs = EifsRule::standard;
     /// Attempts of an RTS, or of data without one; 0: no end.
     int short_retries = 7;
     /// Attempts of data behind an RTS; 0: no end.
@@ -84,9 +109,9 @@ class Dcf final : public Access {
     void switch_off(Air& air, NodeId node) override;
 
     bool listens() const override { return true; }
-    void sensed(std::span<const Sensing> nodes) override;
+    void sensed(Air& air, std::span<const Sensing> nodes) override;
     void received(Air& air, NodeId node, const AirFrame& frame) override;
-    void missed(Air& air, NodeId node) override;
+    void missed(Air& air, NodeId node, bool locked) override;
     bool is_repeated(NodeId node, const AirFrame& frame) override;
 
     std::uint32_t header() const override { return settings_.header; }
@@ -133,6 +158,8 @@ class Dcf final : public Access {
         Time timer = never;
         /// Time until which others have reserved the medium (NAV).
         Time reserved_until = start_of_run;
+        /// End of its own last frame.
+        Time sends_until = start_of_run;
         /// Frames that wait; the first is being sent.
         std::vector<QueuedFrame> queue = {};
         /// Last number of each sender of unicasts.
@@ -169,6 +196,12 @@ class Dcf final : public Access {
     void answer_to(Air& air, NodeId node, const AirFrame& frame);
     // Ends the work on the first frame: sent, or lost for a reason. A backoff begins behind it.
     void finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason);
+    // Keeps the station from sending until others that reserved the medium are done (NAV).
+    void reserve(NodeId node, Time from, Time until);
+    // EIFS of a station [ns].
+    Duration eifs(const Air& air, NodeId node) const;
+    // EIFS of ns-2 behind a frame that ends at `end`.
+    void defer_as_ns2(const Air& air, NodeId node, Time end);
     // Sends a frame after a SIFS, whatever the medium is like.
     void respond(Air& air, NodeId node, const AirFrame& frame);
     // Sends the answer that is due.

@@ -57,8 +57,9 @@ class Judge {
     /// began; these are then among the others, too.
     virtual bool looks_back() const = 0;
     /// Decides the fate of a reception that ends now, at a node that is on; it sets reception.fate,
-    /// and leaves it as it is for a frame that is received. Receptions of a frame are judged one
-    /// after the other, in the order in which it ends at them.
+    /// and leaves it as it is for a frame that is received. A judge that knows sets
+    /// reception.locked, too. Receptions of a frame are judged one after the other, in the order in
+    /// which it ends at them.
     /// @param frame   frame that is received
     /// @param others  frames that may have been on air there, in no order to rely on
     virtual void judge(Interference& air, const Emission& frame, Frames others,

@@ -95,6 +95,7 @@ void SinrJudge::judge(Interference& air, const Emission& judged, Frames others,
         [&](const Arrival& a) { return air.level(a, node).value; },
         [&] { return air.draw(Purpose::bit_errors, judged.from, node, sent.number); },
         [&](NodeId a, NodeId b) { return air.key(a) < air.key(b); });
+    reception.locked = *arrivals_.front().lock == Lock::held && fate != Fate::busy;
     const bool decoded_but_garbled = is_decoded(fate) && reception.fate == Fate::garbled;
     if (!decoded_but_garbled) reception.fate = fate;
 }

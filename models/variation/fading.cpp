@@ -112,34 +112,62 @@ Fades::Fades(const Fading& settings, std::uint64_t seed, std::uint32_t replicati
         direct_ = std::sqrt(k / (k + 1));
         scattered_ = std::sqrt(1 / (k + 1));
     }
-    if (settings.model == FadingModel::nakagami) gamma_.emplace(settings.m);
-    if (settings.coherence == Coherence::frame) return;
-    waves_.emplace([&](std::size_t number) {
-        return unit_wave({.seed = seed,
-                          .replication = replication,
-                          .purpose = Purpose::place_fading,
-                          .a = number});
-    });
+    const bool of_places = settings.coherence == Coherence::place;
+    if (settings.model == FadingModel::nakagami) {
+        if (of_places) parts_ = std::max(1.0, std::floor(2 * settings.m + 0.5));
+        if (!of_places || parts_ != 2 * settings.m) gamma_.emplace(settings.m);
+    }
+    if (!of_places) return;
+    for (std::uint64_t field = 0; 2 * static_cast<double>(field) < parts_; ++field) {
+        fields_.emplace_back([&](std::size_t number) {
+            return unit_wave({.seed = seed,
+                              .replication = replication,
+                              .purpose = Purpose::place_fading,
+                              .a = number,
+                              .b = field});
+        });
+    }
+}
+
+Fades::Scale Fades::scale(const Frame& frame) const {
+    const double per_metre = frame.frequency.value / speed_of_light;
+    const double dx = frame.from.x - frame.to.x, dy = frame.from.y - frame.to.y;
+    const double turns = std::sqrt(dx * dx + dy * dy) * per_metre;
+    const double both = bessel_j0(std::min(2 * std::numbers::pi * turns, 1e9));
+    return {per_metre, 1 / std::sqrt(2 * PairWaves::count * (1 + both * both))};
 }
 
 /// Complex amplitude z of all waves but the line of sight.
 PairWaves::Value Fades::scattered(const Frame& frame) const {
-    if (!waves_) {
+    if (fields_.empty()) {
         const double power = -math::log(draws_.uniform(frame.key, frame.receiver));
         const double turns = draws_.uniform(combine(frame.key, 1), frame.receiver);
         const double size = std::sqrt(power);
         return {size * cos_of_turns(turns), size * cos_of_turns(turns - 0.25)};
     }
-    const double per_metre = frame.frequency.value / speed_of_light;
-    const double dx = frame.from.x - frame.to.x, dy = frame.from.y - frame.to.y;
-    const double turns = std::sqrt(dx * dx + dy * dy) * per_metre;
-    const double both = bessel_j0(std::min(2 * std::numbers::pi * turns, 1e9));
-    const double size = 1 / std::sqrt(2 * PairWaves::count * (1 + both * both));
-    const auto [re, im] = waves_->complex(frame.from, frame.to, per_metre);
+    const auto [per_metre, size] = scale(frame);
+    const auto [re, im] = fields_.front().complex(frame.from, frame.to, per_metre);
     return {size * re, size * im};
 }
 
+/// Sum of the squares of parts_ real fields, a gamma variate of shape parts_ / 2: as it is, or with
+/// its probability that of shape m.
+double Fades::nakagami_of_places(const Frame& frame) const {
+    const auto [per_metre, size] = scale(frame);
+    double sum = 0, parts = parts_;
+    for (const PairWaves& field : fields_) {
+        const auto [re, im] = field.complex(frame.from, frame.to, per_metre);
+        sum += parts > 1 ? re * re + im * im : re * re;
+        parts -= 2;
+    }
+    const double power = std::max(size * size * sum, deepest);
+    if (!gamma_) return power / settings_.m;
+    return (*gamma_)(minus_log_gamma_q(parts_ / 2, power)) / settings_.m;
+}
+
 double Fades::power(const Frame& frame) const {
+    const bool adds_fields = settings_.model == FadingModel::nakagami && !fields_.empty();
+    if (adds_fields) return nakagami_of_places(frame);
     auto [re, im] = scattered(frame);
     if (settings_.model == FadingModel::rician) {
         const double turns =

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 // Fading: what reflections that add up or cancel do to the level of a frame. In code:
 //
@@ -47,6 +48,8 @@ struct EnumNames<Coherence> {
 ///   rayleigh  g = |z|^2                                      z complex normal, mean |z|^2 = 1
 ///   rician    g = |sqrt(K / (K + 1)) e^(j 2 pi d / lambda) + z / sqrt(K + 1)|^2
 ///   nakagami  g = F^-1(1 - e^(-|z|^2)) / m                   F: distribution function of gamma(m)
+///             g = (x_1^2 + ... + x_2m^2) / m                 of places: x_i are the real and
+///                                                            imaginary parts of several z
 ///
 /// It is cut at its quantile of 1 - 1e-6, which bounds the range: 11.4 dB for rayleigh.
 ///
@@ -69,7 +72,8 @@ struct Fading {
                   Range{.low = -100, .high = 30, .text = "from -100 dB to 30 dB"},
                   "of rician: the line of sight over all other waves"),
             field("m", &Fading::m, Range{.low = 0.5, .high = 100, .text = "from 0.5 to 100"},
-                  "of nakagami: shape; 1 is rayleigh"));
+                  "of nakagami: shape; 1 is rayleigh. Of places, levels are crossed as often as in "
+                  "theory if 2 m is whole"));
     }
 
     /// Quantile of g [-]: g is below it with probability p, 1e-9 <= p <= 1 - 1e-9. The model is not
@@ -89,6 +93,12 @@ struct Fading {
 /// autocorrelation of z as one end moves by D is J0(2 pi D / lambda), as by R. H. Clarke, Bell
 /// System Technical Journal 47(6), 1968. Distances are horizontal. There is no time step: a robot
 /// at rest has one fade for each place of its peer.
+///
+/// A nakagami of places is made of ceil(m) such fields and costs as much as they do. If 2 m is
+/// whole, it crosses levels as often as theory says (M. D. Yacoub, J. E. V. Bautista, L. Guedes,
+/// IEEE Trans. Vehicular Technology 48(3), 1999). The power of any other m is that of the nearest
+/// such one, bent to its own distribution: -15 dB is crossed 10 % too seldom for m = 1.8, and 30 %
+/// too often for m = 1.25.
 class Fades {
   public:
     /// @param settings  not of the model `none`
@@ -110,14 +120,22 @@ class Fades {
     Db most() const { return most_; }
 
   private:
+    // Turns of a wave between the places, and size of a field's amplitude there.
+    struct Scale {
+        double per_metre, size;
+    };
+    Scale scale(const Frame& frame) const;
     PairWaves::Value scattered(const Frame& frame) const;
+    double nakagami_of_places(const Frame& frame) const;
     double power(const Frame& frame) const;
 
     Fading settings_;
     PairDraws draws_;
-    // Waves, if places have the fades.
-    std::optional<PairWaves> waves_;
-    // Gamma variates, of nakagami.
+    // Fields, if places have the fades: one, or several whose powers are added.
+    std::vector<PairWaves> fields_;
+    // Real fields in fields_ whose squares are added, of a nakagami of places.
+    double parts_ = 2;
+    // Gamma variates, of a nakagami that is not the sum of fields alone.
     std::optional<GammaTable> gamma_;
     // Amplitudes of the line of sight and of the rest [-].
     double direct_ = 0, scattered_ = 1;
