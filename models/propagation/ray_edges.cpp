@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -53,13 +54,46 @@ std::optional<std::pair<std::size_t, std::size_t>> corners_seen(const WallEdge& 
     return std::pair{*at_a, *at_b};
 }
 
+/// The way by two corners of a body that is on its left, as a pair of edges.
+EdgePair pair_of(Vec3 from, Vec3 first, Vec3 last, Vec3 to, double along) {
+    const auto bend = [](Vec3 p, Vec3 q, Vec3 r) {
+        const double longer = distance(p, q) + distance(q, r) - distance(p, r);
+        return std::copysign(std::max(0.0, longer), cross(q - p, r - q));
+    };
+    return {.before = distance(from, first),
+            .along = along,
+            .after = distance(last, to),
+            .first = bend(from, first, last),
+            .last = bend(first, last, to)};
+}
+
+EdgePair turned_round(const EdgePair& pair) {
+    return {pair.after, pair.along, pair.before, pair.last, pair.first};
+}
+
+/// A pair in plan as one whose way rises, and is longer by a factor.
+EdgePair scaled(const EdgePair& pair, double longer) {
+    return {pair.before * longer, pair.along * longer, pair.after * longer, pair.first / longer,
+            pair.last / longer};
+}
+
+void set_wall(RayEdge& edge, const Face& wall, Vec3 a, Vec3 b) {
+    const double straight = distance(a, b);
+    edge.material = wall.material;
+    edge.thickness = wall.thickness;
+    edge.cosine = straight > 0 ? std::abs(dot(b - a, wall.normal)) / straight : 1;
+}
+
 }  // namespace
 
-RayEdges::RayEdges(std::span<const Face> faces, double wavelength) : faces_(faces) {
+RayEdges::RayEdges(std::span<const Face> faces, double wavelength)
+    : faces_(faces), wavelength_(wavelength), of_face_(faces.size()) {
     for (std::size_t i = 0; i < faces.size();) {
         std::size_t end = i;
-        while (end < faces.size() && faces[end].outline == faces[i].outline) ++end;
-        add_outline(faces.subspan(i, end - i), i, 5 * wavelength);
+        double longest = 0;
+        while (end < faces.size() && faces[end].outline == faces[i].outline)
+            longest = std::max(longest, faces[end++].length);
+        add_outline(faces.subspan(i, end - i), i, std::min(5 * wavelength, 0.4 * longest));
         i = end;
     }
 }
@@ -68,6 +102,7 @@ void RayEdges::add_outline(std::span<const Face> outline, std::size_t first, dou
     std::vector<std::size_t> sides;
     for (std::size_t i = 0; i < outline.size(); ++i)
         if (outline[i].length >= shortest) sides.push_back(i);
+    const std::size_t first_edge = edges_.size();
     for (std::size_t s = 0; sides.size() >= 2 && s < sides.size(); ++s) {
         const std::size_t i = sides[s], k = sides[(s + 1) % sides.size()];
         const Face &before = outline[i], &behind = outline[k];
@@ -82,14 +117,52 @@ void RayEdges::add_outline(std::span<const Face> outline, std::size_t first, dou
         }
         constexpr double least = 20 * pi / 180;
         if (turned < least || turned > pi + least) continue;
-        edges_.push_back({first + i,
-                          first + k,
-                          {before.to, behind.from},
-                          {-direction(before).x, -direction(before).y, 0},
-                          std::min(1 + turned / pi, 2.0),
-                          std::min(before.height, behind.height),
-                          std::max(before.deviation, behind.deviation)});
+        edges_.push_back({.before = first + i,
+                          .behind = first + k,
+                          .corners = {before.to, behind.from},
+                          .back = {-direction(before).x, -direction(before).y, 0},
+                          .n = std::min(1 + turned / pi, 2.0),
+                          .height = std::min(before.height, behind.height),
+                          .steps = std::max(before.deviation, behind.deviation),
+                          .previous = no_edge,
+                          .next = no_edge,
+                          .thin = distance(before.to, behind.from) <= wavelength_});
     }
+    link_edges(first_edge, outline, first);
+}
+
+/// Links the edges of an outline, the last ones, with their neighbours and faces.
+void RayEdges::link_edges(std::size_t first_edge, std::span<const Face> outline,
+                          std::size_t first) {
+    for (std::size_t e = first_edge; e < edges_.size(); ++e) {
+        of_face_[edges_[e].before].before = e;
+        of_face_[edges_[e].behind].behind = e;
+        const std::size_t n = outline.size(), end = edges_[e].behind - first;
+        for (std::size_t f = (edges_[e].before - first + 1) % n; f != end; f = (f + 1) % n)
+            of_face_[first + f].between = e;
+    }
+    for (std::size_t e = first_edge; e < edges_.size(); ++e) {
+        edges_[e].next = of_face_[edges_[e].behind].before;
+        edges_[e].previous = of_face_[edges_[e].before].behind;
+    }
+}
+
+void RayEdges::find_crossed(std::span<const std::size_t> faces,
+                            std::vector<CrossedAt>& crossed) const {
+    crossed.assign(edges_.size(), {});
+    for (const std::size_t face : faces) {
+        const EdgesOfFace& of = of_face_[face];
+        if (of.before != no_edge) crossed[of.before].before = true;
+        if (of.behind != no_edge) crossed[of.behind].behind = true;
+        if (of.between != no_edge) crossed[of.between].between = true;
+    }
+}
+
+bool RayEdges::is_end(std::size_t short_side, std::size_t long_side) const {
+    if (of_face_.empty()) return false;
+    const std::size_t e = of_face_[short_side].between;
+    return e != no_edge && (edges_[e].before == long_side || edges_[e].behind == long_side) &&
+           faces_[edges_[e].before].opposite(faces_[edges_[e].behind]);
 }
 
 std::optional<WayAround> RayEdges::around(const WallEdge& edge, Vec3 a, Vec3 b) const {
@@ -124,12 +197,144 @@ std::optional<WayAround> RayEdges::around(const WallEdge& edge, Vec3 a, Vec3 b) 
     const auto open = [&](double phi) { return phi >= 0 && phi <= edge.n * pi; };
     if (!open(e.phi_before) || !open(e.phi_after)) return std::nullopt;
     e.detour = way.detour;
-    const Face& wall = before.length >= behind.length ? before : behind;
-    const double straight = distance(a, b);
-    e.material = wall.material;
-    e.thickness = wall.thickness;
-    e.cosine = straight > 0 ? std::abs(dot(b - a, wall.normal)) / straight : 1;
+    set_wall(e, before.length >= behind.length ? before : behind, a, b);
     return way;
+}
+
+/// Corners from an edge forward to where the straight path passes through the body again; none if
+/// that is not reached.
+std::vector<RayEdges::Corner> RayEdges::corners_past(std::size_t first,
+                                                     std::span<const CrossedAt> crossed,
+                                                     std::vector<std::size_t>& passed) const {
+    constexpr std::size_t most = 16;
+    std::vector<Corner> out;
+    bool whole = crossed[first].before;  // else the way begins between the corners
+    for (std::size_t e = first; out.size() < most;) {
+        const WallEdge& edge = edges_[e];
+        passed.push_back(e);
+        if (whole || edge.thin) out.push_back({edge.corners[0], e});
+        if (crossed[e].between && whole && !edge.thin) return out;
+        out.push_back({edge.corners[1], e});
+        if (crossed[e].behind || (crossed[e].between && whole)) return out;
+        whole = true;
+        e = edge.next;
+        if (e == no_edge || e == first) break;
+    }
+    return {};
+}
+
+/// Corners that a string touches which is drawn tight from one point past them to another, with the
+/// body on its left.
+std::vector<RayEdges::Corner> RayEdges::touched(std::span<const Corner> corners, Vec3 from,
+                                                Vec3 to) {
+    std::vector<Corner> out;
+    const auto add = [&](Vec3 next) {
+        while (!out.empty()) {
+            const Vec3 last = out.back().at;
+            const Vec3 before = out.size() > 1 ? out[out.size() - 2].at : from;
+            if (cross(last - before, next - last) > 0) return;
+            out.pop_back();
+        }
+    };
+    for (const Corner& corner : corners) {
+        add(corner.at);
+        out.push_back(corner);
+    }
+    add(to);
+    return out;
+}
+
+std::optional<WayAround> RayEdges::around_body(std::size_t first,
+                                               std::span<const CrossedAt> crossed, Vec3 a, Vec3 b,
+                                               std::vector<std::size_t>& passed) const {
+    const std::vector<Corner> corners = corners_past(first, crossed, passed);
+    if (corners.empty()) return std::nullopt;
+    // Forward, the body is on the left, and its corners in the way are on the right of the line.
+    const Vec3 in_the_way = edges_[first].corners[crossed[first].before ? 0 : 1];
+    const bool forward = cross(b - a, in_the_way - a) < 0;
+    std::vector<Corner> at = touched(corners, flat(forward ? a : b), flat(forward ? b : a));
+    if (at.empty()) return around(edges_[first], a, b);
+    const std::size_t e = at.front().edge;
+    const bool one = at.back().edge == e && (at.size() == 1 || edges_[e].thin);
+    if (!one) return around_corners(at, a, b, forward);
+    auto way = around(edges_[e], a, b);
+    if (way) join_next_corner(*way, e, true, a, b);
+    return way;
+}
+
+/// @param corners  several, that the way touches
+std::optional<WayAround> RayEdges::around_corners(std::span<const Corner> corners, Vec3 a, Vec3 b,
+                                                  bool forward) const {
+    const Vec3 from = flat(forward ? a : b), to = flat(forward ? b : a);
+    // Both corners of a thin edge are one, and the one inside counts.
+    const auto is_thin = [&](std::size_t i) {
+        return corners[i].edge == corners[i + 1].edge && edges_[corners[i].edge].thin;
+    };
+    const std::size_t end = corners.size() - 1;
+    const std::size_t i = end > 1 && is_thin(0) ? 1 : 0;
+    const std::size_t k = end > i + 1 && is_thin(end - 1) ? end - 1 : end;
+    double along = 0;
+    for (std::size_t c = i; c < k; ++c) along += distance(corners[c].at, corners[c + 1].at);
+    EdgePair pair = pair_of(from, corners[i].at, corners[k].at, to, along);
+    if (!(pair.before > 0 && pair.along > 0 && pair.after > 0)) return std::nullopt;
+    if (!forward) pair = turned_round(pair);
+    const double plan = pair.before + along + pair.after, rise = b.z - a.z;
+    WayAround way{{corners.front().at, corners.back().at}, {}, 0, 0};
+    if (!forward) std::swap(way.corners[0], way.corners[1]);
+    way.length = std::sqrt(plan * plan + rise * rise);
+    way.detour = std::max(0.0, way.length - distance(a, b));
+    double height = std::numeric_limits<double>::infinity();
+    std::size_t wall = edges_[corners[0].edge].before;
+    for (const Corner& c : corners) {
+        const WallEdge& edge = edges_[c.edge];
+        height = std::min(height, edge.height);
+        for (const std::size_t face : {edge.before, edge.behind})
+            if (faces_[face].length > faces_[wall].length) wall = face;
+    }
+    way.corners[0].z = a.z + rise * pair.before / plan;
+    way.corners[1].z = b.z - rise * pair.after / plan;
+    if ((way.corners[0].z + way.corners[1].z) / 2 > height) return std::nullopt;
+    way.edge.before = (pair.before + along / 2) / plan * way.length;
+    way.edge.after = way.length - way.edge.before;
+    way.edge.pair = scaled(pair, way.length / plan);
+    way.edge.detour = way.detour;
+    set_wall(way.edge, faces_[wall], a, b);
+    return way;
+}
+
+std::size_t RayEdges::join_next_corner(WayAround& way, std::size_t e, bool shadowed, Vec3 a,
+                                       Vec3 b) const {
+    const WallEdge& edge = edges_[e];
+    const Vec3 at = flat(way.corners[0]);
+    const bool one = distance(at, flat(way.corners[1])) == 0;
+    if (!one && !edge.thin) return no_edge;
+    // Forward, the body is on the left: so is a corner that is lit, and one in the way is not.
+    const bool forward = (cross(b - a, at - flat(a)) > 0) != shadowed;
+    const Vec3 from = flat(forward ? a : b), to = flat(forward ? b : a);
+    const double stretch = way.length / (distance(from, at) + distance(at, to));
+    const std::size_t corner = distance(at, edge.corners[0]) == 0 ? 0 : 1;
+    std::size_t joined = no_edge;
+    double least = near_edge * wavelength_;
+    const auto look = [&](Vec3 first, Vec3 last, bool other_first, std::size_t other) {
+        const Vec3 off = other_first ? first - from : to - last;
+        const Vec3 leg = other_first ? last - from : to - first;
+        if (!(dot(off, leg) > 0 && dot(off, leg) < dot(leg, leg))) return;
+        EdgePair pair = pair_of(from, first, last, to, distance(first, last));
+        const double detour = std::abs(other_first ? pair.first : pair.last);
+        if (!(detour < least && pair.before > 0 && pair.along > 0 && pair.after > 0)) return;
+        least = detour;
+        joined = other;
+        way.edge.pair = scaled(forward ? pair : turned_round(pair), stretch);
+    };
+    if (!edge.thin && corner == 1)
+        look(edge.corners[0], at, true, e);
+    else if (edge.previous != no_edge)
+        look(edges_[edge.previous].corners[1], edge.corners[0], true, edge.previous);
+    if (!edge.thin && corner == 0)
+        look(at, edge.corners[1], false, e);
+    else if (edge.next != no_edge)
+        look(edge.corners[1], edges_[edge.next].corners[0], false, edge.next);
+    return joined;
 }
 
 }  // namespace rovernet

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace rovernet {
@@ -26,10 +27,11 @@ RayMaterials::RayMaterials(const std::vector<Material>& materials, Hertz frequen
     : wavelength_(speed_of_light / frequency.value),
       mirror_(-math::exp10(-reflection_loss.value / 20)) {
     for (const Material& m : materials) {
-        Entry entry{std::nullopt, std::nullopt, {}, 0, 0};
+        Entry entry{std::nullopt, std::nullopt, std::numeric_limits<double>::infinity(), {}, 0, 0};
         entry.least.fill(reflection_loss.value);
         if (m.follows_model()) {
             entry.slab = Slab(wall, frequency);
+            entry.thickest = thickest_default_wall.value;
         } else if (m.slab) {
             entry.slab = Slab(*m.slab, frequency);
             entry.thickness = m.thickness.value;
@@ -55,7 +57,7 @@ RayFactor RayMaterials::factor(const RayHit& hit) const {
 HitLosses RayMaterials::losses_at_slab(std::size_t material, double thickness,
                                        double cosine) const {
     const Entry& entry = entries_[material];
-    const SlabPowers powers = entry.slab->powers(entry.thickness.value_or(thickness), cosine);
+    const SlabPowers powers = entry.slab->powers(entry.slab_thickness(thickness), cosine);
     return {decibels(powers.transmitted) + db_per_neper * powers.decay, decibels(powers.reflected)};
 }
 
@@ -63,18 +65,32 @@ double RayMaterials::least_reflection_loss(std::size_t material, double cosine) 
     return entries_[material].least[static_cast<std::size_t>(64 * cosine)];
 }
 
+/// Field behind the wall at an edge over that without it [-].
+math::Complex RayMaterials::through(const RayEdge& edge) const {
+    const double cosine = std::clamp(edge.cosine, grazing, 1.0);
+    const RayFactor wall = crossed(edge.material, edge.thickness, cosine, edge.thickness / cosine);
+    return math::exp(math::Complex{-wall.decay, 0}) * wall.field;
+}
+
 RayFactor RayMaterials::around(const RayEdge& edge, RayDiffraction by, bool mirrors) const {
+    const math::Complex T = through(edge);
+    const auto at_most_1 = [](math::Complex field) {
+        return RayFactor{field / std::max(1.0, std::sqrt(std::norm(field))), 0};
+    };
     if (by == RayDiffraction::knife_edge) {
+        const double kept_out = std::sqrt(std::max(0.0, 1 - std::norm(T)));
+        if (edge.pair) return at_most_1(kept_out * pair_field(*edge.pair, wavelength_));
         const double nu = 2 * std::sqrt(edge.detour / wavelength_);
         const double loss = knife_edge_loss_p526_db(edge.shadowed ? nu : -nu);
-        return {math::phasor(-std::numbers::pi / 4), loss / db_per_neper};
+        return {kept_out * math::phasor(-std::numbers::pi / 4), loss / db_per_neper};
+    }
+    if (edge.pair) {
+        // Beside the straight path, what the pair takes from it.
+        const math::Complex field = pair_field(*edge.pair, wavelength_);
+        return at_most_1((1.0 - T) * (edge.shadowed ? field : field - 1.0));
     }
     const WedgePath path{edge.n, {edge.phi_after}, {edge.phi_before}};
-    WedgeFaces faces{0, 0, 0};
-    const double cosine = std::clamp(edge.cosine, grazing, 1.0);
-    const RayFactor through =
-        crossed(edge.material, edge.thickness, cosine, edge.thickness / cosine);
-    faces.through = math::exp(math::Complex{-through.decay, 0}) * through.field;
+    WedgeFaces faces{0, 0, T};
     if (mirrors) {
         const FaceIncidence at = face_incidence(path);
         const auto mirror = [&](Radians incidence) {
@@ -92,27 +108,27 @@ RayFactor RayMaterials::around(const RayEdge& edge, RayDiffraction by, bool mirr
     const math::Complex D =
         wedge_coefficient(path, 2 * std::numbers::pi / wavelength_, {L}, faces, lit);
     // No way around an edge is stronger than one of its length in the open.
-    const math::Complex field = D / std::sqrt(L);
-    return {field / std::max(1.0, std::sqrt(std::norm(field))), 0};
+    return at_most_1(D / std::sqrt(L));
 }
 
-double RayMaterials::beside_edge(double clearance) const {
-    return std::isfinite(clearance)
-               ? knife_edge_loss_p526_db(-2 * std::sqrt(clearance / wavelength_))
-               : 0;
+double RayMaterials::beside_edge(const RayEdge& edge) const {
+    double loss = knife_edge_loss_p526_db(-2 * std::sqrt(edge.detour / wavelength_));
+    if (edge.pair) loss = std::max(loss, decibels(std::norm(pair_field(*edge.pair, wavelength_))));
+    const double through_wall = std::min(1.0, std::norm(through(edge)));
+    return decibels(through_wall + (1 - through_wall) * math::exp10(-loss / 10));
 }
 
 RayFactor RayMaterials::reflected(std::size_t material, double thickness, double cosine) const {
     const Entry& entry = entries_[material];
     if (!entry.slab) return {mirror_, 0};
-    return {entry.slab->fields(entry.thickness.value_or(thickness), cosine).reflected, 0};
+    return {entry.slab->fields(entry.slab_thickness(thickness), cosine).reflected, 0};
 }
 
 RayFactor RayMaterials::crossed(std::size_t material, double thickness, double cosine,
                                 double length) const {
     const Entry& entry = entries_[material];
     if (!entry.slab) return {1, (entry.per_crossing + entry.per_metre * length) / db_per_neper};
-    const SlabFields fields = entry.slab->fields(entry.thickness.value_or(thickness), cosine);
+    const SlabFields fields = entry.slab->fields(entry.slab_thickness(thickness), cosine);
     return {fields.transmitted, fields.decay};
 }
 

@@ -27,12 +27,17 @@ struct HitLosses {
     double crossing, reflection;
 };
 
+/// Largest thickness of a wall whose material is not given: no wall of a building is thicker than
+/// half a metre. What is drawn so is furniture, a pillar or a shaft, which is not solid.
+inline constexpr Meters thickest_default_wall{0.5};
+
 /// Coefficients of a scene's materials at one frequency.
 ///
 /// A material of ITU-R P.2040 is a slab of its own thickness, at the path's angle, in the
 /// polarisation TE. One that follows the model is a slab of the model's `wall`, as thick as it is
-/// drawn. One that gives decibels takes those from what passes, whatever the angle, without a turn
-/// of the phase, and reflects all but the model's `reflection_loss`, with a turn by half a wave.
+/// drawn, at most `thickest_default_wall`. One that gives decibels takes those from what passes,
+/// whatever the angle, without a turn of the phase, and reflects all but the model's
+/// `reflection_loss`, with a turn by half a wave.
 class RayMaterials {
   public:
     RayMaterials(const std::vector<Material>& materials, Hertz frequency, ItuMaterial wall,
@@ -46,15 +51,18 @@ class RayMaterials {
     double least_reflection_loss(std::size_t material, double cosine) const;
     /// Field around an edge over that in free space at the way's length.
     ///
-    /// knife_edge: J(nu) by P.526, nu = 2 sqrt(detour / lambda). utd: D sqrt((s + s') / (s s')),
-    /// with the wall's own transmission into its shadow, and its reflection if `mirrors`; at
-    /// most 1.
+    /// knife_edge: J(nu) by P.526, nu = 2 sqrt(detour / lambda), of that part of the power which
+    /// the wall does not let through. utd: D sqrt((s + s') / (s s')), with the wall's own
+    /// transmission into its shadow, and its reflection if `mirrors`. A pair of edges:
+    /// pair_field(). At most 1.
     /// @param mirrors  paths that faces reflect are added with their phases
     RayFactor around(const RayEdge& edge, RayDiffraction by, bool mirrors) const;
-    /// Loss of a straight path that passes an edge with that clearance [dB], 0 to 6.
-    double beside_edge(double clearance) const;
+    /// Loss of a straight path that passes an edge on its lit side [dB], with knife edges: up to
+    /// 6 dB beside one edge, of that part of the power which its wall would not let through.
+    double beside_edge(const RayEdge& edge) const;
 
   private:
+    math::Complex through(const RayEdge& edge) const;
     RayFactor reflected(std::size_t material, double thickness, double cosine) const;
     RayFactor crossed(std::size_t material, double thickness, double cosine, double length) const;
 
@@ -62,8 +70,13 @@ class RayMaterials {
     struct Entry {
         std::optional<Slab> slab;         // or decibels
         std::optional<double> thickness;  // [m], instead of the drawn one
+        double thickest;                  // [m], of the drawn one
         std::array<double, 65> least;     // loss of reflection [dB], by cosine * 64
         double per_crossing, per_metre;   // [dB], [dB/m]
+
+        double slab_thickness(double drawn) const {
+            return thickness.value_or(drawn < thickest ? drawn : thickest);
+        }
     };
     double wavelength_;
     std::vector<Entry> entries_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/propagation/edge_pair.hpp"
 #include "sim/fields.hpp"
 
 #include <array>
@@ -72,6 +73,9 @@ struct RayEdge {
     double thickness, cosine;
     /// The straight path passes through a face beside the edge.
     bool shadowed = false;
+    /// The way also passes another edge of the same body, on one side of it or on the other: both
+    /// are one, and the numbers above are of the way around both.
+    std::optional<EdgePair> pair = std::nullopt;
 };
 
 /// Path between two antennas.
@@ -80,24 +84,29 @@ struct RayPath {
     double length;
     /// Hits of the path, as RayPaths has them.
     std::size_t first_hit, hits;
-    /// Edge around which it goes, if it is diffracted.
-    std::optional<RayEdge> edge;
-    /// Least detour around an edge [m], of the straight path: how near to one it passes, on either
-    /// side; infinite if it is not traced with edges.
-    double clearance = std::numeric_limits<double>::infinity();
+    /// Bodies around whose edges it goes, as RayPaths has them.
+    std::size_t first_edge = 0, edges = 0;
+    /// Edge that the straight path passes on the lit side, with the least detour of all; none if it
+    /// is not traced with edges.
+    std::optional<RayEdge> beside = std::nullopt;
 };
 
 /// Paths of a link: the straight one, those around edges, those with reflections.
 struct RayPaths {
     std::vector<RayPath> paths;
     std::vector<RayHit> all_hits;
+    std::vector<RayEdge> all_edges;
 
     std::span<const RayHit> hits(const RayPath& path) const {
         return std::span(all_hits).subspan(path.first_hit, path.hits);
     }
+    std::span<const RayEdge> edges(const RayPath& path) const {
+        return std::span(all_edges).subspan(path.first_edge, path.edges);
+    }
     void clear() {
         paths.clear();
         all_hits.clear();
+        all_edges.clear();
     }
 };
 

@@ -44,7 +44,6 @@ RayTracer::RayTracer(const Scene& scene, Vec3 from, int order, double wavelength
     images_ = RayImages(faces_, from, order, wavelength, few);
     if (!edges) return;
     edges_ = RayEdges(faces_, wavelength);
-    stands_.assign(faces_.size(), false);
 }
 
 void RayTracer::trace(Vec3 to, const RayLimit* limit, RayPaths& out) {
@@ -149,7 +148,7 @@ bool RayTracer::place(std::span<const std::uint32_t> chain, double flat,
 
 /// Adds the path with the walls in its way, unless it is too faint.
 void RayTracer::add(const Candidate& path, const RayLimit* limit, RayPaths& out) {
-    Draft draft{out, limit, out.all_hits.size(), path.free_space};
+    Draft draft{out, limit, out.all_hits.size(), out.all_edges.size(), path.free_space};
     const auto reflections = reflections_of(path);
     const auto points = std::span(points_).subspan(path.first_point, path.count + 2);
     for (const RayHit& hit : reflections)
@@ -165,21 +164,26 @@ void RayTracer::add(const Candidate& path, const RayLimit* limit, RayPaths& out)
         if (leg < path.count) end = among_steps(faces_[reflections[leg].face], p, q);
         bright = pass(p, q, begin, end, draft);
     }
-    finish(draft, bright, path.length, std::nullopt);
+    finish(draft, bright, path.length);
 }
 
 bool RayTracer::is_faint(const Draft& draft) const {
     return draft.limit && draft.loss > best_ + draft.limit->faintest;
 }
 
-/// Keeps the path whose hits were collected, or drops them.
-void RayTracer::finish(const Draft& draft, bool bright, double length,
-                       const std::optional<RayEdge>& edge) {
+/// Keeps the path whose hits and edges were collected, or drops them.
+void RayTracer::finish(const Draft& draft, bool bright, double length) {
     std::vector<RayHit>& hits = draft.out.all_hits;
-    if (!bright) return hits.resize(draft.first);
+    std::vector<RayEdge>& edges = draft.out.all_edges;
+    if (!bright) {
+        hits.resize(draft.first);
+        edges.resize(draft.first_edge, RayEdge{});
+        return;
+    }
     if (draft.limit) losses_.push_back(draft.loss);
     best_ = std::min(best_, draft.loss);
-    draft.out.paths.push_back({length, draft.first, hits.size() - draft.first, edge});
+    draft.out.paths.push_back({length, draft.first, hits.size() - draft.first, draft.first_edge,
+                               edges.size() - draft.first_edge});
 }
 
 /// Loss of a hit [dB]; those of a few slabs are remembered.
@@ -215,41 +219,114 @@ bool RayTracer::is_near(const WallEdge& edge, double detour) const {
 
 /// Adds the ways around edges; the straight path is the only one so far.
 void RayTracer::add_diffracted(const RayLimit* limit, RayPaths& out) {
-    for (const std::size_t face : crossed_) stands_[face] = true;
-    const std::vector<std::size_t> in_the_way = crossed_;
-    const double near = near_edge * wavelength_;
-    double clearance = std::numeric_limits<double>::infinity();
-    for (const WallEdge& edge : edges_.all()) {
-        const bool stands = stands_[edge.before] || stands_[edge.behind];
-        if (!stands && !is_near(edge, near)) continue;
-        auto way = edges_.around(edge, a_, b_);
+    edges_.find_crossed(crossed_, at_edge_);
+    done_.assign(edges_.all().size(), false);
+    bodies_.clear();
+    // Bodies in the way, then what is left of the edges in the way, then edges beside it.
+    for (std::size_t e = 0; e < at_edge_.size(); ++e) {
+        const CrossedAt& at = at_edge_[e];
+        if (!at.before && !at.between) continue;
+        passed_.clear();
+        auto way = edges_.around_body(e, at_edge_, a_, b_, passed_);
         if (!way) continue;
-        // As the straight path has it, and not as angles have it: so the two switch together.
-        way->edge.shadowed = stands;
-        clearance = std::min(clearance, way->detour);
-        const bool close =
-            way->detour < near && (!limit || limit->diffraction == RayDiffraction::utd);
-        if (way->edge.shadowed || close) add_around(edge, *way, limit, out);
+        for (const std::size_t passed : passed_) done_[passed] = true;
+        way->edge.shadowed = true;
+        const WallEdge& edge = edges_.all()[e];
+        const double loss =
+            limit ? limit->materials.around(way->edge, limit->diffraction, limit->coherent).loss()
+                  : way->detour;
+        bodies_.push_back({faces_[edge.before].outline, way->edge, loss});
+        add_around(*way, edge.steps, limit, out);
     }
-    for (const std::size_t face : in_the_way) stands_[face] = false;
-    if (out.paths.empty()) return;
-    out.paths[0].clearance = clearance;
-    if (limit && limit->diffraction == RayDiffraction::knife_edge)
-        losses_[0] += limit->materials.beside_edge(clearance);
+    for (std::size_t e = 0; e < at_edge_.size(); ++e) {
+        const WallEdge& edge = edges_.all()[e];
+        if (done_[e]) continue;
+        if (!at_edge_[e].any()) {
+            pass_beside(e, limit, out);
+        } else if (auto way = edges_.around(edge, a_, b_)) {
+            way->edge.shadowed = true;
+            edges_.join_next_corner(*way, e, true, a_, b_);
+            add_around(*way, edge.steps, limit, out);
+        }
+    }
+    add_around_bodies(limit, out);
+    if (limit && limit->diffraction == RayDiffraction::knife_edge && out.paths[0].beside)
+        losses_[0] += limit->materials.beside_edge(*out.paths[0].beside);
     if (limit) best_ = *std::min_element(losses_.begin(), losses_.end());
 }
 
-void RayTracer::add_around(const WallEdge& edge, const WayAround& way, const RayLimit* limit,
+/// The straight path as it passes an edge that does not stand in its way.
+void RayTracer::pass_beside(std::size_t e, const RayLimit* limit, RayPaths& out) {
+    const WallEdge& edge = edges_.all()[e];
+    const double near = near_edge * wavelength_;
+    if (!is_near(edge, near)) return;
+    auto way = edges_.around(edge, a_, b_);
+    if (!way || way->detour >= near) return;
+    const std::size_t other = edges_.join_next_corner(*way, e, false, a_, b_);
+    if (other != no_edge) done_[other] = true;
+    std::optional<RayEdge>& beside = out.paths[0].beside;
+    if (!beside || way->detour < beside->detour) beside = way->edge;
+    if (!limit || limit->diffraction == RayDiffraction::utd)
+        add_around(*way, edge.steps, limit, out);
+}
+
+void RayTracer::add_around(const WayAround& way, double steps, const RayLimit* limit,
                            RayPaths& out) {
-    Draft draft{out, limit, out.all_hits.size(), 0};
+    Draft draft{out, limit, out.all_hits.size(), out.all_edges.size(), 0};
+    out.all_edges.push_back(way.edge);
     if (limit)
         draft.loss = free_space(way.length, limit->frequency) +
                      limit->materials.around(way.edge, limit->diffraction, limit->coherent).loss();
     // The drawn outline may stick out of the faces near the corner, as far as their lines meet.
-    const double skipped = 3 * edge.steps;
+    const double skipped = 3 * steps;
     const bool bright = !is_faint(draft) && pass(a_, way.corners[0], 0, skipped, draft) &&
                         pass(way.corners[1], b_, skipped, 0, draft);
-    finish(draft, bright, way.length, way.edge);
+    finish(draft, bright, way.length);
+}
+
+/// Adds the path that goes around each body in the straight path, on its better side, that takes
+/// less so; if they are several.
+void RayTracer::add_around_bodies(const RayLimit* limit, RayPaths& out) {
+    const auto several = [&](const BodyWay& way) { return way.outline != bodies_.front().outline; };
+    if (std::none_of(bodies_.begin(), bodies_.end(), several)) return;
+    std::sort(bodies_.begin(), bodies_.end(), [](const BodyWay& p, const BodyWay& q) {
+        return std::tie(p.outline, p.loss) < std::tie(q.outline, q.loss);
+    });
+    const auto same = [](const BodyWay& p, const BodyWay& q) { return p.outline == q.outline; };
+    bodies_.erase(std::unique(bodies_.begin(), bodies_.end(), same), bodies_.end());
+    const auto body_of = [&](const RayHit& hit) {
+        return std::find_if(bodies_.begin(), bodies_.end(), [&](const BodyWay& way) {
+            return hit.face != no_face && faces_[hit.face].outline == way.outline;
+        });
+    };
+    const RayPath straight = out.paths[0];
+    std::vector<double> through(bodies_.size());
+    for (std::size_t i = 0; i < straight.hits && limit; ++i) {
+        const auto body = body_of(out.all_hits[straight.first_hit + i]);
+        if (body == bodies_.end()) continue;
+        through[static_cast<std::size_t>(body - bodies_.begin())] +=
+            loss_of(out.all_hits[straight.first_hit + i], limit->materials);
+    }
+    Draft draft{out, limit, out.all_hits.size(), out.all_edges.size(), 0};
+    double length = straight.length;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (limit && through[i] <= bodies_[i].loss) {
+            bodies_[i].outline = no_face;
+            continue;
+        }
+        out.all_edges.push_back(bodies_[i].edge);
+        length += bodies_[i].edge.detour;
+        draft.loss += bodies_[i].loss;
+    }
+    for (std::size_t i = 0; i < straight.hits; ++i) {
+        const RayHit hit = out.all_hits[straight.first_hit + i];
+        if (body_of(hit) != bodies_.end()) continue;
+        out.all_hits.push_back(hit);
+        if (limit) draft.loss += loss_of(hit, limit->materials);
+    }
+    if (limit) draft.loss += free_space(length, limit->frequency);
+    const bool several_left = out.all_edges.size() - draft.first_edge > 1;
+    finish(draft, several_left && !is_faint(draft), length);
 }
 
 /// The reflection by a face of what comes from p and meets it at q.
@@ -306,6 +383,8 @@ std::optional<RayHit> RayTracer::crossing(const Crossing& c, Vec3 from, Vec3 alo
         const Vec3 middle = from + ((c.entry + c.exit) / 2) * along;
         hit.thickness =
             thickness_of(-faces_[*entry].in_front(middle) - faces_[*exit].in_front(middle));
+    } else if (entry && exit && edges_.is_end(*entry == hit.face ? *exit : *entry, hit.face)) {
+        hit.thickness = thickness_of(face.thickness);
     }
     return hit;
 }

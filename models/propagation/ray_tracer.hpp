@@ -35,9 +35,13 @@ struct RayLimit {
 /// and floors and ceilings do not reflect. A reflection at a height where the face has ended does
 /// not happen. A path passes through every wall that stands in its way.
 ///
-/// With edges, paths go around one edge each: around the ends of the walls that stand in the
-/// straight path, and around edges that it passes on the other side with a detour of less than 2.25
-/// wavelengths.
+/// With edges, paths go around one body each: around the ends of the walls that stand in the
+/// straight path, around both edges of a body that is wide, and around edges that it passes on the
+/// other side with a detour of less than 2.25 wavelengths. One more path goes around each body in
+/// the straight path that takes more than that.
+///
+/// With edges, a path that clips the end of a wall passes through the whole wall, as the path
+/// around that end has it.
 ///
 /// Walls are what is drawn, except where a path comes from a slanting face: the steps of the
 /// outline that the face stands for are no walls, neither to the path that the face reflects nor to
@@ -74,8 +78,9 @@ class RayTracer {
     struct Draft {
         RayPaths& out;
         const RayLimit* limit;
-        std::size_t first;  // of its hits
-        double loss;        // so far [dB], reflections included
+        std::size_t first;       // of its hits
+        std::size_t first_edge;  // of its edges
+        double loss;             // so far [dB], reflections included
     };
     /// Slab that a wave met at an angle. A path meets walls side by side and square to one another:
     /// with few of these.
@@ -84,19 +89,26 @@ class RayTracer {
         double thickness, cosine;
         HitLosses losses;
     };
+    /// Way around one body.
+    struct BodyWay {
+        std::size_t outline;
+        RayEdge edge;
+        double loss;  // of the edge [dB]
+    };
     void propose(Vec3 to, const RayLimit* limit);
     std::optional<Candidate> plan(std::span<const std::uint32_t> chain, const RayLimit* limit);
     bool place(std::span<const std::uint32_t> chain, double flat, std::span<Vec3> points) const;
     void add(const Candidate& path, const RayLimit* limit, RayPaths& out);
     void add_diffracted(const RayLimit* limit, RayPaths& out);
-    void add_around(const WallEdge& edge, const WayAround& way, const RayLimit* limit,
-                    RayPaths& out);
+    void add_around(const WayAround& way, double steps, const RayLimit* limit, RayPaths& out);
+    void add_around_bodies(const RayLimit* limit, RayPaths& out);
+    void pass_beside(std::size_t edge, const RayLimit* limit, RayPaths& out);
     double loss_of(const RayHit& hit, const RayMaterials& materials);
     bool is_near(const WallEdge& edge, double detour) const;
     RayHit reflection(Vec3 p, Vec3 q, std::uint32_t face) const;
     bool pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft);
     bool is_faint(const Draft& draft) const;
-    void finish(const Draft& draft, bool bright, double length, const std::optional<RayEdge>& edge);
+    void finish(const Draft& draft, bool bright, double length);
     std::optional<RayHit> crossing(const Crossing& c, Vec3 from, Vec3 along);
     std::span<const RayHit> reflections_of(const Candidate& c) const {
         return std::span(reflections_).subspan(c.first, c.count);
@@ -119,7 +131,10 @@ class RayTracer {
     std::vector<Vec3> mirrored_;
     std::vector<Crossing> crossings_;
     std::vector<std::size_t> crossed_;  // faces of the last leg's walls
-    std::vector<char> stands_;          // by face: in the way of the straight path
+    std::vector<CrossedAt> at_edge_;    // by edge: faces in the way of the straight path
+    std::vector<char> done_;            // by edge: a way has it
+    std::vector<BodyWay> bodies_;       // ways around single bodies in the straight path
+    std::vector<std::size_t> passed_;
     std::array<KnownSlab, 6> known_{};  // the last ones, of the same materials
     std::size_t next_known_ = 0;
 };

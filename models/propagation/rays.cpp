@@ -23,6 +23,9 @@ constexpr std::size_t few_receivers = 8;
 constexpr double faintest_path = 30;   // [dB] below the strongest
 constexpr double deepest_null = 1e-4;  // of the sum of powers
 
+/// Most that a link loses over free space [dB].
+constexpr double most_lost = 200;
+
 /// What the paths together can be stronger than the straight one in free space [dB].
 double most_gain(const Rays& model) {
     if (model.order == 0 && model.diffraction == RayDiffraction::none) return 0;
@@ -64,7 +67,9 @@ class Summing {
         if (model_.sum == RaySum::coherent) return true;
         if (model_.diffraction != RayDiffraction::utd) return false;
         // Far edges interfere with one another within half a metre: a mean does not show that.
-        if (path.edge && path.edge->detour >= near_edge * wavelength_) return false;
+        const auto edges = paths.edges(path);
+        if (edges.size() > 1) return false;
+        if (!edges.empty() && edges[0].detour >= near_edge * wavelength_) return false;
         const auto hits = paths.hits(path);
         return std::none_of(hits.begin(), hits.end(),
                             [](const RayHit& hit) { return hit.kind == RayHit::Kind::reflection; });
@@ -79,8 +84,8 @@ class Summing {
             if (size > 0) phase *= field / size;
         };
         for (const RayHit& hit : paths.hits(path)) turn(limit_.materials.factor(hit).field);
-        if (path.edge)
-            turn(limit_.materials.around(*path.edge, limit_.diffraction, limit_.coherent).field);
+        for (const RayEdge& edge : paths.edges(path))
+            turn(limit_.materials.around(edge, limit_.diffraction, limit_.coherent).field);
         return phase;
     }
 
@@ -130,7 +135,8 @@ void Rays::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) co
                            diffraction != RayDiffraction::none,
                            order > 1 && out_db.size() <= few_receivers);
         tracer->trace(links.to[i], &limit, paths);
-        out_db[i] = sum_of(paths, tracer->losses());
+        const double lost = free_space_db(links.distance(i), f) + most_lost;
+        out_db[i] = std::min(sum_of(paths, tracer->losses()), std::max(0.0, lost));
     }
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr Hertz f{2450e6};
 constexpr double wavelength = speed_of_light / 2450e6;  // [m]
-constexpr double thousands = 1000;                      // [dB] or more through metal
+constexpr double most_lost = 200;                       // [dB] over free space
 
 /// A map whose cells are walls where the middle of a cell is inside.
 Scene drawn(double width, double depth, double cell,
@@ -168,7 +168,8 @@ TEST_CASE("rays: behind a screen they lose what a knife edge takes, on the way a
         CHECK(near(loss({.order = 0}, scene, from, to),
                    free_space_db(way, f) + knife_edge_loss_p526_db(nu), 1e-9));
     }
-    CHECK(loss(straight_only, scene, {-1, -2}, {-1, 2}) > thousands);
+    CHECK(
+        near(loss(straight_only, scene, {-1, -2}, {-1, 2}), free_space_db(4, f) + most_lost, 1e-9));
     CHECK(near(loss({.order = 0}, scene, {2, -2}, {2, 2}), free_space_db(4, f), 1e-9));
     CHECK(near(loss({.order = 0}, scene, {0.0001, -2}, {0.0001, 2.05}), free_space_db(4.05, f) + 6,
                0.1));
@@ -252,14 +253,16 @@ TEST_CASE("rays: a thick wall and one with round ends reflect as a thin one") {
 }
 
 TEST_CASE("rays: there is no hole behind an obstacle between two lit places") {
+    // Behind half a metre the exact wave is up to 42 dB down: see ray_bodies_test.cpp.
     for (const double thick : {0.05, 0.3, 0.5}) {
         CAPTURE(thick);
+        const double deepest = thick < wavelength ? 30 : 43;
         const Scene scene = drawn(10, 8, 0.05, bar(-1, 1, thick));
         for (const auto by : {RayDiffraction::knife_edge, RayDiffraction::utd})
             for (double x = -3; x < 3; x += 0.037) {
                 const Vec3 from{0.3, -2}, to{x, 2.5};
                 CHECK(loss({.order = 0, .diffraction = by}, scene, from, to) <
-                      free_space_db(distance(from, to), f) + 30);
+                      free_space_db(distance(from, to), f) + deepest);
             }
     }
 }

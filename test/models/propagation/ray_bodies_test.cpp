@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// Shadows of bodies: blocks, pillars, shelves, ends of walls.
+
+#include "models/propagation/diffraction.hpp"
+#include "models/propagation/edge_pair.hpp"
+#include "models/propagation/friis.hpp"
+#include "models/propagation/rays.hpp"
+#include "scene/scene.hpp"
+#include "sim/math.hpp"
+#include "test/models/propagation/soft_body.hpp"
+#include "test/models/vectors.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+namespace ray_bodies_test {
+using namespace rovernet;
+using test::near;
+
+namespace {
+
+constexpr Hertz f{2450e6};
+constexpr double wavelength = speed_of_light / 2450e6;  // [m]
+const Material metal{.slab = ItuMaterial::metal, .thickness = 0.01_m};
+
+/// A map of 20 m x 12 m around (0, 0).
+Scene drawn(const std::function<bool(double, double)>& inside, Material material = {},
+            double cell = 0.05) {
+    OccupancyGrid grid;
+    grid.columns = static_cast<int>(std::lround(20 / cell));
+    grid.rows = static_cast<int>(std::lround(12 / cell));
+    grid.cell_width = grid.cell_height = cell;
+    grid.origin = {-10, -6};
+    for (int row = 0; row < grid.rows; ++row)
+        for (int column = 0; column < grid.columns; ++column)
+            grid.cells.push_back(inside((column + 0.5) * cell - 10, (row + 0.5) * cell - 6)
+                                     ? Cell::occupied
+                                     : Cell::free);
+    return Scene(grid, {std::move(material)});
+}
+std::function<bool(double, double)> block(double x0, double y0, double x1, double y1) {
+    return [=](double x, double y) { return x > x0 && x < x1 && y > y0 && y < y1; };
+}
+
+double loss(const Rays& model, const Scene& scene, Vec3 from, Vec3 to) {
+    return test::OneLink{.frequency = f, .from = from, .to = to, .scene = &scene}.loss(model);
+}
+
+/// Places within some wavelengths, over which powers are averaged.
+std::vector<Vec3> around(Vec3 at) {
+    std::vector<Vec3> out;
+    for (int i = -15; i <= 15; ++i) out.push_back(at + Vec3{0, 0.01 * i, 0});
+    return out;
+}
+double mean_excess(const Rays& model, const Scene& scene, Vec3 from, Vec3 to) {
+    double power = 0;
+    const std::vector<Vec3> places = around(to);
+    for (const Vec3 at : places)
+        power += math::exp10(
+            -(loss(model, scene, from, at) - free_space_db(distance(from, at), f)) / 10);
+    return -10 * math::log10(power / static_cast<double>(places.size()));
+}
+
+double largest_step(const Rays& model, const Scene& scene, Vec3 from, Vec3 first, Vec3 last) {
+    const int steps = static_cast<int>(distance(first, last) / 0.001);
+    double worst = 0, before = loss(model, scene, from, first);
+    for (int i = 1; i <= steps; ++i) {
+        const double now =
+            loss(model, scene, from, first + (static_cast<double>(i) / steps) * (last - first));
+        worst = std::max(worst, std::abs(now - before));
+        before = now;
+    }
+    return worst;
+}
+
+constexpr std::array both{RayDiffraction::knife_edge, RayDiffraction::utd};
+
+}  // namespace
+
+TEST_CASE("edge pair: at grazing it is asin(rho) / pi, without a face 1/4 + asin(rho) / (2 pi)") {
+    for (const double along : {0.01, 0.5, 1.0, 4.0, 50.0}) {
+        const double rho = std::sqrt(7.0 * 9 / ((7 + along) * (9 + along)));
+        const math::Complex field = pair_field({7, along, 9, 0, 0}, wavelength);
+        CHECK(near(20 * std::log10(std::abs(field)),
+                   20 * std::log10(std::asin(rho) / std::numbers::pi), 0.02));
+    }
+}
+
+TEST_CASE("edge pair: a face of no length leaves a single edge; far from one edge the other") {
+    for (const double bend : {1e-4, 0.01, 0.1}) {
+        const double along = 1e-9;
+        // A turn by an angle w is shared: bends at both edges by w / 2 over the short face.
+        const double w = std::sqrt(2 * bend * (1 / 5.0 + 1 / 5.0));
+        const double each = w * w / 8 * along;
+        const double nu = 2 * std::sqrt(bend / wavelength);
+        CHECK(near(-20 * std::log10(std::abs(pair_field({5, along, 5, each, each}, wavelength))),
+                   knife_edge_loss_db(nu), 0.1));
+    }
+    for (const double nu : {0.0, 0.5, 2.0}) {
+        const double bend = nu * nu * wavelength / 4;
+        const EdgePair pair{5, 2, 5, -9 * wavelength / 4, bend};
+        const double rho = 5 / 7.0, sine = std::sqrt(1 - rho * rho);
+        const double seen = (nu - rho * 3) / sine;  // against the straight line
+        CHECK(near(-20 * std::log10(std::abs(pair_field(pair, wavelength))),
+                   knife_edge_loss_db(seen), 0.01));
+    }
+}
+
+TEST_CASE(
+    "rays: behind a solid block they are within 1.2 dB of the exact wave, with knife edges 2.5 "
+    "dB") {
+    for (const double width : {0.3, 0.6, 1.0, 2.0}) {
+        const test::SoftBody exact(
+            {{-width / 2, 0}, {width / 2, 0}, {width / 2, 1}, {-width / 2, 1}}, wavelength);
+        for (const Material& material : {metal, Material{}}) {
+            const Scene scene = drawn(block(-width / 2, 0, width / 2, 1), material);
+            for (const auto by : both)
+                for (const double y : {0.2, 0.5, 0.9}) {
+                    const Rays model{.order = 0, .diffraction = by};
+                    const Vec3 from{-8, 0.3}, to{8, y};
+                    CAPTURE(width);
+                    CAPTURE(y);
+                    CAPTURE(static_cast<int>(by));
+                    const bool lets_through = material.follows_model() && width < 0.5;
+                    const double found = mean_excess(model, scene, from, to);
+                    const double wave = exact.loss(from, around(to));
+                    CAPTURE(found);
+                    CAPTURE(wave);
+                    // Powers of both sides have no fringes, which reach beyond 30 cm here.
+                    const double fringes = by == RayDiffraction::knife_edge ? 2.5 : 1.2;
+                    CHECK(near(found, wave, lets_through ? 3 : fringes));
+                }
+        }
+    }
+}
+
+TEST_CASE("rays: deep behind a shelf they are within 2.5 dB of the exact wave") {
+    for (const double thick : {0.3, 0.5}) {
+        const test::SoftBody exact({{0, -1}, {thick, -1}, {thick, 1}, {0, 1}}, wavelength);
+        const Scene scene = drawn(block(0, -1, thick, 1), metal);
+        for (const auto by : both)
+            for (const double y : {-2.0, -1.0, -0.5, 0.0, 1.0, 2.0}) {
+                const Vec3 from{-2, 0.3}, to{2.5, y};
+                CAPTURE(thick);
+                CAPTURE(y);
+                const double found = mean_excess({.order = 0, .diffraction = by}, scene, from, to);
+                const double wave = exact.loss(from, around(to));
+                CAPTURE(found);
+                CAPTURE(wave);
+                CHECK(near(found, wave, 2.5));
+            }
+    }
+}
+
+TEST_CASE("rays: along a shelf, and past a round or a square pillar, there is a way around") {
+    int number = 0;  // of the body; the seventh is a container
+    const auto round = [](double x, double y) { return x * x + y * y < 0.09; };
+    const auto slanting = [](double x, double y) {
+        return std::abs(x + y) < 0.4 && std::abs(x - y) < 0.4;
+    };
+    for (const auto& inside : std::vector<std::function<bool(double, double)>>{
+             block(-1.5, -0.25, 1.5, 0.25), block(-1.5, -0.05, 1.5, 0.05),
+             block(-0.2, -0.2, 0.2, 0.2), block(-0.05, -0.05, 0.05, 0.05), round, slanting,
+             block(-3, -1.25, 3, 1.25)}) {
+        CAPTURE(number);
+        ++number;
+        const Scene scene = drawn(inside, metal);
+        for (const auto by : both)
+            for (double y = -1.5; y < 1.5; y += 0.013) {
+                CAPTURE(y);
+                const Vec3 from{-5, 0.02}, to{6, y};
+                CHECK(loss({.order = 0, .diffraction = by}, scene, from, to) <
+                      free_space_db(distance(from, to), f) + (number == 7 ? 75 : 36));
+            }
+    }
+}
+
+TEST_CASE("rays: nothing jumps along the border of a block's face, and its end in a wall") {
+    const Scene wide = drawn(block(-1, 0, 1, 1.5), metal);
+    for (const auto by : both) {
+        const Rays model{.order = 0, .diffraction = by};
+        CAPTURE(static_cast<int>(by));
+        // Both ends along the face, one of them, and into the open.
+        for (const double y : {-0.5, -0.001, 0.0, 0.001, 0.3})
+            CHECK(largest_step(model, wide, {-7, y}, {7, -2}, {7, 0.7}) < 0.7);
+    }
+}
+
+TEST_CASE("rays: 1 mm before the face of a block a link loses what it loses 1 mm behind it") {
+    const Scene wide = drawn(block(-1, 0, 1, 1.5), metal);
+    for (const auto by : both) {
+        const Rays model{.order = 0, .diffraction = by};
+        const double before = loss(model, wide, {-7, -0.001}, {7, -0.001});
+        const double behind = loss(model, wide, {-7, 0.001}, {7, 0.001});
+        CHECK(near(before, behind, 0.1));
+        CHECK(near(before,
+                   free_space_db(14, f) - 20 * std::log10(std::asin(6.0 / 8) / std::numbers::pi),
+                   0.2));
+    }
+}
+
+TEST_CASE("rays: nothing jumps at the free end of a wall, whose material is given or not") {
+    for (const auto wall : {ItuMaterial::brick, ItuMaterial::concrete, ItuMaterial::plasterboard})
+        for (const Material& material : {Material{}, Material{.slab = wall, .thickness = 0.1_m}}) {
+            const Scene scene = drawn(block(-0.05, -9, 0.05, 0), material);
+            for (const auto by : both) {
+                const Rays model{.order = 0, .diffraction = by, .wall = wall};
+                CAPTURE(static_cast<int>(by));
+                CAPTURE(static_cast<int>(wall));
+                CHECK(largest_step(model, scene, {-6, 2}, {6, -2.2}, {6, -1.8}) < 0.7);
+                CHECK(largest_step(model, scene, {-6, 0}, {6, -0.2}, {6, 0.2}) < 0.7);
+            }
+        }
+}
+
+TEST_CASE("rays: shelves in a row are gone around one by one") {
+    const auto shelves = [](double x, double y) {
+        return std::abs(y) < 1 && x > -6 && x < 6 && std::fmod(x + 6, 3) < 0.9;
+    };
+    for (const auto by : both) {
+        const Rays model{.order = 0, .diffraction = by};
+        const double lost = loss(model, drawn(shelves, metal), {-8, 0.3}, {8, 0.1}) -
+                            free_space_db(distance({-8, 0.3}, {8, 0.1}), f);
+        CHECK(lost > 30);
+        CHECK(lost < 110);
+    }
+}
+
+TEST_CASE("rays: no link loses more than 200 dB over free space") {
+    const auto box = [](double x, double y) {
+        return std::max(std::abs(x), std::abs(y)) < 2 && std::max(std::abs(x), std::abs(y)) > 1.8;
+    };
+    for (const auto by : {RayDiffraction::none, RayDiffraction::knife_edge, RayDiffraction::utd})
+        for (const Material& material :
+             {metal, Material{}, Material{.per_metre = DbPerMeter{1e6}}}) {
+            const Scene scene = drawn(box, material);
+            for (const Vec3 to : {Vec3{8, 0}, Vec3{1.9, 0}, Vec3{1.9, 1.9}})
+                CHECK(loss({.diffraction = by, .wall = ItuMaterial::metal}, scene, {0.1, 0.2}, to) <
+                      free_space_db(distance({0.1, 0.2}, to), f) + 200.001);
+        }
+}
+
+TEST_CASE("rays: a wall whose material is not given is at most half a metre thick") {
+    const Rays straight{.order = 0, .diffraction = RayDiffraction::none};
+    for (const double thick : {0.4, 0.5, 0.9, 3.0})
+        CHECK(near(
+            loss(straight, drawn(block(0, -6, thick, 6)), {-2, 0}, {5, 0}),
+            free_space_db(7, f) + slab_loss(ItuMaterial::concrete, {std::min(thick, 0.5)}, f).value,
+            1e-6));
+    const Material given{.slab = ItuMaterial::concrete, .thickness = 0.9_m};
+    CHECK(near(loss(straight, drawn(block(0, -6, 0.1, 6), given), {-2, 0}, {5, 0}),
+               free_space_db(7, f) + slab_loss(ItuMaterial::concrete, 0.9_m, f).value, 1e-6));
+}
+
+}  // namespace ray_bodies_test
