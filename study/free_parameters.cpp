@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -23,6 +24,58 @@ constexpr std::array all_free{
     FreeParameter{.model = "multi_wall", .key = "heavy_wall", .unit = "dB", .non_negative = true},
     FreeParameter{.model = "raytrace_2007", .key = "coefficient", .base = 30},
     FreeParameter{.model = "raytrace_2007", .key = "wall_factor", .unit = "", .non_negative = true},
+    FreeParameter{.model = "rays",
+                  .key = "wall_loss",
+                  .unit = "dB",
+                  .base = 10,
+                  .non_negative = true,
+                  .searched = true},
+    FreeParameter{.model = "rays",
+                  .key = "reflection_loss",
+                  .unit = "dB",
+                  .base = 6,
+                  .non_negative = true,
+                  .searched = true},
+};
+
+std::map<std::string, double> bases_of(std::span<const FreeParameter> free) {
+    std::map<std::string, double> out;
+    for (const FreeParameter& p : free) out[std::string(p.key)] = p.base;
+    return out;
+}
+
+/// Mean squared error [dB^2] of the model on some of the links.
+class SearchedError {
+  public:
+    SearchedError(const KnownLinks& known, const Scenario& scenario)
+        : known_(known), scenario_(scenario), every_(1 + known.links.size() / most_links) {}
+
+    double operator()(std::span<const FreeParameter> free) const {
+        const Propagation model = model_with(scenario_, free.front().model, bases_of(free));
+        std::vector<std::pair<double, bool>> errors;  // [dB], and whether the link was seen
+        double mean = 0, seen = 0;
+        for (std::size_t i = 0; i < known_.links.size(); i += every_) {
+            const KnownLink& link = known_.links[i];
+            model.check_frequency(link.frequency);
+            errors.emplace_back(known_.loss_by(model, link) - link.loss, !link.unseen);
+            if (link.unseen) continue;
+            mean += errors.back().first;
+            ++seen;
+        }
+        mean = known_.measured && seen > 0 ? mean / seen : 0;
+        double sum = 0;
+        for (const auto& [error, was_seen] : errors) {
+            const double off = was_seen ? error - mean : std::min(0.0, error - mean);
+            sum += off * off;
+        }
+        return sum / static_cast<double>(errors.size());
+    }
+
+  private:
+    static constexpr std::size_t most_links = 200;
+    const KnownLinks& known_;
+    const Scenario& scenario_;
+    std::size_t every_;
 };
 
 }  // namespace
@@ -32,6 +85,37 @@ std::vector<FreeParameter> free_parameters(std::string_view model) {
     std::copy_if(all_free.begin(), all_free.end(), std::back_inserter(out),
                  [&](const FreeParameter& p) { return p.model == model; });
     return out;
+}
+
+std::vector<FreeParameter> with_bases(std::vector<FreeParameter> free, const KnownLinks& known,
+                                      const Scenario& scenario) {
+    constexpr double first_step = 8, last_step = 0.25;
+    const bool searched =
+        std::any_of(free.begin(), free.end(), [](const FreeParameter& p) { return p.searched; });
+    if (!searched || known.scene->open_field()) return free;
+    const SearchedError error(known, scenario);
+    double least = error(free);
+    for (double step = first_step; step >= last_step;) {
+        bool better = false;
+        for (FreeParameter& p : free) {
+            if (!p.searched) continue;
+            const double here = p.base;
+            double best = here;
+            for (const double there : {here - step, here + step}) {
+                if (there < 0) continue;
+                p.base = there;
+                const double found = error(free);
+                if (found < least) {
+                    least = found;
+                    best = there;
+                }
+            }
+            p.base = best;
+            better = better || best != here;
+        }
+        if (!better) step /= 2;
+    }
+    return free;
 }
 
 Propagation model_with(const Scenario& scenario, std::string_view model,
@@ -53,8 +137,7 @@ Propagation model_with(const Scenario& scenario, std::string_view model,
 
 std::vector<LinearLoss> linear_losses(const KnownLinks& known, const Scenario& scenario,
                                       std::string_view model, std::span<const FreeParameter> free) {
-    std::map<std::string, double> bases;
-    for (const FreeParameter& p : free) bases[std::string(p.key)] = p.base;
+    const std::map<std::string, double> bases = bases_of(free);
     const Propagation at_base = model_with(scenario, model, bases);
     std::vector<Propagation> moved;
     for (const FreeParameter& p : free) {

@@ -13,12 +13,14 @@
 
 namespace rovernet {
 
-/// Parameter of a propagation model in which its loss is linear, so that a fit can find it.
+/// Parameter of a propagation model that a fit can find: its loss is linear in it, or nearly so
+/// about a base that a search finds.
 struct FreeParameter {
     std::string_view model, key;
     std::string_view unit = "";  ///< empty: a bare number
     double base = 0;             ///< value at which no loss is cut at 0, so that it is linear
     bool non_negative = false;   ///< true for the losses of walls
+    bool searched = false;       ///< the loss is linear about the best value alone
 };
 
 /// The free parameters of a listed model; none for most.
@@ -29,6 +31,14 @@ std::vector<FreeParameter> free_parameters(std::string_view model);
 /// @throws InputError as read_propagation()
 Propagation model_with(const Scenario& scenario, std::string_view model,
                        const std::map<std::string, double>& values);
+
+/// The parameters with those bases near which a model comes nearest to the links: a compass search,
+/// on a sample of them, for the least squared error in dB; what was not seen counts where it is
+/// predicted to be seen, and measured links have a constant of their own. Those whose loss is
+/// linear keep their bases.
+/// @throws InputError, std::invalid_argument if the model cannot be asked
+std::vector<FreeParameter> with_bases(std::vector<FreeParameter> free, const KnownLinks& known,
+                                      const Scenario& scenario);
 
 /// What a model says of one link: its loss is offset + sum over j of columns[j] b_j, with its free
 /// parameters b.

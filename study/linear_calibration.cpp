@@ -32,7 +32,10 @@ Observations without(const Observations& all, const std::vector<bool>& held) {
 
 LinearCalibration::LinearCalibration(const KnownLinks& known, const Scenario& scenario,
                                      std::string_view model, Gains gains)
-    : known_(known), scenario_(scenario), model_(model), free_(free_parameters(model)) {
+    : known_(known),
+      scenario_(scenario),
+      model_(model),
+      free_(with_bases(free_parameters(model), known, scenario)) {
     losses_ = linear_losses(known, scenario, model, free_);
     const bool has_constant =
         std::any_of(free_.begin(), free_.end(), [](const auto& p) { return p.key == "excess"; });

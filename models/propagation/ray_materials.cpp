@@ -23,13 +23,15 @@ double decibels(double power) {
 double RayFactor::loss() const { return db_per_neper * decay + decibels(std::norm(field)); }
 
 RayMaterials::RayMaterials(const std::vector<Material>& materials, Hertz frequency,
-                           ItuMaterial wall, Db reflection_loss)
+                           ItuMaterial wall, std::optional<Db> wall_loss, Db reflection_loss)
     : wavelength_(speed_of_light / frequency.value),
       mirror_(-math::exp10(-reflection_loss.value / 20)) {
     for (const Material& m : materials) {
         Entry entry{std::nullopt, std::nullopt, std::numeric_limits<double>::infinity(), {}, 0, 0};
         entry.least.fill(reflection_loss.value);
-        if (m.follows_model()) {
+        if (m.follows_model() && wall_loss) {
+            entry.per_crossing = wall_loss->value;
+        } else if (m.follows_model()) {
             entry.slab = Slab(wall, frequency);
             entry.thickest = thickest_default_wall.value;
         } else if (m.slab) {

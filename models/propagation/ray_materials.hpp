@@ -35,13 +35,15 @@ inline constexpr Meters thickest_default_wall{0.5};
 ///
 /// A material of ITU-R P.2040 is a slab of its own thickness, at the path's angle, in the
 /// polarisation TE. One that follows the model is a slab of the model's `wall`, as thick as it is
-/// drawn, at most `thickest_default_wall`. One that gives decibels takes those from what passes,
-/// whatever the angle, without a turn of the phase, and reflects all but the model's
-/// `reflection_loss`, with a turn by half a wave.
+/// drawn, at most `thickest_default_wall`, or takes its `wall_loss`. One that gives decibels takes
+/// those from what passes, whatever the angle, without a turn of the phase, and reflects all but
+/// the model's `reflection_loss`, with a turn by half a wave.
 class RayMaterials {
   public:
+    /// @param wall_loss  of a crossing of a wall that follows the model; none: it is a slab of
+    /// `wall`
     RayMaterials(const std::vector<Material>& materials, Hertz frequency, ItuMaterial wall,
-                 Db reflection_loss);
+                 std::optional<Db> wall_loss, Db reflection_loss);
     RayFactor factor(const RayHit& hit) const;
     /// The material is a slab: what it takes depends on thickness and angle, not on a length.
     bool is_slab(std::size_t material) const { return entries_[material].slab.has_value(); }

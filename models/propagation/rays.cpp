@@ -122,7 +122,7 @@ Meters Rays::reach(Db loss, Hertz f) const { return Friis{}.reach(loss + Db{most
 void Rays::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
     const Hertz f = links.frequency;
     const double wavelength = speed_of_light / f.value, gain = most_gain(*this);
-    const RayMaterials materials(links.scene->materials(), f, wall, reflection_loss);
+    const RayMaterials materials(links.scene->materials(), f, wall, wall_loss, reflection_loss);
     const RayLimit limit{materials, f, faintest_path, diffraction, sum == RaySum::coherent};
     Summing sum_of(*this, limit);
     std::optional<RayTracer> tracer;  // nothing is traced for receivers that are too far
@@ -141,7 +141,8 @@ void Rays::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) co
 }
 
 Rays::Paths Rays::paths(const LinkBatch& link) const {
-    const RayMaterials materials(link.scene->materials(), link.frequency, wall, reflection_loss);
+    const RayMaterials materials(link.scene->materials(), link.frequency, wall, wall_loss,
+                                 reflection_loss);
     const RayLimit limit{materials, link.frequency, faintest_path, diffraction,
                          sum == RaySum::coherent};
     RayTracer tracer(*link.scene, link.from, order, speed_of_light / link.frequency.value,

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 namespace rovernet {
@@ -63,6 +64,9 @@ struct Rays {
     RaySum sum = RaySum::power;
     /// Material of walls that follow the model.
     ItuMaterial wall = ItuMaterial::concrete;
+    /// Loss of a crossing of such a wall [dB], >= 0, at any angle: then it is no slab of `wall`,
+    /// but as a material that is given in decibels. A fit finds it.
+    std::optional<Db> wall_loss = std::nullopt;
     /// Loss of a reflection [dB], >= 0, of a material whose losses are given in decibels.
     Db reflection_loss{6};
     /// Most paths that are added, the strongest ones, 1 to 1000.
@@ -77,6 +81,8 @@ struct Rays {
             field("sum", &Rays::sum,
                   "power, the local mean; or coherent, one place with its fading"),
             field("wall", &Rays::wall, "what walls are made of whose material gives no loss"),
+            field("wall_loss", &Rays::wall_loss, non_negative,
+                  "loss of a crossing of such a wall, in place of what `wall` takes"),
             field("reflection_loss", &Rays::reflection_loss, non_negative,
                   "loss of a reflection by a material that is given in dB"),
             field("max_paths", &Rays::max_paths,

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/list.hpp"
-#include "models/propagation/rays.hpp"
-#include "scene/p2040.hpp"
 #include "scene/scene.hpp"
 #include "study/calibration.hpp"
 #include "study/free_parameters.hpp"
@@ -118,24 +116,7 @@ struct JudgedModels {
     }
 };
 
-/// Rays with the wall material that suits the first set best: rays have nothing else to fit.
-Propagation rays_of_best_material(const KnownLinks& first, const ValidationSize& size) {
-    std::optional<Rays> best;
-    double least = 0;
-    for (const ItuMaterial wall : {ItuMaterial::brick, ItuMaterial::plasterboard, ItuMaterial::wood,
-                                   ItuMaterial::chipboard, ItuMaterial::glass}) {
-        const Rays rays{.wall = wall};
-        const double error = errors_with_constant(first, first, rays).rmse;
-        if (!best || error < least) {
-            best = rays;
-            least = error;
-        }
-        if (size.quick) break;
-    }
-    return *best;
-}
-
-JudgedModels judged_models(const MeasuredBuilding& building, const ValidationSize& size) {
+JudgedModels judged_models(const MeasuredBuilding& building) {
     JudgedModels out;
     const auto models = checked_models(building.first, building.second, building.scenario);
     const auto left_out = without_receiver(building);
@@ -145,10 +126,10 @@ JudgedModels judged_models(const MeasuredBuilding& building, const ValidationSiz
         const Propagation given = model_with(building.scenario, Model::name, {});
         out.add(given, with_defaults, errors_with_constant(building.first, building.second, given));
         const auto& parameters = at->second.parameters;
-        const bool only_constant =
-            std::all_of(parameters.begin(), parameters.end(),
-                        [](const FittedParameter& p) { return p.key == "power"; });
-        if (!only_constant) {
+        const bool is_fitted =
+            std::any_of(parameters.begin(), parameters.end(),
+                        [](const FittedParameter& p) { return p.determined && p.key != "power"; });
+        if (is_fitted) {
             out.add(fitted_model(building.scenario, at->second), with_fit, *at->second.checked);
         }
         ValidationPoint& point = out.points.back();
@@ -156,15 +137,11 @@ JudgedModels judged_models(const MeasuredBuilding& building, const ValidationSiz
         point.error_low = std::min(point.error, other);
         point.error_high = std::max(point.error, other);
     });
-    if (!building.first.scene->open_field()) {
-        const Propagation rays = rays_of_best_material(building.first, size);
-        out.add(rays, with_fit, errors_with_constant(building.first, building.second, rays));
-    }
     return out;
 }
 
 ValidationPanel building_panel(const MeasuredBuilding& building, const ValidationSize& size) {
-    const JudgedModels judged = judged_models(building, size);
+    const JudgedModels judged = judged_models(building);
     const Repeatability repeated = repeatability(building.first, building.second);
     ValidationPanel panel{.title = building.name,
                           .error_label = "error on another drive or day, rms [dB]",
@@ -200,29 +177,21 @@ std::string best_sentence(const ValidationPanel& panel, const Repeatability& rep
         repeated.one_level());
 }
 
-/// Whether rays are worth their cost, and what of it is due to the material of the walls.
+/// Whether rays are worth their cost, and what of it is due to a fit.
 std::string rays_sentence(const ValidationPanel& panel) {
-    const ValidationPoint &given = point_of(panel, "rays", with_defaults),
-                          &walls = point_of(panel, "multi_wall", with_fit);
-    const ValidationPoint* rays = &given;
-    for (const ValidationPoint& p : panel.points) {
-        if (p.label == "rays" && p.error < rays->error) rays = &p;
-    }
-    const double excess = rays->error - walls.error;
+    const auto is_rays = [](const ValidationPoint& p) { return p.label == "rays"; };
+    const Nearest rays = nearest_to_truth(panel, is_rays);
+    const ValidationPoint &walls = point_of(panel, "multi_wall", with_fit), &best = *rays.point;
+    const double excess = best.error - walls.error;
     std::string out =
         fmt::format("{}: rays are {:.2f} dB {} than the fitted multi_wall, at {} times its cost.",
                     panel.title, std::abs(excess), excess <= 0 ? "better" : "worse",
-                    two_digits(rays->cost.median / walls.cost.median));
-    if (rays != &given) {
-        out += fmt::format(
-            " With their walls of concrete they are {:.2f} dB off, with the best "
-            "of the other materials {:.2f} dB: a fit finds what a wall takes, "
-            "rays have to be told.",
-            given.error, rays->error);
-    } else {
-        out += " Nothing of them was fitted but one constant.";
-    }
-    return out;
+                    two_digits(best.cost.median / walls.cost.median));
+    if (best.series == with_defaults) return out + " Nothing of them was fitted but one constant.";
+    return out + fmt::format(
+                     " With walls of concrete they are {:.2f} dB off, with what the fit "
+                     "finds that walls take {:.2f} dB.",
+                     point_of(panel, "rays", with_defaults).error, best.error);
 }
 
 /// Errors that an independent analysis of the same measurements has published [dB].

@@ -6,6 +6,7 @@
 
 #include "models/propagation/friis.hpp"
 #include "models/propagation/log_distance.hpp"
+#include "models/propagation/rays.hpp"
 #include "scenario/toml.hpp"
 #include "scene/scene.hpp"
 #include "sim/random.hpp"
@@ -431,6 +432,53 @@ TEST_CASE(
         second.links.push_back(link);
     }
     CHECK(std::abs(repeatability(first, second).one_level() - 3) < 0.1);
+}
+
+TEST_CASE("calibration: what walls take in rays is found, and where there is none it stays") {
+    const std::string among_walls = R"([scenario]
+duration = "100 s"
+[[robot]]
+name = "r"
+count = 6
+move = { model = "random_waypoint", area = [["1 m", "1 m"], ["29 m", "19 m"]] }
+)";
+    std::vector<std::string> rows(100, std::string(150, '.'));
+    const auto wall = [&](std::size_t left, std::size_t right, std::size_t low, std::size_t high) {
+        for (std::size_t y = low; y < high; ++y)
+            for (std::size_t x = left; x < right; ++x) rows[y][x] = '#';
+    };
+    wall(0, 150, 0, 1), wall(0, 150, 99, 100), wall(0, 1, 0, 100), wall(149, 150, 0, 100);
+    wall(50, 51, 0, 60), wall(100, 101, 30, 100), wall(0, 40, 50, 51), wall(110, 150, 55, 56);
+    Scenario scenario = scenario_from(among_walls);
+    scenario.walls = std::make_shared<const Scene>(test::drawn_map(rows, 0.2));
+    const auto rays = [](double wall_loss, double reflection_loss) {
+        return Rays{.order = 1,
+                    .diffraction = RayDiffraction::none,
+                    .wall_loss = Db{wall_loss},
+                    .reflection_loss = Db{reflection_loss}};
+    };
+    std::get<Rays>(scenario.propagation.parameters) =
+        rays(3, 12);  // as a user has it who knows no better
+    const KnownLinks known = sample_links(scenario, rays(7.3, 4.6), {.replications = 4});
+    const auto models = calibrate(known, scenario, "", Propagation::anything);
+    const CalibratedModel& found = model(models, "rays");
+    CHECK(near(value(found, "wall_loss"), 7.3, 0.02));
+    CHECK(near(value(found, "reflection_loss"), 4.6, 0.05));
+    CHECK(found.fitted.rmse < 0.1);
+    CHECK(found.as_given->rmse > 2);
+    // As it is written into a scenario it predicts what the fit says.
+    Scenario again =
+        scenario_from(among_walls + "[propagation]\norder = 1\ndiffraction = \"none\"\n" +
+                      to_toml(found.settings).substr(std::string("[propagation]\n").size()));
+    again.walls = scenario.walls;
+    const auto refitted = calibrate(known, again, "", Propagation::anything);
+    CHECK(model(refitted, "rays").as_given->rmse < 0.2);
+
+    const Scenario open = scenario_from(among_walls);
+    const auto in_the_open = calibrate(sample_links(open, Friis{}, {.replications = 2}), open, "",
+                                       Propagation::anything);
+    const CalibratedModel& nothing = model(in_the_open, "rays");
+    for (const FittedParameter& p : nothing.parameters) CHECK(!p.determined);
 }
 
 TEST_CASE("levels: what is wrong with a file is told with its place") {

@@ -257,7 +257,7 @@ TEST_CASE("ray tracer: reflections end where the face ends, to the side and in h
 TEST_CASE("ray tracer: paths are the same from both ends, with a limit and without one") {
     test::Draw draw(11);
     const Scene scene(test::random_map(draw, 30, 30, 6));
-    const RayMaterials materials(scene.materials(), 2450_MHz, ItuMaterial::concrete, 6_dB);
+    const RayMaterials materials(scene.materials(), 2450_MHz, ItuMaterial::concrete, {}, 6_dB);
     const RayLimit limit{materials, 2450_MHz, 40};
     std::size_t seen = 0;
     for (int i = 0; i < 40; ++i) {
