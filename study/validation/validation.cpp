@@ -52,6 +52,8 @@ Validation validate(const ValidationSize& size, const std::optional<std::string>
     begin("closed forms");
     check_closed_forms(out.promises);
     check_by_brute_force(out.promises);
+    begin("counts of walls");
+    check_counts(out.promises);
     return out;
 }
 

@@ -55,6 +55,8 @@ ValidationChart measured_chart(const std::string& folder, const ValidationSize& 
 void check_closed_forms(Promises& promises);
 /// Sums over everything, means over many draws, and solutions by hand.
 void check_by_brute_force(Promises& promises);
+/// Walls, doors and floors on a link, against how many there are.
+void check_counts(Promises& promises);
 
 /// Draw in (0, 1) of a validation. @param what  its name, and what is drawn
 double validation_draw(std::string_view what, std::uint64_t of, std::uint64_t index);

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <functional>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace walls_test {
@@ -201,6 +202,14 @@ TEST_CASE("walls: the rings of a room without doors are one wall, with open ends
         const Scene cavity(closed.map(0.05));
         CHECK(cavity.walls(closed.point(0.3, -1), closed.point(0.1, 1)).size() == 2);
     }
+}
+
+TEST_CASE("walls: a gap that ends at the border of the map is no inside of a wall") {
+    const std::vector<std::string> across(6, "...#..#...");
+    CHECK(Scene(test::drawn_map(across, 0.1)).walls({0.05, 0.3}, {0.95, 0.35}).size() == 2);
+    std::vector<std::string> closed = across;
+    closed[1] = closed[4] = "...####...";
+    CHECK(Scene(test::drawn_map(closed, 0.1)).walls({0.05, 0.3}, {0.95, 0.35}).size() == 1);
 }
 
 TEST_CASE("walls: a closed door is a wall of its own, and the wall around it stays one") {

@@ -67,6 +67,13 @@ TEST_CASE("validation: closed forms are met to the digits that are promised") {
     check_kept(promises);
 }
 
+TEST_CASE("validation: walls, doors and floors are counted as promised") {
+    Promises promises;
+    check_counts(promises);
+    CHECK(promises.size() == 2);
+    check_kept(promises);
+}
+
 TEST_CASE("validation: what brute force gives as well is met as promised") {
     Promises promises;
     check_by_brute_force(promises);
