@@ -30,6 +30,10 @@ void note_antennas(Scenario& scenario, const Scene* scene);
 /// @param scene  the scenario's; null: an open field
 void note_walls_twice(Scenario& scenario, const Scene* scene);
 
+/// Notices sums of fields where walls are not along the cells of the map: their phases are wrong.
+/// @param scene  the scenario's; null: an open field
+void note_coherent_slants(Scenario& scenario, const Scene* scene);
+
 /// Notices robots that choose a propagation model of their own where [study] varies [propagation]:
 /// they are the same at every point.
 void note_own_models(Scenario& scenario);

@@ -15,7 +15,8 @@ namespace rovernet {
 /// How a model of rays adds the paths of a link.
 enum class RaySum {
     power,    ///< powers: the mean over places within some wavelengths
-    coherent  ///< fields with their phases: one place, with its fading
+    coherent  ///< fields with their phases: one place, with its fading. The faces of a wall across
+              ///< the cells of a map are some centimetres off: 3 to 5 dB (rms) at 2.4 GHz
 };
 /// Words of `sum` in files.
 template <>
@@ -79,7 +80,8 @@ struct Rays {
             field("diffraction", &Rays::diffraction,
                   "ways around edges of walls: none, knife_edge or utd"),
             field("sum", &Rays::sum,
-                  "power, the local mean; or coherent, one place with its fading"),
+                  "power, the local mean; or coherent, one place with its fading, 3 to 5 dB off "
+                  "(rms) where walls are not along the cells"),
             field("wall", &Rays::wall, "what walls are made of whose material gives no loss"),
             field("wall_loss", &Rays::wall_loss, non_negative,
                   "loss of a crossing of such a wall, in place of what `wall` takes"),

@@ -5,6 +5,7 @@
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
 #include "scenario/memory.hpp"
+#include "test/scene/drawn_map.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 
@@ -12,6 +13,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -212,6 +215,56 @@ TEST_CASE("memory: more robots than the machine can hold are refused before any 
           "s.toml:1:1: count: robots take about 2.8 GB of memory, and this process may have 2.0 "
           "GB; expected fewer robots");
     CHECK(available_memory() > 100'000'000);
+}
+
+TEST_CASE("unlikely: fields are added where walls are not along the cells") {
+    // A wall of 30 cm through the middle of a room of 6 m, in cells of 5 cm.
+    const auto room = [](double slope) {
+        std::vector<std::string> rows(80, std::string(120, '.'));
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+            const double middle = 40 + slope * static_cast<double>(row);
+            for (std::size_t i = 0; i < rows[row].size(); ++i) {
+                if (std::abs(static_cast<double>(i) - middle) < 3) rows[row][i] = '#';
+            }
+        }
+        return Scene(test::drawn_map(rows, 0.05));
+    };
+    const auto notices = [](const std::string& sum, const Scene& scene) {
+        const TemporaryFolder folder;
+        Scenario scenario =
+            loaded(folder, "[propagation]\nmodel = \"rays\"\nsum = \"" + sum + "\"\n" + robot_a);
+        note_coherent_slants(scenario, &scene);
+        return scenario.notices;
+    };
+    const auto noticed = notices("coherent", room(0.4));
+    REQUIRE(noticed.size() == 1);
+    CHECK(noticed[0].find("2 faces") != std::string::npos);
+    CHECK(noticed[0].find("did you mean sum = \"power\"?") != std::string::npos);
+    CHECK(notices("coherent", room(0)).empty());
+    CHECK(notices("power", room(0.4)).empty());
+}
+
+TEST_CASE("unlikely: [access] eifs is a word; true and false of earlier files mean two of them") {
+    const TemporaryFolder folder;
+    const auto csma = [&](const std::string& keys) {
+        return loaded(folder, "[access]\nmodel = \"csma\"\n" + keys + robot_a).access.csma();
+    };
+    CHECK(csma("").eifs == EifsRule::standard);
+    CHECK(csma("eifs = true\n").eifs == EifsRule::standard);
+    CHECK(csma("eifs = false\n").eifs == EifsRule::none);
+    CHECK(csma("eifs = \"none\"\n").eifs == EifsRule::none);
+    const Csma as_ns2 = csma("eifs = \"ns2\"\n");
+    CHECK(as_ns2.eifs == EifsRule::ns2);
+    CHECK(as_ns2.timing.cca_time == Duration{0});
+    CHECK(as_ns2.timing.turnaround == Duration{0});
+    CHECK(as_ns2.timing.cw_min == 30);
+    CHECK(csma("eifs = \"ns2\"\ncw_min = 31\n").timing.cw_min == 31);
+    const auto error = [&](const std::string& value) {
+        return error_of([&] { csma("eifs = " + value + "\n"); });
+    };
+    CHECK(error("\"ns3\"").find("s.toml:3:8: ") != std::string::npos);
+    CHECK(error("\"ns3\"").find("did you mean \"ns2\"?") != std::string::npos);
+    CHECK(error("3").find("one of \"standard\", \"ns2\", \"none\"") != std::string::npos);
 }
 
 }  // namespace unlikely_test
