@@ -104,8 +104,9 @@ void add_json(Command command, bool& json) {
 void add_interval(Command command, std::optional<std::string>& interval) {
     command
         .add_option("--interval", interval,
-                    "of means: t or betting (default: betting where a metric has two bounds)")
-        .one_of({"t", "betting"});
+                    "of means: t, betting or star (default: star where a metric has two bounds, "
+                    "betting with a precision)")
+        .one_of({"t", "betting", "star"});
 }
 
 }  // namespace rovernet::cli

@@ -43,7 +43,7 @@ void add_study_file(Command command, FileArguments& arguments, const char* what)
 /// Adds FILE and the options that go over it.
 void add_file(Command command, FileArguments& arguments, const char* what);
 void add_json(Command command, bool& json);
-/// Method of intervals of means: t or betting.
+/// Method of intervals of means: t, betting or star.
 void add_interval(Command command, std::optional<std::string>& interval);
 
 constexpr const char* any_file =

@@ -222,12 +222,21 @@ void read_warmup(const Value& value, Duration duration, Warmup& warmup) {
     }
 }
 
+/// @throws InputError for STaR-Bets of a number of replications that is not fixed
+void check_interval(const TableReader& table, const StudyTable& study) {
+    if (!study.precision || study.interval != IntervalMethod::star) return;
+    throw InputError(table.table().find("interval")->where,
+                     "interval = \"star\" is for a number of replications that is fixed "
+                     "beforehand, and `precision` adds some; expected \"betting\" or \"t\"");
+}
+
 }  // namespace
 
 StudyTable read_study(const Value& value, Duration duration) {
     StudyTable study;
     TableReader table(value, "[study]");
     table.read_fields(study);
+    check_interval(table, study);
     if (const Value* metrics = table.table().find("metrics")) {
         for (const Value& metric : *metrics->array()) study.metric_places.push_back(metric.where);
     }

@@ -69,6 +69,13 @@ struct StudyTable {
     /// Points that are left out.
     std::vector<Exclusion> exclude;
 
+    /// Method that intervals are asked for: `interval`, or betting where runs are added until a
+    /// precision is reached, which only betting allows.
+    std::optional<IntervalMethod> interval_wish() const {
+        if (interval || !precision) return interval;
+        return IntervalMethod::betting;
+    }
+
     static constexpr auto fields() {
         constexpr Range counts{.low = 1, .high = 1'000'000, .text = "from 1 to 1000000"};
         constexpr Range share{.low = 0.5, .high = 0.9999, .text = "from 0.5 to 0.9999"};
@@ -77,7 +84,7 @@ struct StudyTable {
             field("replications", &S::replications, counts, "independent repetitions, at least"),
             field("confidence", &S::confidence, share, "of the intervals"),
             field("interval", &S::interval,
-                  "of means: t or betting; by default betting where a metric has two bounds"),
+                  "of means: t, betting or star; by default star where a metric has two bounds"),
             field("precision", &S::precision, positive,
                   "repeats until the interval of the first metric has this half-width"),
             field("max_replications", &S::max_replications, counts, "for precision, at most"),

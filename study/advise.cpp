@@ -98,10 +98,13 @@ JudgedCandidate Advisor::judged(const Combination& c, const Ladder& ladder, std:
     out.bias = summary_of(differences)->mean;
     out.run_error = summary_of(sizes)->mean;
     const double confidence = 1 - rule_.alpha;
-    out.bias_interval = interval_of(differences, difference_bounds(rule_.bounds), confidence);
+    // As many replications as the verdicts took: only betting allows that.
+    constexpr auto betting = IntervalMethod::betting;
+    out.bias_interval =
+        interval_of(differences, difference_bounds(rule_.bounds), confidence, betting);
     const Bounds size_bounds =
         rule_.by_betting() ? Bounds{0.0, difference_bounds(rule_.bounds).high} : Bounds{};
-    out.run_error_interval = interval_of(sizes, size_bounds, confidence);
+    out.run_error_interval = interval_of(sizes, size_bounds, confidence, betting);
     out.helper = control_variate(decision.reference(), decision.candidate());
     return out;
 }

@@ -2,7 +2,7 @@
 #include "study/bounded_mean.hpp"
 
 #include "sim/math.hpp"
-#include "study/arguments.hpp"
+#include "study/scaled_values.hpp"
 
 #include <fmt/format.h>
 
@@ -68,43 +68,8 @@ double lower_end(std::span<const double> values, double enough) {
     return low;
 }
 
-/// The values as shares of the range, and as what is left of it.
-struct Scaled {
-    std::vector<double> values, mirrored;
-};
-
-Scaled scaled(std::span<const double> values, const Bounds& bounds) {
-    const double width = *bounds.high - *bounds.low;
-    Scaled result;
-    for (const double v : values) {
-        const double x = std::clamp((v - *bounds.low) / width, 0.0, 1.0);
-        result.values.push_back(x);
-        result.mirrored.push_back(1 - x);
-    }
-    return result;
-}
-
-double mean_of(std::span<const double> values) {
-    double sum = 0;
-    for (const double v : values) sum += v;
-    return sum / static_cast<double>(values.size());
-}
-
 /// The wealth at which m is refuted, one of two sides.
 double enough_for(double confidence) { return 2 / (1 - confidence); }
-
-void check(std::span<const double> values, const Bounds& bounds, double confidence) {
-    constexpr std::string_view owner = "bounded_mean";
-    check_finite(values, owner);
-    check_open_unit(confidence, "confidence", owner);
-    if (values.empty()) throw std::invalid_argument("bounded_mean: needs a value");
-    if (!bounds.closed() || !(*bounds.low < *bounds.high)) {
-        throw std::invalid_argument("bounded_mean: needs a lower and an upper bound");
-    }
-    if (bounds.hold(values)) return;
-    throw std::invalid_argument(
-        fmt::format("bounded_mean: a value is not from {} to {}", *bounds.low, *bounds.high));
-}
 
 /// Growth of each gambler's wealth by value, its logarithm, when he bets on "above m".
 Gamblers growth(std::span<const double> values, double m) {
@@ -145,30 +110,27 @@ double values_to_refute(std::span<const double> values, double m, double enough)
 }  // namespace
 
 BoundedMean bounded_mean(std::span<const double> values, const Bounds& bounds, double confidence) {
-    check(values, bounds, confidence);
-    const Scaled x = scaled(values, bounds);
+    const ScaledValues x = scaled_values(values, bounds, confidence, "bounded_mean");
     const double enough = enough_for(confidence);
     double low = lower_end(x.values, enough);
     double high = 1 - lower_end(x.mirrored, enough);
     if (low > high) std::swap(low, high);  // no m is left: the values have drifted
-    const double mean = mean_of(x.values);
-    const double width = *bounds.high - *bounds.low;
-    return {*bounds.low + width * std::min(low, mean), *bounds.low + width * std::max(high, mean)};
+    const double mean = x.mean();
+    return {x.unscaled(std::min(low, mean)), x.unscaled(std::max(high, mean))};
 }
 
 std::optional<std::size_t> bounded_mean_replications(std::span<const double> values,
                                                      const Bounds& bounds, double wanted,
                                                      double confidence) {
-    check(values, bounds, confidence);
+    const ScaledValues x = scaled_values(values, bounds, confidence, "bounded_mean");
     if (!(wanted > 0)) {
         throw std::invalid_argument(
             fmt::format("bounded_mean_replications: the half-width must be > 0, got {}", wanted));
     }
-    const Scaled x = scaled(values, bounds);
     const double enough = enough_for(confidence);
-    const double mean = mean_of(x.values);
+    const double mean = x.mean();
     // The ends mean - below and mean + above, below + above = width, that take as many values.
-    const double width = 2 * wanted / (*bounds.high - *bounds.low);
+    const double width = 2 * wanted / x.width;
     double low = 0, high = width, needed = infinity;
     for (int i = 0; i < bisections && needed > 0; ++i) {
         const double below = (low + high) / 2;

@@ -114,7 +114,7 @@ void compare_with_baseline(Comparison& comparison, const ComparedModel& baseline
         std::vector<double> differences(pairs.a.size());
         std::ranges::transform(pairs.a, pairs.b, differences.begin(), std::minus<>{});
         m.equivalence = equivalence_of(differences, *comparison.margin, bounds,
-                                       1 - comparison.confidence, family);
+                                       1 - comparison.confidence, family, wish);
         m.equivalence_sentence = equivalence_text(m.model, comparison.baseline, *comparison.margin,
                                                   *m.equivalence, *m.difference);
     }

@@ -2,8 +2,11 @@
 #include "study/equivalence.hpp"
 
 #include "sim/math.hpp"
+#include "sim/random.hpp"
 #include "study/arguments.hpp"
 #include "study/distributions.hpp"
+#include "study/interval.hpp"
+#include "study/star_bets.hpp"
 #include "study/summary.hpp"
 
 #include <fmt/format.h>
@@ -11,12 +14,13 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace rovernet {
 namespace {
 
 constexpr double largest_stake = 0.9;  // of what a gambler may stake
-constexpr std::size_t most_searched = 100'000;
+constexpr std::size_t most_searched = 100'000, most_by_star = 10'000;
 
 void check(double margin, double alpha, std::size_t family) {
     if (!(margin > 0)) {
@@ -33,12 +37,6 @@ void check(double margin, double alpha, std::size_t family) {
 EquivalenceVerdict by_betting(std::span<const double> differences, double margin, double range,
                               double alpha, std::size_t family) {
     EquivalenceVerdict result;
-    result.method = IntervalMethod::betting;
-    if (margin >= range) {  // no difference can be larger
-        result.verdict = Equivalence::within;
-        result.decided_at = 0;
-        return result;
-    }
     EquivalenceTest test(margin / range, alpha, family);
     const std::size_t n = differences.size();
     // The forecast: after the last replication the first one comes again.
@@ -67,27 +65,74 @@ Equivalence student_verdict(double mean, double deviation, std::size_t n, double
     return Equivalence::undecided;
 }
 
-EquivalenceVerdict by_student(std::span<const double> differences, double margin, double level) {
+/// Verdict of `verdict_after` n replications, and how many would give one, up to `most`.
+EquivalenceVerdict at_one_look(std::size_t n, std::size_t most, const auto& verdict_after) {
     EquivalenceVerdict result;
-    result.method = IntervalMethod::t;
-    const auto summary = summary_of(differences);
-    if (!summary || summary->n < 2 || *summary->standard_deviation == 0) return result;
-    const auto verdict_after = [&](std::size_t n) {
-        return student_verdict(summary->mean, *summary->standard_deviation, n, margin, level);
-    };
-    result.verdict = verdict_after(summary->n);
+    result.verdict = verdict_after(n);
     if (result.verdict != Equivalence::undecided) {
-        result.decided_at = summary->n;
+        result.decided_at = n;
         return result;
     }
-    std::size_t few = summary->n, many = most_searched;
-    if (few >= many || verdict_after(many) == Equivalence::undecided) return result;
+    std::size_t few = n, many = n;
+    do {
+        few = many;
+        many = std::min(2 * many, most);
+        if (few >= many) return result;
+    } while (verdict_after(many) == Equivalence::undecided);
     while (many - few > 1) {
         const std::size_t middle = few + (many - few) / 2;
         (verdict_after(middle) == Equivalence::undecided ? few : many) = middle;
     }
     result.needed = many;
     return result;
+}
+
+/// @param  differences  as shares of their range, -1 to 1
+Equivalence star_verdict(std::span<const double> differences, double margin, double level) {
+    std::vector<double> up, down;  // from 0 to 1
+    for (const double d : differences) {
+        up.push_back((1 + d) / 2);
+        down.push_back((1 - d) / 2);
+    }
+    const double over = (1 + margin) / 2, under = (1 - margin) / 2;
+    if (star_refutes(down, under, level) && star_refutes(up, under, level)) {
+        return Equivalence::within;
+    }
+    if (star_refutes(up, over, level / 2) || star_refutes(down, over, level / 2)) {
+        return Equivalence::outside;
+    }
+    return Equivalence::undecided;
+}
+
+EquivalenceVerdict by_star(std::span<const double> differences, double margin, double range,
+                           double level) {
+    if (differences.empty()) return {};
+    // The forecast: after the last replication the first one comes again.
+    return at_one_look(differences.size(), most_by_star, [&](std::size_t n) {
+        std::vector<double> shares(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            shares[i] = std::clamp(differences[i % differences.size()] / range, -1.0, 1.0);
+        }
+        return star_verdict(shares, margin / range, level);
+    });
+}
+
+EquivalenceVerdict by_student(std::span<const double> differences, double margin, double level) {
+    const auto summary = summary_of(differences);
+    if (!summary || summary->n < 2 || *summary->standard_deviation == 0) return {};
+    return at_one_look(summary->n, most_searched, [&](std::size_t n) {
+        return student_verdict(summary->mean, *summary->standard_deviation, n, margin, level);
+    });
+}
+
+std::optional<double> decidable_margin(std::span<const double> differences, const Bounds& range,
+                                       double level, IntervalMethod method) {
+    const auto summary = summary_of(differences);
+    if (!summary || summary->n < 2) return std::nullopt;
+    const auto interval = interval_of(differences, range, 1 - 2 * level, method);
+    if (!interval) return std::nullopt;
+    const double error = *summary->standard_deviation / std::sqrt(static_cast<double>(summary->n));
+    return interval->half_width() + normal_quantile(0.9) * error;
 }
 
 }  // namespace
@@ -130,14 +175,27 @@ void EquivalenceTest::add(double difference) {
 }
 
 EquivalenceVerdict equivalence_of(std::span<const double> differences, double margin,
-                                  const Bounds& bounds, double alpha, std::size_t family) {
+                                  const Bounds& bounds, double alpha, std::size_t family,
+                                  std::optional<IntervalMethod> wish) {
     check(margin, alpha, family);
     check_finite(differences, "equivalence");
     const Bounds range = difference_bounds(bounds);
-    if (range.closed() && range.hold(differences)) {
-        return by_betting(differences, margin, *range.high, alpha, family);
+    const IntervalMethod method = method_for(differences, range, wish);
+    const double level = alpha / static_cast<double>(family);
+    EquivalenceVerdict result;
+    if (method != IntervalMethod::t && margin >= *range.high) {  // no difference can be larger
+        result.verdict = Equivalence::within;
+        result.decided_at = 0;
+    } else if (method == IntervalMethod::t) {
+        result = by_student(differences, margin, level);
+    } else if (method == IntervalMethod::star) {
+        result = by_star(differences, margin, *range.high, level);
+    } else {
+        result = by_betting(differences, margin, *range.high, alpha, family);
     }
-    return by_student(differences, margin, alpha / static_cast<double>(family));
+    result.method = method;
+    result.decidable = decidable_margin(differences, range, level, method);
+    return result;
 }
 
 }  // namespace rovernet

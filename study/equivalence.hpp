@@ -18,12 +18,17 @@ enum class Equivalence { undecided, within, outside };
 /// A verdict, and what it rests on.
 struct EquivalenceVerdict {
     Equivalence verdict = Equivalence::undecided;
-    IntervalMethod method{};  ///< betting, or t where the metric has no bounds
-    /// The replications after which it was decided, the first verdict counts; by t all of them.
+    IntervalMethod method{};  ///< see method_for()
+    /// Replications after which it was decided: by betting the first verdict counts, else all.
     std::optional<std::size_t> decided_at;
     /// Number of replications in all that would decide, if there is no verdict and those to come
-    /// are as these are. Nothing if they tell nothing, or 100,000 would not do.
+    /// are as these are. Nothing if they tell nothing, or 100,000 (by STaR-Bets 10,000) would not
+    /// do.
     std::optional<std::size_t> needed;
+    /// Least margin that as many such replications decide, with a power of 80 % where the true
+    /// difference is 0, in the metric's unit: half the one-sided interval's width and the 90 %
+    /// quantile of the mean's normal error, as both sides have to be. Nothing without an interval.
+    std::optional<double> decidable;
     friend bool operator==(const EquivalenceVerdict&, const EquivalenceVerdict&) = default;
 };
 
@@ -75,21 +80,24 @@ class EquivalenceTest {
 /// Whether the true mean of paired differences lies within `margin` of 0. Of all studies in which
 /// `family` such questions are asked, at most a share alpha has any false verdict.
 ///
-/// Where the metric has two bounds, by EquivalenceTest over the replications in their order; the
-/// guarantee holds however often one looks and whenever one stops. Elsewhere by Student's t at one
-/// look, each test at the level alpha / family: within if both one-sided tests (TOST) reject,
-/// outside if one of the two tests for beyond the margin does at half that level. It supposes
-/// normal means, holds for a number of replications that was fixed before, and equal differences
-/// decide nothing. Source: D. J. Schuirmann, J. Pharmacokinetics and Biopharmaceutics 15(6), 1987.
+/// By STaR-Bets and by t at one look, each test at the level alpha / family: within if both
+/// one-sided tests (TOST) reject, outside if one of the two tests for beyond the margin does at
+/// half that level. Both hold for a number of replications that was fixed before; t supposes normal
+/// means, and equal differences decide nothing by it. Source: D. J. Schuirmann, J. Pharmacokinetics
+/// and Biopharmaceutics 15(6), 1987.
+///
+/// By betting it is an EquivalenceTest over the replications in their order; the guarantee holds
+/// however often one looks and whenever one stops.
 ///
 /// @param  differences  in the metric's unit, in the order of the replications
 /// @param  margin       > 0, in the metric's unit
 /// @param  bounds       of the metric itself: bounds_of()
 /// @param  alpha        [-], in (0, 0.5)
 /// @param  family       > 0, how many questions are asked together
+/// @param  wish         for the method: see method_for()
 /// @throws std::invalid_argument if a difference is not finite, or a parameter is out of range
 EquivalenceVerdict equivalence_of(std::span<const double> differences, double margin,
-                                  const Bounds& bounds, double alpha = 0.05,
-                                  std::size_t family = 1);
+                                  const Bounds& bounds, double alpha = 0.05, std::size_t family = 1,
+                                  std::optional<IntervalMethod> wish = {});
 
 }  // namespace rovernet

@@ -3,6 +3,7 @@
 
 #include "study/arguments.hpp"
 #include "study/bounded_mean.hpp"
+#include "study/star_bets.hpp"
 #include "study/summary.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ std::optional<MeanInterval> student_interval(std::span<const double> values, con
 IntervalMethod method_for(std::span<const double> values, const Bounds& bounds,
                           std::optional<IntervalMethod> wish) {
     if (!bounds.closed() || !bounds.hold(values)) return IntervalMethod::t;
-    return wish.value_or(IntervalMethod::betting);
+    return wish.value_or(IntervalMethod::star);
 }
 
 std::optional<MeanInterval> interval_of(std::span<const double> values, const Bounds& bounds,
@@ -42,18 +43,21 @@ std::optional<MeanInterval> interval_of(std::span<const double> values, const Bo
     check_finite(values, "interval");
     check_open_unit(confidence, "confidence", "interval");
     if (values.empty()) return std::nullopt;
-    if (method_for(values, bounds, wish) == IntervalMethod::t) {
-        return student_interval(values, bounds, confidence);
-    }
-    const BoundedMean mean = bounded_mean(values, bounds, confidence);
-    return MeanInterval{.low = mean.low, .high = mean.high, .method = IntervalMethod::betting};
+    const IntervalMethod method = method_for(values, bounds, wish);
+    if (method == IntervalMethod::t) return student_interval(values, bounds, confidence);
+    const BoundedMean mean = method == IntervalMethod::betting
+                                 ? bounded_mean(values, bounds, confidence)
+                                 : star_mean(values, bounds, confidence);
+    return MeanInterval{.low = mean.low, .high = mean.high, .method = method};
 }
 
 std::optional<std::size_t> replications_for_width(std::span<const double> values,
                                                   const Bounds& bounds, double wanted,
                                                   double confidence,
                                                   std::optional<IntervalMethod> wish) {
-    const auto interval = interval_of(values, bounds, confidence, wish);
+    const bool by_t = wish == IntervalMethod::t;
+    const auto interval =
+        interval_of(values, bounds, confidence, by_t ? wish : IntervalMethod::betting);
     if (!interval) return std::nullopt;
     if (interval->half_width() <= wanted) return values.size();
     if (interval->method == IntervalMethod::t) {
@@ -79,15 +83,19 @@ bool too_skewed_for_t(std::span<const double> values) {
 
 std::optional<IntervalMethod> method_named(const std::optional<std::string>& name) {
     if (!name) return std::nullopt;
-    for (const IntervalMethod method : {IntervalMethod::t, IntervalMethod::betting}) {
+    for (const IntervalMethod method : all_interval_methods) {
         if (name_of(method) == *name) return method;
     }
     throw std::invalid_argument(
-        fmt::format("interval: unknown value \"{}\"; expected t or betting", *name));
+        fmt::format("interval: unknown value \"{}\"; expected t, betting or star", *name));
 }
 
 std::string_view words_of(IntervalMethod method) {
-    return method == IntervalMethod::t ? "by Student's t" : "by betting";
+    switch (method) {
+        case IntervalMethod::t: return "by Student's t";
+        case IntervalMethod::betting: return "by betting";
+        default: return "by STaR-Bets";
+    }
 }
 
 }  // namespace rovernet

@@ -23,8 +23,11 @@ struct MeanInterval {
     double half_width() const { return (high - low) / 2; }
 };
 
-/// The method for these values: betting where the metric has two bounds and the values keep them,
-/// else t. A wish for betting where it cannot be gives t.
+/// The method for these values: STaR-Bets where the metric has two bounds and the values keep them,
+/// else t. A wish for betting or STaR-Bets where it cannot be gives t.
+///
+/// STaR-Bets hold for a number of values that was fixed beforehand. Who stops when he has seen
+/// enough wishes for betting.
 IntervalMethod method_for(std::span<const double> values, const Bounds& bounds,
                           std::optional<IntervalMethod> wish = {});
 
@@ -32,8 +35,8 @@ IntervalMethod method_for(std::span<const double> values, const Bounds& bounds,
 /// rule has its intervals from here. Nothing without values, and by t nothing for n = 1 or if all
 /// values are equal: where nothing varied, t knows nothing.
 ///
-/// By betting it is that of bounded_mean(), valid at every n whatever the distribution. By t it is
-/// mean +- half_width(), cut at the bounds; the mean always lies in it.
+/// By STaR-Bets it is that of star_mean(), by betting that of bounded_mean(), whatever the
+/// distribution. By t it is mean +- half_width(), cut at the bounds; the mean always lies in it.
 ///
 /// @param  values  in the order of the replications
 /// @param  bounds  of the metric: bounds_of(), or difference_bounds() for paired differences
@@ -45,7 +48,7 @@ std::optional<MeanInterval> interval_of(std::span<const double> values, const Bo
 
 /// Number of replications in all that, as far as these tell, give half the width `wanted`; nothing
 /// if they tell nothing (see interval_of()) or 10^9 would not do. An estimate: run more and ask
-/// again.
+/// again, and so by betting where interval_of() would take STaR-Bets.
 /// @param  wanted  > 0, in the metric's unit; others as for interval_of()
 std::optional<std::size_t> replications_for_width(std::span<const double> values,
                                                   const Bounds& bounds, double wanted,
@@ -61,11 +64,11 @@ std::optional<std::size_t> replications_for_width(std::span<const double> values
 /// The Statistician 47(1), 1998.
 bool too_skewed_for_t(std::span<const double> values);
 
-/// The method of this name, "t" or "betting"; nothing for no name.
+/// The method of this name, "t", "betting" or "star"; nothing for no name.
 /// @throws std::invalid_argument for any other
 std::optional<IntervalMethod> method_named(const std::optional<std::string>& name);
 
-/// The method in words, for captions: "by betting", "by Student's t".
+/// The method in words, for captions: "by STaR-Bets", "by betting", "by Student's t".
 std::string_view words_of(IntervalMethod method);
 
 }  // namespace rovernet

@@ -18,8 +18,8 @@ std::string first_metric(const StudyTable& study) {
 
 ReachedPrecision reached_precision(const StudyTable& study, std::span<const double> values) {
     ReachedPrecision reached{.values = values.size(), .half_width = {}};
-    const auto interval =
-        interval_of(values, bounds_of(first_metric(study)), study.confidence, study.interval);
+    const auto interval = interval_of(values, bounds_of(first_metric(study)), study.confidence,
+                                      study.interval_wish());
     if (interval) reached.half_width = interval->half_width();
     if (!study.precision) return reached;
     const bool early =
@@ -33,8 +33,9 @@ std::uint32_t replications_for(const StudyTable& study, std::span<const double> 
     if (!study.precision || reached_precision(study, values).enough) return made;
     const auto most = std::max(static_cast<std::uint32_t>(study.max_replications), made);
     const auto twice = std::min(2 * made, most);
-    const auto needed = replications_for_width(values, bounds_of(first_metric(study)),
-                                               *study.precision, study.confidence, study.interval);
+    const auto needed =
+        replications_for_width(values, bounds_of(first_metric(study)), *study.precision,
+                               study.confidence, study.interval_wish());
     const auto estimate =
         static_cast<std::uint32_t>(std::min<std::size_t>(needed.value_or(most), most));
     const auto step = std::max(made / 16, 1U);  // so that looks are few

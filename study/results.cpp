@@ -118,7 +118,7 @@ std::vector<std::string> varied_paths(const Store& store) {
 }
 
 std::optional<IntervalMethod> interval_method_of(const Store& store) {
-    return study_of(store).interval;
+    return study_of(store).interval_wish();
 }
 
 double confidence_of(const Store& store) { return study_of(store).confidence; }

@@ -79,7 +79,7 @@ std::vector<std::string> varied_paths(const Store& store);
 /// [study] confidence of the study.
 double confidence_of(const Store& store);
 
-/// [study] interval of the study, if given.
+/// Method of intervals that the study asks for, if any: StudyTable::interval_wish().
 std::optional<IntervalMethod> interval_method_of(const Store& store);
 
 /// The points that meet all conditions. @throws std::invalid_argument if none does

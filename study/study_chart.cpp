@@ -88,7 +88,7 @@ std::string replications_text(const std::vector<Answer>& list) {
 /// " by betting", or how else the intervals of means were made; nothing for those of quantiles.
 std::string methods_text(const std::vector<Answer>& list) {
     std::string text;
-    for (const IntervalMethod method : {IntervalMethod::betting, IntervalMethod::t}) {
+    for (const IntervalMethod method : all_interval_methods) {
         if (std::ranges::count(list, method, &Answer::method) == 0) continue;
         text += fmt::format("{}{}", text.empty() ? " " : " and ", words_of(method));
     }

@@ -127,7 +127,7 @@ TEST_CASE("sweep: a precision that is not reached ends with 4 and says what was,
     CHECK(coarse.exit == 0);
 }
 
-TEST_CASE("results: intervals are by betting or by t, as asked, and JSON says which") {
+TEST_CASE("results: intervals are by STaR-Bets, betting or t, as asked, and JSON says which") {
     const Place place;
     json_of(place.folder, {"sweep", place.file, "--replications", "6"});
     const auto first = [&](std::vector<std::string> more) {
@@ -135,7 +135,8 @@ TEST_CASE("results: intervals are by betting or by t, as asked, and JSON says wh
         words.insert(words.end(), more.begin(), more.end());
         return Json(json_of(place.folder, words)["rows"][2]);
     };
-    CHECK(first({})["interval"] == "betting");
+    CHECK(first({})["interval"] == "star");
+    CHECK(first({"--interval", "betting"})["interval"] == "betting");
     CHECK(first({"--interval", "t"})["interval"] == "t");
     CHECK(first({"--interval", "t"})["high"] < first({})["high"]);
     CHECK(command(place.folder, {"results", place.store(), "--interval", "z"}).exit == 2);

@@ -368,7 +368,8 @@ const std::vector<Mistake> mistakes = {
     {study("warmup = \"mser\""), "5:10", {"mser5"}},
     {study("warmup = \"-1 s\""), "5:10", {">= 0"}},
     {study("warmup = \"1 h\""), "5:10", {"found \"1 h\"", "less than the run", "duration"}},
-    {study("interval = \"wald\""), "5:12", {"one of \"t\", \"betting\""}},
+    {study("interval = \"wald\""), "5:12", {"one of \"t\", \"betting\", \"star\""}},
+    {study("interval = \"star\"\nprecision = 0.1"), "5:12", {"fixed beforehand", "\"betting\""}},
     {study("confidence = 95"), "5:14", {"from 0.5 to 0.9999"}},
     {study("precision = 0"), "5:13", {"> 0"}},
     // Maps, and what only shows on them.

@@ -26,7 +26,8 @@ namespace {
 // Relative: a - b is rounded like b, so that small differences have fewer digits.
 constexpr double vector_accuracy = 1e-13;
 constexpr double end_accuracy = 1e-10;  // of a half-width from the ends, which are far larger
-constexpr double rounding = 1e-14;      // relative: of some operations
+constexpr Bounds share{0.0, 1.0};
+constexpr double rounding = 1e-14;  // relative: of some operations
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -87,7 +88,9 @@ TEST_CASE("comparison: Student's ten patients slept 1.58 h more on the other dru
     CHECK(std::abs(t - -4.0621) < 0.5e-4);  // half the last printed digit
     CHECK(std::abs(c->p - 0.002833) < 0.5e-6);
     CHECK(comparison_text("the first drug", "the second", *c) ==
-          "the first drug is 1.58 below the second (95 % 0.70 to 2.46, n = 10, p = 0.003)");
+          "the first drug is 1.58 below the second (95 % 0.70 to 2.46, n = 10, p = 0.003, by "
+          "Student's t); "
+          "differences below 1.23 cannot be told apart at n = 10");
 }
 
 TEST_CASE("comparison: fewer than two pairs are none") {
@@ -213,24 +216,24 @@ TEST_CASE("comparison: what is not pairs of numbers is refused") {
 
 TEST_CASE("sentence: a difference that is found") {
     CHECK(comparison_text("friis", "disc", comparison(0.2131, 0.0332, 1e-5)) ==
-          "friis is 0.213 above disc (95 % 0.180 to 0.246, n = 30, p < 0.001)");
+          "friis is 0.213 above disc (95 % 0.180 to 0.246, n = 30, p < 0.001, by Student's t)");
     CHECK(comparison_text("friis", "disc", comparison(-0.2131, 0.0332, 0.05)) ==
-          "friis is 0.213 below disc (95 % 0.180 to 0.246, n = 30, p = 0.050)");
+          "friis is 0.213 below disc (95 % 0.180 to 0.246, n = 30, p = 0.050, by Student's t)");
 }
 
 TEST_CASE("sentence: no detectable difference, and which one would have been") {
     PairedComparison c = comparison(0.0021, 0.0119, 0.0501);
     CHECK(comparison_text("friis", "disc", c) ==
           "no detectable difference between friis and disc (0.002, 95 % -0.010 to 0.014, n = 30, "
-          "p = 0.050)");
+          "p = 0.050, by Student's t)");
     c.detectable = 0.0209;
     c.confidence = 0.999;
     c.family = 4;
     c.p = 0.0012;
     CHECK(comparison_text("friis", "disc", c) ==
           "no detectable difference between friis and disc (0.002, 99.9 % for all 4: -0.010 to "
-          "0.014, n = 30, p = 0.001); at this level a difference of 0.021 would have been detected "
-          "with 80 % power");
+          "0.014, n = 30, p = 0.001, by Student's t); differences below 0.021 cannot be told apart "
+          "at n = 30");
 }
 
 TEST_CASE("sentence: replications that all say the same") {
@@ -243,8 +246,8 @@ TEST_CASE("sentence: replications that all say the same") {
     CHECK(comparison_text("a", "b", *compare_pairs(even, a)) ==
           "a is 0.5 below b in each of 3 replications");
     // Equal but for rounding is not equal; what is printed is.
-    CHECK(comparison_text("a", "b", *compare_pairs(a, less)) ==
-          "a is 0.1 above b (95 % 0.1 to 0.1, n = 3, p < 0.001)");
+    CHECK(comparison_text("a", "b", *compare_pairs(a, less))
+              .starts_with("a is 0.1 above b (95 % 0.1 to 0.1, n = 3, p < 0.001, by Student's t)"));
 }
 
 TEST_CASE("sentence: the half-width has two digits, and never are there decimals of nothing") {
@@ -268,20 +271,101 @@ TEST_CASE("sentence: a number that rounds to 0 has no sign") {
 TEST_CASE("sentence: whether one is as good as another") {
     PairedComparison c = comparison(0.01, 0.02, 0.5);
     EquivalenceVerdict verdict;
+    verdict.method = IntervalMethod::betting;
     verdict.verdict = Equivalence::within;
     verdict.decided_at = 17;
     CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
-          "disc is within 0.05 of friis (95 %, decided by 17 of 30 replications)");
+          "disc is within 0.05 of friis (95 %, by betting, decided by 17 of 30 replications)");
+    verdict.decidable = 0.0341;
     c.family = 4;
     verdict.verdict = Equivalence::outside;
     CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
-          "disc is not within 0.05 of friis (95 % for all 4, decided by 17 of 30 replications)");
+          "disc is not within 0.05 of friis (95 % for all 4, by betting, decided by 17 of 30 "
+          "replications); margins below 0.034 cannot be decided at n = 30");
     verdict.verdict = Equivalence::undecided;
     verdict.decided_at = {};
     verdict.needed = 800;
     CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
-          "not decided by 30 replications whether disc is within 0.05 of friis (95 % for all 4); "
-          "about 800 would decide, if they are as these are");
+          "not decided by 30 replications whether disc is within 0.05 of friis (95 % for all 4, "
+          "by betting); about 800 would decide, if they are as these are");
+}
+
+TEST_CASE("comparison: 54 of 60 replications one way and none the other are a difference") {
+    // Paired t: p = 1e-7 or so. The mean of differences from -1 to 1 is not told from 0: a loss of
+    // everything in one run of 20 would outweigh it, and 60 runs may miss that.
+    std::vector<double> a(60, 0.9), b(60, 0.9);
+    for (std::size_t i = 0; i < 54; ++i) b[i] -= i % 9 == 0 ? 0.16 : 0.02;
+    const auto c = compare_pairs(a, b, share);
+    CHECK(c->above == 54);
+    CHECK(c->below == 0);
+    CHECK(*c->sign_p < 1e-15);
+    CHECK(c->direction_found());
+    CHECK(!c->found());
+    CHECK(comparison_text("friis", "disc", *c)
+              .starts_with("friis is above disc in 54 of 60 replications and below in 0 (p < "
+                           "0.001, sign test); that the mean differs is not shown ("));
+    CHECK(comparison_text("disc", "friis", *compare_pairs(b, a, share))
+              .starts_with("disc is below friis in 54 of 60 replications and above in 0"));
+    // Twice as large, the mean tells it, and the interval is that of the fixed n.
+    for (double& x : b) x = 0.9 - 3 * (0.9 - x);
+    const auto larger = compare_pairs(a, b, share);
+    CHECK(larger->found());
+    CHECK(larger->low > 0);
+    CHECK(larger->method == IntervalMethod::star);
+    const auto sequence = compare_pairs(a, b, share, 0.95, 1, IntervalMethod::betting);
+    CHECK(sequence->high - sequence->low > 1.1 * (larger->high - larger->low));
+}
+
+TEST_CASE("comparison: the sign test is the binomial one, shared by the family, not by betting") {
+    const std::array a{1.0, 0.0, 1.0, 0.5, 1.0, 1.0, 0.7}, b{0.0, 1.0, 0.0, 0.5, 0.5, 0.5, 0.0};
+    // 5 above, 1 below, 1 equal: 2 (1 + 6) / 64.
+    CHECK(is_close(*compare_pairs(a, b, share)->sign_p, 14.0 / 64, rounding));
+    CHECK(is_close(*compare_pairs(a, b, share, 0.95, 3)->sign_p, 42.0 / 64, rounding));
+    CHECK(!compare_pairs(a, b, share, 0.95, 1, IntervalMethod::betting)->sign_p);
+    CHECK(compare_pairs(a, a, share)->sign_p == 1.0);
+}
+
+TEST_CASE("comparison: by STaR-Bets p is at most the level exactly when 0 is left out") {
+    int found = 0, studies = 0;
+    for (std::uint32_t study = 0; study < 100; ++study) {
+        Pairs pairs(60, study, 1.2);
+        for (std::vector<double>* values : {&pairs.a, &pairs.b}) {
+            for (double& x : *values) x = std::clamp(0.5 + 0.1 * x, 0.0, 1.0);
+        }
+        for (const std::size_t family : {1U, 4U}) {
+            const auto c = compare_pairs(pairs.a, pairs.b, share, 0.95, family);
+            CHECK(c->found() == (c->low > 0 || c->high < 0));
+            found += c->found() ? 1 : 0;
+            ++studies;
+        }
+    }
+    CHECK(found > 20);
+    CHECK(found < studies - 20);
+}
+
+TEST_CASE("comparison: of the detectable size by STaR-Bets, about 80 % of studies are found") {
+    constexpr int studies = 300;
+    for (const double deviation : {0.05, 0.2, 0.4}) {
+        const auto study = [&](std::uint32_t number, double mean) {
+            std::vector<double> a, b;
+            for (std::size_t i = 0; i < 60; ++i) {
+                const Key key{.replication = number, .purpose = Purpose::order, .index = i};
+                const double half = std::clamp(mean + deviation * normal(key), -1.0, 1.0) / 2;
+                a.push_back(0.5 + half);
+                b.push_back(0.5 - half);
+            }
+            return compare_pairs(a, b, share);
+        };
+        const double size = *study(10'000, 0)->detectable;
+        int found = 0, less = 0;
+        for (std::uint32_t number = 0; number < studies; ++number) {
+            found += study(number, size)->found() ? 1 : 0;
+            less += study(number, size / 2)->found() ? 1 : 0;
+        }
+        CAPTURE(deviation);
+        CHECK(found > 0.7 * studies);
+        CHECK(less < 0.6 * studies);
+    }
 }
 
 }  // namespace comparison_test

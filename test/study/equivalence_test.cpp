@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,11 @@ std::string word(Equivalence verdict) {
     }
 }
 
+EquivalenceVerdict by_betting(std::span<const double> values, double tolerance,
+                              std::size_t family = models) {
+    return equivalence_of(values, tolerance, share, alpha, family, IntervalMethod::betting);
+}
+
 }  // namespace
 
 TEST_CASE("equivalence: the four wealths are those of the vectors decide_betting") {
@@ -77,7 +83,7 @@ TEST_CASE("equivalence: verdicts and their replications are those of the vectors
         const std::string name = expected.text(row, "series");
         CAPTURE(name);
         const auto values = series(all, name);
-        const auto result = equivalence_of(values, margin, share, alpha, models);
+        const auto result = by_betting(values, margin);
         CHECK(word(result.verdict) == expected.text(row, "verdict"));
         CHECK(result.method == IntervalMethod::betting);
         if (result.verdict == Equivalence::undecided) {
@@ -105,8 +111,9 @@ TEST_CASE("equivalence: a verdict falls when it is due, whatever comes after") {
     const std::vector<double> none(600, 0.0);
     auto then_far = none;
     for (std::size_t i = 300; i < 600; ++i) then_far[i] = 1;
-    const auto result = equivalence_of(then_far, margin, share, alpha, models);
-    CHECK(result == equivalence_of(none, margin, share, alpha, models));
+    const auto result = by_betting(then_far, margin);
+    CHECK(result.verdict == by_betting(none, margin).verdict);
+    CHECK(by_betting(none, margin).decided_at == 288U);
     CHECK(result.decided_at == 288U);
 }
 
@@ -123,11 +130,12 @@ TEST_CASE("equivalence: a first verdict stays, though the other would be reached
 
 TEST_CASE("equivalence: what is undecided tells how many replications would decide") {
     const std::vector<double> few(100, 0.0);
-    const auto result = equivalence_of(few, margin, share, alpha, models);
+    const auto result = by_betting(few, margin);
     CHECK(result.verdict == Equivalence::undecided);
     CHECK(result.needed == 288U);
-    CHECK(equivalence_of({}, margin, share, alpha, models) ==
-          EquivalenceVerdict{.method = IntervalMethod::betting, .decided_at = {}, .needed = {}});
+    CHECK(by_betting({}, margin) ==
+          EquivalenceVerdict{
+              .method = IntervalMethod::betting, .decided_at = {}, .needed = {}, .decidable = {}});
 }
 
 TEST_CASE("equivalence: a margin that no difference can exceed needs no replication") {
@@ -139,20 +147,54 @@ TEST_CASE("equivalence: a margin that no difference can exceed needs no replicat
 TEST_CASE("equivalence: at the margin itself at most 5 % of studies have a false verdict") {
     // One replication in 50 loses everything: E D = -0.02, neither within nor outside.
     constexpr int studies = 400;
-    int within = 0, outside = 0;
+    std::map<IntervalMethod, int> within, outside;
     for (std::uint32_t study = 0; study < studies; ++study) {
         std::vector<double> values;
         for (std::size_t i = 0; i < 1500; ++i) {
             const Key key{.seed = 1, .replication = study, .purpose = Purpose::order, .index = i};
             values.push_back(uniform(key) < margin ? -1 : 0);
         }
-        const auto verdict = equivalence_of(values, margin, share, alpha, 1).verdict;
-        within += verdict == Equivalence::within ? 1 : 0;
-        outside += verdict == Equivalence::outside ? 1 : 0;
+        for (const IntervalMethod method : {IntervalMethod::betting, IntervalMethod::star}) {
+            const auto verdict = equivalence_of(values, margin, share, alpha, 1, method).verdict;
+            within[method] += verdict == Equivalence::within ? 1 : 0;
+            outside[method] += verdict == Equivalence::outside ? 1 : 0;
+        }
     }
     // 5 % and three standard deviations of such a share.
     const double most = studies * 0.05 + 3 * std::sqrt(studies * 0.05 * 0.95);
-    CHECK(within + outside <= most);
+    for (const IntervalMethod method : {IntervalMethod::betting, IntervalMethod::star}) {
+        CHECK(within[method] + outside[method] <= most);
+    }
+}
+
+TEST_CASE("equivalence: at a fixed n by STaR-Bets, unless t is asked for") {
+    const auto values = normals(150, 0, 0.02, 5);
+    const auto fixed = equivalence_of(values, 0.05, share);
+    CHECK(fixed.verdict == Equivalence::within);
+    CHECK(fixed.method == IntervalMethod::star);
+    CHECK(fixed.decided_at == 150U);
+    CHECK(*fixed.decidable < 0.05);
+    // An interval of +-0.006 around 0.02 by t is within 0.05.
+    const auto few = std::span(values).first(20);
+    CHECK(equivalence_of(few, 0.05, share).verdict == Equivalence::undecided);
+    const auto by_t = equivalence_of(few, 0.05, share, 0.05, 1, IntervalMethod::t);
+    CHECK(by_t.verdict == Equivalence::within);
+    CHECK(by_t.method == IntervalMethod::t);
+    CHECK(*by_t.decidable < 0.02);
+    CHECK(equivalence_of(normals(200, 0.3, 0.1, 6), 0.05, share).verdict == Equivalence::outside);
+    CHECK(equivalence_of(normals(200, -0.3, 0.1, 6), 0.05, share).verdict == Equivalence::outside);
+}
+
+TEST_CASE("equivalence: by STaR-Bets what is undecided tells how many would decide") {
+    const std::vector<double> none(60, 0.0);
+    const auto open = equivalence_of(none, 0.05, share);
+    CHECK(open.verdict == Equivalence::undecided);
+    REQUIRE(open.needed);
+    CHECK(*open.needed < 250);
+    CHECK(equivalence_of(std::vector<double>(*open.needed, 0.0), 0.05, share).verdict ==
+          Equivalence::within);
+    CHECK(equivalence_of(std::vector<double>(*open.needed - 1, 0.0), 0.05, share).verdict ==
+          Equivalence::undecided);
 }
 
 TEST_CASE("equivalence: without bounds by Student's t, at one look") {

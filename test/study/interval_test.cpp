@@ -30,9 +30,11 @@ TEST_CASE("metric bounds: shares lie from 0 to 1, also those of one flow, and ti
     CHECK(difference_bounds(delay) == Bounds{});
 }
 
-TEST_CASE("interval: values with two bounds bet, others have Student's t") {
+TEST_CASE("interval: values with two bounds have STaR-Bets, others Student's t") {
     const std::vector<double> values = {0.2, 0.4, 0.5};
-    CHECK(interval_of(values, share)->method == IntervalMethod::betting);
+    CHECK(interval_of(values, share)->method == IntervalMethod::star);
+    CHECK(interval_of(values, share, 0.95, IntervalMethod::betting)->method ==
+          IntervalMethod::betting);
     CHECK(interval_of(values, delay)->method == IntervalMethod::t);
     CHECK(interval_of(values, share, 0.95, IntervalMethod::t)->method == IntervalMethod::t);
     CHECK(interval_of(values, delay, 0.95, IntervalMethod::betting)->method == IntervalMethod::t);
@@ -41,9 +43,13 @@ TEST_CASE("interval: values with two bounds bet, others have Student's t") {
 }
 
 TEST_CASE("interval: of a ratio that was 1 in every replication it reaches below 1") {
-    const auto interval = interval_of(std::vector<double>(30, 1.0), share);
-    CHECK(std::abs(interval->low - 0.8475) < 5e-5);  // as docs/intervals.md says
-    CHECK(interval->high == 1);
+    const std::vector<double> ones(30, 1.0);
+    const auto fixed = interval_of(ones, share);
+    CHECK(std::abs(fixed->low - 0.8828) < 5e-5);  // as docs/intervals.md says
+    CHECK(fixed->high == 1);
+    const auto betting = interval_of(ones, share, 0.95, IntervalMethod::betting);
+    CHECK(std::abs(betting->low - 0.8475) < 5e-5);
+    CHECK(betting->high == 1);
 }
 
 TEST_CASE("interval: one value of a ratio has a wide one, one time has none") {

@@ -59,7 +59,7 @@ TEST_CASE("results: a group is of one point if nothing else is asked, with mean 
 }
 
 TEST_CASE(
-    "results: a ratio within its bounds has an interval by betting, in them, or t on request") {
+    "results: a ratio within its bounds has an interval by STaR-Bets, in them, or t on request") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
     store.set_points({{0, "p", {}}});
@@ -72,7 +72,7 @@ TEST_CASE(
     }
     const std::vector<std::string> metrics = {"delivery_ratio", "latency_mean_s"};
     const auto list = answers(store, {.metrics = metrics}).list;
-    CHECK(list[0].method == IntervalMethod::betting);
+    CHECK(list[0].method == IntervalMethod::star);
     CHECK(*list[0].low < 0.9);
     CHECK(*list[0].high == 1);
     CHECK(list[1].method == IntervalMethod::t);
