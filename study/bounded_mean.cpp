@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t gamblers = 16;
 using Gamblers = std::array<double, gamblers>;
 
-constexpr int bisections = 40;  // of [0, 1]: to 1e-12
+constexpr int steps_to_end = 40;  // of [0, 1]: to 1e-12
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Gamblers chebyshev_shares() {
@@ -59,9 +59,9 @@ bool ever_rich(std::span<const double> values, double m, double enough) {
 }
 
 /// The lower end for values in [0, 1]: every m below it has been refuted.
-double lower_end(std::span<const double> values, double enough) {
+double betting_lower_end(std::span<const double> values, double enough) {
     double low = 0, high = 1;
-    for (int i = 0; i < bisections; ++i) {
+    for (int i = 0; i < steps_to_end; ++i) {
         const double m = (low + high) / 2;
         (ever_rich(values, m, enough) ? low : high) = m;
     }
@@ -112,8 +112,8 @@ double values_to_refute(std::span<const double> values, double m, double enough)
 BoundedMean bounded_mean(std::span<const double> values, const Bounds& bounds, double confidence) {
     const ScaledValues x = scaled_values(values, bounds, confidence, "bounded_mean");
     const double enough = enough_for(confidence);
-    double low = lower_end(x.values, enough);
-    double high = 1 - lower_end(x.mirrored, enough);
+    double low = betting_lower_end(x.values, enough);
+    double high = 1 - betting_lower_end(x.mirrored, enough);
     if (low > high) std::swap(low, high);  // no m is left: the values have drifted
     const double mean = x.mean();
     return {x.unscaled(std::min(low, mean)), x.unscaled(std::max(high, mean))};
@@ -132,7 +132,7 @@ std::optional<std::size_t> bounded_mean_replications(std::span<const double> val
     // The ends mean - below and mean + above, below + above = width, that take as many values.
     const double width = 2 * wanted / x.width;
     double low = 0, high = width, needed = infinity;
-    for (int i = 0; i < bisections && needed > 0; ++i) {
+    for (int i = 0; i < steps_to_end && needed > 0; ++i) {
         const double below = (low + high) / 2;
         const double down = values_to_refute(x.values, mean - below, enough);
         const double up = values_to_refute(x.mirrored, 1 - mean - (width - below), enough);

@@ -117,10 +117,10 @@ bool ever_rich(std::span<const double> values, std::span<const double> stakes, d
 }
 
 /// Lower end of the interval for the mean of values in [0, 1]: every m below it is refuted.
-double lower_end(std::span<const double> values, double level) {
-    constexpr std::size_t least_cells = 128, most_cells = 512;  // both even: 1/2 is an end
+double star_bets_lower_end(std::span<const double> values, double level) {
+    constexpr std::size_t coarsest_cells = 128, finest_cells = 512;  // both even: 1/2 is an end
     const std::size_t n = values.size();
-    const std::size_t cells = std::clamp(2 * n, least_cells, most_cells);
+    const std::size_t cells = std::clamp(2 * n, coarsest_cells, finest_cells);
     std::vector<double> stakes(n);
     for (std::size_t cell = 1; cell <= cells; ++cell) {
         const double end = static_cast<double>(cell) / static_cast<double>(cells);
@@ -155,7 +155,8 @@ bool star_refutes(std::span<const double> values, double m, double level) {
 BoundedMean star_mean(std::span<const double> values, const Bounds& bounds, double confidence) {
     const ScaledValues x = scaled_values(values, bounds, confidence, "star_mean");
     const double level = (1 - confidence) / 2;
-    double low = lower_end(x.values, level), high = 1 - lower_end(x.mirrored, level);
+    double low = star_bets_lower_end(x.values, level),
+           high = 1 - star_bets_lower_end(x.mirrored, level);
     if (low > high) std::swap(low, high);  // no m is left: the values have drifted
     const double mean = x.mean();
     return {x.unscaled(std::min(low, mean)), x.unscaled(std::max(high, mean))};

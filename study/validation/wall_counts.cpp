@@ -24,8 +24,8 @@
 namespace rovernet {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double side = 14, thick = 0.15;  // [m] of the map, and of a wall
+constexpr double radians_per_degree = std::numbers::pi / 180;
+constexpr double map_side = 14, thick = 0.15;  // [m] of the map, and of a wall
 
 double loss_on(const MultiWall& model, const Scene& scene, Vec3 from, Vec3 to) {
     const std::uint64_t key = 2;
@@ -50,18 +50,19 @@ struct SlantingWalls {
     /// Point of the map by its place along and across the walls [m].
     Vec3 point(double x, double y) const {
         const auto [sine, cosine] = math::sincos(angle);
-        return {side / 2 + cosine * x - sine * y, side / 2 + sine * x + cosine * y, 1};
+        return {map_side / 2 + cosine * x - sine * y, map_side / 2 + sine * x + cosine * y, 1};
     }
     double depth() const { return thick + (number - 1) * apart; }
     bool is_wall(Vec3 p) const {
         const auto [sine, cosine] = math::sincos(angle);
-        const double x = cosine * (p.x - side / 2) + sine * (p.y - side / 2);
-        const double y = cosine * (p.y - side / 2) - sine * (p.x - side / 2) + depth() / 2;
+        const double x = cosine * (p.x - map_side / 2) + sine * (p.y - map_side / 2);
+        const double y = cosine * (p.y - map_side / 2) - sine * (p.x - map_side / 2) + depth() / 2;
         const double beside = y - apart * std::floor(y / apart);
         return std::abs(x) <= 5.5 && y >= 0 && y < depth() && (number == 1 || beside < thick);
     }
     Scene drawn(double cell) const {
-        const OccupancyGrid map = drawn_map(side, side, cell, [&](Vec3 p) { return is_wall(p); });
+        const OccupancyGrid map =
+            drawn_map(map_side, map_side, cell, [&](Vec3 p) { return is_wall(p); });
         return Scene(outlined ? outline_walls(map) : map);
     }
 };
@@ -73,7 +74,7 @@ double worst_count(const SlantingWalls& walls, double cell, std::size_t& n) {
     const Scene scene = walls.drawn(cell);
     double worst = 0;
     for (std::size_t i = 0; i < grazing.size(); ++i) {
-        const auto [sine, cosine] = math::sincos(grazing[i] * degree);
+        const auto [sine, cosine] = math::sincos(grazing[i] * radians_per_degree);
         const double half = (walls.depth() / 2 + 0.12) / sine;
         if (half * cosine > 5) continue;  // longer than the walls
         for (std::uint64_t k = 0; k < 5; ++k) {
@@ -96,10 +97,11 @@ Promise wall_counts() {
         const auto look = [&](const SlantingWalls& walls, double cell) {
             out.worst = std::max(out.worst, worst_count(walls, cell, out.n));
         };
-        for (const double cell : {0.02, 0.05, 0.1}) look({angle * degree, 1, 1, false}, cell);
+        for (const double cell : {0.02, 0.05, 0.1})
+            look({angle * radians_per_degree, 1, 1, false}, cell);
         for (const double cell : {0.02, 0.05}) {
-            look({angle * degree, 1, 1, true}, cell);
-            look({angle * degree, 2, 0.3, false}, cell);
+            look({angle * radians_per_degree, 1, 1, true}, cell);
+            look({angle * radians_per_degree, 2, 0.3, false}, cell);
         }
     }
     return out;
@@ -124,11 +126,11 @@ Promise doors_and_storeys() {
         out.worst = std::max(out.worst, std::abs(found - truth));
         ++out.n;
     };
-    const Vec3 here{1, 2.5, 1}, there{9, 2.5, 1}, beside{1, 4.5, 1}, beyond{9, 4.5, 1};
+    const Vec3 here{1, 2.5, 1}, there{9, 2.5, 1}, beside{1, 4.5, 1}, across{9, 4.5, 1};
     const auto up = [](Vec3 p, double storeys) { return p + Vec3{0, 0, 3 * storeys}; };
     const auto house = std::make_shared<const Scene>(storeys(4, {}));
     check(*house, here, there, 0);
-    check(*house, beside, beyond, 6.9);
+    check(*house, beside, across, 6.9);
     for (const auto& [floors, loss] :
          {std::pair{1, 18.3}, {2, 33.5235976238911}, {3, 43.58899751322817}})
         check(*house, here, up(there, floors), loss);
@@ -155,7 +157,7 @@ Promise doors_and_storeys() {
     check(at(15s), here, there, 3.4);
     check(at(15s), up(here, 1), up(there, 1), 21);
     check(at(20s), up(here, 1), up(there, 1), 0);
-    check(at(20s), beside, beyond, 6.9);
+    check(at(20s), beside, across, 6.9);
     return out;
 }
 
