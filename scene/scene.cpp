@@ -275,6 +275,7 @@ Scene Scene::with_walls_of(const Scene& other) const {
     Scene out = *this;
     out.materials_ = other.materials_;
     out.layers_ = other.layers_;
+    out.faces_ = other.faces_;
     out.plain_ = other.plain_ && plans_.empty();
     out.occupied_cells_ = other.occupied_cells_;
     return out;

@@ -155,6 +155,7 @@ TEST_CASE("scene: with the walls of another, radio sees these and robots keep to
     CHECK_FALSE(both.passable({0, 1.5}, {3, 1.5}, Meters{0}));
     CHECK(both.passable({0.5, 0.5}, {0.5, 2.5}, Meters{0.2}));
     CHECK(both.materials().size() == 2);
+    CHECK(both.faces() == other.faces());
     CHECK(own.plain_walls());
     CHECK_FALSE(both.plain_walls());
 }
