@@ -53,6 +53,8 @@ Validation validate(const ValidationSize& size, const std::optional<std::string>
     begin("closed forms");
     check_closed_forms(out.promises);
     check_by_brute_force(out.promises);
+    begin("access to the medium");
+    check_access(out.promises);
     return out;
 }
 

@@ -53,6 +53,9 @@ void check_closed_forms(Promises& promises);
 /// Sums over everything, means over many draws, and solutions by hand.
 void check_by_brute_force(Promises& promises);
 
+/// Saturated cells, and the time of the next access.
+void check_access(Promises& promises);
+
 /// Draw in (0, 1) of a validation. @param what  its name, and what is drawn
 double validation_draw(std::string_view what, std::uint64_t of, std::uint64_t index);
 
