@@ -3,11 +3,11 @@
 // exit 1 if one is outside of its band.
 
 #include "bench/aloha.hpp"
-#include "bench/bianchi.hpp"
 #include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/reception/list.hpp"
 #include "network/network.hpp"
+#include "study/validation/bianchi.hpp"
 
 #include <fmt/format.h>
 
@@ -97,7 +97,7 @@ void report(const std::string& what, double ours, double theirs, double band) {
 void bianchi(Duration length) {
     for (const auto& [window, stages] : {std::pair{32, 3}, std::pair{32, 5}, std::pair{128, 3}}) {
         for (const bool asks : {false, true}) {
-            const bench::BianchiCell cell{.window = window, .stages = stages, .asks = asks};
+            const BianchiCell cell{.window = window, .stages = stages, .asks = asks};
             for (const int n : {1, 2, 5, 10, 20, 50}) {
                 const Count got = Cell{.n = n,
                                        .csma = cell.csma(),
@@ -140,7 +140,7 @@ void broadcast(Duration length) {
         int n;
         double ns2, ns3;
     };
-    const bench::BroadcastCell cell{.header = 36};
+    const BroadcastCell cell{.header = 36};
     for (const Row& row : {Row{2, 0.895, 0.890}, Row{5, 0.812, 0.822}, Row{10, 0.691, 0.699},
                            Row{20, 0.490, 0.498}, Row{50, 0.216, 0.200}}) {
         const Count got = Cell{.n = row.n,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "models/link_gain.hpp"
 #include "models/phy/error_rate.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/itu_indoor.hpp"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
@@ -149,13 +151,68 @@ Pairs fading_quantiles() {
     return out;
 }
 
-/// Bit error rates of 1 Mb/s, over the true ones.
+/// Bit error rates of a modulation over the true ones, at ratios of signal to noise.
+void add_error_rates(Pairs& out, Modulation modulation,
+                     std::initializer_list<std::pair<double, double>> truth) {
+    for (const auto& [sinr, rate] : truth) {
+        out.emplace_back(bit_error_rate(modulation, sinr) / rate, 1);
+    }
+}
+
+Pairs error_rates_of_1_mbps() {
+    Pairs out;
+    add_error_rates(out, Modulation::dsss_1,
+                    {{0.1, 0.0554015791811669},
+                     {math::exp10(-0.95), 0.0423584317866261},
+                     {math::exp10(-0.85), 0.0223544520983215}});
+    return out;
+}
+
+/// Of CCK an integral, computed by Simpson's rule; of OFDM the union bound. QPSK has the error rate
+/// of BPSK at half the ratio.
 Pairs error_rates() {
     Pairs out;
-    for (const auto& [sinr, rate] : {std::pair{0.1, 0.0554015791811669},
-                                     {math::exp10(-0.95), 0.0423584317866261},
-                                     {math::exp10(-0.85), 0.0223544520983215}})
-        out.emplace_back(bit_error_rate(Modulation::dsss_1, sinr) / rate, 1);
+    add_error_rates(out, Modulation::dsss_2,
+                    {{0.3, 0.032255864726463315}, {1, 0.0001942047831906988}});
+    const auto cck = {std::pair{0.2, 0.1480648434673162},
+                      {0.5, 0.043931331064230875},
+                      {1.0, 0.006054462611854079}};
+    add_error_rates(out, Modulation::cck_5_5, cck);
+    for (const auto& [sinr, rate] : cck)
+        add_error_rates(out, Modulation::cck_11, {{2 * sinr, rate}});
+    const auto bpsk = {std::pair{math::exp10(0.2), 0.00876921036350663},
+                       {math::exp10(0.4), 7.62024682838725e-6},
+                       {math::exp10(0.8), 4.69056230711569e-15}};
+    add_error_rates(out, Modulation::ofdm_6, bpsk);
+    for (const auto& [sinr, rate] : bpsk) {
+        add_error_rates(out, Modulation::ofdm_12, {{2 * sinr, rate}});
+    }
+    return out;
+}
+
+/// Gains [dB] of a sector antenna of 60 degrees, and of a table between its points.
+Pairs antennas() {
+    constexpr double degree = 3.14159265358979323846 / 180;
+    const Radio sector{.antenna = AntennaShape::cosine, .antenna_beamwidth = Radians{60 * degree}};
+    const Radio table{.antenna = AntennaShape::table,
+                      .antenna_pattern = std::vector<PatternPoint>{{-90, -20}, {0, 0}, {90, -10}}};
+    Pairs out;
+    const auto add = [&](const Radio& radio, double angle, double gain) {
+        const auto to = math::sincos(angle * degree);
+        out.emplace_back(pattern_gain(radio, Pose{}, {7 * to.cos, 7 * to.sin, 0}).value, gain);
+    };
+    for (const auto& [angle, gain] : {std::pair{0.0, 0.0},
+                                      {30.0, -3.0},
+                                      {45.0, -6.8512514587508395},
+                                      {60.0, -12.447219906212926},
+                                      {90.0, -20.0},
+                                      {180.0, -20.0}}) {
+        add(sector, angle, gain);
+        add(sector, -angle, gain);
+    }
+    for (const auto& [angle, gain] :
+         {std::pair{0.0, 0.0}, {45.0, -5.0}, {-45.0, -10.0}, {90.0, -10.0}, {180.0, -15.0}})
+        add(table, angle, gain);
     return out;
 }
 
@@ -170,8 +227,12 @@ void check_closed_forms(Promises& promises) {
     promises.push_back(promise_of("slabs of building materials, at angles", 1e-8, slabs()));
     promises.push_back(
         promise_of("quantiles of fading, relative error", 1e-9, fading_quantiles(), ""));
+    promises.push_back(promise_of("bit error rates of 1 Mb/s, relative error", 1e-10,
+                                  error_rates_of_1_mbps(), ""));
     promises.push_back(
-        promise_of("bit error rates of 1 Mb/s, relative error", 1e-10, error_rates(), ""));
+        promise_of("bit error rates of 2 to 12 Mb/s, relative error", 1e-9, error_rates(), ""));
+    promises.push_back(
+        promise_of("gains of antennas, against their closed forms", closed_form, antennas()));
 }
 
 }  // namespace rovernet

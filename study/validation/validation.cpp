@@ -54,6 +54,8 @@ Validation validate(const ValidationSize& size, const std::optional<std::string>
     check_by_brute_force(out.promises);
     begin("counts of walls");
     check_counts(out.promises);
+    begin("access to the medium");
+    check_access(out.promises);
     return out;
 }
 

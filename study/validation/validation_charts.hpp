@@ -58,6 +58,9 @@ void check_by_brute_force(Promises& promises);
 /// Walls, doors and floors on a link, against how many there are.
 void check_counts(Promises& promises);
 
+/// Saturated cells, and the time of the next access.
+void check_access(Promises& promises);
+
 /// Draw in (0, 1) of a validation. @param what  its name, and what is drawn
 double validation_draw(std::string_view what, std::uint64_t of, std::uint64_t index);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "bench/aloha.hpp"
-#include "bench/bianchi.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
@@ -9,6 +8,7 @@
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "sim/random.hpp"
+#include "study/validation/bianchi.hpp"
 #include "traces/fingerprint.hpp"
 
 #include <doctest/doctest.h>
@@ -91,14 +91,14 @@ TEST_CASE("aloha: slotted, S = G exp(-G)") {
 }
 
 TEST_CASE("csma: saturated stations get what Bianchi's model says") {
-    const bench::BianchiCell bianchi;
+    const BianchiCell bianchi;
     for (const int n : {1, 5, 20}) {
         Room cell(std::max(n, 2), bianchi.csma(),
                   {.rate = bianchi.rate, .preamble = bianchi.preamble});
         for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
             const NodeId to = cell.nodes[(i + 1) % cell.nodes.size()];
             cell.net.at(start_of_run, [&net = cell.net, from = cell.nodes[i], to] {
-                net.saturate(from, to, bench::BianchiCell::payload);
+                net.saturate(from, to, BianchiCell::payload);
             });
         }
         cell.net.run_for(200s);
@@ -236,12 +236,12 @@ TEST_CASE("csma: receivers that forward at once collide, as they ask at once; ji
 }
 
 TEST_CASE("csma: saturated broadcasts go one hop, without a router, at the formula's rate") {
-    const bench::BroadcastCell cell;
+    const BroadcastCell cell;
     for (const int n : {2, 10}) {
         Room room(n, cell.csma(), {.rate = cell.rate});
         for (const NodeId from : room.nodes) {
             room.net.at(start_of_run, [&net = room.net, from] {
-                net.saturate(from, everyone, bench::BroadcastCell::payload);
+                net.saturate(from, everyone, BroadcastCell::payload);
             });
         }
         room.net.run_for(200s);

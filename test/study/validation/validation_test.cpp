@@ -80,6 +80,13 @@ TEST_CASE("validation: what brute force gives as well is met as promised") {
     check_kept(promises);
 }
 
+TEST_CASE("validation: cells and accesses are as theory says") {
+    Promises promises;
+    check_access(promises);
+    CHECK(promises.size() == 3);
+    check_kept(promises);
+}
+
 TEST_CASE("validation: lengths of walls are exact, and every naive way is off") {
     Promises promises;
     const ValidationChart chart = wall_length_chart(few, promises);

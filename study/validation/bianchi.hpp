@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace rovernet::bench {
+namespace rovernet {
 
 /// Saturation throughput of the 802.11 DCF, for `n` stations that hear one another and always have
 /// a frame to send: the share of the time in which payload bits get through.
@@ -108,4 +108,4 @@ struct BroadcastCell {
     }
 };
 
-}  // namespace rovernet::bench
+}  // namespace rovernet
