@@ -242,6 +242,7 @@ Scenario load_scenario(const ScenarioFile& file, const Table& settings) {
     }
     note_places(scenario, scenario.walls.get());
     note_walls_twice(scenario, scenario.walls.get());
+    note_thick_walls(scenario, scenario.walls.get());
     return scenario;
 }
 

@@ -53,6 +53,7 @@ Validation validate(const ValidationSize& size, const std::optional<std::string>
     begin("closed forms");
     check_closed_forms(out.promises);
     check_by_brute_force(out.promises);
+    check_ray_shadows(out.promises);
     return out;
 }
 

@@ -52,6 +52,8 @@ ValidationChart measured_chart(const std::string& folder, const ValidationSize& 
 void check_closed_forms(Promises& promises);
 /// Sums over everything, means over many draws, and solutions by hand.
 void check_by_brute_force(Promises& promises);
+/// Shadows of the model `rays`: of walls' ends, of blocks, of walls drawn askew.
+void check_ray_shadows(Promises& promises);
 
 /// Draw in (0, 1) of a validation. @param what  its name, and what is drawn
 double validation_draw(std::string_view what, std::uint64_t of, std::uint64_t index);
