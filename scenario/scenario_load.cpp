@@ -244,6 +244,7 @@ Scenario load_scenario(const ScenarioFile& file, const Table& settings) {
     note_antennas(scenario, scenario.walls.get());
     note_walls_twice(scenario, scenario.walls.get());
     note_coherent_slants(scenario, scenario.walls.get());
+    note_thick_walls(scenario, scenario.walls.get());
     return scenario;
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/unlikely.hpp"
 
+#include "models/propagation/ray_materials.hpp"
 #include "models/propagation/rays.hpp"
 #include "models/propagation/raytrace_2007.hpp"
 #include "scenario/quantity.hpp"
+#include "scene/faces.hpp"
+#include "scene/scene.hpp"
 #include "sim/geometry.hpp"
 
 #include <fmt/format.h>
@@ -275,6 +278,43 @@ void note_coherent_slants(Scenario& scenario, const Scene* scene) {
         });
     });
     off.note(scenario.notices);
+}
+
+void note_thick_walls(Scenario& scenario, const Scene* scene) {
+    if (!scene || scene->open_field() || !scene->faces()) return;
+    const auto is_rays = [](const PropagationTable& table) {
+        const Propagation model = table.make();
+        const auto* rays = model.as<Rays>();
+        return rays && !rays->wall_loss;
+    };
+    const auto& robots = scenario.robots;
+    const bool traced = is_rays(scenario.propagation) ||
+                        std::any_of(robots.begin(), robots.end(), [&](const RobotTable& robot) {
+                            return robot.propagation && is_rays(*robot.propagation);
+                        });
+    if (!traced) return;
+    constexpr double limit = thickest_default_wall.value;
+    const Face* first = nullptr;
+    double thickest = 0;
+    for (const Face& face : scene->faces()->all()) {
+        if (face.thickness <= limit || !scene->materials()[face.material].follows_model()) continue;
+        const Vec3 inside =
+            0.5 * (face.from + face.to) - (face.deviation + limit / 2) * face.normal;
+        // The steps of a slanting wall are part of what is drawn.
+        const double thick = scene->wall_thickness(inside).value - 2 * face.deviation;
+        if (thick <= limit + 1e-6) continue;
+        if (!first) first = &face;
+        thickest = std::max(thickest, thick);
+    }
+    if (!first) return;
+    const Vec3 at = 0.5 * (first->from + first->to);
+    add_notice(
+        scenario.notices,
+        fmt::format("{}: what is drawn behind x = {:.2f} m, y = {:.2f} m is thicker than "
+                    "{} m, up to {:.2g} m in this scene, and rays take a wall whose material "
+                    "is not given as {} m thick at most; give furniture, pillars and shafts "
+                    "a colour and a material of their own in [scene.materials]",
+                    scenario.propagation_where.text(), at.x, at.y, limit, thickest, limit));
 }
 
 }  // namespace rovernet

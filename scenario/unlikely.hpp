@@ -34,6 +34,11 @@ void note_walls_twice(Scenario& scenario, const Scene* scene);
 /// @param scene  the scenario's; null: an open field
 void note_coherent_slants(Scenario& scenario, const Scene* scene);
 
+/// Notices walls without a material that are drawn thicker than the model `rays` takes them, half a
+/// metre: what is so thick is furniture, a pillar or a shaft. One notice, with the first place.
+/// @param scene  the scenario's; null: an open field
+void note_thick_walls(Scenario& scenario, const Scene* scene);
+
 /// Notices robots that choose a propagation model of their own where [study] varies [propagation]:
 /// they are the same at every point.
 void note_own_models(Scenario& scenario);

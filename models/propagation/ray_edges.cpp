@@ -14,6 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr double in_plane = 1e-9;  // [m] from a face's plane: rounding
+
 Vec3 flat(Vec3 p) { return {p.x, p.y, 0}; }
 double cross(Vec3 a, Vec3 b) { return a.x * b.y - a.y * b.x; }
 Vec3 direction(const Face& f) { return {-f.normal.y, f.normal.x, 0}; }
@@ -36,8 +38,8 @@ std::optional<std::pair<std::size_t, std::size_t>> corners_seen(const WallEdge& 
     // Past the line through both corners, away from the wall, both can be seen.
     const auto sees_both = [&](Vec3 p) { return cross(across, flat(p) - edge.corners[0]) < 0; };
     const auto corner_of = [&](Vec3 p) -> std::optional<std::size_t> {
-        if (before.in_front(p) > 0) return 0;
-        if (behind.in_front(p) > 0) return 1;
+        if (before.in_front(p) >= -in_plane) return 0;
+        if (behind.in_front(p) >= -in_plane) return 1;
         return std::nullopt;
     };
     const bool free_a = sees_both(a), free_b = sees_both(b);
@@ -189,8 +191,11 @@ std::optional<WayAround> RayEdges::around(const WallEdge& edge, Vec3 a, Vec3 b) 
     // From that face on which the corner lies: so no rounding takes it behind the face.
     const auto direction_of = [&](Vec3 p, std::size_t corner) {
         const Vec3 from_corner = flat(p) - edge.corners[corner];
-        return corner == 0 ? angle(edge.back, from_corner)
-                           : edge.n * pi - angle(from_corner, direction(behind));
+        const double phi =
+            corner == 0 ? angle(edge.back, from_corner) : angle(from_corner, direction(behind));
+        // In the plane of the face, rounding takes it to either side.
+        const double from_face = 2 * pi - phi < 1e-6 ? 0 : phi;
+        return corner == 0 ? from_face : edge.n * pi - from_face;
     };
     e.phi_before = direction_of(a, at_a);
     e.phi_after = direction_of(b, at_b);
@@ -253,12 +258,14 @@ std::optional<WayAround> RayEdges::around_body(std::size_t first,
     const Vec3 in_the_way = edges_[first].corners[crossed[first].before ? 0 : 1];
     const bool forward = cross(b - a, in_the_way - a) < 0;
     std::vector<Corner> at = touched(corners, flat(forward ? a : b), flat(forward ? b : a));
-    if (at.empty()) return around(edges_[first], a, b);
+    if (at.empty()) return std::nullopt;
     const std::size_t e = at.front().edge;
     const bool one = at.back().edge == e && (at.size() == 1 || edges_[e].thin);
     if (!one) return around_corners(at, a, b, forward);
     auto way = around(edges_[e], a, b);
-    if (way) join_next_corner(*way, e, true, a, b);
+    if (!way) return way;
+    way->edge.shadowed = true;
+    join_next_corner(*way, e, true, a, b);
     return way;
 }
 
@@ -298,6 +305,7 @@ std::optional<WayAround> RayEdges::around_corners(std::span<const Corner> corner
     way.edge.after = way.length - way.edge.before;
     way.edge.pair = scaled(pair, way.length / plan);
     way.edge.detour = way.detour;
+    way.edge.shadowed = true;
     set_wall(way.edge, faces_[wall], a, b);
     return way;
 }
@@ -309,7 +317,11 @@ std::size_t RayEdges::join_next_corner(WayAround& way, std::size_t e, bool shado
     const bool one = distance(at, flat(way.corners[1])) == 0;
     if (!one && !edge.thin) return no_edge;
     // Forward, the body is on the left: so is a corner that is lit, and one in the way is not.
-    const bool forward = (cross(b - a, at - flat(a)) > 0) != shadowed;
+    const double left = cross(b - a, at - flat(a));
+    const Face& beside =
+        faces_[std::abs(faces_[edge.before].in_front(a)) <= in_plane ? edge.before : edge.behind];
+    const bool along = std::abs(left) <= in_plane * distance(a, b);
+    const bool forward = along ? dot(b - a, direction(beside)) > 0 : (left > 0) != shadowed;
     const Vec3 from = flat(forward ? a : b), to = flat(forward ? b : a);
     const double stretch = way.length / (distance(from, at) + distance(at, to));
     const std::size_t corner = distance(at, edge.corners[0]) == 0 ? 0 : 1;

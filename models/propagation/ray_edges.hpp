@@ -75,7 +75,7 @@ class RayEdges {
     /// two corners the first and the last count.
     /// @param crossed  by edge
     /// @param passed   the edges of the way are appended
-    /// @return nothing if the outline does not turn left all the way
+    /// @return nothing if the outline does not turn left all the way, or no corner is in the way
     std::optional<WayAround> around_body(std::size_t first, std::span<const CrossedAt> crossed,
                                          Vec3 a, Vec3 b, std::vector<std::size_t>& passed) const;
 
@@ -92,6 +92,12 @@ class RayEdges {
 
     /// Whether a face is part of a wall's end, and another is the wall's side next to it.
     bool is_end(std::size_t short_side, std::size_t long_side) const;
+
+    /// Whether a way from edge `first` to edge `last` begins or ends at a face.
+    bool is_at(std::size_t face, std::size_t first, std::size_t last) const {
+        const EdgesOfFace& of = of_face_[face];
+        return of.before == first || of.between == first || of.behind == last || of.between == last;
+    }
 
   private:
     struct Corner {

@@ -86,9 +86,6 @@ struct RayPath {
     std::size_t first_hit, hits;
     /// Bodies around whose edges it goes, as RayPaths has them.
     std::size_t first_edge = 0, edges = 0;
-    /// Edge that the straight path passes on the lit side, with the least detour of all; none if it
-    /// is not traced with edges.
-    std::optional<RayEdge> beside = std::nullopt;
 };
 
 /// Paths of a link: the straight one, those around edges, those with reflections.
@@ -96,6 +93,9 @@ struct RayPaths {
     std::vector<RayPath> paths;
     std::vector<RayHit> all_hits;
     std::vector<RayEdge> all_edges;
+    /// Edge that the straight path passes on the lit side, with the least detour of all; none if
+    /// they are not traced with edges.
+    std::optional<RayEdge> beside = std::nullopt;
 
     std::span<const RayHit> hits(const RayPath& path) const {
         return std::span(all_hits).subspan(path.first_hit, path.hits);
@@ -107,6 +107,7 @@ struct RayPaths {
         paths.clear();
         all_hits.clear();
         all_edges.clear();
+        beside.reset();
     }
 };
 

@@ -149,6 +149,7 @@ bool RayTracer::place(std::span<const std::uint32_t> chain, double flat,
 /// Adds the path with the walls in its way, unless it is too faint.
 void RayTracer::add(const Candidate& path, const RayLimit* limit, RayPaths& out) {
     Draft draft{out, limit, out.all_hits.size(), out.all_edges.size(), path.free_space};
+    draft.whole_ends = path.count == 0;
     const auto reflections = reflections_of(path);
     const auto points = std::span(points_).subspan(path.first_point, path.count + 2);
     for (const RayHit& hit : reflections)
@@ -227,32 +228,38 @@ void RayTracer::add_diffracted(const RayLimit* limit, RayPaths& out) {
         const CrossedAt& at = at_edge_[e];
         if (!at.before && !at.between) continue;
         passed_.clear();
-        auto way = edges_.around_body(e, at_edge_, a_, b_, passed_);
-        if (!way) continue;
+        const auto way = edges_.around_body(e, at_edge_, a_, b_, passed_);
+        if (!way) {
+            add_around_edge(e, limit, out);
+            done_[e] = true;
+            continue;
+        }
         for (const std::size_t passed : passed_) done_[passed] = true;
-        way->edge.shadowed = true;
-        const WallEdge& edge = edges_.all()[e];
-        const double loss =
-            limit ? limit->materials.around(way->edge, limit->diffraction, limit->coherent).loss()
-                  : way->detour;
-        bodies_.push_back({faces_[edge.before].outline, way->edge, loss});
-        add_around(*way, edge.steps, limit, out);
+        const Vec3 corner = way->corners[0];
+        const double left = (b_.x - a_.x) * (corner.y - a_.y) - (b_.y - a_.y) * (corner.x - a_.x);
+        bodies_.push_back({passed_.front(), passed_.back(), *way, left > 0});
+        add_around(*way, edges_.all()[e].steps, limit, out);
     }
     for (std::size_t e = 0; e < at_edge_.size(); ++e) {
-        const WallEdge& edge = edges_.all()[e];
         if (done_[e]) continue;
-        if (!at_edge_[e].any()) {
+        if (at_edge_[e].any())
+            add_around_edge(e, limit, out);
+        else
             pass_beside(e, limit, out);
-        } else if (auto way = edges_.around(edge, a_, b_)) {
-            way->edge.shadowed = true;
-            edges_.join_next_corner(*way, e, true, a_, b_);
-            add_around(*way, edge.steps, limit, out);
-        }
     }
-    add_around_bodies(limit, out);
-    if (limit && limit->diffraction == RayDiffraction::knife_edge && out.paths[0].beside)
-        losses_[0] += limit->materials.beside_edge(*out.paths[0].beside);
+    for (const bool left : {false, true}) add_around_bodies(left, limit, out);
+    if (limit && limit->diffraction == RayDiffraction::knife_edge && out.beside)
+        losses_[0] += limit->materials.beside_edge(*out.beside);
     if (limit) best_ = *std::min_element(losses_.begin(), losses_.end());
+}
+
+/// Adds the way around an edge in the straight path, whatever else of its body is in the way.
+void RayTracer::add_around_edge(std::size_t e, const RayLimit* limit, RayPaths& out) {
+    auto way = edges_.around(edges_.all()[e], a_, b_);
+    if (!way) return;
+    way->edge.shadowed = true;
+    edges_.join_next_corner(*way, e, true, a_, b_);
+    add_around(*way, edges_.all()[e].steps, limit, out);
 }
 
 /// The straight path as it passes an edge that does not stand in its way.
@@ -264,8 +271,7 @@ void RayTracer::pass_beside(std::size_t e, const RayLimit* limit, RayPaths& out)
     if (!way || way->detour >= near) return;
     const std::size_t other = edges_.join_next_corner(*way, e, false, a_, b_);
     if (other != no_edge) done_[other] = true;
-    std::optional<RayEdge>& beside = out.paths[0].beside;
-    if (!beside || way->detour < beside->detour) beside = way->edge;
+    if (!out.beside || way->detour < out.beside->detour) out.beside = way->edge;
     if (!limit || limit->diffraction == RayDiffraction::utd)
         add_around(*way, edge.steps, limit, out);
 }
@@ -284,49 +290,60 @@ void RayTracer::add_around(const WayAround& way, double steps, const RayLimit* l
     finish(draft, bright, way.length);
 }
 
-/// Adds the path that goes around each body in the straight path, on its better side, that takes
-/// less so; if they are several.
-void RayTracer::add_around_bodies(const RayLimit* limit, RayPaths& out) {
-    const auto several = [&](const BodyWay& way) { return way.outline != bodies_.front().outline; };
-    if (std::none_of(bodies_.begin(), bodies_.end(), several)) return;
-    std::sort(bodies_.begin(), bodies_.end(), [](const BodyWay& p, const BodyWay& q) {
-        return std::tie(p.outline, p.loss) < std::tie(q.outline, q.loss);
-    });
-    const auto same = [](const BodyWay& p, const BodyWay& q) { return p.outline == q.outline; };
-    bodies_.erase(std::unique(bodies_.begin(), bodies_.end(), same), bodies_.end());
-    const auto body_of = [&](const RayHit& hit) {
-        return std::find_if(bodies_.begin(), bodies_.end(), [&](const BodyWay& way) {
-            return hit.face != no_face && faces_[hit.face].outline == way.outline;
-        });
-    };
+/// Adds the path that goes around each body in the straight path, on one side of all, that takes
+/// less so than by passing through it; if they are several. As Epstein and Peterson have it, each
+/// is gone around from the body before it to the one behind it.
+void RayTracer::add_around_bodies(bool left, const RayLimit* limit, RayPaths& out) {
     const RayPath straight = out.paths[0];
-    std::vector<double> through(bodies_.size());
-    for (std::size_t i = 0; i < straight.hits && limit; ++i) {
-        const auto body = body_of(out.all_hits[straight.first_hit + i]);
-        if (body == bodies_.end()) continue;
-        through[static_cast<std::size_t>(body - bodies_.begin())] +=
-            loss_of(out.all_hits[straight.first_hit + i], limit->materials);
+    const auto hit = [&](std::size_t i) { return out.all_hits[straight.first_hit + i]; };
+    const auto loss_around = [&](const WayAround& way) {
+        return limit->materials.around(way.edge, limit->diffraction, limit->coherent).loss();
+    };
+    std::vector<char> passed(straight.hits, false);  // hits that are gone around
+    std::vector<const BodyWay*> row;
+    for (const BodyWay& body : bodies_) {
+        if (body.left != left) continue;
+        const auto is_its = [&](std::size_t i) {
+            return !passed[i] && hit(i).face != no_face &&
+                   edges_.is_at(hit(i).face, body.first, body.last);
+        };
+        double through = 0;
+        for (std::size_t i = 0; i < straight.hits; ++i)
+            if (is_its(i))
+                through += limit ? loss_of(hit(i), limit->materials)
+                                 : std::numeric_limits<double>::infinity();
+        if (through <= (limit ? loss_around(body.way) : 0)) continue;
+        for (std::size_t i = 0; i < straight.hits; ++i) passed[i] |= is_its(i);
+        row.push_back(&body);
     }
+    if (row.size() < 2) return;
+    const auto along = [&](const BodyWay* body) { return dot(body->way.corners[0] - a_, b_ - a_); };
+    std::sort(row.begin(), row.end(),
+              [&](const BodyWay* p, const BodyWay* q) { return along(p) < along(q); });
     Draft draft{out, limit, out.all_hits.size(), out.all_edges.size(), 0};
-    double length = straight.length;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (limit && through[i] <= bodies_[i].loss) {
-            bodies_[i].outline = no_face;
-            continue;
-        }
-        out.all_edges.push_back(bodies_[i].edge);
-        length += bodies_[i].edge.detour;
-        draft.loss += bodies_[i].loss;
+    double length = 0;
+    Vec3 at = a_;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const auto& corners = row[i]->way.corners;
+        const Vec3 next = i + 1 < row.size() ? row[i + 1]->way.corners[0] : b_;
+        length += distance(at, corners[0]) + distance(corners[0], corners[1]);
+        passed_.clear();
+        auto way = edges_.around_body(row[i]->first, at_edge_, at, next, passed_);
+        at = corners[1];
+        if (!way) continue;
+        way->edge.shadowed = true;
+        out.all_edges.push_back(way->edge);
+        if (limit) draft.loss += loss_around(*way);
     }
+    length += distance(at, b_);
     for (std::size_t i = 0; i < straight.hits; ++i) {
-        const RayHit hit = out.all_hits[straight.first_hit + i];
-        if (body_of(hit) != bodies_.end()) continue;
-        out.all_hits.push_back(hit);
-        if (limit) draft.loss += loss_of(hit, limit->materials);
+        if (passed[i]) continue;
+        const RayHit kept = hit(i);
+        out.all_hits.push_back(kept);
+        if (limit) draft.loss += loss_of(kept, limit->materials);
     }
     if (limit) draft.loss += free_space(length, limit->frequency);
-    const bool several_left = out.all_edges.size() - draft.first_edge > 1;
-    finish(draft, several_left && !is_faint(draft), length);
+    finish(draft, !is_faint(draft), length);
 }
 
 /// The reflection by a face of what comes from p and meets it at q.
@@ -352,7 +369,7 @@ bool RayTracer::pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft) {
         c.exit = std::min(c.exit, length - end);
         if (c.exit - c.entry <= touching) continue;
         if (cut) c.length = c.exit - c.entry;
-        const auto hit = crossing(c, p, along);
+        const auto hit = crossing(c, p, along, draft.whole_ends);
         if (!hit) continue;
         draft.out.all_hits.push_back(*hit);
         if (!draft.limit) continue;
@@ -363,7 +380,9 @@ bool RayTracer::pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft) {
 }
 
 /// The wall of a crossing, as its faces have it; nothing if the path only touches steps of a face.
-std::optional<RayHit> RayTracer::crossing(const Crossing& c, Vec3 from, Vec3 along) {
+/// @param whole_ends  a path that clips the end of a wall passes through the whole wall
+std::optional<RayHit> RayTracer::crossing(const Crossing& c, Vec3 from, Vec3 along,
+                                          bool whole_ends) {
     auto entry = scene_.faces()->at(from + c.entry * along, c.material);
     auto exit = scene_.faces()->at(from + c.exit * along, c.material);
     RayHit hit{RayHit::Kind::crossing, no_face, c.material, c.length, 1, c.length};
@@ -383,7 +402,8 @@ std::optional<RayHit> RayTracer::crossing(const Crossing& c, Vec3 from, Vec3 alo
         const Vec3 middle = from + ((c.entry + c.exit) / 2) * along;
         hit.thickness =
             thickness_of(-faces_[*entry].in_front(middle) - faces_[*exit].in_front(middle));
-    } else if (entry && exit && edges_.is_end(*entry == hit.face ? *exit : *entry, hit.face)) {
+    } else if (whole_ends && entry && exit &&
+               edges_.is_end(*entry == hit.face ? *exit : *entry, hit.face)) {
         hit.thickness = thickness_of(face.thickness);
     }
     return hit;

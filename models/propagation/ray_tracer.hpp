@@ -40,8 +40,8 @@ struct RayLimit {
 /// other side with a detour of less than 2.25 wavelengths. One more path goes around each body in
 /// the straight path that takes more than that.
 ///
-/// With edges, a path that clips the end of a wall passes through the whole wall, as the path
-/// around that end has it.
+/// With edges, the straight path that clips the end of a wall passes through the whole wall, as the
+/// path around that end has it.
 ///
 /// Walls are what is drawn, except where a path comes from a slanting face: the steps of the
 /// outline that the face stands for are no walls, neither to the path that the face reflects nor to
@@ -78,9 +78,10 @@ class RayTracer {
     struct Draft {
         RayPaths& out;
         const RayLimit* limit;
-        std::size_t first;       // of its hits
-        std::size_t first_edge;  // of its edges
-        double loss;             // so far [dB], reflections included
+        std::size_t first;        // of its hits
+        std::size_t first_edge;   // of its edges
+        double loss;              // so far [dB], reflections included
+        bool whole_ends = false;  // of walls, as the ways around them have it
     };
     /// Slab that a wave met at an angle. A path meets walls side by side and square to one another:
     /// with few of these.
@@ -89,11 +90,11 @@ class RayTracer {
         double thickness, cosine;
         HitLosses losses;
     };
-    /// Way around one body.
+    /// Way around one body in the straight path, and on which side of that it goes.
     struct BodyWay {
-        std::size_t outline;
-        RayEdge edge;
-        double loss;  // of the edge [dB]
+        std::size_t first, last;  // edges, in the order of the outline
+        WayAround way;
+        bool left;
     };
     void propose(Vec3 to, const RayLimit* limit);
     std::optional<Candidate> plan(std::span<const std::uint32_t> chain, const RayLimit* limit);
@@ -101,7 +102,8 @@ class RayTracer {
     void add(const Candidate& path, const RayLimit* limit, RayPaths& out);
     void add_diffracted(const RayLimit* limit, RayPaths& out);
     void add_around(const WayAround& way, double steps, const RayLimit* limit, RayPaths& out);
-    void add_around_bodies(const RayLimit* limit, RayPaths& out);
+    void add_around_edge(std::size_t edge, const RayLimit* limit, RayPaths& out);
+    void add_around_bodies(bool left, const RayLimit* limit, RayPaths& out);
     void pass_beside(std::size_t edge, const RayLimit* limit, RayPaths& out);
     double loss_of(const RayHit& hit, const RayMaterials& materials);
     bool is_near(const WallEdge& edge, double detour) const;
@@ -109,7 +111,7 @@ class RayTracer {
     bool pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft);
     bool is_faint(const Draft& draft) const;
     void finish(const Draft& draft, bool bright, double length);
-    std::optional<RayHit> crossing(const Crossing& c, Vec3 from, Vec3 along);
+    std::optional<RayHit> crossing(const Crossing& c, Vec3 from, Vec3 along, bool whole_ends);
     std::span<const RayHit> reflections_of(const Candidate& c) const {
         return std::span(reflections_).subspan(c.first, c.count);
     }

@@ -56,6 +56,9 @@ Validation validate(const ValidationSize& size, const std::optional<std::string>
     check_counts(out.promises);
     begin("access to the medium");
     check_access(out.promises);
+    begin("motion");
+    check_motion(out.promises);
+    check_ray_shadows(out.promises);
     return out;
 }
 

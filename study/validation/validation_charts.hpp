@@ -60,6 +60,10 @@ void check_counts(Promises& promises);
 
 /// Saturated cells, and the time of the next access.
 void check_access(Promises& promises);
+/// Places and speeds of robots: random waypoint, and arcs in the open and at a wall.
+void check_motion(Promises& promises);
+/// Shadows of the model `rays`: of walls' ends, of blocks, of walls drawn askew.
+void check_ray_shadows(Promises& promises);
 
 /// Draw in (0, 1) of a validation. @param what  its name, and what is drawn
 double validation_draw(std::string_view what, std::uint64_t of, std::uint64_t index);

@@ -113,6 +113,18 @@ TEST_CASE("unlikely: a robot that starts off the map is a notice, once for all o
     check_notice(on_map + two, {"robot \"B\"", "1 m off the map", "and 1 more"});
 }
 
+TEST_CASE("unlikely: a wall without a material that is a metre thick is a notice with rays") {
+    const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
+    const std::string rays = "[propagation]\nmodel = \"rays\"\n";
+    check_notice(
+        on_map + robot + rays,
+        {":7:1: what is drawn behind x = ", "thicker than 0.5 m, up to 1 m", "0.5 m thick"});
+    CHECK(notices_of(on_map + robot).empty());
+    CHECK(notices_of(robot + rays).empty());
+    const std::string given = "[scene.materials]\nshelf = { grey = [0, 140], loss = \"3 dB\" }\n";
+    CHECK(notices_of(on_map + given + robot + rays).empty());
+}
+
 TEST_CASE("unlikely: walls that are in the map and in N, too, are a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string own = "propagation = { model = \"raytrace_2007\" }\n";

@@ -213,8 +213,11 @@ TEST_CASE("rays: nothing jumps at the free end of a wall, whose material is give
                 const Rays model{.order = 0, .diffraction = by, .wall = wall};
                 CAPTURE(static_cast<int>(by));
                 CAPTURE(static_cast<int>(wall));
-                CHECK(largest_step(model, scene, {-6, 2}, {6, -2.2}, {6, -1.8}) < 0.7);
-                CHECK(largest_step(model, scene, {-6, 0}, {6, -0.2}, {6, 0.2}) < 0.7);
+                // Plasterboard turns the phase by half a wave: the border is a null of the field.
+                const bool null = by == RayDiffraction::utd && wall == ItuMaterial::plasterboard;
+                const double limit = null ? 1 : 0.1;
+                CHECK(largest_step(model, scene, {-6, 2}, {6, -2.2}, {6, -1.8}) < limit);
+                CHECK(largest_step(model, scene, {-6, 0}, {6, -0.2}, {6, 0.2}) < limit);
             }
         }
 }
@@ -228,7 +231,7 @@ TEST_CASE("rays: shelves in a row are gone around one by one") {
         const double lost = loss(model, drawn(shelves, metal), {-8, 0.3}, {8, 0.1}) -
                             free_space_db(distance({-8, 0.3}, {8, 0.1}), f);
         CHECK(lost > 30);
-        CHECK(lost < 110);
+        CHECK(lost < 70);
     }
 }
 

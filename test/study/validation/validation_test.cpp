@@ -87,6 +87,16 @@ TEST_CASE("validation: cells and accesses are as theory says") {
     check_kept(promises);
 }
 
+TEST_CASE("validation: robots are where closed forms have them") {
+    Promises promises;
+    check_motion(promises);
+    CHECK(promises.size() == 4);
+    check_kept(promises);
+    // Each robot is a sample: the mean is not met to the last digit.
+    CHECK(promises[0].worst > 1e-4);
+    CHECK(promises[1].worst > 1e-4);
+}
+
 TEST_CASE("validation: lengths of walls are exact, and every naive way is off") {
     Promises promises;
     const ValidationChart chart = wall_length_chart(few, promises);
