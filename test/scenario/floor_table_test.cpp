@@ -142,7 +142,7 @@ TEST_CASE("floors: an antenna that its height alone puts on another storey is a 
     };
     const auto told = notices(ground() + upper() + robot("0 m", "3.2 m"));
     REQUIRE(told.size() == 1);
-    for (const char* word : {"s.toml:13:9", "\"AP\"", "3.2 m", "1 storey higher", "antenna_height"})
+    for (const char* word : {"s.toml:12:9", "\"AP\"", "3.2 m", "1 storey higher", "antenna_height"})
         CHECK(told[0].find(word) != std::string::npos);
     CHECK(notices(ground() + upper() + robot("0 m", "2.5 m")).empty());
     CHECK(notices(ground() + upper() + robot("3 m", "3.2 m")).empty());
