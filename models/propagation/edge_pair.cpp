@@ -40,13 +40,18 @@ Complex sector(double angle, double sine, double nu_first, double nu_last) {
 /// Weight of the face's mirrored part: 1 at an edge in the way, 0 far above one that is lit.
 double nearness(double nu) { return nu >= 0 ? 1 : std::max(0.0, 1 - nu * nu / 9); }
 
+double nu_of(double bend, double wavelength) {
+    return std::copysign(2 * std::sqrt(std::abs(bend) / wavelength), bend);
+}
+
 }  // namespace
 
+double mirrored_share(const EdgePair& pair, double wavelength) {
+    return nearness(nu_of(pair.first, wavelength)) * nearness(nu_of(pair.last, wavelength));
+}
+
 Complex pair_field(const EdgePair& pair, double wavelength) {
-    const auto nu_of = [&](double bend) {
-        return std::copysign(2 * std::sqrt(std::abs(bend) / wavelength), bend);
-    };
-    const double first = nu_of(pair.first), last = nu_of(pair.last);
+    const double first = nu_of(pair.first, wavelength), last = nu_of(pair.last, wavelength);
     const double both = (pair.before + pair.along) * (pair.along + pair.after);
     const double rho = std::sqrt(pair.before * pair.after / both);
     const double sine =

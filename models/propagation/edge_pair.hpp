@@ -40,4 +40,8 @@ struct EdgePair {
 /// field-strength predictions, Proc. IEE 109C, 1962, for two screens: V(pi/2 + asin rho) alone.
 math::Complex pair_field(const EdgePair& pair, double wavelength);
 
+/// Share of the face's reflection that pair_field() holds [-]: 1 where both edges stand in the way,
+/// 0 where one is far off.
+double mirrored_share(const EdgePair& pair, double wavelength);
+
 }  // namespace rovernet

@@ -2,6 +2,7 @@
 #include "models/propagation/ray_tracer.hpp"
 
 #include "models/propagation/friis.hpp"
+#include "sim/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +56,7 @@ void RayTracer::trace(Vec3 to, const RayLimit* limit, RayPaths& out) {
     best_ = std::numeric_limits<double>::infinity();
     points_.clear();
     reflections_.clear();
+    grazed_.clear();
     add(*plan({}, limit), limit, out);
     if (!edges_.all().empty()) add_diffracted(limit, out);
     propose(to, limit);
@@ -154,6 +156,10 @@ void RayTracer::add(const Candidate& path, const RayLimit* limit, RayPaths& out)
     const auto points = std::span(points_).subspan(path.first_point, path.count + 2);
     for (const RayHit& hit : reflections)
         if (limit) draft.loss += loss_of(hit, limit->materials);
+    // The reflection by a face that the straight path grazes is in the field of the face's edges.
+    for (const GrazedFace& grazed : grazed_)
+        if (path.count == 1 && reflections[0].face == grazed.face)
+            draft.loss -= 20 * math::log10(std::max(1e-10, 1 - grazed.share));
     bool bright = !is_faint(draft);
     for (std::size_t leg = 0; bright && leg <= path.count; ++leg) {
         const Vec3 p = points[leg], q = points[leg + 1];
@@ -270,7 +276,12 @@ void RayTracer::pass_beside(std::size_t e, const RayLimit* limit, RayPaths& out)
     auto way = edges_.around(edge, a_, b_);
     if (!way || way->detour >= near) return;
     const std::size_t other = edges_.join_next_corner(*way, e, false, a_, b_);
-    if (other != no_edge) done_[other] = true;
+    if (other != no_edge) {
+        done_[other] = true;
+        const double share = mirrored_share(*way->edge.pair, wavelength_);
+        if (other == edge.next) grazed_.push_back({edge.behind, share});
+        if (other == edge.previous) grazed_.push_back({edge.before, share});
+    }
     if (!out.beside || way->detour < out.beside->detour) out.beside = way->edge;
     if (!limit || limit->diffraction == RayDiffraction::utd)
         add_around(*way, edge.steps, limit, out);

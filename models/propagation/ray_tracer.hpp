@@ -96,6 +96,11 @@ class RayTracer {
         WayAround way;
         bool left;
     };
+    /// Face that the straight path grazes, and the share of its reflection in its edges' field.
+    struct GrazedFace {
+        std::size_t face;
+        double share;
+    };
     void propose(Vec3 to, const RayLimit* limit);
     std::optional<Candidate> plan(std::span<const std::uint32_t> chain, const RayLimit* limit);
     bool place(std::span<const std::uint32_t> chain, double flat, std::span<Vec3> points) const;
@@ -137,6 +142,7 @@ class RayTracer {
     std::vector<char> done_;            // by edge: a way has it
     std::vector<BodyWay> bodies_;       // ways around single bodies in the straight path
     std::vector<std::size_t> passed_;
+    std::vector<GrazedFace> grazed_;
     std::array<KnownSlab, 6> known_{};  // the last ones, of the same materials
     std::size_t next_known_ = 0;
 };

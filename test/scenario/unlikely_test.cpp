@@ -121,7 +121,8 @@ TEST_CASE("unlikely: a wall without a material that is a metre thick is a notice
         {":7:1: what is drawn behind x = ", "thicker than 0.5 m, up to 1 m", "0.5 m thick"});
     CHECK(notices_of(on_map + robot).empty());
     CHECK(notices_of(robot + rays).empty());
-    const std::string given = "[scene.materials]\nshelf = { grey = [0, 140], loss = \"3 dB\" }\n";
+    const std::string given =
+        "[scene.materials]\nshelf = { greys = [0, 140], per_crossing = \"3 dB\" }\n";
     CHECK(notices_of(on_map + given + robot + rays).empty());
 }
 
