@@ -135,8 +135,10 @@ ValidationChart shadowing_chart(const ValidationSize& size) {
             detail_of(field, "flips per second"), field.cost.median));
     }
     chart.sentences.push_back(
-        "The true process has no rate of its own: it flips the more often the more often one looks, "
-        "without end. So give the look with every number of flips; choose `field`, whose flips hardly "
+        "The true process has no rate of its own: it flips the more often the more often one "
+        "looks, "
+        "without end. So give the look with every number of flips; choose `field`, whose flips "
+        "hardly "
         "grow from 1 s to 0.1 s; and fit its decorrelation distance by levels, not by flips.");
     return chart;
 }
