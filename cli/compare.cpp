@@ -317,6 +317,7 @@ void compare(const CompareArguments& a) {
         run_study(a, study, store, {}, a.store ? Finished::is_kept : Finished::is_lost);
     if (is_part) {
         Store whole = Store::open_to_write(*a.store);
+        whole.set_points(whole.points());
         copy_runs(store, whole);
     }
     check_interrupted(a, result.progress.left == 0);
