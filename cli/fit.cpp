@@ -7,11 +7,13 @@
 #include "scenario/reader.hpp"
 #include "scenario/toml.hpp"
 #include "study/calibration.hpp"
+#include "study/distributions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -108,22 +110,29 @@ Table as_table(const Fit& fit) {
     return table;
 }
 
-std::string parameter_text(const FittedParameter& p) {
+/// Half of the 95 % interval of a parameter: its standard error by group times the quantile of
+/// Student's t with groups - 1 degrees of freedom. Nothing with one group.
+std::optional<double> half_width(const FittedParameter& p, std::size_t groups) {
+    if (groups < 2 || !std::isfinite(p.se_by_group)) return std::nullopt;
+    return t_critical(static_cast<double>(groups - 1), 0.05) * p.se_by_group;
+}
+
+std::string parameter_text(const FittedParameter& p, std::size_t groups) {
     if (!p.determined) return fmt::format("{} as it stands", p.key);
     std::string out = fmt::format("{} {:.4g}", p.key, p.value);
     if (p.at_bound) {
         out += " (held)";
-    } else if (std::isfinite(p.se_by_group)) {
-        out += fmt::format(" +- {:.2g}", p.se_by_group);
+    } else if (const auto half = half_width(p, groups)) {
+        out += fmt::format(" +- {:.2g}", *half);
     }
     return p.unit.empty() ? out : out + " " + p.unit;
 }
 
-std::string parameters_text(const CalibratedModel& m) {
+std::string parameters_text(const CalibratedModel& m, std::size_t groups) {
     if (!m.failure.empty()) return m.failure;
     if (m.parameters.empty()) return "nothing is free";
     std::vector<std::string> texts;
-    for (const FittedParameter& p : m.parameters) texts.push_back(parameter_text(p));
+    for (const FittedParameter& p : m.parameters) texts.push_back(parameter_text(p, groups));
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
@@ -146,7 +155,7 @@ void print_calibrated(const Calibration& c) {
                    unless_failed(fmt::format("{:.1f} %", 100 * e.wrong())),
                    unless_failed(fmt::format("{}", e.false_up)),
                    unless_failed(fmt::format("{}", e.false_down)), short_text(m.as_given),
-                   short_text(m.checked), parameters_text(m)});
+                   short_text(m.checked), parameters_text(m, c.known.groups)});
     }
     fmt::print("{}", table.text());
 }
