@@ -10,6 +10,7 @@
 #include "cli/study_display.hpp"
 #include "cli/study_run.hpp"
 #include "cli/waiting.hpp"
+#include "scenario/quantity.hpp"
 #include "study/advise_chart.hpp"
 #include "study/advise_cost.hpp"
 #include "study/explain.hpp"
@@ -54,7 +55,79 @@ DecisionRule rule_for(const AdviseArguments& a, const StudyTable& study, std::si
     return rule;
 }
 
-/// @throws CommandEnd if the user has ended it before it was done: a part of an advice is none
+/// Time that an advice may take, from its beginning.
+class Budget {
+  public:
+    /// @throws InputError unless the text is a time above 0
+    explicit Budget(const std::string& text) {
+        Value value(text);
+        value.where = {"--budget " + text, 0, 0, true};
+        seconds_ = read_quantity(value, "budget", Dimension::time);
+        if (!(seconds_ > 0)) throw InputError(value.where, "expected a time > 0");
+    }
+    double seconds() const { return seconds_; }
+    bool is_spent() const {
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
+        return taken.count() >= seconds_;
+    }
+
+  private:
+    double seconds_ = 0;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// Makes the runs of a block; false if the user or the budget stopped it.
+/// @throws CommandEnd if a run failed: the others could not be told apart then
+bool make_block(const AdviseArguments& a, Study& study, Store& store, const Budget& budget,
+                const std::vector<std::uint32_t>& replications) {
+    StudyArguments arguments = a;
+    arguments.fail_fast = true;
+    SweepOptions options;
+    options.replications = replications;
+    options.stop = [&] {
+        if (!budget.is_spent()) return Stop::no;
+        return a.store ? Stop::when_idle : Stop::at_once;
+    };
+    const SweepResult result = run_study(arguments, study, store, std::move(options),
+                                         a.store ? Finished::is_kept : Finished::is_lost);
+    if (result.progress.failed > 0) {
+        const StoredRun& run = *result.failure;
+        throw CommandEnd(
+            partly_failed,
+            fmt::format("a run failed, and without it there is no advice: {}\n  {}", run.error,
+                        run_command(store, store.points().at(run.point), run.replication)));
+    }
+    return result.progress.left == 0;
+}
+
+/// Makes two runs of the reference, which are needed anyway, and says what all may take: by the CPU
+/// time of the second, as the first one also plans ways and reads maps.
+void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std::uint64_t most,
+               const Budget& budget, Study& study, Store& store) {
+    const std::size_t top = candidates.reference_path_loss();
+    const std::uint32_t point = *candidates.points[top][candidates.reference_reception()];
+    std::vector<std::uint32_t> two(candidates.family() + 1);
+    two[point] = static_cast<std::uint32_t>(std::min<std::uint64_t>(2, most));
+    if (!make_block(a, study, store, budget, two)) return;
+    double run_s = 0;
+    for (const StoredRun& run : store.runs()) {
+        if (run.point == point && run.replication <= 1) run_s = run.measurement.cpu_s;
+    }
+    constexpr std::uint64_t least = 10;
+    constexpr double long_time = 60;  // [s]
+    const double all = run_s * static_cast<double>(most);
+    if (all < long_time) return;
+    notice(fmt::format(
+        "a run with the reference, {}, takes about {:.2g} s of CPU; the {} to {} of them that "
+        "verdicts may need take {} to {} on one worker, and the candidates' come to that. "
+        "--budget {} ends it with the interim verdict; a larger --tolerance or a cheaper "
+        "--reference takes less",
+        candidates.path_losses[top].name, run_s, std::min(least, most), most,
+        duration_text(run_s * static_cast<double>(std::min(least, most))), duration_text(all),
+        a.budget));
+}
+
+/// Ends the command if the user ended it: what was known by then has been printed.
 void check_not_stopped(const AdviseArguments& a) {
     if (stops_asked() == 0) return;
     throw CommandEnd(interrupted,
@@ -62,50 +135,10 @@ void check_not_stopped(const AdviseArguments& a) {
                              : "interrupted; --store FILE would have kept the runs");
 }
 
-/// Makes the runs of a block.
-/// @throws CommandEnd if it was stopped, or a run failed: the others could not be told apart then
-void make_block(const AdviseArguments& a, Study& study, Store& store,
-                const std::vector<std::uint32_t>& replications) {
-    StudyArguments arguments = a;
-    arguments.fail_fast = true;
-    SweepOptions options;
-    options.replications = replications;
-    const SweepResult result = run_study(arguments, study, store, std::move(options),
-                                         a.store ? Finished::is_kept : Finished::is_lost);
-    if (result.progress.left > 0) check_not_stopped(a);
-    if (result.progress.failed == 0) return;
-    const StoredRun& run = *result.failure;
-    throw CommandEnd(
-        partly_failed,
-        fmt::format("a run failed, and without it there is no advice: {}\n  {}", run.error,
-                    run_command(store, store.points().at(run.point), run.replication)));
-}
-
-/// Makes the first run of the reference, which is needed anyway, and says what all may take.
-void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std::uint64_t most,
-               Study& study, Store& store) {
-    const std::size_t top = candidates.reference_path_loss();
-    const auto& with_it = candidates.points[top];
-    std::vector<std::uint32_t> one(candidates.family() + 1);
-    one[*with_it[candidates.reference_reception()]] = 1;
-    const auto begin = std::chrono::steady_clock::now();
-    make_block(a, study, store, one);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    const auto receptions = std::count_if(with_it.begin(), with_it.end(),
-                                          [](const auto& point) { return point.has_value(); });
-    const double all = taken.count() * static_cast<double>(most) * static_cast<double>(receptions);
-    constexpr double long_time = 60;  // [s]
-    if (all < long_time) return;
-    notice(fmt::format(
-        "a run with the reference, {}, takes about {:.2g} s; up to {} runs with each of {} "
-        "receptions may take {} on one worker. --max-replications, a larger --tolerance or a "
-        "cheaper --reference take less",
-        candidates.path_losses[top].name, taken.count(), most, receptions, duration_text(all)));
-}
-
 }  // namespace
 
 void advise(const AdviseArguments& a) {
+    const Budget budget(a.budget);
     if (a.picture) check_picture_name(*a.picture);
     ScenarioOptions options = options_of(a);
     if (a.metric == "reach") options.set.emplace_back("metrics.reach=true");
@@ -123,18 +156,20 @@ void advise(const AdviseArguments& a) {
     const PassingStore passing;
     Store store = open_store(a.store.value_or(passing.file()), study);
     const DecisionRule rule = rule_for(a, scenario.study, candidates.family());
-    tell_time(a, candidates, rule.most, study, store);
-    Advice advice = rovernet::advise(
-        candidates, store, a.metric, rule,
-        [&](const auto& replications) { make_block(a, study, store, replications); });
-    if (!a.no_cost) {
-        add_costs(advice, study, [] { return stops_asked() > 0; });
-        check_not_stopped(a);
-    }
+    tell_time(a, candidates, rule.most, budget, study, store);
+    Advice advice =
+        rovernet::advise(candidates, store, a.metric, rule, [&](const auto& replications) {
+            return make_block(a, study, store, budget, replications);
+        });
+    if (!a.no_cost && !advice.stopped) add_costs(advice, study, [] { return stops_asked() > 0; });
     if (a.picture) {
         write_picture(*a.picture, chart_svg(advice_charts(advice), {.width = 480}));
     }
     print_advice(advice, a.json);
+    if (advice.stopped && stops_asked() == 0) {
+        notice(fmt::format("the budget of {} is spent: this is the interim verdict", a.budget));
+    }
+    check_not_stopped(a);
 }
 
 }  // namespace rovernet::cli

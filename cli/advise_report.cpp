@@ -18,7 +18,7 @@ std::string_view verdict_of(const JudgedCandidate& each) {
     switch (each.decision.verdict()) {
         case Equivalence::within: return "sufficient";
         case Equivalence::outside: return "insufficient";
-        default: return each.needed ? "undecided" : "not needed";
+        default: return each.needed ? "undecided" : "not needed";  // or open, if it was stopped
     }
 }
 
@@ -182,6 +182,7 @@ Table as_json(const Advice& advice) {
     choice.set("reception", c.receptions[advice.reception].name);
     choice.set("toml", toml_of_choice(advice));
     table.set("choice", std::move(choice));
+    table.set("stopped", advice.stopped);
     table.set("saves_nothing", advice.saves_nothing());
     table.set("advice", advice_text(advice));
     table.set("control_variate", control_variate_text(advice));

@@ -8,10 +8,13 @@
 #include "cli/stop.hpp"
 #include "cli/study_run.hpp"
 #include "cli/text_table.hpp"
+#include "experiment/version.hpp"
+#include "files/input_file.hpp"
 #include "scenario/json.hpp"
 #include "scenario/toml.hpp"
 #include "study/compare_cost.hpp"
 #include "study/explain.hpp"
+#include "study/merge.hpp"
 #include "study/precision.hpp"
 #include "study/study_chart.hpp"
 
@@ -20,14 +23,42 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
+#include <sstream>
 
 namespace rovernet::cli {
 namespace {
 
 constexpr std::string_view model_path = "propagation.model";
 
-/// Values that vary: the models that were asked for, or those of the file's [study].
+/// Key of --vary and its values: a TOML list, or values between commas.
+/// @throws InputError whose place is the option, for less than two values
+Vary key_to_vary(const std::string& given) {
+    const std::string typed = "--vary " + given;
+    const Location option{typed, 0, 0, true};
+    const std::size_t equals = given.find('=');
+    const auto value_of = [&](const std::string& text) {
+        Value document{Table{}};
+        set_option(document, "value=" + text, typed);
+        return *document.table()->find("value");
+    };
+    Vary vary{given.substr(0, equals), option, {}};
+    if (equals != std::string::npos) {
+        const Value all = value_of(given.substr(equals + 1));
+        if (all.array()) vary.values = *all.array();
+        std::istringstream words(all.string() ? *all.string() : "");
+        for (std::string word; std::getline(words, word, ',');) {
+            vary.values.push_back(value_of(word));
+        }
+    }
+    if (vary.values.size() >= 2) return vary;
+    throw InputError(option, "expected a key and at least two values, such as routing.ttl=4,8");
+}
+
+/// Values that vary: those of --vary, the models that were asked for, or those of the file's
+/// [study].
 Vary models_to_vary(const CompareArguments& a, const StudyTable& study) {
+    if (a.vary) return key_to_vary(*a.vary);
     const Location option{"--models " + fmt::format("{}", fmt::join(a.models, ",")), 0, 0, true};
     Vary vary{std::string(model_path), option, {}};
     for (const std::string& model : a.models) {
@@ -42,12 +73,12 @@ Vary models_to_vary(const CompareArguments& a, const StudyTable& study) {
     if (vary.values.size() >= 2) return vary;
     throw std::invalid_argument(
         "compare needs two models: give --models disc,friis or a file "
-        "whose [study] varies propagation.model");
+        "whose [study] varies propagation.model; or another key, such as --vary routing.ttl=4,8");
 }
 
 std::vector<std::string> names_of(const Vary& models) {
     std::vector<std::string> names;
-    for (const Value& model : models.values) names.push_back(plain_text(model));
+    for (const Value& value : models.values) names.push_back(compared_name(models.path, value));
     return names;
 }
 
@@ -70,11 +101,11 @@ const Value* value_at(const Value& document, std::string_view path) {
 }
 
 /// The other keys that the file's [study] varies, which are held as the file has them.
-std::string held_keys(const StudyTable& study, const Scenario& base) {
+std::string held_keys(const StudyTable& study, const Scenario& base, const std::string& varied) {
     std::vector<std::string> keys;
     const Value document(to_document(base));
     for (const Vary& vary : study.vary) {
-        if (vary.path == model_path) continue;
+        if (vary.path == varied) continue;
         const Value* value = value_at(document, vary.path);
         keys.push_back(value ? fmt::format("{} = {}", vary.path, plain_text(*value)) : vary.path);
     }
@@ -100,6 +131,10 @@ Table as_table(const ComparedModel& m) {
     row.set("difference_n", d ? Value(std::uint64_t{d->difference.n}) : Value());
     row.set("p", d ? Value(d->p) : Value());
     row.set("detectable", d ? d->detectable : std::nullopt);
+    row.set("method", d ? Value(std::string(name_of(d->method))) : Value());
+    row.set("above", d ? Value(std::uint64_t{d->above}) : Value());
+    row.set("below", d ? Value(std::uint64_t{d->below}) : Value());
+    row.set("sign_p", d ? d->sign_p : std::nullopt);
     if (const auto& e = m.equivalence) {
         const auto count = [](const std::optional<std::size_t>& n) {
             return n ? Value(std::uint64_t{*n}) : Value();
@@ -108,6 +143,7 @@ Table as_table(const ComparedModel& m) {
         row.set("verdict", words[static_cast<int>(e->verdict)]);
         row.set("decided_at", count(e->decided_at));
         row.set("needed", count(e->needed));
+        row.set("decidable", e->decidable);
     }
     row.set("error", m.error);
     row.set("error_n", std::uint64_t{m.error_n});
@@ -157,8 +193,8 @@ std::string cost_text(const std::optional<MediumCost>& cost) {
 }
 
 void print_table(const Comparison& c) {
-    TextTable table({"model", c.metric, "n", "minus " + c.baseline, "n",
-                     "error to " + c.most_detailed, "n", "CPU/frame", "of run"});
+    TextTable table({c.path == model_path ? "model" : c.path, c.metric, "n", "minus " + c.baseline,
+                     "n", "error to " + c.most_detailed, "n", "CPU/frame", "of run"});
     const auto count = [](std::size_t n) { return fmt::format("{}", n); };
     for (const ComparedModel& m : c.models) {
         const Answer& a = m.answer;
@@ -208,6 +244,28 @@ void print_text(const Comparison& c) {
     }
 }
 
+/// Whether a store has all points of a comparison, and others: a sweep over more keys or values.
+bool has_more(const std::string& path, const Study& study) {
+    if (input_kind(path) == InputKind::nothing) return false;
+    const Store store = Store::open(path);
+    if (store.property("version") != code_version()) return false;
+    std::set<std::string> ids;
+    for (const StoredPoint& point : store.points()) ids.insert(point.id);
+    const auto known = [&](const StudyPoint& point) { return ids.contains(point.id); };
+    return std::ranges::all_of(study.points(), known) && ids.size() > study.points().size();
+}
+
+/// Name of the baseline; a value of --vary stands for its name. @throws std::invalid_argument if it
+/// is not compared
+std::string baseline_of(const CompareArguments& a, const Vary& models) {
+    if (a.baseline.empty()) return "";
+    const std::vector<std::string> names = names_of(models);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (plain_text(models.values[i]) == a.baseline) return names[i];
+    }
+    return names[place_of(a.baseline, names)];
+}
+
 /// @throws InputError for a margin that every difference of the metric is within
 void check_margin(const CompareArguments& a, const std::string& metric) {
     const Bounds range = difference_bounds(bounds_of(metric));
@@ -247,19 +305,28 @@ void compare(const CompareArguments& a) {
     if (metric == "reach") options.set.push_back("metrics.reach=true");
     Study study(a.file, options, std::vector<Vary>{models});
     for (const std::string& text : study.base().notices) notice(text);
-    if (!a.baseline.empty()) place_of(a.baseline, names_of(models));
+    const std::string baseline = baseline_of(a, models);
     check_metric(metric, study.base(), {"--metric " + metric, 0, 0, true});
     check_margin(a, metric);
     const HeldStop until_gone;
     const PassingStore passing;
-    Store store = open_store(a.store.value_or(passing.file()), study);
+    const bool is_part = a.store && has_more(*a.store, study);
+    Store store = open_store(a.store && !is_part ? *a.store : passing.file(), study);
+    if (is_part) copy_runs(Store::open(*a.store), store);
     const SweepResult result =
         run_study(a, study, store, {}, a.store ? Finished::is_kept : Finished::is_lost);
+    if (is_part) {
+        Store whole = Store::open_to_write(*a.store);
+        whole.set_points(whole.points());
+        copy_runs(store, whole);
+    }
     check_interrupted(a, result.progress.left == 0);
-    Comparison comparison = compare_models(store, metric, a.baseline, a.margin);
-    add_costs(comparison, study, store, [] { return stops_asked() > 0; });
-    check_interrupted(a, false);
-    comparison.held = held_keys(given, study.base());
+    Comparison comparison = compare_models(store, metric, baseline, a.margin);
+    if (models.path == model_path) {
+        add_costs(comparison, study, store, [] { return stops_asked() > 0; });
+        check_interrupted(a, false);
+    }
+    comparison.held = held_keys(given, study.base(), models.path);
     if (a.picture) {
         write_picture(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));
     }

@@ -7,11 +7,13 @@
 #include "scenario/reader.hpp"
 #include "scenario/toml.hpp"
 #include "study/calibration.hpp"
+#include "study/distributions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -120,22 +122,29 @@ Table as_table(const Fit& fit) {
     return table;
 }
 
-std::string parameter_text(const FittedParameter& p) {
+/// Half of the 95 % interval of a number that was fitted: its standard error by group times the
+/// quantile of Student's t with groups - 1 degrees of freedom. Nothing with one group.
+std::optional<double> half_width(double se_by_group, std::size_t groups) {
+    if (groups < 2 || !std::isfinite(se_by_group)) return std::nullopt;
+    return t_critical(static_cast<double>(groups - 1), 0.05) * se_by_group;
+}
+
+std::string parameter_text(const FittedParameter& p, std::size_t groups) {
     if (!p.determined) return fmt::format("{} as it stands", p.key);
     std::string out = fmt::format("{} {:.4g}", p.key, p.value);
     if (p.at_bound) {
         out += " (held)";
-    } else if (std::isfinite(p.se_by_group)) {
-        out += fmt::format(" +- {:.2g}", p.se_by_group);
+    } else if (const auto half = half_width(p.se_by_group, groups)) {
+        out += fmt::format(" +- {:.2g}", *half);
     }
     return p.unit.empty() ? out : out + " " + p.unit;
 }
 
-std::string parameters_text(const CalibratedModel& m) {
+std::string parameters_text(const CalibratedModel& m, std::size_t groups) {
     if (!m.failure.empty()) return m.failure;
     if (m.parameters.empty()) return "nothing is free";
     std::vector<std::string> texts;
-    for (const FittedParameter& p : m.parameters) texts.push_back(parameter_text(p));
+    for (const FittedParameter& p : m.parameters) texts.push_back(parameter_text(p, groups));
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
@@ -158,7 +167,7 @@ void print_calibrated(const Calibration& c) {
                    unless_failed(fmt::format("{:.1f} %", 100 * e.wrong())),
                    unless_failed(fmt::format("{}", e.false_up)),
                    unless_failed(fmt::format("{}", e.false_down)), short_text(m.as_given),
-                   short_text(m.checked), parameters_text(m)});
+                   short_text(m.checked), parameters_text(m, c.known.groups)});
     }
     fmt::print("{}", table.text());
 }
@@ -177,9 +186,9 @@ void print_gains(const Calibration& c) {
         std::vector<std::string> row{fmt::format("({:.2f}, {:.2f}, {:.2f}) m", at.x, at.y, at.z)};
         for (const CalibratedModel* m : models) {
             const Coefficient& gain = m->gains[t].gain;
-            row.push_back(std::isfinite(gain.se_by_group)
-                              ? fmt::format("{:+.1f} +- {:.1f} dB", gain.value, gain.se_by_group)
-                              : fmt::format("{:+.1f} dB", gain.value));
+            const auto half = half_width(gain.se_by_group, c.known.groups);
+            row.push_back(half ? fmt::format("{:+.1f} +- {:.1f} dB", gain.value, *half)
+                               : fmt::format("{:+.1f} dB", gain.value));
         }
         table.add(row);
     }

@@ -46,6 +46,7 @@ void sweep(const SweepArguments& arguments);
 
 struct CompareArguments : StudyArguments {
     std::vector<std::string> models;
+    std::optional<std::string> vary;  ///< KEY=VALUE,VALUE,... in place of models
     std::string metric, baseline;
     std::optional<double> margin;
     std::optional<std::string> picture;
@@ -57,6 +58,7 @@ struct AdviseArguments : StudyArguments {
     std::optional<double> tolerance;
     CandidateQuestion question;
     bool no_cost = false;
+    std::string budget = "10 min";
     std::optional<std::string> picture;
 };
 void advise(const AdviseArguments& arguments);

@@ -83,7 +83,8 @@ void add_sweep(Command app, const std::string& typed) {
 
 void add_compare(Command app, const std::string& typed) {
     const auto [compare, a] = add_command(
-        app, "compare", "Propagation models beside each other on one scenario", cli::compare);
+        app, "compare", "Propagation models, or values of another key, beside each other",
+        cli::compare);
     compare.add_examples(
         {"rovernet compare examples/patrol/patrol.toml --models "
          "friis,log_distance --replications 3"});
@@ -91,9 +92,12 @@ void add_compare(Command app, const std::string& typed) {
     add_study_file(compare, a, any_file);
     compare.add_option("--models", a.models, "which (default: those of [study] vary)")
         .delimiter(',');
+    compare
+        .add_option("--vary", a.vary, "any key and its values in place of models: routing.ttl=4,8")
+        .excludes(compare.option("--models"));
     compare.add_option("--metric", a.metric, "compared (default: the study's first)");
     compare.add_option("--baseline", a.baseline,
-                       "to differ from (default: the most detailed model)");
+                       "to differ from (default: the most detailed model, or the first value)");
     compare
         .add_option("--margin", a.margin,
                     "say of each model whether its mean is this near to the baseline's")
@@ -137,6 +141,10 @@ void add_advise(Command app, const std::string& typed) {
         .add_option("--max-replications", a.max_replications,
                     "what is undecided then counts as insufficient (default: 4000)")
         .range(1, 1'000'000);
+    advise
+        .add_option("--budget", a.budget,
+                    "time after which it ends with the interim verdict, such as 60s")
+        .shows_default();
     advise.add_flag("--no-cost", a.no_cost, "do not measure costs, which differ from time to time");
     advise.add_option("--store", a.store, "keep the runs in this file, and go on from there");
     advise.add_option("-o,--output", a.picture, "picture to write: NAME.svg, NAME.png or NAME.pdf");

@@ -75,8 +75,8 @@ SweepResult run_study(const StudyArguments& a, Study& study, Store& store, Sweep
     options.fail_fast = a.fail_fast;
     SweepDisplay display;
     options.progress = [&](const SweepProgress& progress) { display.show(progress); };
-    options.stop = [finished] {
-        if (stops_asked() == 0) return Stop::no;
+    options.stop = [finished, given = options.stop] {
+        if (stops_asked() == 0) return given ? given() : Stop::no;
         const bool is_for_nothing = finished == Finished::is_lost || stops_asked() > 1;
         return is_for_nothing ? Stop::at_once : Stop::when_idle;
     };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace rovernet {
@@ -36,13 +37,17 @@ class Advisor {
         return {candidates_.reference_path_loss(), candidates_.reference_reception()};
     }
     std::size_t replications() const { return most_made_; }
+    bool stopped() const { return stopped_; }
 
   private:
     std::uint32_t point_of(const Combination& c) const {
         return *candidates_.points[c.path_loss][c.reception];
     }
-    void judge_block(Ladder& ladder, const std::vector<Combination>& list, std::size_t from,
-                     std::size_t to);
+    /// Candidates of the next block: wanted, and soon decided.
+    std::vector<std::size_t> turn_of(const Ladder& ladder,
+                                     const std::vector<std::size_t>& made) const;
+    void judge_block(Ladder& ladder, const std::vector<Combination>& list,
+                     const std::vector<std::size_t>& turn, std::vector<std::size_t>& made);
     JudgedCandidate judged(const Combination& c, const Ladder& ladder, std::size_t i) const;
 
     const AdviceCandidates& candidates_;
@@ -51,29 +56,53 @@ class Advisor {
     DecisionRule rule_;
     const MakeRuns& make_runs_;
     std::size_t most_made_ = 0;  // of the reference
+    bool stopped_ = false;
 };
 
-void Advisor::judge_block(Ladder& ladder, const std::vector<Combination>& list, std::size_t from,
-                          std::size_t to) {
-    std::vector<std::uint32_t> asked(candidates_.family() + 1);
-    std::vector<std::size_t> waiting;
-    asked[point_of(reference())] = static_cast<std::uint32_t>(to);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        if (!ladder.wants(i)) continue;
-        waiting.push_back(i);
-        asked[point_of(list[i])] = static_cast<std::uint32_t>(to);
+std::vector<std::size_t> Advisor::turn_of(const Ladder& ladder,
+                                          const std::vector<std::size_t>& made) const {
+    constexpr std::size_t enough_to_tell = 100, never = SIZE_MAX, ratio = 4;
+    std::vector<std::size_t> forecast(ladder.size(), never), turn;
+    for (std::size_t i = 0; i < ladder.size(); ++i) {
+        if (!ladder.wants(i) || made[i] >= rule_.most) continue;
+        if (made[i] < enough_to_tell || !rule_.by_betting()) {
+            forecast[i] = made[i];  // in every turn
+        } else if (const auto needed = ladder[i].needed(); needed && *needed <= rule_.most) {
+            forecast[i] = *needed;
+        }
     }
-    make_runs_(asked);
-    most_made_ = std::max(most_made_, to);
+    const std::size_t least = std::ranges::min(forecast);
+    for (std::size_t i = 0; i < forecast.size(); ++i) {
+        if (forecast[i] == never) continue;
+        if (made[i] < enough_to_tell || forecast[i] / ratio <= least) turn.push_back(i);
+    }
+    return turn;
+}
+
+void Advisor::judge_block(Ladder& ladder, const std::vector<Combination>& list,
+                          const std::vector<std::size_t>& turn, std::vector<std::size_t>& made) {
+    std::vector<std::uint32_t> asked(candidates_.family() + 1);
+    std::vector<std::size_t> from = made;
+    std::uint32_t& of_reference = asked[point_of(reference())];
+    for (const std::size_t i : turn) {
+        made[i] = next_block(made[i], rule_.most);
+        asked[point_of(list[i])] = static_cast<std::uint32_t>(made[i]);
+        of_reference = std::max(of_reference, static_cast<std::uint32_t>(made[i]));
+    }
+    if (!make_runs_(asked)) {
+        stopped_ = true;
+        return;
+    }
+    most_made_ = std::max(most_made_, std::size_t{of_reference});
     ValuesOfPoints values = values_of_points(store_, metric_);
     const auto value = [&](const Combination& c, std::size_t r) {
         const auto& of_point = values[point_of(c)];
         return r < of_point.size() ? of_point[r] : std::nullopt;
     };
-    for (const std::size_t i : waiting) {
-        for (std::size_t r = from; r < to; ++r) {
-            const auto candidate = value(list[i], r), of_reference = value(reference(), r);
-            if (candidate && of_reference) ladder.add(i, *candidate, *of_reference);
+    for (const std::size_t i : turn) {
+        for (std::size_t r = from[i]; r < made[i]; ++r) {
+            const auto candidate = value(list[i], r), of_ref = value(reference(), r);
+            if (candidate && of_ref) ladder.add(i, *candidate, *of_ref);
         }
     }
 }
@@ -111,10 +140,11 @@ JudgedCandidate Advisor::judged(const Combination& c, const Ladder& ladder, std:
 
 std::vector<JudgedCandidate> Advisor::judge(AdviceStep step, const std::vector<Combination>& list) {
     Ladder ladder(list.size(), rule_);
-    for (std::size_t n = 0; n < rule_.most && !ladder.decided();) {
-        const std::size_t next = next_block(n, rule_.most);
-        judge_block(ladder, list, n, next);
-        n = next;
+    std::vector<std::size_t> made(list.size());
+    while (!stopped_ && !list.empty()) {
+        const std::vector<std::size_t> turn = turn_of(ladder, made);
+        if (turn.empty()) break;
+        judge_block(ladder, list, turn, made);
     }
     std::vector<JudgedCandidate> out;
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -175,6 +205,7 @@ Advice advise(const AdviceCandidates& candidates, const Store& store, const std:
         out.judged.insert(out.judged.end(), of_both.begin(), of_both.end());
     }
     out.replications = advisor.replications();
+    out.stopped = advisor.stopped();
     return out;
 }
 

@@ -54,6 +54,7 @@ struct Advice {
     std::vector<JudgedCandidate> judged;
     std::size_t path_loss, reception;  ///< the choice
     std::size_t replications = 0;      ///< replications of the reference
+    bool stopped = false;  ///< ended before every verdict that the choice depends on: interim
     CandidateCost reference_cost;
     std::string cost_text = {};  ///< words on how costs were measured; empty: they were not
 
@@ -64,17 +65,22 @@ struct Advice {
     bool saves_nothing() const;
 };
 
-/// Makes the runs that a study's points lack: of each point so many replications. What it throws
+/// Makes the runs that a study's points lack: of each point so many replications. False: it was
+/// stopped before they were there, and the advice is to be what is known by now. What it throws
 /// ends the advice.
-using MakeRuns = std::function<void(const std::vector<std::uint32_t>& replications)>;
+using MakeRuns = std::function<bool(const std::vector<std::uint32_t>& replications)>;
 
-/// Judges the candidates: all on the same replications, added in blocks; each stops with its
+/// Judges the candidates: each on replications 0, 1, 2, ..., added in blocks; each stops with its
 /// verdict, and all stop when the choice depends on none. First path losses, then receptions, then
 /// the choice of both. What is undecided after `rule.most` replications counts as insufficient. If
 /// the pair is insufficient, the chosen path loss keeps the reference's reception.
 ///
+/// What is soon decided comes first: a block is of the candidates whose forecast is at most 4 times
+/// the least. Once a candidate has 100 replications and its forecast is beyond `rule.most`, it gets
+/// no more of them: it lies too near to the tolerance.
+///
 /// Depends on results alone: not on the number of workers, the speed of a machine, or what the
-/// store has already.
+/// store has already; unless make_runs() stops it.
 /// @param store  of a study over candidates.vary() and candidates.exclude()
 Advice advise(const AdviceCandidates& candidates, const Store& store, const std::string& metric,
               const DecisionRule& rule, const MakeRuns& make_runs);

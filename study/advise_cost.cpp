@@ -108,8 +108,14 @@ std::string undecided_text(const Advice& advice) {
                                : each.name);
     }
     if (names.empty()) return "";
+    if (advice.stopped) {
+        return fmt::format(
+            " Open when it was stopped, and taken as insufficient so far: {}. A larger --budget, "
+            "or a larger --tolerance, decides; with --store the same command goes on.",
+            fmt::join(names, ", "));
+    }
     return fmt::format(
-        " Undecided after {} replications, and taken as insufficient: {}. More replications "
+        " Undecided within {} replications, and taken as insufficient: {}. More replications "
         "(--max-replications), a longer scenario or a larger --tolerance decide.",
         advice.rule.most, fmt::join(names, ", "));
 }
@@ -152,8 +158,10 @@ std::string advice_text(const Advice& advice) {
     const AdviceCandidates& c = advice.candidates;
     const std::string reference = c.name_of(c.reference_path_loss(), c.reference_reception());
     const JudgedCandidate* chosen = advice.chosen();
+    const std::string interim = advice.stopped ? "Interim: " : "";
     if (!chosen) {
-        return fmt::format("Take the reference, {}: no cheaper candidate was found sufficient.{}",
+        return interim +
+               fmt::format("Take the reference, {}: no cheaper candidate was found sufficient.{}",
                            reference, undecided_text(advice));
     }
     const std::string sure = fmt::format(
@@ -167,8 +175,9 @@ std::string advice_text(const Advice& advice) {
             1e3 * advice.reference_cost.run_s, chosen->name, nearness_text(advice, reference), sure,
             undecided_text(advice));
     }
-    return fmt::format("Take {}: {} ({}).{}{}", chosen->name, nearness_text(advice, reference),
-                       sure, saving_text(advice, chosen->cost), undecided_text(advice));
+    return interim + fmt::format("Take {}: {} ({}).{}{}", chosen->name,
+                                 nearness_text(advice, reference), sure,
+                                 saving_text(advice, chosen->cost), undecided_text(advice));
 }
 
 std::string control_variate_text(const Advice& advice) {

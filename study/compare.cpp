@@ -2,6 +2,7 @@
 #include "study/compare.hpp"
 
 #include "models/propagation/list.hpp"
+#include "scenario/toml.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -15,10 +16,12 @@
 namespace rovernet {
 namespace {
 
-std::string model_of(const Answer& answer) {
-    const Value* model = answer.settings.find("propagation.model");
-    if (model && model->string()) return *model->string();
-    throw std::invalid_argument("compare: the store's study does not vary propagation.model");
+constexpr std::string_view model_path = "propagation.model";
+
+/// The one key that varies, and its value.
+const Entry& setting_of(const Answer& answer) {
+    if (answer.settings.entries.size() == 1) return answer.settings.entries.front();
+    throw std::invalid_argument("compare: the store's study does not vary one key alone");
 }
 
 /// The values of two models in the replications in which both have one.
@@ -122,6 +125,11 @@ void compare_with_baseline(Comparison& comparison, const ComparedModel& baseline
 
 }  // namespace
 
+std::string compared_name(const std::string& path, const Value& value) {
+    if (path == model_path) return plain_text(value);
+    return fmt::format("{}={}", path.substr(path.rfind('.') + 1), plain_text(value));
+}
+
 std::size_t place_of(const std::string& model, const std::vector<std::string>& models) {
     const auto found = std::find(models.begin(), models.end(), model);
     if (found != models.end()) return static_cast<std::size_t>(found - models.begin());
@@ -137,10 +145,13 @@ Comparison compare_models(const Store& store, const std::string& metric,
     const Inventory inventory = inventory_of(store);
     const std::vector<double> cpu = mean_cpu(store, all.list.size());
     std::vector<std::string> names;
-    for (const Answer& answer : all.list) names.push_back(model_of(answer));
+    for (const Answer& answer : all.list) {
+        names.push_back(compared_name(setting_of(answer).key, setting_of(answer).value));
+    }
     Comparison comparison{.metric = metric,
                           .baseline = baseline.empty() ? most_detailed_of(names) : baseline,
                           .most_detailed = most_detailed_of(names),
+                          .path = setting_of(all.list.front()).key,
                           .confidence = confidence_of(store),
                           .margin = margin,
                           .models = {},

@@ -14,9 +14,10 @@
 
 namespace rovernet {
 
-/// Propagation model among those that are compared over common random numbers.
+/// Propagation model, or value of another key, among those that are compared over common random
+/// numbers.
 struct ComparedModel {
-    std::string model;
+    std::string model;                  ///< "friis", "ttl=4"
     Answer answer;                      ///< the metric of all its replications, as results have it
     double cpu_s = 0;                   ///< [s] mean per run
     std::optional<MediumCost> cost;     ///< cost of the medium; see add_costs()
@@ -44,7 +45,9 @@ struct PairedVariance {
 };
 
 struct Comparison {
-    std::string metric, baseline, most_detailed;
+    std::string metric, baseline;
+    std::string most_detailed;  ///< most detailed model; of another key the first value
+    std::string path = {};      ///< key that varies
     double confidence = 0.95;
     std::optional<double> margin;       ///< margin, in the metric's unit
     std::vector<ComparedModel> models;  ///< models, as in the study
@@ -58,10 +61,14 @@ struct Comparison {
 /// @throws std::invalid_argument if it is none of them
 std::size_t place_of(const std::string& baseline, const std::vector<std::string>& models);
 
-/// Compares the models of a store whose study varies propagation.model alone, each pair over the
-/// replications in which both have a value. The most detailed model is the last of them in the list
-/// of `rovernet models`: what is said of errors does not depend on how fast a machine is.
-/// @param  baseline  one of the models; the most detailed one if empty
+/// Name of what is compared at a value of a key: "friis" of propagation.model, else "ttl=4".
+std::string compared_name(const std::string& path, const Value& value);
+
+/// Compares the models of a store whose study varies propagation.model alone, or the values of the
+/// one key that it varies, each pair over the replications in which both have a value. The most
+/// detailed model is the last of them in the list of `rovernet models`: what is said of errors does
+/// not depend on how fast a machine is. Of another key errors are distances to the first value.
+/// @param  baseline  one of the names; the most detailed one if empty
 /// @param  margin    > 0, in the metric's unit: how far from the baseline a model may lie and still
 ///                   count as good; if not given, this is not judged
 /// @throws std::invalid_argument if the metric or the baseline is unknown

@@ -8,8 +8,31 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 
 namespace rovernet {
+
+void copy_runs(const Store& from, Store& to) {
+    std::map<std::string, std::uint32_t> numbers;
+    for (const StoredPoint& point : to.points()) numbers[point.id] = point.number;
+    std::map<std::string, bool> known;  // run -> finished
+    for (const StoredRun& run : to.runs()) known[run.id] = run.error.empty();
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<MetricValue>> metrics;
+    from.for_each_value([&](const StoredValue& value, const std::string& metric) {
+        metrics[{value.point, value.replication}].push_back({metric, value.value});
+    });
+    std::map<std::uint32_t, std::string> ids;
+    for (const StoredPoint& point : from.points()) ids[point.number] = point.id;
+    for (StoredRun run : from.runs()) {
+        const auto number = numbers.find(ids[run.point]);
+        const auto there = known.find(run.id);
+        if (number == numbers.end()) continue;
+        if (there != known.end() && (there->second || !run.error.empty())) continue;
+        run.measurement.metrics = metrics[{run.point, run.replication}];
+        run.point = number->second;
+        to.record(run);
+    }
+}
 
 void merge(Store& store, const std::string& path) {
     const Store shard = Store::open(path);
@@ -18,27 +41,12 @@ void merge(Store& store, const std::string& path) {
                                              shard.property("version"), store.path(),
                                              store.property("version")));
     }
-    std::map<std::string, std::uint32_t> numbers;
-    for (const StoredPoint& point : store.points()) numbers[point.id] = point.number;
-    const std::vector<StoredPoint> theirs = shard.points();
-    for (const StoredPoint& point : theirs) {
-        if (!numbers.contains(point.id)) throw InputError({path}, "a store of another study");
+    std::set<std::string> ours;
+    for (const StoredPoint& point : store.points()) ours.insert(point.id);
+    for (const StoredPoint& point : shard.points()) {
+        if (!ours.contains(point.id)) throw InputError({path}, "a store of another study");
     }
-    std::map<std::string, bool> ours;  // run -> finished
-    for (const StoredRun& run : store.runs()) ours[run.id] = run.error.empty();
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<MetricValue>> metrics;
-    shard.for_each_value([&](const StoredValue& value, const std::string& metric) {
-        metrics[{value.point, value.replication}].push_back({metric, value.value});
-    });
-    std::map<std::uint32_t, std::string> ids;
-    for (const StoredPoint& point : theirs) ids[point.number] = point.id;
-    for (StoredRun run : shard.runs()) {
-        const auto known = ours.find(run.id);
-        if (known != ours.end() && (known->second || !run.error.empty())) continue;
-        run.measurement.metrics = metrics[{run.point, run.replication}];
-        run.point = numbers[ids[run.point]];
-        store.record(run);
-    }
+    copy_runs(shard, store);
 }
 
 void check_shard(const std::string& path) {

@@ -7,6 +7,10 @@
 
 namespace rovernet {
 
+/// Copies the runs of all points that both stores have: those that `to` lacks, or that failed there
+/// and are finished in `from`.
+void copy_runs(const Store& from, Store& to);
+
 /// Takes the runs of another store of the same study that are not here, or that failed here.
 /// @throws InputError if it is no store, or of another version or another study
 void merge(Store& store, const std::string& path);

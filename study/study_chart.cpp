@@ -238,7 +238,9 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
     const bool costs = std::all_of(comparison.models.begin(), comparison.models.end(),
                                    [](const ComparedModel& m) { return m.cost.has_value(); });
     Chart values{.kind = ChartKind::bars,
-                 .x_label = "propagation model",
+                 .x_label = comparison.path == "propagation.model" || comparison.path.empty()
+                                ? "propagation model"
+                                : comparison.path,
                  .y_label = metric_label(comparison.metric),
                  .y_limits = limits_of(comparison.metric)};
     Chart errors{

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -89,6 +90,30 @@ TEST_CASE("advise: interrupted and gone on with, it is the same as in one go") {
     const Json strict =
         json_of(advised.folder, advised.words({"--store", advised.store(), "--criterion", "run"}));
     CHECK(strict["criterion"] == "run");
+}
+
+TEST_CASE("advise: a budget that is spent and Ctrl-C end it with the interim verdict") {
+    const Advised advised;
+    const auto strict = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = advised.words({});
+        std::ranges::replace(words, "0.1", "0.001");
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    const Ended spent = command(advised.folder, strict({"--budget", "300ms"}));
+    CHECK(spent.exit == 0);
+    CHECK(spent.out.find("Interim: Take ") != std::string::npos);
+    CHECK(spent.out.find("Open when it was stopped") != std::string::npos);
+    CHECK(spent.err.find("the budget of 300ms is spent") != std::string::npos);
+    const Process begun(advised.folder, strict({"--store", advised.store()}));
+    while (runs_in(advised.store()) < 30) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    begun.interrupt();
+    const Ended ended = begun.wait();
+    CHECK(ended.exit == 130);
+    CHECK(ended.out.find("Interim: Take ") != std::string::npos);
+    CHECK(command(advised.folder, strict({"--budget", "0 s"})).err.find("expected a time > 0") !=
+          std::string::npos);
+    CHECK(command(advised.folder, strict({"--budget", "soon"})).exit == 2);
 }
 
 TEST_CASE("advise: with costs it says what each model takes, and draws error against cost") {

@@ -379,6 +379,46 @@ TEST_CASE("compare: other keys of the study are held, and what cannot be compare
               .err.find("expected one of disc, friis") != std::string::npos);
 }
 
+TEST_CASE("compare: the values of any key, paired, with the first as the baseline") {
+    const Place place;
+    const auto with = [&](const std::string& vary, std::vector<std::string> more) {
+        std::vector<std::string> words = {"compare", place.file, "--replications",
+                                          "6",       "--vary",   vary};
+        words.insert(words.end(), more.begin(), more.end());
+        return command(place.folder, words);
+    };
+    const Ended made = with("routing.ttl=1,3", {});
+    CHECK(made.exit == 0);
+    CHECK(made.out.find("minus ttl=1") != std::string::npos);
+    CHECK(made.out.find("ttl=3") != std::string::npos);
+    CHECK(made.out.find("by STaR-Bets") != std::string::npos);
+    CHECK(with("propagation.range=[\"10 m\", \"30 m\"]", {"--baseline", "30 m"})
+              .out.find("minus range=30 m") != std::string::npos);
+    CHECK(with("routing.ttl=1,3", {"--interval", "t"}).out.find("by Student's t") !=
+          std::string::npos);
+    CHECK(with("routing.ttl=4", {}).err.find("at least two values") != std::string::npos);
+    CHECK(with("routing.tttl=1,2", {}).err.find("did you mean") != std::string::npos);
+    CHECK(with("routing.ttl=1,2", {"--models", "disc,friis"}).exit == 2);
+}
+
+TEST_CASE("compare: of a sweep's store it takes the points that it compares, and adds to them") {
+    const Place place;
+    CHECK(command(place.folder, {"sweep", place.file, "--replications", "3"}).exit == 0);
+    const auto before = finished(place.store());
+    CHECK(before.size() == 15);
+    const auto compare = [&](const std::string& replications) {
+        return command(place.folder,
+                       {"compare", place.file, "--vary", "propagation.range=10 m,30 m",
+                        "--replications", replications, "--store", place.store()});
+    };
+    CHECK(compare("3").exit == 0);
+    CHECK(finished(place.store()) == before);  // nothing is made anew
+    CHECK(compare("5").exit == 0);
+    CHECK(finished(place.store()).size() == before.size() + 4);
+    CHECK(command(place.folder, {"sweep", place.file, "--replications", "5"}).exit == 0);
+    CHECK(finished(place.store()).size() == 25);
+}
+
 TEST_CASE(
     "compare: a picture is of the kind that its name ends in, and another ending is refused") {
     const Place place;

@@ -62,8 +62,11 @@ struct MadeUp {
     }
 
     Advice advice(const DecisionRule& rule) {
-        return advise(grid, store, "delivery_ratio", rule,
-                      [&](const auto& wanted) { make(wanted); });
+        return advise(grid, store, "delivery_ratio", rule, [&](const auto& wanted) {
+            if (blocks >= most_blocks) return false;
+            make(wanted);
+            return true;
+        });
     }
     void make(const std::vector<std::uint32_t>& wanted) {
         ++blocks;
@@ -87,7 +90,7 @@ struct MadeUp {
     TemporaryFolder folder;
     Store store = new_store(folder.path("made_up.db"));
     std::map<std::uint32_t, std::uint32_t> made;
-    int blocks = 0;
+    int blocks = 0, most_blocks = 1000;
 
   private:
     static Store new_store(const std::string& path) {
@@ -253,6 +256,7 @@ TEST_CASE("advise: a simulated study finds the model that equals the reference, 
         SweepOptions options{.workers = 1};
         options.replications = wanted;
         CHECK(sweep(study, store, options).progress.failed == 0);
+        return true;
     });
     CHECK(judged(advice, "friis + collision").decision.verdict() == Equivalence::outside);
     const JudgedCandidate& equal = judged(advice, "multi_wall + collision");
@@ -320,10 +324,11 @@ TEST_CASE("advise: what is undecided at the end counts as insufficient, and is t
     const Advice advice = study.advice(rule_of(0.2));
     const JudgedCandidate& a = judged(advice, "a + all");
     CHECK(a.decision.verdict() == Equivalence::undecided);
-    CHECK(a.decision.n() == 150);
+    CHECK(a.decision.n() == 120);  // then the forecast is beyond 150
     CHECK(advice.chosen()->name == "b + some");
-    CHECK(advice_text(advice).find("Undecided after 150 replications, and taken as insufficient: a "
-                                   "+ all") != std::string::npos);
+    CHECK(
+        advice_text(advice).find("Undecided within 150 replications, and taken as insufficient: a "
+                                 "+ all") != std::string::npos);
 }
 
 TEST_CASE(
@@ -356,6 +361,38 @@ TEST_CASE("advise: what a store has already changes nothing") {
         CHECK(a.judged[i].decision.differences() == b.judged[i].decision.differences());
     }
     CHECK(a.chosen()->name == b.chosen()->name);
+}
+
+TEST_CASE("advise: a candidate near the tolerance does not take all replications") {
+    // `a` is 0.2 away on average, which is the tolerance; `b` is the reference.
+    MadeUp study([](std::size_t p, std::size_t, std::uint32_t r) {
+        return p == 0 ? (r % 2 == 0 ? 0.5 : 0.9) : 0.5;
+    });
+    DecisionRule rule = rule_of(0.2);
+    rule.most = 4000;
+    const Advice advice = study.advice(rule);
+    CHECK(advice.chosen()->name == "b + some");
+    CHECK(judged(advice, "a + all").decision.verdict() == Equivalence::undecided);
+    CHECK(study.made[1] >= 100);
+    CHECK(study.made[1] < 200);
+    CHECK_FALSE(advice.stopped);
+}
+
+TEST_CASE("advise: what was stopped is an interim verdict that says what is open") {
+    const auto metric = [](std::size_t p, std::size_t, std::uint32_t r) {
+        return p == 0 ? (r % 2 == 0 ? 0.5 : 1.0) : p == 1 ? 0.0 : 0.5;
+    };
+    MadeUp whole(metric), cut(metric);
+    cut.most_blocks = 3;
+    CHECK_FALSE(whole.advice(rule_of(0.2)).stopped);
+    const Advice advice = cut.advice(rule_of(0.2));
+    CHECK(advice.stopped);
+    CHECK(advice.replications == 30);
+    CHECK(judged(advice, "a + all").decision.n() == 30);
+    CHECK(advice_text(advice).starts_with("Interim: Take the reference, top + all"));
+    CHECK(advice_text(advice).find(
+              "Open when it was stopped, and taken as insufficient so far: ") != std::string::npos);
+    CHECK(advice_text(advice).find("would decide") != std::string::npos);
 }
 
 TEST_CASE("advise: blocks grow by a quarter, from 10 to the most") {

@@ -155,9 +155,9 @@ TEST_CASE("compare: with a margin, each model is within it, outside, or not deci
     std::vector<std::vector<std::optional<double>>> values(4);
     for (int r = 0; r < 400; ++r) {
         const double friis = 0.5 + 0.001 * (r % 7);
-        values[0].push_back(friis + 0.002 * (r % 3 - 1));        // as good
-        values[1].push_back(friis + 0.3);                        // not so
-        values[2].push_back(friis + (r % 2 == 0 ? 0.4 : -0.4));  // who knows
+        values[0].push_back(friis + 0.002 * (r % 3 - 1));          // as good
+        values[1].push_back(friis + 0.3);                          // not so
+        values[2].push_back(friis + (r % 2 == 0 ? 0.44 : -0.36));  // who knows
         values[3].push_back(friis);
     }
     const Store store =
