@@ -158,7 +158,9 @@ void RayTracer::add(const Candidate& path, const RayLimit* limit, RayPaths& out)
         if (limit) draft.loss += loss_of(hit, limit->materials);
     // The reflection by a face that the straight path grazes is in the field of the face's edges.
     for (const GrazedFace& grazed : grazed_)
-        if (path.count == 1 && reflections[0].face == grazed.face)
+        if (path.count == 1 &&
+            (reflections[0].face == grazed.face ||
+             (grazed.edge != no_edge && edges_.edge_with(reflections[0].face) == grazed.edge)))
             draft.loss -= 20 * math::log10(std::max(1e-10, 1 - grazed.share));
     bool bright = !is_faint(draft);
     for (std::size_t leg = 0; bright && leg <= path.count; ++leg) {
@@ -279,8 +281,10 @@ void RayTracer::pass_beside(std::size_t e, const RayLimit* limit, RayPaths& out)
     if (other != no_edge) {
         done_[other] = true;
         const double share = mirrored_share(*way->edge.pair, wavelength_);
-        if (other == edge.next) grazed_.push_back({edge.behind, share});
-        if (other == edge.previous) grazed_.push_back({edge.before, share});
+        grazed_.push_back({other == edge.next       ? edge.behind
+                           : other == edge.previous ? edge.before
+                                                    : no_face,
+                           other == e ? e : no_edge, share});
     }
     if (!out.beside || way->detour < out.beside->detour) out.beside = way->edge;
     if (!limit || limit->diffraction == RayDiffraction::utd)

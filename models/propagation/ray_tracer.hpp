@@ -96,9 +96,10 @@ class RayTracer {
         WayAround way;
         bool left;
     };
-    /// Face that the straight path grazes, and the share of its reflection in its edges' field.
+    /// Face that the straight path grazes, or those between the corners of an edge, and the share
+    /// of the reflection in the edges' field.
     struct GrazedFace {
-        std::size_t face;
+        std::size_t face, edge;
         double share;
     };
     void propose(Vec3 to, const RayLimit* limit);
