@@ -36,7 +36,9 @@ std::optional<std::pair<std::size_t, std::size_t>> corners_seen(const WallEdge& 
                                                                 Vec3 b) {
     const Vec3 across = edge.corners[1] - edge.corners[0];
     // Past the line through both corners, away from the wall, both can be seen.
-    const auto sees_both = [&](Vec3 p) { return cross(across, flat(p) - edge.corners[0]) < 0; };
+    const auto sees_both = [&](Vec3 p) {
+        return cross(across, flat(p) - edge.corners[0]) <= in_plane;
+    };
     const auto corner_of = [&](Vec3 p) -> std::optional<std::size_t> {
         if (before.in_front(p) >= -in_plane) return 0;
         if (behind.in_front(p) >= -in_plane) return 1;
