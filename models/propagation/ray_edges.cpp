@@ -320,10 +320,12 @@ std::size_t RayEdges::join_next_corner(WayAround& way, std::size_t e, bool shado
     if (!one && !edge.thin) return no_edge;
     // Forward, the body is on the left: so is a corner that is lit, and one in the way is not.
     const double left = cross(b - a, at - flat(a));
-    const Face& beside =
-        faces_[std::abs(faces_[edge.before].in_front(a)) <= in_plane ? edge.before : edge.behind];
+    const auto is_along = [&](const Face& face) { return std::abs(face.in_front(a)) <= in_plane; };
+    const Vec3 face = is_along(faces_[edge.before])   ? direction(faces_[edge.before])
+                      : is_along(faces_[edge.behind]) ? direction(faces_[edge.behind])
+                                                      : edge.corners[1] - edge.corners[0];
     const bool along = std::abs(left) <= in_plane * distance(a, b);
-    const bool forward = along ? dot(b - a, direction(beside)) > 0 : (left > 0) != shadowed;
+    const bool forward = along ? dot(b - a, face) > 0 : (left > 0) != shadowed;
     const Vec3 from = flat(forward ? a : b), to = flat(forward ? b : a);
     const double stretch = way.length / (distance(from, at) + distance(at, to));
     const std::size_t corner = distance(at, edge.corners[0]) == 0 ? 0 : 1;
