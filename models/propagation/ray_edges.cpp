@@ -36,7 +36,10 @@ std::optional<std::pair<std::size_t, std::size_t>> corners_seen(const WallEdge& 
                                                                 Vec3 b) {
     const Vec3 across = edge.corners[1] - edge.corners[0];
     // Past the line through both corners, away from the wall, both can be seen.
-    const auto sees_both = [&](Vec3 p) { return cross(across, flat(p) - edge.corners[0]) < 0; };
+    const bool several = dot(across, across) > 0;
+    const auto sees_both = [&](Vec3 p) {
+        return several && cross(across, flat(p) - edge.corners[0]) <= in_plane;
+    };
     const auto corner_of = [&](Vec3 p) -> std::optional<std::size_t> {
         if (before.in_front(p) >= -in_plane) return 0;
         if (behind.in_front(p) >= -in_plane) return 1;
@@ -318,10 +321,15 @@ std::size_t RayEdges::join_next_corner(WayAround& way, std::size_t e, bool shado
     if (!one && !edge.thin) return no_edge;
     // Forward, the body is on the left: so is a corner that is lit, and one in the way is not.
     const double left = cross(b - a, at - flat(a));
-    const Face& beside =
-        faces_[std::abs(faces_[edge.before].in_front(a)) <= in_plane ? edge.before : edge.behind];
+    // A line through the corner has no side: it goes as the outline does there.
+    const Face &before = faces_[edge.before], &behind = faces_[edge.behind];
+    const auto is_in = [&](const Face& face) { return std::abs(face.in_front(a)) <= in_plane; };
+    const Vec3 outline = is_in(before)   ? direction(before)
+                         : is_in(behind) ? direction(behind)
+                                         : direction(before) + direction(behind) +
+                                               (edge.corners[1] - edge.corners[0]);
     const bool along = std::abs(left) <= in_plane * distance(a, b);
-    const bool forward = along ? dot(b - a, direction(beside)) > 0 : (left > 0) != shadowed;
+    const bool forward = along ? dot(b - a, outline) > 0 : (left > 0) != shadowed;
     const Vec3 from = flat(forward ? a : b), to = flat(forward ? b : a);
     const double stretch = way.length / (distance(from, at) + distance(at, to));
     const std::size_t corner = distance(at, edge.corners[0]) == 0 ? 0 : 1;

@@ -93,6 +93,9 @@ class RayEdges {
     /// Whether a face is part of a wall's end, and another is the wall's side next to it.
     bool is_end(std::size_t short_side, std::size_t long_side) const;
 
+    /// Edge whose corners a face is between, or no_edge.
+    std::size_t edge_with(std::size_t face) const { return of_face_[face].between; }
+
     /// Whether a way from edge `first` to edge `last` begins or ends at a face.
     bool is_at(std::size_t face, std::size_t first, std::size_t last) const {
         const EdgesOfFace& of = of_face_[face];

@@ -96,9 +96,10 @@ class RayTracer {
         WayAround way;
         bool left;
     };
-    /// Face that the straight path grazes, and the share of its reflection in its edges' field.
+    /// Face that the straight path grazes, or those between the corners of an edge, and the share
+    /// of the reflection in the edges' field.
     struct GrazedFace {
-        std::size_t face;
+        std::size_t face, edge;
         double share;
     };
     void propose(Vec3 to, const RayLimit* limit);
@@ -114,6 +115,7 @@ class RayTracer {
     bool is_near(const WallEdge& edge, double detour) const;
     RayHit reflection(Vec3 p, Vec3 q, std::uint32_t face) const;
     bool pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft);
+    static double free_space(double length, Hertz f);
     bool is_faint(const Draft& draft) const;
     void finish(const Draft& draft, bool bright, double length);
     std::optional<RayHit> crossing(const Crossing& c, Vec3 from, Vec3 along, bool whole_ends);

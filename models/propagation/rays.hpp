@@ -25,7 +25,7 @@ struct EnumNames<RaySum> {
 };
 
 /// Rays: the straight path through the walls, those that up to `order` walls reflect, and those
-/// around one edge. With L_i the loss of path i [dB], of length d_i [m]:
+/// around edges. With L_i the loss of path i [dB], of length d_i [m]:
 ///
 ///   L = -10 log10 sum 10^(-L_i / 10),     or     L = -20 log10 |sum 10^(-L_i / 20) e^(j phi_i)|
 ///   L_i = 20 log10(4 pi d_i f / c) + losses of crossings, reflections and edges,
@@ -35,10 +35,12 @@ struct EnumNames<RaySum> {
 /// shorter than a wavelength reflect nothing, and neither do floors and ceilings. A material of
 /// ITU-R P.2040 transmits and reflects as a slab at the path's angle (the electric field along the
 /// wall, as of upright antennas); one that gives decibels takes those, and reflects all but
-/// `reflection_loss`; one that follows the model is a slab of `wall`, as thick as drawn.
+/// `reflection_loss`; one that follows the model is a slab of `wall`, as thick as drawn, at most
+/// half a metre.
 ///
 /// Edges: `knife_edge` takes J(nu) of ITU-R P.526 from a path around a wall that stands in the
-/// straight path, and up to 6 dB from a straight path that passes near an edge. `utd` is the
+/// straight path, and up to 6 dB from a straight path that passes near an edge. Two edges of one
+/// body in a row are a pair, see pair_field(). `utd` is the
 /// uniform theory of diffraction; the straight path and those around edges are then one field, so
 /// that nothing jumps at the border of a wall's shadow. See RayTracer and RayEdges for which edges.
 ///
@@ -48,6 +50,8 @@ struct EnumNames<RaySum> {
 ///
 /// The loss is anything but monotone, and jumps where a path begins or ends: at the border of a
 /// wall's shadow by what the wall takes (not with edges), at the end of a mirror by what it adds.
+///
+/// No link loses more than 200 dB over free space.
 ///
 /// Paths are planned in plan and do not know storeys: a scene of several is refused.
 ///

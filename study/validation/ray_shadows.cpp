@@ -19,15 +19,12 @@
 namespace rovernet {
 namespace {
 
-constexpr Hertz traced_frequency{2450e6};
+constexpr Hertz shadow_carrier{2450e6};
 
 double loss_of(const Rays& model, const Scene& scene, Vec3 from, Vec3 to) {
     double loss = 0;
-    const LinkBatch link{.frequency = traced_frequency,
-                         .from = from,
-                         .to = {&to, 1},
-                         .to_keys = {},
-                         .scene = &scene};
+    const LinkBatch link{
+        .frequency = shadow_carrier, .from = from, .to = {&to, 1}, .to_keys = {}, .scene = &scene};
     model.loss(link, Db{std::numeric_limits<double>::infinity()}, {&loss, 1});
     return loss;
 }
@@ -68,7 +65,7 @@ Promise behind_blocks() {
         double power = 0;
         for (int i = -15; i <= 15; ++i) {
             const Vec3 from{2, 6.3, 1}, to{18, 6 + shadow.y + 0.01 * i, 1};
-            const double open = free_space_db(distance(from, to), traced_frequency);
+            const double open = free_space_db(distance(from, to), shadow_carrier);
             power += math::exp10((open - loss_of(model, scene, from, to)) / 10) / 31;
         }
         out.worst = std::max(out.worst, std::abs(-10 * math::log10(power) - shadow.loss));

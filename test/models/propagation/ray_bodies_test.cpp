@@ -193,13 +193,16 @@ TEST_CASE("rays: nothing jumps along the border of a block's face, and its end i
 }
 
 TEST_CASE("rays: a face's reflection begins with nothing where a link comes out of its plane") {
-    const Scene wide = drawn(block(-1, 0, 1, 1.5), metal);
-    for (const auto by : both)
-        for (const double y : {-0.05, 0.0, 0.05}) {
-            CAPTURE(static_cast<int>(by));
-            CHECK(largest_step({.order = 1, .diffraction = by}, wide, {-7, -y}, {7, y - 0.2},
-                               {7, y + 0.2}) < 0.7);
-        }
+    for (const double half : {1.0, 0.2}) {
+        const Scene scene = drawn(block(-half, 0, half, 1.5), metal);
+        for (const auto by : both)
+            for (const double y : {-0.05, 0.0, 0.05}) {
+                if (half < 1 && y != 0) continue;  // the mirror ends on the way
+                CAPTURE(static_cast<int>(by));
+                CHECK(largest_step({.order = 1, .diffraction = by}, scene, {-7, -y}, {7, y - 0.2},
+                                   {7, y + 0.2}) < 0.7);
+            }
+    }
 }
 
 TEST_CASE("rays: 1 mm before the face of a block a link loses what it loses 1 mm behind it") {
