@@ -122,7 +122,7 @@ TEST_CASE("unlikely: a wall without a material that is a metre thick is a notice
     CHECK(notices_of(on_map + robot).empty());
     CHECK(notices_of(robot + rays).empty());
     const std::string given =
-        "[scene.materials]\nshelf = { greys = [0, 140], per_crossing = \"3 dB\" }\n";
+        "[scene.materials]\nshelf = { greys = [0, 100], per_crossing = \"3 dB\" }\n";
     CHECK(notices_of(on_map + given + robot + rays).empty());
 }
 

@@ -18,8 +18,8 @@ namespace rovernet::test {
 ///
 /// The scattered field is that of a layer phi on the outline, u = integral of (dG/dn' + j k G) phi,
 /// G = -j/4 H0(2)(k r), and phi / 2 + K phi + j k S phi = -u_incident: H. Brakhage, P. Werner,
-/// Arch. Math. 16, 1965. Its error falls with the square of the step: 0.05 dB with 10 points a
-/// wavelength beside a corner, against 20.
+/// Arch. Math. 16, 1965. Losses of 14 dB are
+/// 0.26 dB off with 10 points a wavelength, against 20; beyond some 40 dB the error is the field.
 class SoftBody {
   public:
     /// @param corners  of a convex outline, counter-clockwise [m]

@@ -14,6 +14,7 @@ using namespace rovernet;
 
 TEST_CASE("validation: losses behind blocks are those of a wave, by twice as many points, too") {
     constexpr double wavelength = speed_of_light / 2450e6;  // [m]
+    constexpr double accuracy = 0.3;  // [dB] of 10 points a wavelength, against 20
     for (const BlockShadow& shadow : block_shadows) {
         if (shadow.width > 0.6) continue;  // it takes its time
         std::vector<Vec3> places;
@@ -22,7 +23,7 @@ TEST_CASE("validation: losses behind blocks are those of a wave, by twice as man
             const double half = shadow.width / 2;
             const test::SoftBody block({{-half, 0}, {half, 0}, {half, 1}, {-half, 1}}, wavelength,
                                        points);
-            CHECK(std::abs(block.loss({-8, 0.3, 0}, places) - shadow.loss) < 0.1);
+            CHECK(std::abs(block.loss({-8, 0.3, 0}, places) - shadow.loss) < accuracy);
         }
     }
 }
