@@ -244,7 +244,7 @@ void print_fit(const Fit& fit) {
     for (const CalibratedModel& m : c.models) {
         if (!m.refusal.empty()) {
             fmt::print("\n{} is not for a scenario: {}\n", m.model, m.refusal);
-        } else if (!m.parameters.empty()) {
+        } else if (m.is_fitted()) {
             fmt::print("\n{}", to_toml(m.settings));
         }
     }

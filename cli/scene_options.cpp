@@ -52,7 +52,7 @@ void add_draw(Command app) {
     const auto [draw, a] = add_command(app, "draw", "Draw map, robots and radio", cli::draw);
     draw.add_examples({"rovernet draw examples/rescue/rescue.toml --links --at 10s -o rescue.svg",
                        "rovernet draw examples/rescue/rescue.toml --coverage A -o coverage.svg",
-                       "rovernet draw hall.toml --coverage AP --for rover -o coverage.svg"});
+                       "rovernet draw examples/rescue/rescue.toml --coverage A --for B -o b.svg"});
     add_file(draw, a, any_file);
     draw.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
     Option coverage =

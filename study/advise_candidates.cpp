@@ -226,7 +226,7 @@ bool can_be_had(const Table& propagation, const Scenario& scenario) {
 void take_fit(CandidateModel& candidate, const CalibratedModel& fitted, const Scenario& scenario) {
     candidate.note = fitted.failure;
     const Value* propagation = fitted.settings.find("propagation");
-    if (!fitted.failure.empty() || fitted.parameters.empty() || !propagation) return;
+    if (!fitted.failure.empty() || !fitted.is_fitted() || !propagation) return;
     Table table = candidate.table;
     for (const Entry& entry : propagation->table()->entries) table.set(entry.key, entry.value);
     leave_shadowing_to(scenario, table);

@@ -6,6 +6,7 @@
 #include "study/linear_calibration.hpp"
 #include "study/prediction_errors.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -31,6 +32,12 @@ struct CalibratedModel {
     std::vector<TransmitterGain> gains = {};   ///< if they were free
     std::string failure;                       ///< why it could not be fitted; empty: it was
     std::string refusal = {};  ///< why nobody should use the fit; empty: see refuse_absurd()
+
+    /// Some link told a parameter.
+    bool is_fitted() const {
+        return std::any_of(parameters.begin(), parameters.end(),
+                           [](const FittedParameter& p) { return p.determined; });
+    }
 };
 
 /// Fits all listed models but `except` to the known links, in the order of the list: by least

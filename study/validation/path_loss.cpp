@@ -114,7 +114,7 @@ std::vector<JudgedModel> models_of(const ValidationScene& scene, const Truth& tr
         if (!model.failure.empty()) continue;
         if (model.as_given && model.model != "disc")
             out.push_back({{model.model, as_given, settings_of(model.model)}, *model.as_given});
-        if (model.parameters.empty()) continue;
+        if (!model.is_fitted()) continue;
         out.push_back({{model.model, after_fit, model.settings},
                        model.left_out ? *model.left_out : model.fitted});
     }
