@@ -13,7 +13,8 @@ namespace rovernet {
 ///
 /// - `t`: Student's t, which supposes that means are normal.
 /// - `betting`: supposes only that the values have bounds, and holds however often one looks.
-/// - `star`: STaR-Bets, supposes as little and is narrower, for a number of values fixed beforehand.
+/// - `star`: STaR-Bets, supposes as little and is narrower, for a number of values fixed
+/// beforehand.
 ///
 /// [study] interval chooses one; interval_of() in study/interval.hpp makes all of them.
 enum class IntervalMethod { t, betting, star };

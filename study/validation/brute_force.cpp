@@ -5,6 +5,7 @@
 #include "scene/scene.hpp"
 #include "sim/math.hpp"
 #include "study/disc_fit.hpp"
+#include "study/equivalence.hpp"
 #include "study/least_squares.hpp"
 #include "study/tobit.hpp"
 #include "study/validation/validation_charts.hpp"
@@ -211,11 +212,42 @@ Promise level_crossings() {
     return out;
 }
 
+/// Share of studies that call a model sufficient or insufficient whose error is just the
+/// tolerance, where both are false: the largest of three distributions.
+Promise false_advice() {
+    constexpr int studies = 1000, most_replications = 1000;
+    constexpr double tolerance = 0.05, alpha = 0.05;
+    constexpr double limit = 0.07;  // alpha, and three standard deviations of the share
+    const auto spread = [](std::uint64_t study, std::uint64_t r) {
+        return tolerance + 0.5 * (validation_draw("advice", study, r) - 0.5);
+    };
+    const auto rare_loss = [](std::uint64_t study, std::uint64_t r) {
+        return validation_draw("advice", study, r) < tolerance ? 1.0 : 0.0;
+    };
+    const auto one_in_two = [](std::uint64_t study, std::uint64_t r) {
+        return validation_draw("advice", study, r) < 0.5 ? 2 * tolerance : 0;
+    };
+    Promise out{"share of false verdicts of advise, of models whose error is just the tolerance",
+                "", limit, 0, 0};
+    const auto share_of = [&](const auto& difference) {
+        double wrong = 0;
+        for (std::uint64_t study = 0; study < studies; ++study) {
+            EquivalenceTest test(tolerance, alpha, 1);
+            for (std::uint64_t r = 0; r < most_replications; ++r) test.add(difference(study, r));
+            wrong += test.verdict() != Equivalence::undecided;
+        }
+        out.n += studies;
+        return wrong / studies;
+    };
+    out.worst = std::max({share_of(spread), share_of(rare_loss), share_of(one_in_two)});
+    return out;
+}
+
 }  // namespace
 
 void check_by_brute_force(Promises& promises) {
-    for (const Promise& promise :
-         {rooms(), shadowing_field(), level_crossings(), fitted_lines(), seen_levels(), discs()})
+    for (const Promise& promise : {rooms(), shadowing_field(), level_crossings(), fitted_lines(),
+                                   seen_levels(), discs(), false_advice()})
         promises.push_back(promise);
 }
 
