@@ -54,11 +54,8 @@ DotPlot plot_of(const ValidationPanel& panel) {
                              .beside = p.cost.median});
         below = below || p.error < plot.least;
     }
-    for (const std::size_t i : pareto_front(panel.points)) {
-        const ValidationPoint& p = panel.points[i];
-        DotRow& row = row_of(plot, p.label);
-        row.bold = row.bold || plot.series[row.dots.back().series] == p.series;
-    }
+    for (const std::size_t i : pareto_front(panel.points))
+        row_of(plot, panel.points[i].label).bold = true;
     std::stable_sort(plot.rows.begin(), plot.rows.end(), [](const DotRow& a, const DotRow& b) {
         return a.dots.back().beside < b.dots.back().beside;
     });
