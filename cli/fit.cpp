@@ -221,7 +221,9 @@ void print_known(const Fit& fit) {
             "that is right would be {:.2f} dB off\n",
             fit.repeatability->rms, fit.repeatability->levels, fit.repeatability->one_level());
     }
-    if (!(c.loss_error <= Calibration::enough)) {
+    if (!std::isfinite(c.loss_error)) {
+        fmt::print("few links: log_distance does not know the loss at their budget\n");
+    } else if (c.loss_error > Calibration::enough) {
         fmt::print(
             "few links: log_distance knows the loss at their budget to {:.2g} dB only; "
             "{} dB is the aim\n",

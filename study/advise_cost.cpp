@@ -104,7 +104,7 @@ std::string undecided_text(const Advice& advice) {
     for (const JudgedCandidate& each : advice.judged) {
         if (!each.needed || each.decision.verdict() != Equivalence::undecided) continue;
         const auto needed = each.decision.needed();
-        names.push_back(needed ? fmt::format("{} (about {} would decide)", each.name, *needed)
+        names.push_back(needed ? fmt::format("{} (about {} replications would decide)", each.name, *needed)
                                : each.name);
     }
     if (names.empty()) return "";

@@ -147,6 +147,34 @@ std::optional<PredictionErrors> errors_as_given(const KnownLinks& known, const S
 
 }  // namespace
 
+namespace {
+
+/// A model without a fit, and why.
+CalibratedModel failed(std::string model, std::string why) {
+    CalibratedModel out;
+    out.model = std::move(model);
+    out.failure = std::move(why);
+    return out;
+}
+
+/// Why a scenario would not take the parameters; empty: it does.
+std::string fault_of(const CalibratedModel& model, const Scenario& scenario) {
+    std::map<std::string, double> values;
+    for (const FittedParameter& p : model.parameters) {
+        if (p.determined && p.key != "power") values[p.key] = p.value;
+    }
+    try {
+        model_with(scenario, model.model, values);
+    } catch (const InputError& e) {
+        return e.message();
+    } catch (const std::invalid_argument& e) {
+        return e.what();
+    }
+    return "";
+}
+
+}  // namespace
+
 std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& scenario,
                                        const std::string& except, Meters decided_within,
                                        Gains gains) {
@@ -163,10 +191,11 @@ std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& 
             }
             model.as_given = errors_as_given(known, scenario, model.model, decided_within);
         } catch (const std::invalid_argument& e) {
-            model.failure = e.what();
+            model = failed(std::move(model.model), e.what());
         } catch (const InputError& e) {
-            model.failure = e.message();
+            model = failed(std::move(model.model), e.message());
         }
+        if (model.failure.empty()) model.refusal = fault_of(model, scenario);
         out.push_back(std::move(model));
     });
     if (known.measured) refuse_absurd(out, scenario.radio.power);
@@ -174,7 +203,7 @@ std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& 
 }
 
 void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
-    constexpr double most_db = 30, much = 2, more_db = 3;
+    constexpr double most_db = 30, much = 2, more_db = 3, nothing_db = 20;
     const auto error_of = [](const CalibratedModel& m) {
         return m.left_out ? m.left_out->rmse : m.fitted.rmse;
     };
@@ -182,12 +211,22 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
         return m.model == Friis::name && m.failure.empty();
     });
     for (CalibratedModel& model : models) {
-        if (!model.failure.empty() || model.fitted.losses == 0) continue;
+        if (!model.failure.empty() || model.fitted.losses == 0 || !model.refusal.empty()) continue;
         for (const FittedParameter& p : model.parameters) {
-            if (p.key != "power" || std::abs(p.value - given_power.value) <= most_db) continue;
+            if (p.key == "power" && std::abs(p.value - given_power.value) > most_db) {
+                model.refusal = fmt::format(
+                    "its power of {:.4g} dBm is more than {} dB from the given {:.4g} dBm", p.value,
+                    most_db, given_power.value);
+            } else if (p.key == "excess" && p.determined && std::abs(p.value) > most_db) {
+                model.refusal = fmt::format(
+                    "its excess of {:.4g} dB is more than {} dB: is the power of [radio] right?",
+                    p.value, most_db);
+            }
+        }
+        if (model.refusal.empty() && error_of(model) > nothing_db) {
             model.refusal =
-                fmt::format("its power of {:.4g} dBm is more than {} dB from the given {:.4g} dBm",
-                            p.value, most_db, given_power.value);
+                fmt::format("its error of {:.1f} dB is more than {} dB: it describes nothing",
+                            error_of(model), nothing_db);
         }
         if (free_space == models.end() || !model.refusal.empty()) continue;
         const double error = error_of(model), friis = error_of(*free_space);
@@ -267,9 +306,10 @@ void check_transmitters(const KnownLinks& known, const std::string& path) {
     for (const KnownLink& link : known.links) places.emplace(link.from.x, link.from.y, link.from.z);
     if (places.size() >= fewest && places.size() <= most) return;
     throw InputError({path, 0, 0},
-                     fmt::format("found {} places that send, expected {} to {}, whose gains differ"
-                                 "{}",
-                                 places.size(), fewest, most,
+                     fmt::format("found {} that send{}, expected {} to {}, whose gains differ{}",
+                                 places.size() == 1 ? std::string("one place")
+                                                    : fmt::format("{} places", places.size()),
+                                 places.size() == 1 ? "s" : "", fewest, most,
                                  places.size() > most ? "; are from and to exchanged?" : ""));
 }
 
@@ -279,6 +319,9 @@ Calibration calibrate_to_levels(const Scenario& scenario, const std::string& pat
                                 std::optional<Dbm> floor, Gains gains) {
     Calibration out;
     out.known = read_levels(path, scenario, floor);
+    const bool any_seen = std::any_of(out.known.links.begin(), out.known.links.end(),
+                                      [](const KnownLink& link) { return !link.unseen; });
+    if (!any_seen) throw InputError({path, 0, 0}, "found no level above the floor, expected some");
     if (gains == Gains::by_transmitter) check_transmitters(out.known, path);
     out.loss_error = loss_error_at_budget(out.known, scenario);
     out.models = calibrate(out.known, scenario, "", Propagation::anything, gains);

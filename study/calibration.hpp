@@ -53,7 +53,8 @@ std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& 
                                        Gains gains = Gains::equal);
 
 /// Refuses fits to measured levels that describe nothing: a power more than 30 dB from the given
-/// one, or an error of more than twice that of free space with its constant, and 3 dB more.
+/// one or an excess of more, an error above 20 dB, or of more than twice that of free space with
+/// its constant, and 3 dB more.
 void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power);
 
 /// Standard error [dB] of the loss that log_distance, fitted to the links, predicts where it

@@ -165,9 +165,17 @@ std::string evidence_text(const PairedComparison& c, bool turned) {
                        c.difference.n, p_text(c.p), words_of(c.method));
 }
 
-/// "; differences below 0.021 cannot be told apart at n = 30"
+/// "; differences below 0.021 cannot be told apart at n = 30", of a difference that was found
+/// "; one of 0.021 is found in 80 % of such studies".
 std::string power_text(const PairedComparison& c) {
     if (!c.detectable) return "";
+    const bool beyond_bounds = c.method != IntervalMethod::t && *c.detectable >= 1;
+    if (beyond_bounds)
+        return fmt::format("; no difference can be told apart at n = {}", c.difference.n);
+    if (c.found()) {
+        return fmt::format("; one of {} is found in {:.0f} % of such studies",
+                           Decimals(half_width_of(c))(*c.detectable), 100 * power);
+    }
     return fmt::format("; differences below {} cannot be told apart at n = {}",
                        Decimals(half_width_of(c))(*c.detectable), c.difference.n);
 }
@@ -259,18 +267,19 @@ std::string equivalence_text(std::string_view a, std::string_view b, double marg
                     comparison.family > 1 ? fmt::format(" for all {}", comparison.family) : "",
                     words_of(verdict.method));
     if (verdict.verdict != Equivalence::undecided) {
-        const std::string power =
-            verdict.decidable ? fmt::format("; margins below {:.2g} cannot be decided at n = {}",
-                                            *verdict.decidable, n)
-                              : "";
+        const bool tells = verdict.decidable && margin >= *verdict.decidable;
+        const std::string smallest =
+            tells ? fmt::format("; margins below {:.2g} cannot be decided at n = {}",
+                                *verdict.decidable, n)
+                  : "";
         return fmt::format("{} is {}within {:.6g} of {} ({}, decided by {} of {} replications){}",
                            a, verdict.verdict == Equivalence::within ? "" : "not ", margin, b,
-                           level, verdict.decided_at.value_or(n), n, power);
+                           level, verdict.decided_at.value_or(n), n, smallest);
     }
     const std::string more =
-        verdict.needed
-            ? fmt::format("about {} would decide, if they are as these are", *verdict.needed)
-            : "how many would decide, these do not tell";
+        verdict.needed ? fmt::format("about {} replications would decide, if they are as these are",
+                                     *verdict.needed)
+                       : "how many would decide, these do not tell";
     return fmt::format("not decided by {} replications whether {} is within {:.6g} of {} ({}); {}",
                        n, a, margin, b, level, more);
 }

@@ -202,7 +202,8 @@ std::string truth_sentence(const ValidationPanel& panel, const Truth& truth,
                            panel.title, truth.model.label);
     }
     return fmt::format(
-        "{}: {} is taken as true, and is {:.1f} dB off itself in a measured {}. Such an error "
+        "{}: {} is taken as true, and is {:.1f} dB off itself in a measured {}, beyond what the "
+        "levels are. Such an error "
         "makes it {}: what is nearer agrees with the model, not with a building.",
         panel.title, truth.model.label, truth.own_error->value, truth.building,
         off(*panel.unknowable));

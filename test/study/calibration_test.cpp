@@ -383,7 +383,7 @@ TEST_CASE("calibration: each transmitter has a gain of its own, and models fit b
         }
     };
     const std::string head = "from_x_m,from_y_m,to_x_m,to_y_m,level_dbm\n";
-    CHECK(fault(head + "0,0,1,0,-50\n0,0,2,0,-55\n").starts_with("found 1 places that send"));
+    CHECK(fault(head + "0,0,1,0,-50\n0,0,2,0,-55\n").starts_with("found one place that sends,"));
     std::string walk = head;
     for (int i = 0; i < 201; ++i) walk += fmt::format("{},0,500,1,-50\n", i);
     CHECK(fault(walk).ends_with("are from and to exchanged?"));
@@ -411,7 +411,28 @@ TEST_CASE("calibration: a fit that describes nothing is refused, with the reason
     const auto fitted =
         calibrate_to_levels(scenario_from(wanderers + "[radio]\npower = \"80 dBm\"\n"), path, {});
     CHECK(!model(fitted.models, "friis").refusal.empty());
-    CHECK(model(fitted.models, "log_distance").refusal.empty());  // its excess takes it up
+    CHECK(model(fitted.models, "log_distance").refusal.starts_with("its excess of "));
+    // Levels that rise with the distance: no scenario takes such an exponent.
+    std::string rising = "from_x_m,from_y_m,to_x_m,to_y_m,level_dbm\n", unheard = rising;
+    for (int i = 1; i < 30; ++i) {
+        rising += fmt::format("0,0,{},0,{}\n", i, -90 + 20 * std::log10(i));
+        unheard += fmt::format("0,0,{},0,\n", i);
+    }
+    const auto absurd =
+        calibrate_to_levels(scenario_from(wanderers), folder.write("rising.csv", rising), {});
+    CHECK(model(absurd.models, "log_distance").refusal.find("exponent") != std::string::npos);
+    CHECK_THROWS_AS(calibrate_to_levels(scenario_from(wanderers),
+                                        folder.write("unheard.csv", unheard), Dbm{-80}),
+                    InputError);
+    // Two places tell no constant and exponent apart where each is left out: nothing is printed.
+    const auto two = calibrate_to_levels(
+        scenario_from(wanderers),
+        folder.write("two.csv",
+                     "from_x_m,from_y_m,to_x_m,to_y_m,level_dbm\n0,0,5,0,-50\n0,0,9,0,"
+                     "-53\n"),
+        {});
+    for (const CalibratedModel& each : two.models)
+        CHECK((each.failure.empty() || !each.is_fitted()));
 }
 
 TEST_CASE(

@@ -90,7 +90,7 @@ TEST_CASE("comparison: Student's ten patients slept 1.58 h more on the other dru
     CHECK(comparison_text("the first drug", "the second", *c) ==
           "the first drug is 1.58 below the second (95 % 0.70 to 2.46, n = 10, p = 0.003, by "
           "Student's t); "
-          "differences below 1.23 cannot be told apart at n = 10");
+          "one of 1.23 is found in 80 % of such studies");
 }
 
 TEST_CASE("comparison: fewer than two pairs are none") {
@@ -282,12 +282,15 @@ TEST_CASE("sentence: whether one is as good as another") {
     CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
           "disc is not within 0.05 of friis (95 % for all 4, by betting, decided by 17 of 30 "
           "replications); margins below 0.034 cannot be decided at n = 30");
+    CHECK(equivalence_text("disc", "friis", 0.03, verdict, c) ==
+          "disc is not within 0.03 of friis (95 % for all 4, by betting, decided by 17 of 30 "
+          "replications)");
     verdict.verdict = Equivalence::undecided;
     verdict.decided_at = {};
     verdict.needed = 800;
     CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
           "not decided by 30 replications whether disc is within 0.05 of friis (95 % for all 4, "
-          "by betting); about 800 would decide, if they are as these are");
+          "by betting); about 800 replications would decide, if they are as these are");
 }
 
 TEST_CASE("comparison: 54 of 60 replications one way and none the other are a difference") {
