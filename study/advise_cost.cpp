@@ -104,8 +104,9 @@ std::string undecided_text(const Advice& advice) {
     for (const JudgedCandidate& each : advice.judged) {
         if (!each.needed || each.decision.verdict() != Equivalence::undecided) continue;
         const auto needed = each.decision.needed();
-        names.push_back(needed ? fmt::format("{} (about {} replications would decide)", each.name, *needed)
-                               : each.name);
+        names.push_back(
+            needed ? fmt::format("{} (about {} replications would decide)", each.name, *needed)
+                   : each.name);
     }
     if (names.empty()) return "";
     if (advice.stopped) {

@@ -223,17 +223,19 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
                     p.value, most_db);
             }
         }
-        if (model.refusal.empty() && error_of(model) > nothing_db) {
+        const double error = error_of(model);
+        const double friis = free_space == models.end() ? error : error_of(*free_space);
+        if (!model.refusal.empty()) continue;
+        if (error > much * friis && error > friis + more_db) {
+            model.refusal = fmt::format(
+                "its error of {:.1f} dB is far above the {:.1f} dB of free space with its own "
+                "constant",
+                error, friis);
+        } else if (error > nothing_db) {
             model.refusal =
                 fmt::format("its error of {:.1f} dB is more than {} dB: it describes nothing",
-                            error_of(model), nothing_db);
+                            error, nothing_db);
         }
-        if (free_space == models.end() || !model.refusal.empty()) continue;
-        const double error = error_of(model), friis = error_of(*free_space);
-        if (error <= much * friis || error <= friis + more_db) continue;
-        model.refusal = fmt::format(
-            "its error of {:.1f} dB is far above the {:.1f} dB of free space with its own constant",
-            error, friis);
     }
 }
 
