@@ -301,7 +301,8 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
 
 namespace {
 
-/// @throws InputError if as many places send as have no gain each
+/// Checks that the gains of the places that send can be told.
+/// @throws InputError if these are one, or too many
 void check_transmitters(const KnownLinks& known, const std::string& path) {
     constexpr std::size_t fewest = 2, most = 200;
     std::set<std::tuple<double, double, double>> places;

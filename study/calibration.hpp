@@ -33,7 +33,7 @@ struct CalibratedModel {
     std::string failure;                       ///< why it could not be fitted; empty: it was
     std::string refusal = {};  ///< why nobody should use the fit; empty: see refuse_absurd()
 
-    /// Some link told a parameter.
+    /// Whether the links tell any parameter of the model.
     bool is_fitted() const {
         return std::any_of(parameters.begin(), parameters.end(),
                            [](const FittedParameter& p) { return p.determined; });
@@ -93,7 +93,8 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
                                Db beyond = Db{std::numeric_limits<double>::infinity()});
 
 /// Calibrates to measured levels, see read_levels().
-/// @throws InputError as read_levels(); if gains are free and only one place sends
+/// @throws InputError as read_levels(); if no level is above the floor; if gains are free and one
+///         place sends, or more than 200
 Calibration calibrate_to_levels(const Scenario& scenario, const std::string& path,
                                 std::optional<Dbm> floor, Gains gains = Gains::equal);
 /// Judges the calibrated models on other measured levels, from another day or drive.

@@ -60,14 +60,12 @@ LinearCalibration::LinearCalibration(const KnownLinks& known, const Scenario& sc
 LinearCalibration::Solution LinearCalibration::fit(
     const std::function<bool(const KnownLink&)>& takes) const {
     // Gains are beyond their mean, so that the last one is less the sum of the others.
+    std::vector<char> sends(transmitters_.size(), false);
+    for (std::size_t i = 0; i < transmitter_.size(); ++i)
+        if (takes(known_.links[i])) sends[transmitter_[i]] = true;
     std::vector<std::size_t> present;
-    for (std::size_t t = 0; t < transmitters_.size(); ++t) {
-        for (std::size_t i = 0; i < transmitter_.size(); ++i) {
-            if (transmitter_[i] != t || !takes(known_.links[i])) continue;
-            present.push_back(t);
-            break;
-        }
-    }
+    for (std::size_t t = 0; t < sends.size(); ++t)
+        if (sends[t]) present.push_back(t);
     const std::size_t free_gains = present.empty() ? 0 : present.size() - 1;
     Observations data{.columns = used_.size() + free_gains};
     if (data.columns == 0) return {};

@@ -68,8 +68,8 @@ struct ArcCommand {
         const auto [sine, cosine] = math::sincos(turn_rate * t);
         return {radius() * sine, radius() * (1 - cosine), 0};
     }
-    /// The same where the robot's middle cannot come farther than y = `wall`: it turns there until
-    /// it heads along the wall, and leaves it on an arc.
+    /// Place likewise of a robot whose middle cannot come farther than y = `wall`: it turns there
+    /// until it heads along the wall, and leaves it on an arc.
     Vec3 beside(double wall, double t) const {
         const double cosine_there = 1 - wall / radius();
         const double contact =
