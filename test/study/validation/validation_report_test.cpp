@@ -99,16 +99,19 @@ TEST_CASE("validation: a winner is named where its parts tell it apart, and not 
     const auto words = [](double error) { return std::to_string(error).substr(0, 4) + " dB"; };
     const auto panel_of = [](std::size_t n) {
         ValidationPanel panel;
-        for (const char* label : {"a", "b", "c"}) panel.points.push_back({.label = label});
+        for (const char* label : {"a", "b", "c", "d"}) panel.points.push_back({.label = label});
         for (std::size_t i = 0; i < n; ++i) {
             const double noise = i % 2 == 0 ? 1 : -1;
             panel.points[0].parts.push_back(2 + noise);
             panel.points[1].parts.push_back(2.1 - noise);  // nearly a's mean, far from its parts
             panel.points[2].parts.push_back(4 + 1.01 * noise);
+            // By as much as its differences spread: 20 of them tell that, one would not.
+            panel.points[3].parts.push_back(3 + noise + (i % 4 < 2 ? 1.2 : -1.2));
         }
         panel.points[0].error = 2;
         panel.points[1].error = 2.1;
         panel.points[2].error = 4;
+        panel.points[3].error = 3;
         return panel;
     };
     const ValidationPanel many = panel_of(20), few = panel_of(5);
@@ -117,7 +120,7 @@ TEST_CASE("validation: a winner is named where its parts tell it apart, and not 
     CHECK(nearest.alike == std::vector<const ValidationPoint*>{&many.points[1]});
     CHECK(nearest_text(nearest, words) == "a (2.00 dB) is not told apart from b (2.10 dB)");
     // Five parts tell nothing apart, however far the means are.
-    CHECK(nearest_to_truth(few, all).alike.size() == 2);
+    CHECK(nearest_to_truth(few, all).alike.size() == 3);
     // A candidate alone, and against one that is always worse, is the nearest.
     const Nearest without_b =
         nearest_to_truth(many, [](const ValidationPoint& p) { return p.label != "b"; });
