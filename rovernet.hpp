@@ -3,11 +3,11 @@
 
 // All of rovernet's library.
 
-#include "experiment/link_table.hpp"
+#include "experiment/reports/link_table.hpp"
 #include "experiment/movement_play.hpp"
 #include "experiment/run.hpp"
 #include "experiment/session.hpp"
-#include "experiment/whereabouts.hpp"
+#include "experiment/reports/whereabouts.hpp"
 #include "mobility/files/movement_file.hpp"
 #include "mobility/files/movement_writer.hpp"
 #include "mobility/straight.hpp"
@@ -24,9 +24,9 @@
 #include "scene/occupancy.hpp"
 #include "scene/scene.hpp"
 #include "scene/stage/stage_walls.hpp"
-#include "study/equivalence.hpp"
-#include "study/interval.hpp"
-#include "study/summary.hpp"
+#include "study/statistics/equivalence.hpp"
+#include "study/statistics/interval.hpp"
+#include "study/statistics/summary.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/metrics.hpp"
 #include "traces/ns2/ns2_reader.hpp"

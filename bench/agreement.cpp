@@ -7,7 +7,7 @@
 #include "models/propagation/disc.hpp"
 #include "models/reception/list.hpp"
 #include "network/network.hpp"
-#include "study/validation/bianchi.hpp"
+#include "study/validation/cases/bianchi.hpp"
 
 #include <fmt/format.h>
 

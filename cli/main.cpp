@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cli/options.hpp"
-#include "cli/stop.hpp"
+#include "cli/terminal/options.hpp"
+#include "cli/terminal/stop.hpp"
 #include "experiment/version.hpp"
 #include "study/command_words.hpp"
 

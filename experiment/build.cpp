@@ -3,7 +3,7 @@
 
 #include "experiment/build_motion.hpp"
 #include "experiment/movement_play.hpp"
-#include "scenario/located.hpp"
+#include "scenario/document/located.hpp"
 #include "sim/random.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "experiment/build_motion.hpp"
 
 #include "mobility/waypoints.hpp"
-#include "scenario/located.hpp"
+#include "scenario/document/located.hpp"
 #include "sim/random.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "experiment/recorded_scenario.hpp"
 
 #include "experiment/run_folder.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

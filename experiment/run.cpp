@@ -9,8 +9,8 @@
 #include "experiment/warmup.hpp"
 #include "files/part_file.hpp"
 #include "mobility/kept_planners.hpp"
-#include "scenario/json.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/json.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <fmt/format.h>
 

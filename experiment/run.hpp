@@ -7,7 +7,7 @@
 #include "models/propagation/rays.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
-#include "scenario/value.hpp"
+#include "scenario/document/value.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/metrics.hpp"
 #include "traces/topology.hpp"

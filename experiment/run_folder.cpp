@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run_folder.hpp"
 
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>

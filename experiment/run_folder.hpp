@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenario/scenario.hpp"
-#include "scenario/value.hpp"
+#include "scenario/document/value.hpp"
 
 #include <string>
 #include <vector>

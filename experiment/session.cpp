@@ -2,7 +2,7 @@
 #include "experiment/session.hpp"
 
 #include "experiment/build.hpp"
-#include "scenario/located.hpp"
+#include "scenario/document/located.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/timeline.hpp"
 
-#include "scenario/json.hpp"
+#include "scenario/document/json.hpp"
 
 #include <fmt/format.h>
 

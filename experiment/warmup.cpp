@@ -2,7 +2,7 @@
 #include "experiment/warmup.hpp"
 
 #include "experiment/build.hpp"
-#include "experiment/mser5.hpp"
+#include "study/statistics/mser5.hpp"
 #include "traces/delivery_series.hpp"
 
 #include <utility>

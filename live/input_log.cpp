@@ -6,8 +6,8 @@
 #include "experiment/version.hpp"
 #include "files/base64.hpp"
 #include "network/network.hpp"
-#include "scenario/json.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/json.hpp"
+#include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "experiment/robot_command.hpp"
 #include "files/part_file.hpp"
-#include "live/json_line.hpp"
+#include "live/carriers/json_line.hpp"
 #include "scenario/scenario.hpp"
 
 #include <chrono>

@@ -7,8 +7,8 @@
 #include "files/input_file.hpp"
 #include "files/part_file.hpp"
 #include "live/input_log.hpp"
-#include "live/json_object.hpp"
-#include "scenario/toml.hpp"
+#include "live/carriers/json_object.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <algorithm>
 #include <filesystem>

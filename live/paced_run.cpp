@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "live/paced_run.hpp"
 
-#include "live/address.hpp"
-#include "live/doors.hpp"
+#include "live/carriers/address.hpp"
+#include "live/carriers/listeners.hpp"
 #include "live/input_log.hpp"
-#include "live/web_sockets.hpp"
+#include "live/carriers/web_sockets.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/address.hpp"
-#include "live/front.hpp"
+#include "live/carriers/address.hpp"
+#include "live/carriers/front.hpp"
 #include "live/logged_run.hpp"
-#include "live/packet_port.hpp"
+#include "live/carriers/packet_port.hpp"
 #include "scenario/scenario.hpp"
 
 #include <chrono>

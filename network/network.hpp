@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mobility/movement.hpp"
-#include "models/medium/neighbour.hpp"
+#include "network/neighbour.hpp"
 #include "network/robot.hpp"
 #include "network/settings.hpp"
 #include "network/subscription.hpp"

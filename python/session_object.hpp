@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/stepped_run.hpp"
+#include "live/lockstep/stepped_run.hpp"
 #include "models/medium/medium.hpp"
 #include "python/interruption.hpp"
 #include "python/record_arrays.hpp"

@@ -2,7 +2,7 @@
 #include "scenario/door_table.hpp"
 
 #include "scenario/names.hpp"
-#include "scenario/reader.hpp"
+#include "scenario/tables/reader.hpp"
 
 #include <fmt/format.h>
 

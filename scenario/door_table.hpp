@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenario/value.hpp"
+#include "scenario/document/value.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenario/value.hpp"
-#include "scene/p2040.hpp"
+#include "scenario/document/value.hpp"
+#include "scene/materials/p2040.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
 #include "sim/units.hpp"

@@ -3,8 +3,8 @@
 
 #include "mobility/movement.hpp"
 #include "models/link_gain.hpp"
-#include "scenario/located.hpp"
-#include "scenario/scan_table.hpp"
+#include "scenario/document/located.hpp"
+#include "scenario/tables/scan_table.hpp"
 #include "scenario/scenario.hpp"
 
 #include <fmt/format.h>

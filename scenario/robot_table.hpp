@@ -2,9 +2,9 @@
 #pragma once
 
 #include "models/radio.hpp"
-#include "scenario/move_table.hpp"
-#include "scenario/propagation_table.hpp"
-#include "scenario/reader.hpp"
+#include "scenario/tables/move_table.hpp"
+#include "scenario/tables/propagation_table.hpp"
+#include "scenario/tables/reader.hpp"
 #include "scene/scanner.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"

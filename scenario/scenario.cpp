@@ -3,8 +3,8 @@
 
 #include "models/phy/phy.hpp"
 #include "models/propagation/disc.hpp"
-#include "scenario/flow_names.hpp"
-#include "scenario/located.hpp"
+#include "scenario/tables/flow_names.hpp"
+#include "scenario/document/located.hpp"
 #include "scenario/memory.hpp"
 #include "scenario/names.hpp"
 #include "scenario/traffic_file.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "files/input_file.hpp"
 #include "scenario/scene_table.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "scene/doors.hpp"
 #include "scene/occupancy.hpp"
 #include "scene/stage/stage_walls.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/scene_table.hpp"
 
-#include "scenario/reader.hpp"
+#include "scenario/tables/reader.hpp"
 
 #include <fmt/format.h>
 

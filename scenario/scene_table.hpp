@@ -3,9 +3,9 @@
 
 #include "scenario/door_table.hpp"
 #include "scenario/floor_table.hpp"
-#include "scenario/value.hpp"
+#include "scenario/document/value.hpp"
 #include "scene/doors.hpp"
-#include "scene/material.hpp"
+#include "scene/materials/material.hpp"
 #include "scene/scene.hpp"
 #include "scene/stage/worldfile.hpp"
 #include "sim/error.hpp"

@@ -3,7 +3,7 @@
 
 #include "files/text_source.hpp"
 #include "files/word.hpp"
-#include "scenario/located.hpp"
+#include "scenario/document/located.hpp"
 
 #include <fmt/format.h>
 

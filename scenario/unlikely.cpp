@@ -4,7 +4,7 @@
 #include "models/propagation/ray_materials.hpp"
 #include "models/propagation/rays.hpp"
 #include "models/propagation/raytrace_2007.hpp"
-#include "scenario/quantity.hpp"
+#include "scenario/document/quantity.hpp"
 #include "scene/faces.hpp"
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/material.hpp"
+#include "scene/materials/material.hpp"
 #include "scene/obstacles.hpp"
 #include "scene/scene.hpp"
 #include "scene/scene_change.hpp"

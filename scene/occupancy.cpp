@@ -2,7 +2,7 @@
 #include "scene/occupancy.hpp"
 
 #include "files/input_file.hpp"
-#include "scene/image.hpp"
+#include "scene/images/image.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

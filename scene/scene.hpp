@@ -3,7 +3,7 @@
 
 #include "scene/faces.hpp"
 #include "scene/map_frame.hpp"
-#include "scene/material.hpp"
+#include "scene/materials/material.hpp"
 #include "scene/obstacles.hpp"
 #include "scene/occupancy.hpp"
 #include "scene/rectangles.hpp"

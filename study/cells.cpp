@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "study/cells.hpp"
 
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "study/study.hpp"
-#include "study/summary.hpp"
+#include "study/statistics/summary.hpp"
 
 #include <fmt/format.h>
 

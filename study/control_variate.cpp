@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/control_variate.hpp"
 
-#include "study/arguments.hpp"
-#include "study/summary.hpp"
+#include "study/statistics/arguments.hpp"
+#include "study/statistics/summary.hpp"
 
 #include <cmath>
 #include <stdexcept>

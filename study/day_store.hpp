@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "study/recorded_day.hpp"
+#include "experiment/replay/recorded_day.hpp"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/explain.hpp"
 
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "study/command_words.hpp"
 #include "study/stored_row.hpp"
 

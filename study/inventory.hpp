@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenario/study_table.hpp"
+#include "scenario/tables/study_table.hpp"
 #include "study/store.hpp"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/results.hpp"
 
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "study/cells.hpp"
-#include "study/interval.hpp"
-#include "study/quantile.hpp"
+#include "study/statistics/interval.hpp"
+#include "study/statistics/quantile.hpp"
 #include "study/store.hpp"
-#include "study/summary.hpp"
+#include "study/statistics/summary.hpp"
 
 #include <cstdint>
 #include <map>

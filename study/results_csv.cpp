@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/results_csv.hpp"
 
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "study/store.hpp"
 
 #include "files/input_file.hpp"
-#include "scenario/json.hpp"
+#include "scenario/document/json.hpp"
 #include "sim/error.hpp"
 #include "study/only_reading.hpp"
 #include "study/stored_row.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenario/value.hpp"
+#include "scenario/document/value.hpp"
 #include "study/measurement.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/study.hpp"
 
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "scenario/unlikely.hpp"
 #include "study/measurement.hpp"
 

@@ -3,8 +3,8 @@
 
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
-#include "scenario/json.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/json.hpp"
+#include "scenario/document/toml.hpp"
 #include "study/command_words.hpp"
 #include "study/precision.hpp"
 

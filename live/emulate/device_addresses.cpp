@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/emulate/device_addresses.hpp"
 
-#include "experiment/link_table.hpp"
+#include "experiment/reports/link_table.hpp"
 #include "live/emulate/ethernet.hpp"
 
 #include <fmt/format.h>

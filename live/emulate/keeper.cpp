@@ -3,7 +3,7 @@
 
 #include "live/emulate/descriptor_socket.hpp"
 #include "live/emulate/members.hpp"
-#include "live/emulate/robot_door.hpp"
+#include "live/emulate/robot_listener.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

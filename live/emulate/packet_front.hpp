@@ -2,7 +2,7 @@
 #pragma once
 
 #include "live/emulate/packet_format.hpp"
-#include "live/front.hpp"
+#include "live/carriers/front.hpp"
 
 #include <cstdint>
 #include <memory>

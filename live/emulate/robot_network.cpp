@@ -2,7 +2,7 @@
 #include "live/emulate/robot_network.hpp"
 
 #include "live/emulate/descriptor_socket.hpp"
-#include "live/emulate/robot_door.hpp"
+#include "live/emulate/robot_listener.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>

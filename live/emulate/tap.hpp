@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/packet_port.hpp"
+#include "live/carriers/packet_port.hpp"
 
 #include <memory>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/address.hpp"
-#include "live/packet_port.hpp"
+#include "live/carriers/address.hpp"
+#include "live/carriers/packet_port.hpp"
 
 #include <netinet/in.h>
 #include <string>

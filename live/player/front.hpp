@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/front.hpp"
+#include "live/carriers/front.hpp"
 #include "live/player/devices.hpp"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/player/wifi.hpp"
 
-#include "experiment/link_table.hpp"
+#include "experiment/reports/link_table.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/front.hpp"
+#include "live/carriers/front.hpp"
 #include "live/rosbridge/request.hpp"
 #include "sim/time.hpp"
 

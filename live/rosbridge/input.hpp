@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/session.hpp"
-#include "live/json_object.hpp"
+#include "live/carriers/json_object.hpp"
 #include "live/rosbridge/topic.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "files/base64.hpp"
 #include "live/rosbridge/writer.hpp"
-#include "scenario/json.hpp"
+#include "scenario/document/json.hpp"
 
 #include <charconv>
 #include <cmath>

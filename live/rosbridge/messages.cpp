@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/rosbridge/messages.hpp"
 
-#include "experiment/link_table.hpp"
+#include "experiment/reports/link_table.hpp"
 #include "mobility/planners.hpp"
 #include "models/medium/medium.hpp"
 #include "sim/math.hpp"

@@ -2,7 +2,7 @@
 #include "live/rosbridge/packing.hpp"
 
 #include "live/rosbridge/writer.hpp"
-#include "scene/png.hpp"
+#include "scene/images/png.hpp"
 
 #include <algorithm>
 #include <chrono>

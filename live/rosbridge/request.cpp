@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/rosbridge/request.hpp"
 
-#include "live/json_object.hpp"
+#include "live/carriers/json_object.hpp"
 #include "live/rosbridge/input.hpp"
 #include "network/network.hpp"
 

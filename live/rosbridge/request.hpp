@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/session.hpp"
-#include "live/request.hpp"
+#include "live/carriers/request.hpp"
 #include "live/rosbridge/service.hpp"
 #include "live/rosbridge/topic.hpp"
 

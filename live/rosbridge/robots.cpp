@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/rosbridge/robots.hpp"
 
-#include "live/request.hpp"
+#include "live/carriers/request.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/session.hpp"
-#include "live/front.hpp"
+#include "live/carriers/front.hpp"
 
 #include <cstdint>
 #include <map>

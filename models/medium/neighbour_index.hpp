@@ -6,7 +6,7 @@
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/time.hpp"
-#include "sim/wrapped_axis.hpp"
+#include "models/medium/wrapped_axis.hpp"
 
 #include <algorithm>
 #include <cmath>

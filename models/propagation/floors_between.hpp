@@ -2,7 +2,7 @@
 #pragma once
 
 #include "models/propagation/propagation_model.hpp"
-#include "scene/material.hpp"
+#include "scene/materials/material.hpp"
 #include "scene/scene.hpp"
 
 #include <algorithm>

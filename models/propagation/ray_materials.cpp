@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/ray_materials.hpp"
 
-#include "models/propagation/diffraction.hpp"
+#include "models/propagation/edges/diffraction.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>

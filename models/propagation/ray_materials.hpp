@@ -2,8 +2,8 @@
 #pragma once
 
 #include "models/propagation/ray_path.hpp"
-#include "scene/material.hpp"
-#include "scene/slab.hpp"
+#include "scene/materials/material.hpp"
+#include "scene/materials/slab.hpp"
 #include "sim/complex_math.hpp"
 #include "sim/units.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/propagation/edge_pair.hpp"
+#include "models/propagation/edges/edge_pair.hpp"
 #include "sim/fields.hpp"
 
 #include <array>

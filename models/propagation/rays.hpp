@@ -3,7 +3,7 @@
 
 #include "models/propagation/propagation_model.hpp"
 #include "models/propagation/ray_path.hpp"
-#include "scene/p2040.hpp"
+#include "scene/materials/p2040.hpp"
 
 #include <array>
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include "sim/legs.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
-#include "sim/wrapped_axis.hpp"
+#include "models/medium/wrapped_axis.hpp"
 
 #include <algorithm>
 #include <array>

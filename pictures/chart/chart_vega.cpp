@@ -5,7 +5,7 @@
 #include "pictures/chart/chart_style.hpp"
 #include "pictures/chart/chart_view.hpp"
 #include "pictures/draw/legend.hpp"
-#include "scenario/json.hpp"
+#include "scenario/document/json.hpp"
 
 #include <fmt/format.h>
 

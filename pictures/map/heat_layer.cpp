@@ -2,7 +2,7 @@
 #include "pictures/map/heat_layer.hpp"
 
 #include "files/base64.hpp"
-#include "scene/png.hpp"
+#include "scene/images/png.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "pictures/map/model_text.hpp"
 
 #include "models/propagation/list.hpp"
-#include "scenario/reader.hpp"
+#include "scenario/tables/reader.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/stage/stage_walls.hpp"
 
-#include "scene/image.hpp"
+#include "scene/images/image.hpp"
 #include "scene/rectangles.hpp"
 #include "scene/stage/wall_polygon.hpp"
 #include "scene/stage/world_model.hpp"

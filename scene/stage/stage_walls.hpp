@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/material.hpp"
+#include "scene/materials/material.hpp"
 #include "scene/occupancy.hpp"
 #include "scene/stage/worldfile.hpp"
 

@@ -4,7 +4,7 @@
 #include "models/propagation/two_ray.hpp"
 #include "models/reception/list.hpp"
 #include "network/network.hpp"
-#include "study/validation/bianchi.hpp"
+#include "study/validation/cases/bianchi.hpp"
 #include "study/validation/validation_charts.hpp"
 
 #include <algorithm>

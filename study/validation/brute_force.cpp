@@ -4,10 +4,10 @@
 #include "models/variation/shadowing.hpp"
 #include "scene/scene.hpp"
 #include "sim/math.hpp"
-#include "study/disc_fit.hpp"
-#include "study/equivalence.hpp"
-#include "study/least_squares.hpp"
-#include "study/tobit.hpp"
+#include "study/calibration/disc_fit.hpp"
+#include "study/statistics/equivalence.hpp"
+#include "study/statistics/least_squares.hpp"
+#include "study/statistics/tobit.hpp"
 #include "study/validation/validation_charts.hpp"
 
 #include <algorithm>

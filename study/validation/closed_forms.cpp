@@ -10,7 +10,7 @@
 #include "models/propagation/raytrace_2007.hpp"
 #include "models/propagation/two_ray.hpp"
 #include "models/variation/fading.hpp"
-#include "scene/p2040.hpp"
+#include "scene/materials/p2040.hpp"
 #include "scene/scene.hpp"
 #include "sim/math.hpp"
 #include "study/validation/validation_charts.hpp"

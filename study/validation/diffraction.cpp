@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/propagation/diffraction.hpp"
+#include "models/propagation/edges/diffraction.hpp"
 
 #include "sim/math.hpp"
 #include "study/validation/validation_charts.hpp"

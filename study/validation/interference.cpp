@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "study/validation/validation_charts.hpp"
-#include "study/validation/validation_scene.hpp"
+#include "study/validation/cases/validation_scene.hpp"
 
 #include <fmt/format.h>
 

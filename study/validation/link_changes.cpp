@@ -6,7 +6,7 @@
 #include "models/medium/medium.hpp"
 #include "models/propagation/log_distance.hpp"
 #include "models/propagation/raytrace_2007.hpp"
-#include "study/validation/drawn_map.hpp"
+#include "study/validation/cases/drawn_map.hpp"
 #include "study/validation/validation_charts.hpp"
 
 #include <fmt/format.h>

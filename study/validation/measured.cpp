@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/list.hpp"
 #include "scene/scene.hpp"
-#include "study/calibration.hpp"
-#include "study/free_parameters.hpp"
-#include "study/validation/measured_levels.hpp"
+#include "study/calibration/calibration.hpp"
+#include "study/calibration/free_parameters.hpp"
+#include "study/validation/cases/measured_levels.hpp"
 #include "study/validation/validation_charts.hpp"
 
 #include <fmt/format.h>

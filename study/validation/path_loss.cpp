@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "sim/math.hpp"
-#include "study/calibration.hpp"
-#include "study/free_parameters.hpp"
-#include "study/known_links.hpp"
-#include "study/medium_cost.hpp"
-#include "study/prediction_errors.hpp"
-#include "study/validation/measured_levels.hpp"
+#include "study/calibration/calibration.hpp"
+#include "study/calibration/free_parameters.hpp"
+#include "study/calibration/known_links.hpp"
+#include "study/advise/medium_cost.hpp"
+#include "study/calibration/prediction_errors.hpp"
+#include "study/validation/cases/measured_levels.hpp"
 #include "study/validation/validation_charts.hpp"
-#include "study/validation/validation_scene.hpp"
+#include "study/validation/cases/validation_scene.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include "models/propagation/rays.hpp"
 #include "scene/scene.hpp"
 #include "sim/math.hpp"
-#include "study/validation/block_shadows.hpp"
-#include "study/validation/drawn_map.hpp"
+#include "study/validation/cases/block_shadows.hpp"
+#include "study/validation/cases/drawn_map.hpp"
 #include "study/validation/validation_charts.hpp"
 
 #include <algorithm>

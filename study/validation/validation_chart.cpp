@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/validation/validation_chart.hpp"
 
-#include "study/distributions.hpp"
+#include "study/statistics/distributions.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "study/validation/turns.hpp"
+#include "study/validation/cases/turns.hpp"
 
 #include <cstddef>
 #include <functional>

@@ -5,7 +5,7 @@
 #include "scene/redrawing.hpp"
 #include "scene/scene.hpp"
 #include "sim/math.hpp"
-#include "study/validation/drawn_map.hpp"
+#include "study/validation/cases/drawn_map.hpp"
 #include "study/validation/validation_charts.hpp"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #include "models/propagation/friis.hpp"
 #include "scene/scene.hpp"
 #include "sim/math.hpp"
-#include "study/validation/drawn_map.hpp"
-#include "study/validation/naive_walls.hpp"
+#include "study/validation/cases/drawn_map.hpp"
+#include "study/validation/cases/naive_walls.hpp"
 #include "study/validation/validation_charts.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
 #include "scenario/scenario.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 

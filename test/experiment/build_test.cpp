@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
 
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <doctest/doctest.h>
 

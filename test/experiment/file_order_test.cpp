@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

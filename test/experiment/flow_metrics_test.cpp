@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run.hpp"
-#include "scenario/json.hpp"
+#include "scenario/document/json.hpp"
 #include "scenario/scenario.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"

@@ -7,7 +7,7 @@
 #include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "sim/random.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/fingerprint.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a Network keeps of its robots, and what that takes.
-#include "experiment/flood_bench.hpp"
+#include "study/validation/flood_bench.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/disc.hpp"
 #include "network/network.hpp"

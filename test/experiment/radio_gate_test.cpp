@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Who may link with whom, and frames that do not get through.
-#include "experiment/link_table.hpp"
+#include "experiment/reports/link_table.hpp"
 #include "models/reception/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"

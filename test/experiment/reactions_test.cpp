@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What robots of a scenario do when something happens, and robots that a movement file moves.
 #include "experiment/run.hpp"
-#include "experiment/whereabouts.hpp"
+#include "experiment/reports/whereabouts.hpp"
 #include "models/medium/medium.hpp"
 #include "test/scene/temporary_folder.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run.hpp"
 
-#include "scenario/json.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/json.hpp"
+#include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 #include "traces/ns2/ns2_reader.hpp"

@@ -5,7 +5,7 @@
 #include "models/propagation/disc.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any line of a controller is answered, by the state after the step or by what is wrong with it.
-#include "live/lockstep.hpp"
-#include "scenario/toml.hpp"
+#include "live/lockstep/lockstep.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <cstddef>
 #include <cstdint>

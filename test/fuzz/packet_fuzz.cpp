@@ -4,7 +4,7 @@
 #include "live/emulate/ethernet.hpp"
 #include "live/emulate/packet_front.hpp"
 #include "live/emulate/relay.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <algorithm>
 #include <chrono>

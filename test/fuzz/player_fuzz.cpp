@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any bytes of a Player client are survived, and leave another client its data.
 #include "live/player/front.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any messages of a ROS client, one a line, are survived, and leave another client its clock.
 #include "live/rosbridge/front.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <algorithm>
 #include <chrono>

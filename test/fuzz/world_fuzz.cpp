@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Any file is a Stage world or an InputError, and so are its walls and its robots.
-#include "scenario/stage_world.hpp"
+#include "scenario/stage/stage_world.hpp"
 #include "scene/stage/stage_walls.hpp"
 #include "scene/stage/worldfile.hpp"
 #include "sim/error.hpp"

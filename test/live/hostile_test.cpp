@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The command `live` among clients that break, stall, lie or die: limits hold, others are served.
-#include "live/web_sockets.hpp"
+#include "live/carriers/web_sockets.hpp"
 #include "test/live/emulate/emulation.hpp"
 #include "test/live/live_command.hpp"
 #include "test/live/web_client.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs that are killed, or that fail: their inputs so far make them again.
 #include "live/input_replay.hpp"
-#include "live/player/door.hpp"
+#include "live/player/listeners.hpp"
 #include "sim/error.hpp"
 #include "test/live/live_command.hpp"
 #include "test/live/served_run.hpp"

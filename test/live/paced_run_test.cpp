@@ -2,8 +2,8 @@
 // Runs by the clock, with real sockets and a front that is made for them.
 #include "live/paced_run.hpp"
 
-#include "live/address.hpp"
-#include "live/input_rate.hpp"
+#include "live/carriers/address.hpp"
+#include "live/carriers/input_rate.hpp"
 #include "live/input_replay.hpp"
 #include "test/live/line_client.hpp"
 #include "test/live/parrot.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Runs with clients of several kinds at once are made again from their log, without the clients.
 #include "live/input_replay.hpp"
-#include "live/player/door.hpp"
-#include "live/rosbridge/door.hpp"
+#include "live/player/listeners.hpp"
+#include "live/rosbridge/listener.hpp"
 #include "sim/error.hpp"
 #include "test/live/live_command.hpp"
 #include "test/live/served_run.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/lockstep.hpp"
+#include "live/lockstep/lockstep.hpp"
 #include "scenario/scenario.hpp"
 #include "test/scene/temporary_folder.hpp"
 #include "traces/fingerprint.hpp"

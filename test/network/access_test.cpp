@@ -8,7 +8,7 @@
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "sim/random.hpp"
-#include "study/validation/bianchi.hpp"
+#include "study/validation/cases/bianchi.hpp"
 #include "traces/fingerprint.hpp"
 
 #include <doctest/doctest.h>

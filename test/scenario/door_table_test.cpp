@@ -7,7 +7,7 @@
 #include "models/medium/medium.hpp"
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 

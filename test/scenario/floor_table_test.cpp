@@ -3,7 +3,7 @@
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
 #include "scenario/scenario.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 

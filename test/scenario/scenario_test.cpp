@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/scenario.hpp"
 
-#include "scenario/json.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/json.hpp"
+#include "scenario/document/toml.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -2,7 +2,7 @@
 #include "scenario/traffic_file.hpp"
 
 #include "experiment/run.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fits of two measured buildings, on another drive or day: the vectors field_*_fits.csv. The
 // measurements are read from the folder that ROVERNET_FIELD names.
-#include "study/least_squares.hpp"
+#include "study/statistics/least_squares.hpp"
 #include "test/models/vectors.hpp"
 
 #include <doctest/doctest.h>

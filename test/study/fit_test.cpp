@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Fits against numpy and scipy: the vectors fit_*.csv.
 #include "models/propagation/friis.hpp"
-#include "study/disc_fit.hpp"
-#include "study/least_squares.hpp"
-#include "study/tobit.hpp"
+#include "study/calibration/disc_fit.hpp"
+#include "study/statistics/least_squares.hpp"
+#include "study/statistics/tobit.hpp"
 #include "test/models/vectors.hpp"
 
 #include <doctest/doctest.h>

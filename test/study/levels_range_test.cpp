@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every number of a file of levels has its range: what is outside is told with its place.
 #include "sim/error.hpp"
-#include "study/known_links.hpp"
+#include "study/calibration/known_links.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/measurement.hpp"
 
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "study/study.hpp"
 #include "test/scene/temporary_folder.hpp"
 

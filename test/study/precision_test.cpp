@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/precision.hpp"
 
-#include "study/interval.hpp"
+#include "study/statistics/interval.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Whatever is wrong with a recorded trace, all that reads one ends with a result or with an
 // InputError: no other exception, and no index beyond an array, which sanitizers would tell.
-#include "experiment/capture.hpp"
-#include "experiment/message_at_robot.hpp"
-#include "experiment/replay.hpp"
+#include "experiment/replay/capture.hpp"
+#include "experiment/replay/message_at_robot.hpp"
+#include "experiment/replay/replay.hpp"
 #include "experiment/run.hpp"
-#include "experiment/trace_input.hpp"
+#include "experiment/replay/trace_input.hpp"
 #include "sim/error.hpp"
-#include "study/recorded_day.hpp"
+#include "experiment/replay/recorded_day.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/recorded/mcap_reader.hpp"
 #include "traces/recorded/record_code.hpp"

@@ -2,7 +2,7 @@
 #include "study/study.hpp"
 
 #include "experiment/build.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command `in`: whose runs it enters, and that its programs end with the run.
 #include "live/emulate/descriptor_socket.hpp"
-#include "live/emulate/robot_door.hpp"
+#include "live/emulate/robot_listener.hpp"
 #include "test/live/emulate/tap_run.hpp"
 
 #include <doctest/doctest.h>

@@ -2,7 +2,7 @@
 // Player's configuration files, and the doors that follow from them.
 #include "live/player/config.hpp"
 
-#include "live/player/door.hpp"
+#include "live/player/listeners.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

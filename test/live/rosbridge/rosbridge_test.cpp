@@ -3,7 +3,7 @@
 // test/data/rosbridge), closed forms of motion and radio, and decoders of others.
 #include "files/base64.hpp"
 #include "live/rosbridge/types.hpp"
-#include "scene/image.hpp"
+#include "scene/images/image.hpp"
 #include "test/live/rosbridge/ros_talk.hpp"
 #include "test/live/talk.hpp"
 #include "test/scene/temporary_folder.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shadows of bodies: blocks, pillars, shelves, ends of walls.
 
-#include "models/propagation/diffraction.hpp"
-#include "models/propagation/edge_pair.hpp"
+#include "models/propagation/edges/diffraction.hpp"
+#include "models/propagation/edges/edge_pair.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/rays.hpp"
 #include "scene/scene.hpp"

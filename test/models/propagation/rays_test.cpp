@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/rays.hpp"
 
-#include "models/propagation/diffraction.hpp"
+#include "models/propagation/edges/diffraction.hpp"
 #include "models/propagation/friis.hpp"
 #include "scene/scene.hpp"
 #include "sim/math.hpp"

@@ -6,7 +6,7 @@
 #include "models/medium/medium.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/log_distance.hpp"
-#include "scenario/toml.hpp"
+#include "scenario/document/toml.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

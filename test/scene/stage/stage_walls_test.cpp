@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/stage/stage_walls.hpp"
 
-#include "scene/image.hpp"
+#include "scene/images/image.hpp"
 #include "scene/scene.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Validations with few samples: their promises, and what they are made of.
 #include "scene/scene.hpp"
-#include "study/validation/drawn_map.hpp"
-#include "study/validation/naive_walls.hpp"
+#include "study/validation/cases/drawn_map.hpp"
+#include "study/validation/cases/naive_walls.hpp"
 #include "study/validation/validation_charts.hpp"
-#include "study/validation/validation_scene.hpp"
+#include "study/validation/cases/validation_scene.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "cli/commands.hpp"
-#include "cli/options.hpp"
+#include "cli/terminal/commands.hpp"
+#include "cli/terminal/options.hpp"
 #include "experiment/build.hpp"
 #include "models/medium/medium.hpp"
-#include "scenario/json.hpp"
+#include "scenario/document/json.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/options.hpp"
+#include "cli/runs/run_output.hpp"
+#include "cli/runs/serving.hpp"
+#include "live/emulate/device_addresses.hpp"
+#include "live/emulate/listeners.hpp"
+#include "live/emulate/inside.hpp"
+#include "live/emulate/robot_network.hpp"
+#include "live/player/listeners.hpp"
+#include "live/rosbridge/listener.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <pwd.h>
+#include <sys/types.h>
+
+namespace rovernet::cli {
+namespace {
+
+struct EmulateArguments : FileArguments {
+    std::optional<std::string> out, udp, player, rosbridge;
+    std::string late = "10ms", on_late = "warn";
+    double speed = 1;
+    Reach reach;
+    bool json = false;
+};
+
+FrontDoor udp_door(const EmulateArguments& a, const Scenario& scenario) {
+    const Address first = a.reach.without_token(*a.udp);
+    check_udp_ports(first, robot_names(scenario).size());
+    return udp_relay(first);
+}
+
+PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenario,
+                               const StopRules& stop) {
+    PacedOptions options;
+    options.stop = stop;
+    options.folder = results_folder(a.out, scenario, a.options);
+    options.speed = a.speed;
+    options.fronts.push_back(a.udp ? udp_door(a, scenario)
+                                   : tap_devices(options.folder, stop.go_on));
+    if (a.player) {
+        options.fronts.push_back(
+            player_ports(a.reach.without_token(*a.player), robot_names(scenario), {}));
+    }
+    if (a.rosbridge) options.fronts.push_back(rosbridge_door(a.reach.with_token(*a.rosbridge)));
+    options.say = announcer(a.json ? Announced::by_notice : Announced::by_output);
+    options.most_late = time_of("--late", a.late);
+    options.late_ends = a.on_late == "fail";
+    return options;
+}
+
+void emulate(const EmulateArguments& a) {
+    const Scenario scenario = scenario_of(a);
+    if (!a.udp) {
+        for (const std::string& each : check_device_addresses(scenario)) notice(each);
+    }
+    ServingStop stop;
+    const PacedOptions options = emulation_options(a, scenario, stop.rules());
+    const LiveResult result = run_paced(scenario, options);
+    print_run(result.scenario, result.run, a.json);
+    if (!a.json) {
+        fmt::print(
+            "late               {:.3f} ms at most, {:.1f} % of the times by more than 1 ms\n",
+            1e3 * seconds(result.lateness->most), 100 * result.lateness->share());
+    }
+    if (!result.fault.empty()) throw CommandEnd(failed, result.fault);
+}
+
+struct InArguments {
+    std::string robot;
+    std::optional<std::string> run, user;
+    std::vector<std::string> program;
+};
+
+std::optional<long> whole_number_of(const std::string& text) {
+    long number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
+}
+
+/// The user of a name or a number.
+uid_t user_of(const std::string& text) {
+    if (const passwd* const found = getpwnam(text.c_str())) return found->pw_uid;
+    constexpr long largest = 4'294'967'294;
+    const auto number = whole_number_of(text);
+    if (number && *number >= 0 && *number <= largest) return static_cast<uid_t>(*number);
+    throw CommandEnd(usage, fmt::format("--user: there is no user {}", text));
+}
+
+WantedRun wanted_run(const InArguments& a) {
+    WantedRun wanted;
+    if (a.user) wanted.user = user_of(*a.user);
+    if (!a.run) return wanted;
+    constexpr long largest = 1 << 22;  // of Linux
+    const auto number = whole_number_of(*a.run);
+    if (number && (*number < 1 || *number > largest)) {
+        throw CommandEnd(
+            usage, fmt::format("--run {}: expected a process, from 1 to {}, or a folder", *a.run,
+                               largest));
+    }
+    if (number) {
+        wanted.process = static_cast<pid_t>(*number);
+    } else {
+        wanted.folder = *a.run;
+    }
+    return wanted;
+}
+
+void run_in(const InArguments& a) {
+    const RobotNetwork network = find_network(a.robot, wanted_run(a));
+    const ProgramEnd end = run_inside(network, a.program);
+    if (!end.run_ended_it) end_like(end.status);
+    throw CommandEnd(failed, fmt::format("the run in {} has ended, and {} with it",
+                                         folder_text(network.folder), a.program.front()));
+}
+
+}  // namespace
+
+void add_emulate(Command app) {
+    const auto [command, a] = add_command(
+        app, "emulate", "Carry the packets of real programs by the robots' radios, in real time",
+        emulate);
+    command.add_examples({"rovernet emulate examples/emulate/emulate.toml",
+                          "rovernet emulate examples/rescue/rescue.toml --udp --rosbridge"});
+    add_file(command, a, any_file);
+    command
+        .add_option("--udp", a.udp,
+                    "serve datagrams, at 127.0.0.1:PORT and the ports that follow, one for each "
+                    "robot; port 0: any that is free (default: 7100)")
+        .usually(relay_address.data());
+    command
+        .add_option("--player", a.player,
+                    "serve Player clients, too, at 127.0.0.1:PORT and the ports that follow; port "
+                    "0: any that is free (default: 6665)")
+        .usually(player_address.data());
+    command
+        .add_option("--rosbridge", a.rosbridge,
+                    "serve ROS clients, too, at 127.0.0.1:PORT; port 0: any that is free (default: "
+                    "9090)")
+        .usually(rosbridge_address.data());
+    command.add_option("--speed", a.speed, "simulated per real time").check(above_zero());
+    command.add_option("--late", a.late, "real time by which it may be behind the clock")
+        .shows_default();
+    command.add_option("--on-late", a.on_late, "then: warn, once; or fail, and end the run")
+        .one_of({"warn", "fail"})
+        .shows_default();
+    command.add_option("--out", a.out, "folder for the results (default: as that of run)");
+    a.reach.add_to(command);
+    add_json(command, a.json);
+}
+
+void add_in(Command app) {
+    const auto [command, a] = add_command(
+        app, "in", "Run a program with the network of a robot of rovernet emulate", run_in);
+    command.add_examples(
+        {"rovernet in A -- ping 10.0.0.2", "rovernet in --run runs/emulate-s1 A -- ping 10.0.0.2"});
+    command.add_option("ROBOT", a.robot, "name of the robot").required();
+    command.add_option("PROGRAM", a.program, "program and its arguments, behind --").required();
+    command.add_option("--run", a.run,
+                       "process of the run or folder of its results, if several have such a robot");
+    command.add_option("--user", a.user,
+                       "user whose run it is, for root; that user reads and changes what the "
+                       "program sends (default: your own)");
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/options.hpp"
+#include "cli/runs/run_output.hpp"
+#include "cli/runs/serving.hpp"
+#include "live/lockstep/live_run.hpp"
+#include "live/player/listeners.hpp"
+#include "live/rosbridge/listener.hpp"
+#include "scenario/document/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace rovernet::cli {
+namespace {
+
+struct LiveArguments : FileArguments {
+    std::optional<std::string> out, listen, web, unix_path, patience;
+    std::vector<std::string> controllers;
+    std::optional<std::uint64_t> wait_for;
+    std::string on_loss = "end";
+    std::optional<std::string> player, rosbridge;
+    std::optional<double> speed;
+    bool one_port = false, lockstep = false;
+    Reach reach;
+    bool json = false;
+
+    Announced announced() const { return json ? Announced::by_notice : Announced::by_output; }
+};
+
+std::string folder_of(const LiveArguments& a, const Scenario& scenario) {
+    return results_folder(a.out, scenario, a.options);
+}
+
+LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
+    LiveOptions options{
+        .folder = folder_of(a, scenario), .controllers = a.controllers, .unix_path = a.unix_path};
+    if (a.listen) options.listen = a.reach.without_token(*a.listen);
+    if (a.web) options.web = a.reach.with_token(*a.web);
+    const std::size_t started = std::max<std::size_t>(a.controllers.size(), 1);
+    options.lockstep.wait_for = a.wait_for ? static_cast<std::size_t>(*a.wait_for) : started;
+    options.lockstep.on_loss = a.on_loss == "stop"   ? OnLoss::stop
+                               : a.on_loss == "wait" ? OnLoss::wait
+                                                     : OnLoss::end;
+    if (a.patience) options.patience = time_of("--patience", *a.patience);
+    options.say = announcer(a.announced());
+    return options;
+}
+
+FrontDoor player_door(const LiveArguments& a, const std::optional<PlayerConfig>& config,
+                      const Scenario& scenario) {
+    const PlayerSettings settings{.is_lockstep = a.lockstep, .wait_for = a.wait_for.value_or(1)};
+    const Address at = a.reach.without_token(*a.player);
+    const std::vector<std::string> robots = robot_names(scenario);
+    if (config) return player_configured(at, *config, robots, settings);
+    return (a.one_port ? player_one_port : player_ports)(at, robots, settings);
+}
+
+/// Runs FILE by the clock, or the world that it names if it is a configuration of Player.
+LiveResult run_by_clock(LiveArguments a) {
+    std::optional<PlayerConfig> config;
+    if (a.player && a.file.ends_with(".cfg")) {
+        config = read_player_config(a.file);
+        a.file = config->world;
+    }
+    const Scenario scenario = scenario_of(a);
+    PacedOptions options;
+    options.folder = folder_of(a, scenario);
+    if (a.speed) options.speed = a.speed;
+    if (a.lockstep) options.speed.reset();
+    if (a.player) options.fronts.push_back(player_door(a, config, scenario));
+    if (a.rosbridge) options.fronts.push_back(rosbridge_door(a.reach.with_token(*a.rosbridge)));
+    ServingStop stop;
+    options.stop = stop.rules();
+    options.say = announcer(a.announced());
+    return run_paced(scenario, options);
+}
+
+LiveResult run_lockstep(const LiveArguments& a) {
+    const Scenario scenario = scenario_of(a);
+    LiveOptions options = lockstep_options(a, scenario);
+    ServingStop stop;
+    options.stop = stop.rules();
+    return rovernet::run_live(scenario, options);
+}
+
+void run_live(const LiveArguments& a) {
+    const bool is_by_clock = a.player || a.rosbridge;
+    const bool is_in_lockstep = !a.controllers.empty() || a.listen || a.web || a.unix_path;
+    if (!is_by_clock && !is_in_lockstep) {
+        throw CommandEnd(usage,
+                         "live: expected --controller, --listen-json, --listen-web, --unix, "
+                         "--player or --rosbridge");
+    }
+    if (!is_by_clock && a.speed) {
+        throw CommandEnd(usage, "live: --speed needs --player or --rosbridge");
+    }
+    const LiveResult result = is_by_clock ? run_by_clock(a) : run_lockstep(a);
+    print_run(result.scenario, result.run, a.json);
+    if (!result.fault.empty()) throw CommandEnd(failed, result.fault);
+}
+
+/// Options of runs in lock-step, by JSON lines.
+void add_lockstep(Command live, LiveArguments& a) {
+    live.add_option(
+            "--controller", a.controllers,
+            "program to start, which speaks by its standard input and output; several times")
+        .one_word();
+    live.add_option("--listen-json", a.listen,
+                    "127.0.0.1:PORT to listen on for controllers; port 0: any that is free");
+    live.add_option("--listen-web", a.web,
+                    "127.0.0.1:PORT to listen on for controllers by WebSocket, a message a line");
+    live.add_option("--unix", a.unix_path, "path of a Unix socket to listen on for controllers");
+    live.add_option("--patience", a.patience,
+                    "real time that a controller may take for a step, such as 30s (default: any)");
+    live.add_option(
+            "--on-loss", a.on_loss,
+            "when a controller has gone without a bye: end; stop its robots; or wait for it")
+        .one_of({"end", "stop", "wait"})
+        .shows_default();
+}
+
+/// Options of runs by the clock.
+void add_by_clock(Command live, LiveArguments& a) {
+    const Option player =
+        live.add_option(
+                "--player", a.player,
+                "serve Player clients, at 127.0.0.1:PORT and the ports that follow, one for "
+                "each robot; port 0: any that is free (default: 6665)")
+            .usually(player_address.data());
+    const Option rosbridge =
+        live.add_option("--rosbridge", a.rosbridge,
+                        "serve ROS clients by the rosbridge protocol, at 127.0.0.1:PORT; port 0: "
+                        "any that is free (default: 9090)")
+            .usually(rosbridge_address.data());
+    for (const char* other : {"--controller", "--listen-json", "--listen-web", "--unix"}) {
+        player.excludes(live.option(other));
+        rosbridge.excludes(live.option(other));
+    }
+    live.add_flag("--player-one-port", a.one_port,
+                  "all robots at one port: the devices of the first have index 0, and so on")
+        .needs(player);
+    const Option lockstep =
+        live.add_flag("--player-lockstep", a.lockstep,
+                      "time goes on by 0.1 s once all clients that pull have asked for data")
+            .needs(player)
+            .excludes(rosbridge);
+    live.add_option("--speed", a.speed,
+                    "simulated per real time, with --player or --rosbridge (default: 1)")
+        .check(above_zero())
+        .excludes(lockstep);
+}
+
+}  // namespace
+
+void add_live(Command app) {
+    const auto [live, a] = add_command(
+        app, "live", "Run a scenario whose robots are driven by programs outside", run_live);
+    live.add_examples(
+        {"rovernet live examples/search/search.toml --controller \"python3 "
+         "examples/search/search.py\"",
+         "rovernet live examples/rescue/rescue.toml --player",
+         "rovernet live examples/rescue/rescue.toml --rosbridge"});
+    add_file(live, a, any_file);
+    add_lockstep(live, a);
+    add_by_clock(live, a);
+    live.add_option("--wait-for", a.wait_for,
+                    "controllers with which a run in lock-step begins (default: those started, or "
+                    "1)")
+        .range(1, 500);
+    a.reach.add_to(live);
+    live.add_option("--out", a.out, "folder for the results (default: as that of run)");
+    add_json(live, a.json);
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/run.hpp"
+
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/runs/run_commands.hpp"
+#include "cli/runs/run_output.hpp"
+#include "cli/terminal/stop.hpp"
+#include "cli/terminal/waiting.hpp"
+#include "experiment/run_folder.hpp"
+#include "scenario/document/json.hpp"
+#include "scenario/document/toml.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <unistd.h>
+
+namespace rovernet::cli {
+
+namespace {
+
+constexpr std::size_t longest_timeline = 100;  // lines
+
+std::string percent(const std::optional<double>& share) {
+    return share ? fmt::format("{:.1f} %", 100 * *share) : "none";
+}
+
+void print_timeline(const Scenario& scenario, const RunResult& result) {
+    std::size_t width = 1;
+    for (const auto& robot : scenario.robots) width = std::max(width, robot.name.size() + 1);
+    const Timeline& timeline = *result.timeline;
+    const std::size_t shown = std::min(timeline.size(), longest_timeline);
+    for (std::size_t i = 0; i < shown; ++i) {
+        const auto [time, robot, text] = timeline[i];
+        fmt::print("{:>11.6f} s  {:<{}} {}\n", seconds(time), robot, width, text);
+    }
+    if (shown < timeline.size()) {
+        fmt::print("... and {} more; all are in {}/summary.json\n", timeline.size() - shown,
+                   result.folder);
+    }
+    if (shown > 0) fmt::print("\n");
+}
+
+void print_result(const Scenario& scenario, const RunResult& result) {
+    print_timeline(scenario, result);
+    const MetricValues& m = result.metrics;
+    fmt::print("messages {}, transmissions {}, receptions {}\n", m.messages, m.transmissions,
+               m.receptions);
+    fmt::print("delivery ratio     {}\n", percent(m.delivery_ratio));
+    if (m.cut_off > 0) {
+        fmt::print("left out of it     {} that the end of the run cut off at their senders\n",
+                   m.cut_off);
+    }
+    if (m.reach_known) {
+        fmt::print(
+            "reach              {} of the robots that a chain of links joined to the sender\n",
+            percent(m.reach));
+    } else if (!scenario.metrics.reach) {
+        fmt::print(
+            "reach              not looked for, as that takes longer than all the rest; "
+            "[metrics] reach = true does\n");
+    }
+    if (m.latency) {
+        fmt::print("latency            {:.3f} ms mean, {:.3f} ms at most\n", 1e3 * m.latency->mean,
+                   1e3 * m.latency->max);
+        fmt::print("hops               {:.2f} mean, {} at most\n", m.mean_hops.value_or(0),
+                   m.max_hops);
+    }
+    for (const auto& drop : m.drops) {
+        if (drop.count > 0) fmt::print("dropped {:<10} {}\n", drop.reason, drop.count);
+    }
+    fmt::print("fingerprint        {}\n", result.fingerprint);
+    if (const auto db = result.interference_left_out) {
+        notice(fmt::format("interference left out: at most {:.2f} dB", db->value));
+    }
+    notice(fmt::format("{} events, {:.2f} s; results in {}", result.events, result.wall_s,
+                       result.folder));
+}
+
+}  // namespace
+
+ScenarioOptions options_of(const FileArguments& a) {
+    ScenarioOptions options = a.options;
+    if (a.seed) options.set.push_back(fmt::format("scenario.seed={}", *a.seed));
+    if (a.replication) {
+        options.set.push_back(fmt::format("scenario.replication={}", *a.replication));
+    }
+    return options;
+}
+
+namespace {
+
+void tell_of(const Scenario& scenario) {
+    const Table document = to_document(scenario);
+    detail(fmt::format("{} tables of robots, model {}, {:g} s", scenario.robots.size(),
+                       *document.find("propagation")->table()->find("model")->string(),
+                       seconds(scenario.scenario.duration)));
+}
+
+}  // namespace
+
+Scenario scenario_of(const FileArguments& a) {
+    Scenario scenario = [&] {
+        const Waiting reading("reading " + a.file);
+        return load_scenario(a.file, options_of(a));
+    }();
+    if (tells_details()) tell_of(scenario);
+    for (const std::string& text : scenario.notices) notice(text);
+    return scenario;
+}
+
+void run(const RunArguments& a) {
+    FileArguments given = a;
+    if (a.record) given.options.set.push_back("trace.record=true");
+    const Scenario scenario = scenario_of(given);
+    if (a.print_scenario) {
+        fmt::print("{}", to_toml(to_document(scenario)));
+        return;
+    }
+    std::optional<Waiting> waiting("setting up the network of " + a.file);
+    std::optional<HeldStop> writing;  // not while the network is set up
+    const RunResult result =
+        run_scenario(scenario, {.folder = a.out ? *a.out : run_folder(scenario, a.options.set),
+                                .speed = a.speed,
+                                .progress = [&](double share) {
+                                    if (!writing) {
+                                        waiting.reset();
+                                        waiting.emplace("running " + a.file);
+                                        writing.emplace();
+                                    }
+                                    waiting->tell(share);
+                                    return stops_asked() == 0;
+                                }});
+    waiting.reset();
+    writing.reset();
+    print_run(scenario, result, a.json);
+}
+
+void print_run(const Scenario& scenario, const RunResult& result, bool json) {
+    if (json) {
+        write_summary(run_summary(scenario, result), *result.timeline,
+                      [](std::string_view text) { fmt::print("{}", text); });
+    } else {
+        print_result(scenario, result);
+    }
+}
+
+}  // namespace rovernet::cli

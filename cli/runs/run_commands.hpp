@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/terminal/commands.hpp"
+#include "study/advise/advise_candidates.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The commands that run a scenario, once or often: run, sweep, compare, advise, fit, probe.
+namespace rovernet::cli {
+
+struct RunArguments : FileArguments {
+    std::optional<std::string> out;
+    std::optional<double> speed;
+    bool json = false;
+    bool print_scenario = false;
+    bool record = false;
+};
+void run(const RunArguments& arguments);
+
+/// A study, and how it is run.
+struct StudyArguments : FileArguments {
+    std::optional<std::string> store;
+    std::optional<std::uint64_t> replications, max_replications;
+    std::optional<double> precision;
+    std::optional<std::string> interval;
+    std::uint64_t workers = 0;  ///< 0: as many as processors
+    std::optional<std::string> timeout, memory;
+    bool fail_fast = false, json = false;
+    std::string command;  ///< command as it was typed
+};
+
+struct SweepArguments : StudyArguments {
+    std::optional<std::uint64_t> shard;
+    std::uint64_t chunk = 50;
+    std::optional<std::string> except;  ///< store whose finished runs are not made
+    std::vector<std::string> merge;     ///< stores
+    std::string executor = "local", sbatch;
+    bool dry_run = false, resume = false, fresh = false, yes = false;
+};
+void sweep(const SweepArguments& arguments);
+
+struct CompareArguments : StudyArguments {
+    std::vector<std::string> models;
+    std::optional<std::string> vary;  ///< KEY=VALUE,VALUE,... in place of models
+    std::string metric, baseline;
+    std::optional<double> margin;
+    std::optional<std::string> picture;
+};
+void compare(const CompareArguments& arguments);
+
+struct AdviseArguments : StudyArguments {
+    std::string metric = "delivery_ratio", criterion = "mean";
+    std::optional<double> tolerance;
+    CandidateQuestion question;
+    bool no_cost = false;
+    std::string budget = "10 min";
+    std::optional<std::string> picture;
+};
+void advise(const AdviseArguments& arguments);
+
+struct FitArguments : FileArguments {
+    std::string to;
+    std::optional<std::string> links, check, floor;
+    bool gains = false;
+    bool json = false;
+};
+void fit(const FitArguments& arguments);
+
+struct ProbeArguments : FileArguments {
+    std::size_t links = 1000, top = 10;
+    bool no_messages = false;
+    bool json = false;
+};
+void probe(const ProbeArguments& arguments);
+
+}  // namespace rovernet::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "cli/runs/serving.hpp"
+
+#include "cli/terminal/diagnostics.hpp"
+#include "experiment/run_folder.hpp"
+#include "scenario/document/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace rovernet::cli {
+
+std::chrono::nanoseconds time_of(const std::string& option, const std::string& text) {
+    const Location where{.source = option + " " + text, .is_option = true};
+    const double s = read_quantity(placed(Value(text), where), "time", Dimension::time);
+    if (!(s > 0)) throw InputError(where, "expected a time above 0 s");
+    return from_seconds(s);
+}
+
+std::string results_folder(const std::optional<std::string>& out, const Scenario& scenario,
+                           const ScenarioOptions& options) {
+    return out ? *out : run_folder(scenario, options.set);
+}
+
+void Reach::add_to(Command command) {
+    const Option option = command.add_option(
+        "--listen", listen,
+        "IP address of this machine by which others reach it, or 0.0.0.0: those that speak "
+        "WebSocket, with the token that is printed");
+    command
+        .add_flag("--insecure", insecure,
+                  "others that --listen lets in may speak the protocols without a token, too")
+        .needs(option);
+}
+
+Address Reach::with_token(const std::string& text) const {
+    Address address = read_loopback(text);
+    if (listen) address.host = read_host(*listen);
+    return address;
+}
+
+Address Reach::without_token(const std::string& text) const {
+    if (insecure) return with_token(text);
+    if (listen) {
+        notice(fmt::format(
+            "{}: for this machine alone, as its clients need no token; --insecure lets others in",
+            text));
+    }
+    return read_loopback(text);
+}
+
+StopRules ServingStop::rules() {
+    return {.go_on = [] { return stops_asked() == 0; },
+            .writes =
+                [this](bool writes) {
+                    writing_.reset();
+                    if (writes) writing_.emplace();
+                }};
+}
+
+std::function<void(std::string_view)> announcer(Announced announced) {
+    if (announced == Announced::by_notice) return notice;
+    return [](std::string_view text) {
+        if (!text.starts_with("listening ") && !text.starts_with("for ")) return notice(text);
+        fmt::print("{}\n", text);
+        std::fflush(stdout);
+    };
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/terminal/commands.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The commands that look at a scene: link, links, scene, where, draw, move.
+namespace rovernet::cli {
+
+struct LinkArguments : FileArguments {
+    std::string from, to;
+    std::string at = "0 s";
+    bool json = false;
+};
+void link(const LinkArguments& arguments);
+
+struct LinksArguments : FileArguments {
+    std::string at = "0 s";
+    std::optional<std::string> robot;
+    bool history = false;
+    bool json = false;
+};
+void links(const LinksArguments& arguments);
+
+struct SceneArguments : FileArguments {
+    std::string at = "0 s";
+    std::optional<std::string> size;  ///< size of a bare picture, WIDTHxHEIGHT in metres
+    bool json = false;
+};
+void scene(const SceneArguments& arguments);
+
+struct WhereArguments : FileArguments {
+    std::vector<std::string> at;
+    bool json = false;
+};
+void where(const WhereArguments& arguments);
+
+struct DrawArguments : FileArguments {
+    std::string at = "0 s";
+    std::optional<std::string> coverage, receiver;
+    bool links = false;
+    bool trails = false;
+    bool axes = false;
+    int storey = 1;
+    int width = 1200;
+    double font_size = 12;
+    std::string out;
+};
+void draw(const DrawArguments& arguments);
+
+struct ConvertArguments : FileArguments {
+    std::string out;
+};
+void convert_movements(const ConvertArguments& arguments);
+
+}  // namespace rovernet::cli

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "cli/terminal/options.hpp"
+#include "cli/scenes/scene_commands.hpp"
+
+namespace rovernet::cli {
+namespace {
+
+void add_link(Command app) {
+    const auto [link, a] =
+        add_command(app, "link", "The budget of the link from robot A to robot B", cli::link);
+    link.add_examples({"rovernet link examples/rescue/rescue.toml A B --at 10s"});
+    add_file(link, a, any_file);
+    link.add_option("A", a.from, "transmitting robot").required();
+    link.add_option("B", a.to, "receiving robot").required();
+    link.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
+    add_json(link, a.json);
+}
+
+void add_links(Command app) {
+    const auto [links, a] = add_command(app, "links", "What every robot's radio hears", cli::links);
+    links.add_examples({"rovernet links examples/rescue/rescue.toml --robot A",
+                        "rovernet links examples/rescue/rescue.toml --history"});
+    add_file(links, a, any_file);
+    links.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
+    links.add_option("--robot", a.robot, "of this robot only");
+    Option history = links.add_flag("--history", a.history, "every link change of the run, as CSV");
+    links.add_flag("--json", a.json, "print one JSON document").excludes(history);
+}
+
+void add_scene(Command app) {
+    const auto [scene, a] =
+        add_command(app, "scene", "The map, the robots and how links join them", cli::scene);
+    scene.add_examples({"rovernet scene examples/rescue/rescue.toml",
+                        "rovernet scene examples/rescue/office.png --size 48x24"});
+    add_file(scene, a, "as for run; or a map alone: map.yaml, or a picture with --size");
+    scene.add_option("--size", a.size, "of a picture, in metres: 16x16");
+    scene.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
+    scene.add_flag("--json", a.json, "print one JSON document, with every wall");
+}
+
+void add_where(Command app) {
+    const auto [where, a] = add_command(app, "where", "Where every robot is", cli::where);
+    where.add_examples({"rovernet where examples/rescue/rescue.toml --at 10s,31.25s"});
+    add_file(where, a, any_file);
+    where.add_option("--at", a.at, "times of the run, such as 10s,31.25s")
+        .delimiter(',')
+        .required();
+    add_json(where, a.json);
+}
+
+void add_draw(Command app) {
+    const auto [draw, a] = add_command(app, "draw", "Draw map, robots and radio", cli::draw);
+    draw.add_examples({"rovernet draw examples/rescue/rescue.toml --links --at 10s -o rescue.svg",
+                       "rovernet draw examples/rescue/rescue.toml --coverage A -o coverage.svg",
+                       "rovernet draw examples/rescue/rescue.toml --coverage A --for B -o b.svg"});
+    add_file(draw, a, any_file);
+    draw.add_option("--at", a.at, "time of the run, such as 12.5s").shows_default();
+    Option coverage =
+        draw.add_option("--coverage", a.coverage, "robot whose received power is shown");
+    draw.add_option("--for", a.receiver,
+                    "robot whose radio and antenna's height receive it (default: like its own)")
+        .needs(coverage);
+    draw.add_flag("--links", a.links, "show who hears whom");
+    draw.add_flag("--trails", a.trails, "show where the robots have been");
+    draw.add_option("--storey", a.storey, "storey that is drawn, the lowest is 1").shows_default();
+    draw.add_flag("--axes", a.axes, "show axes in metres");
+    draw.add_option("--width", a.width,
+                    "of the picture, in pixels (points of a PDF); all is scaled")
+        .range(100, 10000)
+        .shows_default();
+    draw.add_option("--font-size", a.font_size, "in points, of which the width is 1200")
+        .range(4, 36)
+        .shows_default();
+    draw.add_option("-o,--output", a.out, "picture to write: NAME.svg, NAME.png or NAME.pdf")
+        .required();
+}
+
+void add_move(Command app) {
+    Command move = app.add_command("move", "Work with movement files");
+    move.needs_command();
+    const auto [convert, a] =
+        add_command(move, "convert", "Write the motion of a scenario or movement file for others",
+                    cli::convert_movements);
+    convert.add_examples({"rovernet move convert examples/patrol/patrol.toml patrol.tcl"});
+    add_file(convert, a, any_file);
+    convert.add_option("OUT", a.out, "NAME.tcl (ns-2) or NAME.movements (BonnMotion)").required();
+}
+
+}  // namespace
+
+void add_scene_commands(Command app) {
+    add_link(app);
+    add_links(app);
+    add_scene(app);
+    add_where(app);
+    add_draw(app);
+    add_move(app);
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/picture_output.hpp"
+#include "cli/terminal/playing.hpp"
+#include "cli/scenes/scene_commands.hpp"
+#include "cli/terminal/stop.hpp"
+#include "cli/terminal/waiting.hpp"
+#include "experiment/reports/link_table.hpp"
+#include "experiment/reports/loss_table.hpp"
+#include "experiment/run.hpp"
+#include "experiment/reports/scene_report.hpp"
+#include "experiment/reports/whereabouts.hpp"
+#include "pictures/map/picture.hpp"
+#include "scenario/document/json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <unistd.h>
+#include <utility>
+
+namespace rovernet::cli {
+namespace {
+
+/// Words for a robot that is not there, or off: ", not departed".
+std::string presence_text(std::string_view presence) {
+    if (presence == name_of(Presence::on)) return "";
+    std::string text = fmt::format(", {}", presence);
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
+}
+
+void print_links(const LinkTable& table) {
+    const Device& d = table.device;
+    fmt::print("{}  ip {}  mac {}  essid \"{}\"  {:g} MHz  {}{}\n", d.robot, d.ip, d.mac, d.essid,
+               d.frequency.value / 1e6, name_of(d.mode), d.encryption ? "  encrypted" : "");
+    if (table.rows.empty()) fmt::print("  hears nobody\n");
+    for (const LinkTable::Row& row : table.rows) {
+        const Device& n = row.neighbour;
+        fmt::print(
+            "  hears {:<12} ip {:<15} mac {}  essid \"{}\"  {:g} MHz  {}{}  quality {:3}  "
+            "level {:.2f} dBm  noise {:.2f} dBm\n",
+            n.robot, n.ip, n.mac, n.essid, n.frequency.value / 1e6, name_of(n.mode),
+            n.encryption ? "  encrypted" : "", row.quality, row.level.value, row.noise.value);
+    }
+}
+
+bool is_picture(const std::string& file) {
+    const auto ending = std::filesystem::path(file).extension();
+    return ending == ".png" || ending == ".pgm";
+}
+
+bool is_map(const std::string& file) {
+    const auto ending = std::filesystem::path(file).extension();
+    return is_picture(file) || ending == ".yaml" || ending == ".yml";
+}
+
+/// "16x16" or "16 m x 9 m", in metres.
+std::vector<Meters> size_of(const std::string& text) {
+    const auto cross = text.find('x');
+    if (cross == text.npos) {
+        throw InputError(Location{"--size " + text, 0, 0, true},
+                         "expected WIDTHxHEIGHT in metres; for example 16x16");
+    }
+    return {option_length("--size", text.substr(0, cross)),
+            option_length("--size", text.substr(cross + 1))};
+}
+
+/// A map alone.
+Table map_report(const SceneArguments& a) {
+    SceneTable table;
+    table.map = std::filesystem::path(a.file).filename().string();
+    table.map_where = Location{a.file};
+    if (is_picture(a.file) && !a.size) {
+        throw InputError(Location{a.file},
+                         "a picture without a scale; expected also --size WIDTHxHEIGHT in metres, "
+                         "such as --size 16x16, or a map.yaml");
+    }
+    if (a.size) table.size = size_of(*a.size);
+    std::vector<std::string> notices;  // of materials; a map alone has those beside it
+    const auto map = load_map(table, a.file, notices);
+    for (const std::string& text : notices) notice(text);
+    return scene_report(*map, a.json);
+}
+
+void print_list(std::string_view what, const Value& names) {
+    std::string line;
+    for (const Value& name : *names.array()) line += (line.empty() ? "" : ", ") + *name.string();
+    fmt::print("{:<20} {}\n", what, line.empty() ? "none" : line);
+}
+
+void print_materials(const Array& materials) {
+    for (const Value& material : materials) {
+        std::string line;
+        for (const Entry& entry : material.table()->entries) {
+            if (entry.key == "name") continue;
+            const std::string text = to_json(entry.value);
+            line += fmt::format("  {} {}", entry.key, text.substr(0, text.size() - 1));
+        }
+        fmt::print("{:<20} {}{}\n", "material", *material.table()->find("name")->string(), line);
+    }
+}
+
+void print_scene(const Table& report) {
+    const auto number = [&](std::string_view key) {
+        const std::string text = to_json(*report.find(key));
+        return text.substr(0, text.size() - 1);
+    };
+    const Array& size = *report.find("size_m")->array();
+    fmt::print("{:<20} {} x {} m\n", "size", std::get<double>(size[0].data),
+               std::get<double>(size[1].data));
+    if (const Value* floors = report.find("floors_m")) {
+        std::string heights;
+        for (const Value& height : *floors->array()) {
+            heights +=
+                fmt::format("{}{}", heights.empty() ? "" : ", ", std::get<double>(height.data));
+        }
+        fmt::print("{:<20} at {} m\n", "floors", heights);
+    }
+    fmt::print("{:<20} {}\n", "occupied cells", number("occupied_cells"));
+    fmt::print("{:<20} {}\n", "wall rectangles", number("wall_rectangles"));
+    if (const auto* free = std::get_if<double>(&report.find("free_area_m2")->data)) {
+        fmt::print("{:<20} {:.3f} m2\n", "free area", *free);
+    }
+    for (const char* key : {"materials", "ceilings"}) {
+        const Value* list = report.find(key);
+        if (list) print_materials(*list->array());
+    }
+}
+
+void print_robots(const Table& report) {
+    for (const Value& robot : *report.find("robots")->array()) {
+        const Table& r = *robot.table();
+        const auto value = [&](std::string_view key) {
+            return std::get<double>(r.find(key)->data);
+        };
+        const std::string z = value("z_m") == 0 ? "" : fmt::format(", {:.3f}", value("z_m"));
+        fmt::print("{:<20} {} at ({:.3f}, {:.3f}{}) m, {}, {:.2f} dBm, sensitivity {:.2f} dBm{}\n",
+                   "robot", *r.find("name")->string(), value("x_m"), value("y_m"), z,
+                   *r.find("model")->string(), value("power_dbm"), value("sensitivity_dbm"),
+                   presence_text(*r.find("presence")->string()));
+    }
+    const Value* connectivity = report.find("connectivity");
+    if (!connectivity) return;
+    const Table& c = *connectivity->table();
+    for (const Value& part : *c.find("components")->array()) print_list("joined", part);
+    print_list("articulation robots", *c.find("articulation_robots"));
+    fmt::print("{:<20} {} hops\n", "diameter",
+               std::get<std::int64_t>(c.find("diameter_hops")->data));
+}
+
+std::unique_ptr<Network> played(const std::string& file, const Scenario& scenario, Time until) {
+    Playing playing(file, until);
+    return network_at(scenario, until, playing.tell());
+}
+
+}  // namespace
+
+Time time_in(const Scenario& scenario, const std::string& text) {
+    const Time at = start_of_run + option_time("--at", text);
+    const Duration end = scenario.scenario.duration;
+    if (at > start_of_run + end) {
+        notice(fmt::format("--at {}: the run ends at {:.9g} s; it is played on until then", text,
+                           seconds(end)));
+    }
+    return at;
+}
+
+void links(const LinksArguments& a) {
+    const Scenario scenario = scenario_of(a);
+    if (a.history) {
+        Playing playing(a.file, start_of_run + scenario.scenario.duration);
+        // The lines themselves show how far it is if they go to the terminal.
+        const TellTime tell = isatty(STDOUT_FILENO) != 0 ? TellTime{} : playing.tell();
+        write_link_history(
+            scenario, [](std::string_view line) { fmt::print("{}", line); }, tell);
+        return;
+    }
+    const Time at = time_in(scenario, a.at);
+    const auto network = played(a.file, scenario, at);
+    if (!a.json) return for_each_link_table(*network, a.robot, print_links);
+    fmt::print("{{\n  \"time_s\": {},\n  \"robots\": [", to_json_line(seconds(at)));
+    const char* between = "\n";
+    for_each_link_table(*network, a.robot, [&](const LinkTable& table) {
+        fmt::print("{}{}", std::exchange(between, ",\n"), to_json_line(link_table_document(table)));
+    });
+    fmt::print("\n  ]\n}}\n");
+}
+
+void scene(const SceneArguments& a) {
+    Table report;
+    if (is_map(a.file)) {
+        report = map_report(a);
+    } else {
+        const Scenario scenario = scenario_of(a);
+        const auto network = played(a.file, scenario, time_in(scenario, a.at));
+        report = scene_report(network->scene(), a.json);
+        append_robots(report, *network);
+    }
+    if (a.json) {
+        fmt::print("{}", to_json(report));
+        return;
+    }
+    print_scene(report);
+    if (report.find("robots")) print_robots(report);
+}
+
+void where(const WhereArguments& a) {
+    const Scenario scenario = scenario_of(a);
+    std::vector<Time> times;
+    for (const std::string& text : a.at) times.push_back(time_in(scenario, text));
+    const auto all = [&] {
+        Playing playing(a.file, *std::max_element(times.begin(), times.end()));
+        return whereabouts(scenario, times, playing.tell());
+    }();
+    Array list;
+    for (const Whereabouts& now : all) {
+        Array robots;
+        for (const auto& [name, p, v, heading, presence] : now.robots) {
+            Table robot;
+            robot.set("name", name);
+            robot.set("x_m", p.x);
+            robot.set("y_m", p.y);
+            robot.set("z_m", p.z);
+            robot.set("vx", v.x);
+            robot.set("vy", v.y);
+            robot.set("heading_rad", heading);
+            robot.set("presence", name_of(presence));
+            robots.emplace_back(std::move(robot));
+            if (a.json) continue;
+            fmt::print(
+                "{:>12.6f} s  {:<12} at ({:.6f}, {:.6f}, {:.6f}) m, {:.6f} m/s, heading "
+                "{:.6f} rad{}\n",
+                seconds(now.time), name, p.x, p.y, p.z, distance(v, {}), heading,
+                presence_text(name_of(presence)));
+        }
+        Table at;
+        at.set("t_s", seconds(now.time));
+        at.set("robots", std::move(robots));
+        list.emplace_back(std::move(at));
+    }
+    Table document;
+    document.set("times", std::move(list));
+    if (a.json) fmt::print("{}", to_json(document));
+}
+
+void draw(const DrawArguments& a) {
+    check_picture_name(a.out);
+    const Scenario scenario = scenario_of(a);
+    const PictureOptions options{.at = time_in(scenario, a.at),
+                                 .coverage = a.coverage,
+                                 .receiver = a.receiver,
+                                 .links = a.links,
+                                 .trails = a.trails,
+                                 .storey = a.storey,
+                                 .axes = a.axes,
+                                 .width = a.width,
+                                 .font_size = a.font_size};
+    const std::string svg = [&] {
+        const Waiting waiting("drawing " + a.file);
+        return draw_svg(scenario, options);
+    }();
+    write_picture(a.out, svg);
+}
+
+void convert_movements(const ConvertArguments& a) {
+    const Scenario scenario = scenario_of(a);
+    const auto files = [&] {
+        Playing playing(a.file, start_of_run + scenario.scenario.duration);
+        return movement_files(scenario, a.out, playing.tell());
+    }();
+    write_whole(files);
+}
+
+}  // namespace rovernet::cli

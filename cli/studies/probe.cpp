@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "study/probe/probe.hpp"
+
+#include "cli/runs/run_commands.hpp"
+#include "cli/terminal/text_table.hpp"
+#include "cli/terminal/waiting.hpp"
+#include "scenario/document/json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rovernet::cli {
+namespace {
+
+/// Numbers that are 0 at this many digits have no sign.
+std::string db_text(double db, int digits = 2) {
+    const std::string text = fmt::format("{:+.{}f}", db, digits);
+    return text.find_first_not_of("+-0.") == text.npos ? "0" : text + " dB";
+}
+
+const char* state_text(const LinkEffect& e) {
+    if (!e.flips()) return e.is_up() ? "up" : "down";
+    return e.is_up() ? "down -> up" : "up -> down";
+}
+
+Table as_table(const PerturbationEffect& p) {
+    Table table;
+    table.set("name", p.name);
+    table.set("nothing", p.nothing.empty() ? Value() : Value(p.nothing));
+    table.set("changed", std::uint64_t{p.changed});
+    table.set("flips", std::uint64_t{p.flips});
+    table.set("worst_db", p.worst);
+    table.set("rms_db", p.rms);
+    table.set("steepest_db_per_mm", p.steepest);
+    table.set("lost", p.lost);
+    table.set("gained", p.gained);
+    return table;
+}
+
+Table as_table(const LinkEffect& e) {
+    Table table;
+    table.set("link", e.link);
+    table.set("perturbation", e.perturbation);
+    table.set("distance_m", e.distance);
+    table.set("budget_db", e.budget);
+    table.set("loss_db", e.before);
+    table.set("perturbed_loss_db", e.after);
+    table.set("change_db", e.change());
+    table.set("db_per_mm", e.moved > 0 ? Value(e.steepness()) : Value());
+    table.set("cliff", e.is_cliff());
+    table.set("was_up", e.was_up());
+    table.set("is_up", e.is_up());
+    return table;
+}
+
+Table as_table(const MessageEffect& m) {
+    Table table;
+    table.set("perturbation", m.perturbation);
+    table.set("from", m.from);
+    table.set("number", std::uint64_t{m.number});
+    table.set("sent_s", seconds(m.sent));
+    table.set("at", m.at);
+    table.set("gained", m.gained);
+    return table;
+}
+
+template <class Effect>
+Array array_of(const std::vector<Effect>& all, std::size_t most) {
+    Array array;
+    for (const Effect& each : all) {
+        if (array.size() < most) array.push_back(as_table(each));
+    }
+    return array;
+}
+
+Table as_table(const Probe& probe, std::size_t most) {
+    Table table;
+    table.set("model", probe.model);
+    table.set("links", std::uint64_t{probe.links});
+    table.set("messages_until_s", seconds(probe.until));
+    table.set("deliveries", probe.deliveries);
+    table.set("perturbations", array_of(probe.perturbations, probe.perturbations.size()));
+    table.set("effects", array_of(probe.effects, most));
+    table.set("messages", array_of(probe.messages, most));
+    return table;
+}
+
+void print_perturbations(const Probe& probe, bool messages) {
+    TextTable table(
+        {"perturbation", "links changed", "flips", "worst", "rms", "dB/mm", "lost", "gained"});
+    for (const PerturbationEffect& p : probe.perturbations) {
+        if (!p.nothing.empty()) {
+            table.add({p.name, "-", "-", "-", "-", "-", "-", "-"});
+            continue;
+        }
+        const auto count = [&](std::uint64_t n) { return messages ? fmt::format("{}", n) : "-"; };
+        table.add({p.name, fmt::format("{}", p.changed), fmt::format("{}", p.flips),
+                   db_text(p.worst), fmt::format("{:.2f} dB", p.rms),
+                   p.steepest > 0 ? fmt::format("{:.2g}", p.steepest) : "-", count(p.lost),
+                   count(p.gained)});
+    }
+    fmt::print("{}", table.text());
+    for (const PerturbationEffect& p : probe.perturbations) {
+        if (!p.nothing.empty()) fmt::print("{}: {}\n", p.name, p.nothing);
+    }
+}
+
+std::string more_text(std::size_t all, std::size_t most) {
+    return all > most ? fmt::format("... and {} more; --top lists them\n", all - most) : "";
+}
+
+void print_effects(const Probe& probe, std::size_t most) {
+    TextTable table({"link", "perturbation", "loss", "change", "dB/mm", "budget", "state"});
+    const std::size_t n = std::min(most, probe.effects.size());
+    for (std::size_t i = 0; i < n; ++i) {
+        const LinkEffect& e = probe.effects[i];
+        table.add({e.link, e.perturbation, fmt::format("{:.2f} dB", e.before),
+                   db_text(e.change(), std::abs(e.change()) < 0.01 ? 6 : 2),
+                   e.moved > 0 ? fmt::format("{:.2g}", e.steepness()) : "-",
+                   fmt::format("{:.2f} dB", e.budget), state_text(e)});
+    }
+    if (n == 0) return;
+    const auto cliffs = std::count_if(probe.effects.begin(), probe.effects.end(),
+                                      [](const LinkEffect& e) { return e.is_cliff(); });
+    fmt::print("\nlinks; first the {} cliffs, steeper than {:g} dB per mm, then those that flip\n",
+               cliffs, LinkEffect::cliff);
+    fmt::print("{}{}", table.text(), more_text(probe.effects.size(), most));
+}
+
+void print_messages(const Probe& probe, std::size_t most) {
+    std::uint64_t all = 0;
+    for (const PerturbationEffect& p : probe.perturbations) all += p.lost + p.gained;
+    const std::size_t n = std::min(most, probe.messages.size());
+    if (n == 0) return;
+    TextTable table({"message", "sent", "perturbation", "robot", "gets it"});
+    for (std::size_t i = 0; i < n; ++i) {
+        const MessageEffect& m = probe.messages[i];
+        table.add({fmt::format("{} of {}", m.number, m.from),
+                   fmt::format("{:.6g} s", seconds(m.sent)), m.perturbation, m.at,
+                   m.gained ? "no -> yes" : "yes -> no"});
+    }
+    fmt::print("\nmessages\n{}{}", table.text(), more_text(all, most));
+}
+
+}  // namespace
+
+void probe(const ProbeArguments& a) {
+    const Scenario scenario = scenario_of(a);
+    ProbeSize size{.links = a.links};
+    if (a.no_messages) size.events = 0;
+    Probe found;
+    {
+        Waiting waiting("probing " + a.file);
+        found = rovernet::probe(scenario, size, [&](double share) { waiting.tell(share); });
+    }
+    if (a.json) {
+        fmt::print("{}", to_json(as_table(found, a.top)));
+        return;
+    }
+    fmt::print("{} links at {} times, losses by {}", found.links, size.times, found.model);
+    if (!a.no_messages) {
+        fmt::print("; {} receptions of messages until {:.6g} s{}", found.deliveries,
+                   seconds(found.until),
+                   found.whole_run ? "" : " (the run goes on; that was a million events)");
+    }
+    fmt::print("\n\n");
+    print_perturbations(found, !a.no_messages);
+    print_effects(found, a.top);
+    print_messages(found, a.top);
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "cli/terminal/options.hpp"
+
+#include "cli/terminal/manual.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace rovernet::cli {
+namespace {
+
+/// The number that is the whole text.
+template <class T>
+std::optional<T> number_in(std::string_view text) {
+    T v{};
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, v);
+    if (error != std::errc{} || rest != end) return std::nullopt;
+    return v;
+}
+
+/// Accepts what `is_good` accepts.
+template <class T>
+Check number_check(const char* expected, const char* kind, bool (*is_good)(T)) {
+    return {kind, [=](const std::string& text) -> std::string {
+                const auto v = number_in<T>(text);
+                if (v && is_good(*v)) return "";
+                return fmt::format("found \"{}\"; expected {}", text, expected);
+            }};
+}
+
+}  // namespace
+
+Check above_zero() {
+    return number_check<double>("a number > 0", "POSITIVE",
+                                [](double v) { return std::isfinite(v) && v > 0; });
+}
+
+Check not_negative() {
+    return number_check<double>("a number >= 0", "NONNEGATIVE",
+                                [](double v) { return std::isfinite(v) && v >= 0; });
+}
+
+Check below_90_degrees() {
+    return number_check<double>("an angle to the normal from 0 to below 90 degrees", "DEGREES",
+                                [](double v) { return v >= 0 && v < 90; });
+}
+
+Check whole_number() {
+    return number_check<std::int64_t>("a whole number >= 0, below 2^63", "",
+                                      [](std::int64_t v) { return v >= 0; });
+}
+
+void print_completion(const ManualArguments& a) {
+    fmt::print("{}", completion_script(a.program->text(), a.shell));
+}
+
+void print_man_page(const ManualArguments& a) { fmt::print("{}", man_page(a.program->text())); }
+
+void add_verbosity(Command command) {
+    Option quiet = command.add_flag(
+        "-q,--quiet", [] { set_verbosity(Verbosity::errors); }, "say errors only");
+    command
+        .add_flag(
+            "-v,--verbose", [] { set_verbosity(Verbosity::everything); },
+            "say also what takes how long")
+        .excludes(quiet);
+}
+
+void add_study_file(Command command, FileArguments& a, const char* what) {
+    command.add_option("FILE", a.file, what).required();
+    command.add_option("--seed", a.seed, "seed of every random draw").check(whole_number());
+    command
+        .add_option("--set", a.options.set,
+                    "key=value over the file's, such as radio.power=\"15 dBm\"")
+        .one_word();
+    command
+        .add_option("--world-path", a.options.world_path,
+                    "folder for the includes and bitmaps of a Stage world")
+        .one_word();
+    command
+        .add_option("--bitmap", a.options.bitmaps,
+                    "OLD=NEW: another bitmap for one that a Stage world names")
+        .one_word();
+    command.add_flag("--lenient", a.options.lenient,
+                     "go on without an include or bitmap that is missing");
+}
+
+void add_file(Command command, FileArguments& a, const char* what) {
+    add_study_file(command, a, what);
+    command.add_option("--replication", a.replication, "which independent repetition")
+        .check(whole_number());
+}
+
+void add_json(Command command, bool& json) {
+    command.add_flag("--json", json, "print one JSON document");
+}
+
+void add_interval(Command command, std::optional<std::string>& interval) {
+    command
+        .add_option("--interval", interval,
+                    "of means: t, betting or star (default: star where a metric has two bounds, "
+                    "betting with a precision)")
+        .one_of({"t", "betting", "star"});
+}
+
+}  // namespace rovernet::cli

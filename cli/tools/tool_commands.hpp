@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/terminal/commands.hpp"
+#include "study/validation/flood_bench.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The commands that need no scenario: models, loss, material, validate, bench, version.
+namespace rovernet::cli {
+
+struct LossArguments {
+    std::string model;
+    std::vector<std::string> parameters;
+    std::string frequency = "2450 MHz";
+    std::vector<std::string> distances;
+    std::vector<std::string> heights;
+    std::optional<std::string> wall;
+    bool json = false;
+};
+void loss(const LossArguments& arguments);
+
+struct MaterialArguments {
+    std::string material, thickness;
+    std::string frequency = "2450 MHz";
+    double angle = 0;  ///< to the normal [degrees]
+    bool json = false;
+};
+void material(const MaterialArguments& arguments);
+
+struct BenchArguments {
+    FloodBench bench;
+    std::string reception = "threshold", access = "none", mobility = "static";
+    bool json = false;
+};
+void bench_flood(const BenchArguments& arguments);
+
+struct ValidateArguments {
+    std::string out;
+    std::optional<std::string> field;  ///< folder of measurements
+    bool quick = false;
+};
+void validate(const ValidateArguments& arguments);
+
+/// Arguments of a command whose only option is --json.
+struct PrintArguments {
+    bool json = false;
+};
+void models(const PrintArguments& arguments);
+void print_version(const PrintArguments& arguments);
+
+}  // namespace rovernet::cli

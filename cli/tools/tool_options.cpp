@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "cli/terminal/options.hpp"
+#include "cli/tools/tool_commands.hpp"
+
+namespace rovernet::cli {
+namespace {
+
+void add_models(Command app) {
+    const auto [models, a] =
+        add_command(app, "models", "List the propagation models and their parameters", cli::models);
+    models.add_examples({"rovernet models"});
+    add_json(models, a.json);
+}
+
+void add_loss(Command app) {
+    const auto [loss, a] =
+        add_command(app, "loss", "Median path loss of a model over distance", cli::loss);
+    loss.add_examples({"rovernet loss friis --distance 1,10,100",
+                       "rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5",
+                       "rovernet loss two_ray form=exact --distance 36 --heights 1.5,1.5"});
+    loss.add_option("MODEL", a.model, "its name; see rovernet models").required();
+    loss.add_option("PARAMETERS", a.parameters, "param=value ...");
+    loss.add_option("--frequency", a.frequency, "such as \"2450 MHz\"").shows_default();
+    loss.add_option("--distance", a.distances, "such as 1,10,100 or \"1 km\"")
+        .delimiter(',')
+        .required();
+    loss.add_option("--heights", a.heights,
+                    "antennas above the ground, such as 1.5 or, unlike each other, 1.5,0.3; 1 m if "
+                    "not given")
+        .delimiter(',');
+    loss.add_option("--wall", a.wall, "length of wall on the way, such as 0.5");
+    add_json(loss, a.json);
+}
+
+void add_bench(Command app) {
+    Command bench = app.add_command("bench", "Measure the speed of this build here");
+    bench.needs_command();
+    const auto [flood, a] =
+        add_command(bench, "flood", "CPU time of floods, per reception", cli::bench_flood);
+    flood.add_examples({"rovernet bench flood --nodes 1000 --cpu 0.1"});
+    flood.add_option("--nodes", a.bench.nodes, "sizes of network, such as 1000,10000")
+        .delimiter(',')
+        .range(2, 10'000'000)
+        .shows_default();
+    flood.add_option("--reception", a.reception, "threshold, collision or sinr").shows_default();
+    flood.add_option("--access", a.access, "none, aloha or csma").shows_default();
+    flood.add_option("--mobility", a.mobility, "static or random_waypoint").shows_default();
+    flood.add_option("--shadowing", a.bench.shadowing.value, "of each link, sigma in dB")
+        .check(not_negative())
+        .shows_default();
+    flood.add_flag("--recorded", a.bench.recorded,
+                   "keep metrics, fingerprint and timeline, as `rovernet run` does");
+    flood.add_option("--cpu", a.bench.cpu_s, "seconds of CPU for each size, at least")
+        .check(above_zero())
+        .shows_default();
+    flood.add_option("--seed", a.bench.seed, "of every random draw").shows_default();
+    add_json(flood, a.json);
+}
+
+void add_material(Command app) {
+    const auto [material, a] = add_command(
+        app, "material", "Print the losses of a slab of a building material", cli::material);
+    material.add_examples(
+        {"rovernet material concrete --thickness 0.2",
+         "rovernet material concrete --thickness 0.2 --frequency \"2.4 GHz\" --angle 30 --json",
+         "rovernet material glass --thickness \"6 mm\" --frequency \"5.2 GHz\" --angle 30"});
+    material.add_option("MATERIAL", a.material, "concrete, brick, glass, metal, ...").required();
+    material.add_option("--thickness", a.thickness, "such as 0.2 or \"13 mm\"").required();
+    material.add_option("--frequency", a.frequency, "such as \"2450 MHz\"").shows_default();
+    material.add_option("--angle", a.angle, "of the wave's way to the normal [degrees]")
+        .check(below_90_degrees())
+        .shows_default();
+    add_json(material, a.json);
+}
+
+void add_validate(Command app) {
+    const auto [validate, a] =
+        add_command(app, "validate", "Measure errors and costs of this build's methods and models",
+                    cli::validate);
+    validate.add_examples({"rovernet validate --quick -o report",
+                           "rovernet validate --field measurements -o report"});
+    validate.add_option("-o,--output", a.out, "folder for report.html, and for each chart's files")
+        .required();
+    validate.add_option("--field", a.field,
+                        "folder of measured levels, with flat/ and lab/, to hold models against");
+    validate.add_flag("--quick", a.quick, "few samples: seconds instead of minutes");
+}
+
+void add_version(Command app) {
+    const auto [version, a] =
+        add_command(app, "version", "Print the version and how it was built", cli::print_version);
+    version.add_examples({"rovernet version --json"});
+    add_json(version, a.json);
+}
+
+/// Scripts and pages that are made from the commands themselves.
+void add_completion(Command app) {
+    const auto [completion, a] =
+        add_command(app, "completion", "Print a shell's completion script", cli::print_completion);
+    completion.add_option("SHELL", a.shell, "bash, zsh or fish").required();
+    completion.add_examples(
+        {"source <(rovernet completion bash)",
+         "rovernet completion fish > ~/.config/fish/completions/rovernet.fish"});
+    a.program = app;
+    const auto [man, m] =
+        add_command(app, "man", "Print the page rovernet(1)", cli::print_man_page);
+    man.hide();
+    m.program = app;
+}
+
+}  // namespace
+
+void add_tool_commands(Command app) {
+    add_models(app);
+    add_loss(app);
+    add_material(app);
+    add_validate(app);
+    add_trace(app);
+    add_replay(app);
+    add_bench(app);
+    add_version(app);
+    add_completion(app);
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/replay/replay.hpp"
+
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/options.hpp"
+#include "cli/traces/replay_inputs.hpp"
+#include "cli/terminal/text_table.hpp"
+#include "cli/traces/trace_commands.hpp"
+#include "cli/terminal/waiting.hpp"
+#include "experiment/run.hpp"
+#include "experiment/replay/trace_input.hpp"
+#include "experiment/replay/trace_play.hpp"
+#include "live/input_replay.hpp"
+#include "scenario/document/json.hpp"
+#include "study/command_words.hpp"
+#include "study/day_store.hpp"
+#include "experiment/replay/ns2_day.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rovernet::cli {
+namespace {
+
+std::string or_nothing(const std::string& line) { return line.empty() ? "nothing more" : line; }
+
+void print_verification(const ReplayArguments& a, const Verification& v) {
+    const bool is_other_version = !v.recorded_by.empty() && v.recorded_by != v.version;
+    if (a.json) {
+        Table table;
+        table.set("identical", !v.difference.has_value());
+        table.set(v.unit, v.same);
+        if (v.difference) {
+            table.set("recorded", v.difference->recorded);
+            table.set("now", v.difference->now);
+        }
+        if (!v.recorded_by.empty()) table.set("recorded_by", v.recorded_by);
+        table.set("version", v.version);
+        fmt::print("{}", to_json(table));
+        return;
+    }
+    if (!v.difference) {
+        fmt::print("identical: {} {}\n", v.same, v.unit);
+    } else {
+        fmt::print("different after {} {}\nrecorded  {}\nnow       {}\n", v.same, v.unit,
+                   or_nothing(v.difference->recorded), or_nothing(v.difference->now));
+    }
+    if (is_other_version) {
+        fmt::print("recorded by {}; this is {}\n", v.recorded_by, v.version);
+    } else if (v.difference && !v.recorded_by.empty()) {
+        fmt::print("recorded by this version\n");
+    }
+}
+
+void verify(const ReplayArguments& a) {
+    const Verification v = [&] {
+        Waiting waiting("replaying " + a.file);
+        return verify_replay(a.file, [&](double share) {
+            waiting.tell(share);
+            return true;
+        });
+    }();
+    for (const std::string& text : v.damage) notice(a.file + ": " + text);
+    print_verification(a, v);
+    if (v.difference) throw CommandEnd(failed, a.file + ": the run differs from its trace");
+}
+
+/// A day, and the radio that all rows of its table are compared with.
+struct Radios {
+    RecordedDay day;
+    std::optional<std::string> as;  ///< assignments of that radio; none: the radio of the day
+    /// Name of the row that differences are to: of an ns-2 trace the first that is played, of a
+    /// recorded one what it holds.
+    std::string first;
+    bool plays_first = false;
+};
+
+/// Assignments of one --with: "a=1;b=2".
+std::vector<std::string> assignments(const std::string& with) {
+    std::vector<std::string> each;
+    for (std::size_t begin = 0; begin <= with.size();) {
+        const std::size_t end = std::min(with.find(';', begin), with.size());
+        each.push_back(with.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return each;
+}
+
+void append(std::vector<std::string>& set, const std::optional<std::string>& with) {
+    if (!with) return;
+    for (std::string& each : assignments(*with)) set.push_back(std::move(each));
+}
+
+PlayedDay play_radio(const ReplayArguments& a, const RecordedDay& day,
+                     const std::vector<std::string>& set, const std::string& name) {
+    Waiting waiting("replaying " + a.file + " with " + name);
+    return day.play(set, [&](double share) {
+        waiting.tell(share);
+        return true;
+    });
+}
+
+Radios radios_of(const ReplayArguments& a) {
+    if (is_recorded_trace(a.file)) {
+        if (!a.as && !a.routing && !a.movements) {
+            return {.day = RecordedDay(a.file), .as = {}, .first = "as recorded"};
+        }
+        throw CommandEnd(usage,
+                         "replay: --as, --routing and --movements are for ns-2 traces; a recorded "
+                         "one has its radio, its protocol and its places inside");
+    }
+    const bool is_direct = a.routing == "direct";
+    return {
+        .day = read_ns2_day(a.file, {.routing = is_direct ? DayRouting::direct : DayRouting::flood,
+                                     .movements = a.movements}),
+        .as = a.as,
+        .first = a.as.value_or("two_ray, 914 MHz, 250 m"),
+        .plays_first = true};
+}
+
+std::vector<DayRow> play_radios(const ReplayArguments& a, const Radios& radios) {
+    std::vector<std::string> names = a.with;
+    if (names.empty() && a.map) names.push_back("map " + *a.map);
+    std::vector<DayRow> rows;
+    if (radios.plays_first) {
+        std::vector<std::string> set;
+        append(set, radios.as);
+        rows.push_back({radios.first, play_radio(a, radios.day, set, radios.first), {}});
+    }
+    const PlayedDay first = radios.plays_first ? rows[0].day : radios.day.recorded();
+    for (const std::string& name : names) {
+        std::vector<std::string> set;
+        append(set, radios.as);
+        if (!a.with.empty()) append(set, name);
+        if (a.map) set.push_back("scene.map=" + std::filesystem::absolute(*a.map).string());
+        PlayedDay day = play_radio(a, radios.day, set, name);
+        DeliveryChange change = change_of(first, day, radios.day.robots().size());
+        rows.push_back({name, std::move(day), std::move(change)});
+    }
+    return rows;
+}
+
+Table row_table(const std::string& name, const PlayedDay& day) {
+    Table table;
+    table.set("with", name);
+    append_metrics(table, day.metrics);
+    return table;
+}
+
+Table row_table(const RecordedDay& day, const DayRow& radio) {
+    Table table = row_table(radio.radio, radio.day);
+    if (!radio.change) return table;
+    table.set("gained", radio.change->all_gained());
+    table.set("lost", radio.change->all_lost());
+    Array robots;
+    for (std::size_t i = 0; i < day.robots().size(); ++i) {
+        Table robot;
+        robot.set("robot", day.robots()[i]);
+        robot.set("gained", radio.change->gained[i]);
+        robot.set("lost", radio.change->lost[i]);
+        robots.emplace_back(std::move(robot));
+    }
+    table.set("robots", std::move(robots));
+    return table;
+}
+
+void print_radios_json(const RecordedDay& day, const std::vector<DayRow>& radios) {
+    Array rows;
+    for (const DayRow& radio : radios) rows.emplace_back(row_table(day, radio));
+    Table table;
+    table.set("recorded", row_table("as recorded", day.recorded()));
+    table.set("radios", std::move(rows));
+    fmt::print("{}", to_json(table));
+}
+
+std::string ratio_text(const MetricValues& metrics) {
+    return metrics.delivery_ratio ? fmt::format("{:.4f}", *metrics.delivery_ratio) : "-";
+}
+
+std::string difference_text(const MetricValues& now, const MetricValues& before) {
+    if (!now.delivery_ratio || !before.delivery_ratio) return "-";
+    return fmt::format("{:+.4f}", *now.delivery_ratio - *before.delivery_ratio);
+}
+
+void print_rows(const Radios& radios, const std::vector<DayRow>& rows) {
+    TextTable table({"radio", "deliveries", "delivery_ratio", "difference", "gained", "lost"});
+    const MetricValues& recorded = radios.day.recorded().metrics;
+    const MetricValues& first = radios.plays_first ? rows[0].day.metrics : recorded;
+    const auto add_first = [&](const std::string& name, const MetricValues& m) {
+        table.add({name, std::to_string(m.deliveries), ratio_text(m), "-", "-", "-"});
+    };
+    add_first("as recorded", recorded);
+    for (const DayRow& row : rows) {
+        const MetricValues& m = row.day.metrics;
+        if (!row.change) {
+            add_first(row.radio, m);
+            continue;
+        }
+        table.add({row.radio, std::to_string(m.deliveries), ratio_text(m),
+                   difference_text(m, first), std::to_string(row.change->all_gained()),
+                   std::to_string(row.change->all_lost())});
+    }
+    fmt::print("{}", table.text());
+}
+
+void print_robots(const RecordedDay& day, const std::vector<DayRow>& rows) {
+    TextTable robots({"radio", "robot", "gained", "lost"});
+    bool is_changed = false;
+    for (const DayRow& row : rows) {
+        for (std::size_t i = 0; row.change && i < day.robots().size(); ++i) {
+            const std::uint64_t gained = row.change->gained[i], lost = row.change->lost[i];
+            if (gained + lost == 0) continue;
+            robots.add({row.radio, day.robots()[i], std::to_string(gained), std::to_string(lost)});
+            is_changed = true;
+        }
+    }
+    if (is_changed) fmt::print("\n{}", robots.text());
+}
+
+void print_radios(const ReplayArguments& a, const Radios& radios, const std::vector<DayRow>& rows) {
+    print_rows(radios, rows);
+    print_robots(radios.day, rows);
+    fmt::print(
+        "\nRobots move and speak as they did; what they would decide otherwise is not "
+        "decided anew.\n");
+    if (!radios.plays_first) return;
+    fmt::print(
+        "{}: the protocol of the trace is not simulated. Differences are to the row \"{}\".\n",
+        a.routing == "direct" ? "Messages go straight to whom they are for" : "Messages flood",
+        radios.first);
+}
+
+/// The command of these rows, but for what makes each of them.
+std::string command_of(const ReplayArguments& a) {
+    std::vector<std::string> words = {"rovernet", "replay", a.file};
+    const auto add = [&](const char* option, const std::optional<std::string>& value) {
+        if (value) words.insert(words.end(), {option, *value});
+    };
+    add("--map", a.map);
+    add("--as", a.as);
+    add("--routing", a.routing);
+    add("--movements", a.movements);
+    return shell_command(words);
+}
+
+void keep_rows(const ReplayArguments& a, const Radios& radios, const std::vector<DayRow>& rows) {
+    StoredReplay replay{.command = command_of(a),
+                        .first = radios.first,
+                        .robots = radios.day.robots(),
+                        .rows = rows};
+    replay.rows.insert(replay.rows.begin(), {"as recorded", radios.day.recorded(), {}});
+    store_replay(*a.store, replay);
+}
+
+void play_with(const ReplayArguments& a) {
+    const Radios radios = radios_of(a);
+    for (const std::string& text : radios.day.notices()) notice(a.file + ": " + text);
+    const std::vector<DayRow> rows = play_radios(a, radios);
+    if (a.store) keep_rows(a, radios, rows);
+    if (a.json) {
+        print_radios_json(radios.day, rows);
+    } else {
+        print_radios(a, radios, rows);
+    }
+}
+
+void play_events(const ReplayArguments& a) {
+    const TraceInput trace(a.file, {.format = Ns2Format::old_format, .mac = {}});
+    play_trace(trace.text(), *a.speed,
+               {.show = [](std::string_view line) { fmt::print("{}\n", line); },
+                .goes_on =
+                    [] {
+                        std::fflush(stdout);
+                        return true;
+                    }});
+    for (const std::string& text : trace.damage()) notice(a.file + ": " + text);
+}
+
+}  // namespace
+
+void replay(const ReplayArguments& a) {
+    if (a.verify && has_input_log(a.file)) return verify_inputs(a);
+    if (a.verify) return verify(a);
+    if (a.speed) return play_events(a);
+    if (a.with.empty() && !a.map && !a.as) {
+        throw CommandEnd(usage, "replay: expected --verify, --speed, --with, --map or --as");
+    }
+    play_with(a);
+}
+
+void add_replay(Command app) {
+    const auto [replay, a] = add_command(
+        app, "replay", "Play a trace again, as it was or under another radio", cli::replay);
+    replay.add_examples(
+        {"rovernet run examples/patrol/patrol.toml --record",
+         "rovernet replay runs/patrol-s3/trace.mcap --verify",
+         "rovernet replay runs/patrol-s3/trace.mcap --with propagation.model=friis --with "
+         "\"radio.power=20 dBm\"",
+         "rovernet replay runs/patrol-s3/trace.mcap --speed x100",
+         "rovernet run examples/rescue/rescue.toml --set trace.ns2=old --out rescue",
+         "rovernet replay rescue/trace.tr --verify",
+         "rovernet replay rescue/trace.tr --with \"radio.power=10 dBm\""});
+    replay
+        .add_option(
+            "TRACE", a.file,
+            "recorded trace (.mcap), an ns-2 trace, or with --verify the folder of a live run")
+        .required();
+    const Option verify = replay.add_flag(
+        "--verify", a.verify, "run its scenario again and compare; exit 1 at the first difference");
+    const Option speed =
+        replay
+            .add_option(
+                "--speed", a.speed,
+                "print its events as they happened: 1 in real time, 2 (or x2) twice as fast")
+            .transform([](const std::string& text) {
+                return text.starts_with('x') ? text.substr(1) : text;
+            })
+            .check(above_zero())
+            .excludes(verify);
+    replay
+        .add_option("--with", a.with,
+                    "key=value of another radio, or several between \";\": the robots move and "
+                    "speak as they did")
+        .one_word()
+        .excludes(verify)
+        .excludes(speed);
+    const auto add = [&, command = replay](const char* name, std::optional<std::string>& value,
+                                           const char* what) {
+        return command.add_option(name, value, what).excludes(verify).excludes(speed);
+    };
+    add("--map", a.map, "map (.yaml, .png) in place of the recorded one");
+    add("--as", a.as, "of an ns-2 trace: the radio that others are compared with, as --with");
+    add("--routing", a.routing, "of an ns-2 trace: way of its messages (default: flood)")
+        .one_of({"flood", "direct"});
+    add("--movements", a.movements, "of an ns-2 trace: the movement file that moved its robots");
+    add("--store", a.store, "keep the rows in this file, for results and plot");
+    add_json(replay, a.json);
+}
+
+}  // namespace rovernet::cli

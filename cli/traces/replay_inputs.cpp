@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "cli/traces/replay_inputs.hpp"
+
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/waiting.hpp"
+#include "experiment/version.hpp"
+#include "live/input_replay.hpp"
+#include "scenario/document/json.hpp"
+
+#include <fmt/format.h>
+
+namespace rovernet::cli {
+namespace {
+
+void print_inputs(const ReplayArguments& a, const InputReplay& replay) {
+    const bool is_identical = replay.recorded == replay.now;
+    if (a.json) {
+        Table table;
+        table.set("identical", replay.recorded.empty() ? Value() : Value(is_identical));
+        table.set("inputs", replay.inputs);
+        table.set("recorded", replay.recorded.empty() ? Value() : Value(replay.recorded));
+        table.set("now", replay.now);
+        table.set("recorded_by", replay.recorded_by);
+        table.set("version", code_version());
+        fmt::print("{}", to_json(Value(std::move(table))));
+    } else if (is_identical) {
+        fmt::print("identical: {} inputs, fingerprint {}\n", replay.inputs, replay.now);
+    } else if (replay.recorded.empty()) {
+        fmt::print("the log is cut after {} inputs; fingerprint up to there {}\n", replay.inputs,
+                   replay.now);
+    } else {
+        fmt::print("different\nrecorded  {}\nnow       {}\nrecorded by {}; this is {}\n",
+                   replay.recorded, replay.now, replay.recorded_by, code_version());
+    }
+}
+
+void tell_of_log(const InputReplay& replay) {
+    if (replay.is_other_scenario) {
+        notice(fmt::format("{}: scenario.toml {}", replay.log,
+                           replay.has_own_scenario
+                               ? "beside it is not as it was run; the log's own text is"
+                               : "beside it is not as it was run"));
+    }
+    if (replay.torn) {
+        notice(fmt::format("{}:{}: the last line is torn, and left out", replay.log, *replay.torn));
+    }
+    if (replay.recorded.empty()) {
+        notice(replay.log + ": its run did not end; it is replayed up to its last input");
+    }
+    for (const std::string& other : replay.others) {
+        notice(other + ": another run that did not end; replay it by this name");
+    }
+}
+
+}  // namespace
+
+void verify_inputs(const ReplayArguments& a) {
+    const InputReplay replay = [&] {
+        Waiting waiting("replaying " + a.file);
+        return replay_inputs(a.file, [&](double share) {
+            waiting.tell(share);
+            return true;
+        });
+    }();
+    tell_of_log(replay);
+    print_inputs(a, replay);
+    if (!replay.recorded.empty() && replay.recorded != replay.now) {
+        throw CommandEnd(failed, a.file + ": the run differs from its fingerprint");
+    }
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/terminal/commands.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The commands that read traces: trace and what is below it, replay.
+namespace rovernet::cli {
+
+struct TraceStatsArguments {
+    std::string file;
+    std::string by;  ///< robot, flow or second; empty: the totals alone
+    bool strict = false, csv = false, json = false;
+};
+void trace_stats(const TraceStatsArguments& arguments);
+
+struct TraceConvertArguments {
+    std::string in, out, to;
+    bool mac = false, strict = false;
+};
+void trace_convert(const TraceConvertArguments& arguments);
+
+struct TraceCutArguments {
+    std::string in, out;
+    std::optional<std::string> from, to;
+    std::optional<std::uint32_t> robot;
+    std::optional<std::uint64_t> message;
+    bool strict = false;
+};
+void trace_cut(const TraceCutArguments& arguments);
+
+struct TraceDiffArguments {
+    std::string a, b;
+    std::string time_tolerance = "0 s";
+    bool strict = false;
+};
+void trace_diff(const TraceDiffArguments& arguments);
+
+struct TraceFollowArguments {
+    std::string file;
+    std::uint64_t message = 0;
+    std::optional<std::string> robot;
+    bool strict = false, json = false;
+};
+void trace_follow(const TraceFollowArguments& arguments);
+
+struct ReplayArguments {
+    std::string file;
+    bool verify = false;
+    std::vector<std::string> with;   ///< radios, each "path=value" or several of them after ";"
+    std::optional<std::string> map;  ///< map of these
+    std::optional<double> speed;
+    // Radio of an ns-2 trace, as one of `with`; routing of its messages, "flood" or "direct"; file
+    // of the movements that moved its robots.
+    std::optional<std::string> as, routing, movements;
+    std::optional<std::string> store;
+    bool json = false;
+};
+void replay(const ReplayArguments& arguments);
+
+}  // namespace rovernet::cli

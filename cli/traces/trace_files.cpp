@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/traces/trace_commands.hpp"
+#include "cli/traces/trace_notices.hpp"
+#include "experiment/replay/capture.hpp"
+#include "experiment/reports/loss_table.hpp"
+#include "experiment/replay/trace_input.hpp"
+#include "traces/ns2/ns2_convert.hpp"
+#include "traces/ns2/ns2_diff.hpp"
+#include "traces/recorded/recorded_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace rovernet::cli {
+namespace {
+
+Ns2Strictness strictness_of(bool strict) {
+    return strict ? Ns2Strictness::strict : Ns2Strictness::tolerant;
+}
+
+/// Says what of `in` is not in the file that was made of it.
+void tell_left_out(const std::string& in, const Converted& converted) {
+    tell_refused(in, converted.counts);
+    for (const auto& [why, count] : converted.left_out) {
+        notice(fmt::format("{}: {} {} left out: {}", in, count,
+                           count == 1 ? "event is" : "events are", why));
+    }
+}
+
+void print_side(const char* sign, const std::vector<NumberedLine>& lines, std::size_t place) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        fmt::print("{} {:>7}{} {}\n", sign, lines[i].line, i == place ? '>' : ' ', lines[i].text);
+    }
+    if (place >= lines.size()) fmt::print("{}        > (the file ends)\n", sign);
+}
+
+void print_kinds(const TraceDifference& d) {
+    fmt::print("\n{:<14} {:>10} {:>10}\n", "events", "A", "B");
+    for (const auto& [kind, count] : d.kinds) {
+        fmt::print("{:<14} {:>10} {:>10}{}\n", kind, count.first, count.second,
+                   count.first == count.second ? "" : "  differ");
+    }
+}
+
+void convert_to_capture(const TraceConvertArguments& a) {
+    if (!is_recorded_trace(a.in)) {
+        throw InputError({.source = a.in},
+                         "pcapng is made of a recorded trace only (run --record): its levels "
+                         "follow from the scenario inside");
+    }
+    const Capture made = capture_recorded(a.in, a.out);
+    tell_damage(a.in, made.damage);
+    if (made.left_out > 0) {
+        notice(
+            fmt::format("{}: {} frames sent or received are left out: what they belong to is "
+                        "in a broken part",
+                        a.in, made.left_out));
+    }
+}
+
+}  // namespace
+
+void trace_convert(const TraceConvertArguments& a) {
+    if (a.to == "pcapng") return convert_to_capture(a);
+    TraceInput::Lines lines;
+    if (a.to == "ns2-old") lines.format = Ns2Format::old_format;
+    if (a.mac) lines.mac = MacTrace::on;
+    const TraceInput trace(a.in, lines);
+    if (trace.is_recorded() && a.to != "csv") {
+        return tell_damage(a.in, render_recorded(a.in, a.out, lines));
+    }
+    const TraceForm form = a.to == "csv"       ? TraceForm::csv
+                           : a.to == "ns2-old" ? TraceForm::ns2_old
+                                               : TraceForm::ns2_new;
+    tell_left_out(a.in, convert_ns2(trace.text(), a.out, form, strictness_of(a.strict)));
+    tell_damage(a.in, trace.damage());
+}
+
+void trace_cut(const TraceCutArguments& a) {
+    TraceCut cut;
+    if (a.from) cut.from = start_of_run + option_time("--from", *a.from);
+    if (a.to) cut.to = start_of_run + option_time("--to", *a.to);
+    if (a.robot) cut.robot = NodeId{*a.robot};
+    cut.message = a.message;
+    const TraceInput trace(a.in, {});
+    const Converted made = cut_ns2(trace.text(), a.out, cut, strictness_of(a.strict));
+    tell_left_out(a.in, made);
+    tell_damage(a.in, trace.damage());
+    if (made.written == 0) notice(a.out + ": no event of " + a.in + " is in this piece");
+}
+
+void trace_diff(const TraceDiffArguments& a) {
+    const Duration tolerance = option_time("--time-tolerance", a.time_tolerance);
+    TraceInput::Lines lines{.format = Ns2Format::old_format};
+    if (is_recorded_trace(a.a) && is_recorded_trace(a.b)) lines.mac = MacTrace::on;
+    const TraceInput left(a.a, lines), right(a.b, lines);
+    const TraceDifference d =
+        diff_ns2(left.text(), right.text(), tolerance, strictness_of(a.strict));
+    tell_refused(a.a, d.counts_a);
+    tell_refused(a.b, d.counts_b);
+    tell_damage(a.a, left.damage());
+    tell_damage(a.b, right.damage());
+    if (d.is_equal) {
+        fmt::print("equal: {} events\n", d.counts_a.events);
+        return;
+    }
+    fmt::print("A is {}, B is {}; the first difference: {}\n\n", a.a, a.b, d.field);
+    print_side("A", d.a, d.place);
+    fmt::print("\n");
+    print_side("B", d.b, d.place);
+    print_kinds(d);
+    throw CommandEnd(failed, fmt::format("{} and {} differ", a.a, a.b));
+}
+
+}  // namespace rovernet::cli

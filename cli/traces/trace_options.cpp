@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "cli/terminal/options.hpp"
+#include "cli/traces/trace_commands.hpp"
+
+namespace rovernet::cli {
+namespace {
+
+constexpr const char* any_trace =
+    "ns-2 trace (.tr), which may be packed by gzip or zstd, or recorded trace (.mcap)";
+
+void add_strict(Command command, bool& strict) {
+    command.add_flag("--strict", strict, "stop at the first line that is none of ns-2");
+}
+
+void add_trace_stats(Command trace) {
+    const auto [stats, a] =
+        add_command(trace, "stats", "Print the metrics of a trace", cli::trace_stats);
+    stats.add_examples({"rovernet trace stats runs/patrol-s3/trace.tr",
+                        "rovernet trace stats runs/patrol-s3/trace.tr --by robot --csv"});
+    stats.add_option("FILE", a.file, any_trace).required();
+    stats.add_option("--by", a.by, "also the counts of each robot, flow or second")
+        .one_of({"robot", "flow", "second"});
+    add_strict(stats, a.strict);
+    stats.add_flag("--csv", a.csv, "print the rows of --by, or else the totals, as CSV");
+    add_json(stats, a.json);
+}
+
+void add_trace_convert(Command trace) {
+    const auto [convert, a] =
+        add_command(trace, "convert", "Write a trace in another form", cli::trace_convert);
+    convert.add_examples(
+        {"rovernet trace convert runs/patrol-s3/trace.tr patrol.csv --to csv",
+         "rovernet trace convert runs/rescue-s1/trace.mcap rescue.tr --to ns2-old --mac",
+         "rovernet trace convert runs/rescue-s1/trace.mcap rescue.pcapng --to pcapng"});
+    convert.add_option("IN", a.in, any_trace).required();
+    convert.add_option("OUT", a.out, "file to write").required();
+    convert.add_option("--to", a.to, "csv, ns2-old, ns2-new, or of a recorded trace pcapng")
+        .one_of({"csv", "ns2-old", "ns2-new", "pcapng"})
+        .required();
+    convert.add_flag("--mac", a.mac,
+                     "of a recorded trace also the lines of the MAC, as with [trace] mac = true");
+    add_strict(convert, a.strict);
+}
+
+void add_trace_cut(Command trace) {
+    const auto [cut, a] = add_command(
+        trace, "cut", "Write a piece of a trace as ns-2 text, line by line", cli::trace_cut);
+    cut.add_examples(
+        {"rovernet trace cut runs/patrol-s3/trace.tr piece.tr --from \"10 s\" --to \"20 s\"",
+         "rovernet trace cut runs/rescue-s1/trace.mcap piece.tr --message 3"});
+    cut.add_option("IN", a.in, any_trace).required();
+    cut.add_option("OUT", a.out, "file to write").required();
+    cut.add_option("--from", a.from, "time of the first packet");
+    cut.add_option("--to", a.to, "time of the end, which is left out");
+    cut.add_option("--robot", a.robot, "number of a robot: its lines only");
+    cut.add_option("--message", a.message, "id of packets: theirs only");
+    add_strict(cut, a.strict);
+}
+
+void add_trace_diff(Command trace) {
+    const auto [diff, a] = add_command(
+        trace, "diff", "Show where two traces part; exit code 1 if they do", cli::trace_diff);
+    diff.add_examples({"rovernet trace diff runs/rescue-s1/trace.tr runs/rescue-s1/trace.mcap",
+                       "rovernet trace diff runs/rescue-s1/trace.tr runs/rescue-s1/trace.mcap "
+                       "--time-tolerance \"1 us\""});
+    diff.add_option("A", a.a, any_trace).required();
+    diff.add_option("B", a.b, any_trace).required();
+    diff.add_option("--time-tolerance", a.time_tolerance, "times differ if further apart")
+        .shows_default();
+    add_strict(diff, a.strict);
+}
+
+void add_trace_follow(Command trace) {
+    const auto [follow, a] =
+        add_command(trace, "follow", "Follow a message from robot to robot", cli::trace_follow);
+    follow.add_examples({"rovernet trace follow runs/rescue-s1/trace.tr --message 3",
+                         "rovernet trace follow runs/rescue-s1/trace.mcap --message 0 --robot E"});
+    follow.add_option("FILE", a.file, any_trace).required();
+    follow.add_option("--message", a.message, "id of the message").required();
+    follow.add_option("--robot", a.robot,
+                      "name or number of a robot: the way to it only; of a recorded trace also "
+                      "how each frame came there");
+    add_strict(follow, a.strict);
+    add_json(follow, a.json);
+}
+
+}  // namespace
+
+void add_trace(Command app) {
+    Command trace = app.add_command("trace", "Work with trace files");
+    trace.needs_command();
+    add_trace_stats(trace);
+    add_trace_convert(trace);
+    add_trace_cut(trace);
+    add_trace_diff(trace);
+    add_trace_follow(trace);
+}
+
+}  // namespace rovernet::cli

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/replay/message_at_robot.hpp"
+
+#include "experiment/replay/recorded_air.hpp"
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+Outcome outcome_of(Fate fate) {
+    switch (fate) {
+        case Fate::waiting:
+        case Fate::ttl:
+        case Fate::arrived: return Outcome::received;
+        case Fate::duplicate: return Outcome::duplicate;
+        case Fate::off: return Outcome::off;
+        case Fate::garbled: return Outcome::garbled;
+        case Fate::collided: return Outcome::collided;
+        case Fate::busy: return Outcome::busy;
+    }
+    return Outcome::not_told;
+}
+
+/// Reads a trace for one message at one robot.
+class Account {
+  public:
+    Account(RecordedReader& trace, const std::string& path, std::uint64_t uid, NodeId robot)
+        : trace_(trace), air_(trace.run(), path), uid_(uid), robot_(robot) {
+        if (robot.index() >= air_.robots()) {
+            throw InputError({.source = path},
+                             fmt::format("found no robot {}; its robots are 0 to {}", robot.value,
+                                         static_cast<std::int64_t>(air_.robots()) - 1));
+        }
+        message_.robot = air_.names()[robot.index()];
+        message_.names = air_.names();
+        message_.has_walls = !air_.scene().open_field();
+    }
+
+    void take(const Record& record);
+    MessageAtRobot told() &&;
+
+  private:
+    struct Open {
+        std::uint64_t record;
+        Arrival arrival;
+        FrameAtRobot frame;
+    };
+
+    void begin(const RecordedFrame& frame);
+    void end(const Received& received);
+    void meet(Open& open, const RecordedFrame& other) const;
+    std::optional<Outcome> outcome_at_begin(const RecordedFrame& frame, Db margin) const;
+
+    RecordedReader& trace_;
+    RecordedAir air_;
+    std::uint64_t uid_;
+    NodeId robot_;
+    MessageAtRobot message_;
+    std::vector<Open> frames_;  // of the message
+};
+
+void Account::take(const Record& record) {
+    air_.take(record, trace_.context());
+    const auto is_it = [&](MessageId id) { return trace_.context().messages[id].uid == uid_; };
+    if (const auto* sent = std::get_if<Sent>(&record)) {
+        if (!is_it(sent->message)) return;
+        message_.sent = sent->time;
+        message_.is_origin = sent->node == robot_;
+    } else if (std::holds_alternative<AirSent>(record)) {
+        if (!air_.frames().empty()) begin(air_.frames().back());
+    } else if (const auto* received = std::get_if<Received>(&record)) {
+        if (is_it(received->frame.message)) end(*received);
+    }
+}
+
+/// Takes the frame that begins now: one of the message, or one that meets some of them.
+void Account::begin(const RecordedFrame& frame) {
+    const bool is_of_message = frame.air.kind == AirFrame::data && frame.uid == uid_;
+    if (!is_of_message || frame.air.frame.sender == robot_) {
+        for (Open& open : frames_) meet(open, frame);
+        return;
+    }
+    const Arrival arrival = air_.arrival(frame, robot_);
+    FrameAtRobot here{.from = frame.air.frame.sender,
+                      .begin = frame.begin,
+                      .end = arrival.end,
+                      .level = {arrival.level_dbm},
+                      .margin = {},
+                      .others = {}};
+    here.margin = here.level - air_.medium().stations().radio(robot_).sensitivity;
+    for (const Wall& wall : air_.walls(frame, robot_)) {
+        ++here.walls;
+        here.wall_m += wall.length;
+    }
+    here.outcome = outcome_at_begin(frame, here.margin).value_or(Outcome::not_told);
+    for (Open& open : frames_) meet(open, frame);
+    frames_.push_back({frame.record, arrival, std::move(here)});
+    for (const RecordedFrame& other : air_.frames()) {
+        if (other.record != frame.record) meet(frames_.back(), other);
+    }
+}
+
+/// Adds another frame to those that overlap, if it does.
+void Account::meet(Open& open, const RecordedFrame& other) const {
+    if (other.begin > open.arrival.end) return;
+    const Arrival arrival = air_.arrival(other, robot_);
+    if (!arrival.overlaps(open.arrival)) return;
+    if (!arrival.own && !air_.medium().stations().may_link(other.air.frame.sender, robot_)) return;
+    open.frame.others.push_back({arrival.from, other.air.kind, {arrival.level_dbm}});
+}
+
+/// What is certain of a frame as it begins.
+std::optional<Outcome> Account::outcome_at_begin(const RecordedFrame& frame, Db margin) const {
+    const NodeId to = frame.air.frame.next_hop;
+    if (!air_.medium().stations().is_on(robot_)) return Outcome::off;
+    if (!air_.medium().stations().may_link(frame.air.frame.sender, robot_))
+        return Outcome::other_network;
+    if (margin < Db{0}) return Outcome::too_weak;
+    if (to != everyone && to != robot_) return Outcome::for_another;
+    return std::nullopt;
+}
+
+void Account::end(const Received& received) {
+    for (const Reception& reception : received.receptions) {
+        if (reception.node != robot_) continue;
+        const AirFrame air{.frame = received.frame};
+        const RecordedFrame* frame = air_.frame_of(air, uid_, reception);
+        for (Open& open : frames_) {
+            if (frame && open.record == frame->record) {
+                open.frame.outcome = outcome_of(reception.fate);
+            }
+        }
+    }
+}
+
+MessageAtRobot Account::told() && {
+    for (Open& open : frames_) {
+        auto& others = open.frame.others;
+        std::stable_sort(others.begin(), others.end(),
+                         [](const auto& a, const auto& b) { return a.level > b.level; });
+        message_.frames.push_back(std::move(open.frame));
+    }
+    message_.damage = trace_.damage();
+    return std::move(message_);
+}
+
+}  // namespace
+
+MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, NodeId robot) {
+    RecordedReader trace(path);
+    Account account(trace, path, uid, robot);
+    while (const Record* record = trace.next()) account.take(*record);
+    return std::move(account).told();
+}
+
+namespace {
+
+std::string counted(std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string walls_in_words(const MessageAtRobot& message, const FrameAtRobot& frame) {
+    if (!message.has_walls) return "";
+    if (frame.walls == 0) return ", with no wall between";
+    return ", through " + counted(frame.walls, "wall");
+}
+
+using FrameList = std::vector<const FrameAtRobot*>;
+
+FrameList with_outcome(const MessageAtRobot& message, std::initializer_list<Outcome> outcomes) {
+    FrameList found;
+    for (const FrameAtRobot& frame : message.frames) {
+        const bool is_one =
+            std::find(outcomes.begin(), outcomes.end(), frame.outcome) != outcomes.end();
+        if (is_one) found.push_back(&frame);
+    }
+    return found;
+}
+
+std::string received_in_words(const MessageAtRobot& message, const FrameAtRobot& first) {
+    return fmt::format(
+        "{} has it from {}, {:.3f} ms after it was sent: that frame came at {:.2f} dBm, {:.1f} dB "
+        "above its sensitivity{}.",
+        message.robot, message.names[first.from.index()], seconds(first.end - message.sent) * 1e3,
+        first.level.value, first.margin.value, walls_in_words(message, first));
+}
+
+std::string weak_in_words(const MessageAtRobot& message, const FrameList& weak) {
+    const FrameAtRobot& best =
+        **std::max_element(weak.begin(), weak.end(),
+                           [](const auto* a, const auto* b) { return a->margin < b->margin; });
+    const bool is_one = weak.size() == 1;
+    const std::size_t off = with_outcome(message, {Outcome::off}).size();
+    return fmt::format(
+        "{} never was within reach: {} came {:.1f} dB below its sensitivity{}{}.", message.robot,
+        is_one ? "the only frame" : fmt::format("the strongest of {} frames", weak.size()),
+        -best.margin.value, walls_in_words(message, best),
+        off > 0 ? fmt::format("; {} more came while it was off", off) : "");
+}
+
+std::string lost_in_words(const MessageAtRobot& message, const FrameList& lost) {
+    constexpr std::pair<Outcome, std::string_view> causes[] = {
+        {Outcome::collided, "while other frames were on air"},
+        {Outcome::busy, "while it was sending itself"},
+        {Outcome::garbled, "by wrong bits"},
+        {Outcome::not_told, "as the trace tells nothing of their ends"}};
+    std::string list;
+    for (const auto& [outcome, words] : causes) {
+        const std::size_t count = with_outcome(message, {outcome}).size();
+        if (count == 0) continue;
+        list += list.empty() ? ": " : ", ";
+        list += lost.size() == 1 ? std::string(words) : fmt::format("{} {}", count, words);
+    }
+    return fmt::format("{} was within reach of {} of {} and lost {}{}.", message.robot, lost.size(),
+                       counted(message.frames.size(), "frame"), lost.size() == 1 ? "it" : "them",
+                       list);
+}
+
+}  // namespace
+
+std::string sentence(const MessageAtRobot& message) {
+    if (message.is_origin) return message.robot + " sent it.";
+    if (message.frames.empty()) return "No other robot ever sent it.";
+    const FrameList got = with_outcome(message, {Outcome::received, Outcome::duplicate});
+    if (!got.empty()) return received_in_words(message, *got.front());
+    const FrameList lost = with_outcome(
+        message, {Outcome::collided, Outcome::busy, Outcome::garbled, Outcome::not_told});
+    if (!lost.empty()) return lost_in_words(message, lost);
+    const FrameList weak = with_outcome(message, {Outcome::too_weak});
+    if (!weak.empty()) return weak_in_words(message, weak);
+    const std::string all = counted(message.frames.size(), "frame");
+    if (!with_outcome(message, {Outcome::off}).empty()) {
+        return fmt::format("{} was off: it could hear none of {}.", message.robot, all);
+    }
+    if (!with_outcome(message, {Outcome::other_network}).empty()) {
+        return fmt::format(
+            "{} is in another network than those who sent it: it could hear none "
+            "of {}.",
+            message.robot, all);
+    }
+    return all + (message.frames.size() == 1 ? " was" : " were") + " sent, for another robot.";
+}
+
+}  // namespace rovernet

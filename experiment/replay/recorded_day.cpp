@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/replay/recorded_day.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/run.hpp"
+#include "experiment/warmup.hpp"
+#include "mobility/recorded_legs.hpp"
+#include "experiment/replay/to_destination.hpp"
+#include "traces/metrics.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+std::shared_ptr<Metrics> metrics_of(const Scenario& scenario, const NetworkSettings& settings) {
+    const Time begin = start_of_run + warmup_of(scenario, settings);
+    return std::make_shared<Metrics>(begin, settings.metric_parts);
+}
+
+std::uint64_t sum_of(const std::vector<std::uint64_t>& counts) {
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+/// Counts by robot what is in `some` and not in `others`; both are sorted.
+std::vector<std::uint64_t> missing(const std::vector<Delivery>& some,
+                                   const std::vector<Delivery>& others, std::size_t robots) {
+    std::vector<Delivery> only;
+    std::set_difference(some.begin(), some.end(), others.begin(), others.end(),
+                        std::back_inserter(only));
+    std::vector<std::uint64_t> counts(robots);
+    for (const Delivery& each : only) ++counts[each.at.index()];
+    return counts;
+}
+
+}  // namespace
+
+std::uint64_t DeliveryChange::all_gained() const { return sum_of(gained); }
+std::uint64_t DeliveryChange::all_lost() const { return sum_of(lost); }
+
+DeliveryChange change_of(const PlayedDay& before, const PlayedDay& after, std::size_t robots) {
+    std::vector<Delivery> a = before.deliveries, b = after.deliveries;
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    return {missing(b, a, robots), missing(a, b, robots)};
+}
+
+RecordedDay::RecordedDay(const std::string& path) {
+    RecordedReader trace(path);
+    run_ = trace.run();
+    scenario_ = std::make_unique<ReplayedScenario>(run_, path);
+    const Scenario scenario = scenario_->with({});
+    check_robots(run_, scenario, path);
+    const auto metrics = metrics_of(scenario, network_settings(scenario));
+    const auto deliveries = std::make_shared<Deliveries>();
+    Sink sinks[] = {Sink(DayLogSink{log_}), Sink(metrics), Sink(deliveries)};
+    while (const Record* record = trace.next()) {
+        for (Sink& sink : sinks) sink.on(*record, trace.context());
+    }
+    log_.recorded = {metrics->values(), std::move(deliveries->all)};
+    log_.notices = trace.damage();
+    log_.legs.resize(run_.robots.size());
+}
+
+RecordedDay::RecordedDay(RecordedRun run, const std::string& path, DayLog log)
+    : run_(std::move(run)),
+      scenario_(std::make_unique<ReplayedScenario>(run_, path)),
+      log_(std::move(log)) {
+    log_.legs.resize(run_.robots.size());
+}
+
+PlayedDay RecordedDay::play(const std::vector<std::string>& set,
+                            const std::function<bool(double)>& progress) const {
+    const Scenario scenario = scenario_->with(set);
+    NetworkSettings settings = network_settings(scenario);
+    const auto metrics = metrics_of(scenario_->with({}), settings);
+    const auto deliveries = std::make_shared<Deliveries>();
+    settings.metrics = false;
+    Network network(settings);
+    network.route(to_destinations(scenario.routing.make()));
+    add_robots(network, scenario);
+    network.add_sink(metrics);
+    network.add_sink(deliveries);
+    schedule(network);
+    const Time end = start_of_run + scenario.scenario.duration;
+    constexpr std::uint64_t events_a_slice = 100'000;
+    while (!network.advance(end, events_a_slice)) {
+        if (progress &&
+            !progress(seconds(network.now() - start_of_run) / seconds(end - start_of_run))) {
+            throw Interrupted();
+        }
+    }
+    network.finish();
+    return {metrics->values(), std::move(deliveries->all)};
+}
+
+/// Adds the robots in their order: those of the scenario's tables, and those of a movement file.
+void RecordedDay::add_robots(Network& network, const Scenario& scenario) const {
+    std::map<std::string, const RobotTable*> tables;
+    std::map<const RobotTable*, Propagation> models;
+    for (const RobotTable& table : scenario.robots) {
+        for (int i = 0; i < table.count.value_or(1); ++i) tables.emplace(table.name_of(i), &table);
+        if (table.propagation) models.emplace(&table, table.propagation->make());
+    }
+    for (std::size_t i = 0; i < run_.robots.size(); ++i) {
+        Robot robot{.name = run_.robots[i], .at = {}, .radio = scenario.radio};
+        if (!log_.legs[i].empty()) {
+            robot.at = log_.legs[i].front().from;
+            robot.heading = {log_.legs[i].front().heading};
+            robot.move = RecordedLegs(log_.legs[i]);
+        }
+        if (const auto found = tables.find(run_.robots[i]); found != tables.end()) {
+            const RobotTable& table = *found->second;
+            robot.radius = table.radius;
+            robot.radio = table.radio;
+            if (table.propagation) robot.propagation = models.at(&table);
+        }
+        network.add(std::move(robot));
+    }
+}
+
+/// Schedules what robots said and when they were switched, each in the order in which it was.
+void RecordedDay::schedule(Network& network) const {
+    for (const DayLog::Turned& turned : log_.turned) {
+        network.at(turned.time, [this, &network, turned] {
+            if (!turned.on) return network.switch_off(turned.node);
+            network.switch_on(turned.node);
+            // It would take up the leg that it was on; the trace has what it did then.
+            network.move(turned.node, RecordedLegs(log_.legs[turned.node.index()]));
+        });
+    }
+    for (const DayLog::Said& said : log_.said) {
+        network.at(said.time, [&network, &message = said.message] {
+            if (message.to == everyone) {
+                network.broadcast(message.origin, message.payload, message.size, message.flow);
+            } else if (message.is_routed) {
+                network.send(message.origin, message.to, message.payload, message.size,
+                             message.flow);
+            } else {
+                network.unicast(message.origin, message.to, message.payload, message.size,
+                                message.flow);
+            }
+        });
+    }
+}
+
+}  // namespace rovernet

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/reports/link_table.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/run.hpp"
+#include "models/medium/medium.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <set>
+
+namespace rovernet {
+namespace {
+
+std::string ip_of(std::uint32_t number) {
+    return fmt::format("10.{}.{}.{}", number >> 16 & 255, number >> 8 & 255, number & 255);
+}
+
+std::string mac_of(std::uint32_t number) {
+    return fmt::format("02:00:{:02x}:{:02x}:{:02x}:{:02x}", number >> 24, number >> 16 & 255,
+                       number >> 8 & 255, number & 255);
+}
+
+/// Makes addresses that nobody has been given, one after the other.
+class Addresses {
+  public:
+    using Make = std::string (*)(std::uint32_t);
+    Addresses(const std::vector<const Radio*>& radios, std::optional<std::string> Radio::*given,
+              Make make)
+        : given_(given), make_(make) {
+        for (const Radio* const radio : radios) {
+            if (const auto& address = radio->*given) taken_.insert(in_small_letters(*address));
+        }
+    }
+
+    std::string of(const Radio& radio, NodeId node) {
+        if (radio.*given_) return *(radio.*given_);
+        std::string address = make_(node.value + 1);
+        while (!taken_.insert(address).second) address = make_(first_spare_++);
+        return address;
+    }
+
+  private:
+    /// A mac is the same one in capital letters.
+    static std::string in_small_letters(std::string text) {
+        for (char& c : text) {
+            if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+        }
+        return text;
+    }
+
+    std::optional<std::string> Radio::*given_;
+    Make make_;
+    std::set<std::string> taken_;
+    std::uint32_t first_spare_ = 0x800001;  // beyond the robots' own numbers
+};
+
+Table device_document(const Device& device) {
+    Table table;
+    table.set("robot", device.robot);
+    table.set("ip", device.ip);
+    table.set("mac", device.mac);
+    table.set("essid", device.essid);
+    table.set("frequency_hz", device.frequency.value);
+    table.set("mode", name_of(device.mode));
+    table.set("encryption", device.encryption);
+    return table;
+}
+
+/// Writes link records as lines.
+struct History {
+    const Network* network;
+    std::function<void(std::string_view)> write;
+
+    KindMask kinds() const { return kind_links; }
+    void on(const Record& record, const RecordContext&) {
+        if (const auto* up = std::get_if<LinkUp>(&record)) add(up->time, up->from, up->to, "up");
+        if (const auto* down = std::get_if<LinkDown>(&record)) {
+            add(down->time, down->from, down->to, "down");
+        }
+    }
+
+  private:
+    static std::string quoted(const std::string& name) {
+        if (name.find_first_of(",\"\r") == name.npos) return name;
+        std::string text = "\"";
+        for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+        return text + '"';
+    }
+    void add(Time t, NodeId from, NodeId to, std::string_view event) {
+        const std::int64_t ns = t.time_since_epoch().count();
+        write(fmt::format("{}.{:09},{},{},{}\n", ns / 1'000'000'000, ns % 1'000'000'000,
+                          quoted(network->name(from)), quoted(network->name(to)), event));
+    }
+};
+
+}  // namespace
+
+namespace {
+
+std::vector<Device> devices(const std::vector<const Radio*>& radios,
+                            const std::vector<std::string>& names) {
+    Addresses ips(radios, &Radio::ip, ip_of);
+    Addresses macs(radios, &Radio::mac, mac_of);
+    std::vector<Device> all;
+    for (std::uint32_t i = 0; i < names.size(); ++i) {
+        const Radio& radio = *radios[i];
+        all.push_back({names[i], ips.of(radio, NodeId{i}), macs.of(radio, NodeId{i}), radio.essid,
+                       radio.frequency, radio.mode, radio.encryption});
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<Device> devices(const Medium& medium, const std::vector<std::string>& names) {
+    std::vector<const Radio*> radios;
+    for (std::uint32_t i = 0; i < names.size(); ++i) {
+        radios.push_back(&medium.stations().radio(NodeId{i}));
+    }
+    return devices(radios, names);
+}
+
+std::vector<Device> devices(const Scenario& scenario) {
+    std::vector<const Radio*> radios;
+    std::vector<std::string> names;
+    for (const RobotTable& robot : scenario.robots) {
+        for (int i = 0; i < robot.count.value_or(1); ++i) {
+            radios.push_back(&robot.radio);
+            names.push_back(robot.name_of(i));
+        }
+    }
+    return devices(radios, names);
+}
+
+std::vector<Device> devices(const Network& network) {
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < network.size(); ++i) names.push_back(network.name(NodeId{i}));
+    return devices(network.medium(), names);
+}
+
+void for_each_link_table(const Network& network, const std::optional<std::string>& robot,
+                         const std::function<void(const LinkTable&)>& visit) {
+    const auto all = devices(network);
+    const auto only = robot ? std::optional(robot_named(network, *robot)) : std::nullopt;
+    for (std::uint32_t i = 0; i < network.size(); ++i) {
+        const NodeId node{i};
+        if (only && node != *only) continue;
+        LinkTable table{all[i], {}};
+        for (const Neighbour& n : network.links(node, network.now())) {
+            table.rows.push_back({all[n.node.index()], n.quality, n.level, n.noise});
+        }
+        visit(table);
+    }
+}
+
+Table link_table_document(const LinkTable& table) {
+    Table robot = device_document(table.device);
+    Array links;
+    for (const LinkTable::Row& row : table.rows) {
+        Table link = device_document(row.neighbour);
+        link.set("quality", row.quality);
+        link.set("level_dbm", row.level.value);
+        link.set("noise_dbm", row.noise.value);
+        links.emplace_back(std::move(link));
+    }
+    robot.set("links", std::move(links));
+    return robot;
+}
+
+void write_link_history(const Scenario& scenario,
+                        const std::function<void(std::string_view)>& write, const TellTime& tell) {
+    const Scenario played = without_idle_traffic(scenario);
+    Network network(network_settings(played));
+    populate(network, played);
+    write("time_s,from,to,event\n");
+    network.add_sink(std::make_shared<History>(History{&network, write}));
+    play_until(network, start_of_run + played.scenario.duration, tell);
+}
+
+}  // namespace rovernet

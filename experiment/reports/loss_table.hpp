@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenario/document/value.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+struct LossRow {
+    Meters distance;
+    Db loss;
+};
+
+/// Heights of the antennas above the ground [m], >= 0.
+struct LossAntennas {
+    Meters from, to;
+};
+
+/// Median path loss (shadowing off) of a listed model over distance.
+/// @param parameters  "name=value" each; parameters that are not given take the model's defaults
+/// @param distances   [m] horizontal
+/// @param wall        [m] length of the way that lies in walls
+/// @throws InputError that names the wrong option in place of a file
+std::vector<LossRow> loss_table(const std::string& model,
+                                const std::vector<std::string>& parameters, Hertz frequency,
+                                const std::vector<Meters>& distances, LossAntennas heights,
+                                Meters wall);
+
+/// A quantity from the command line: its text, or a bare number in SI units.
+/// @throws InputError that names `option` in place of a file
+Hertz option_frequency(const std::string& option, const std::string& text);
+Meters option_length(const std::string& option, const std::string& text);
+Duration option_time(const std::string& option, const std::string& text);
+
+/// List of the models: name, and per parameter its name, default, range and meaning.
+Array list_models();
+/// List of what varies the loss of any model: shadowing and fading, as list_models().
+Array list_variations();
+
+}  // namespace rovernet

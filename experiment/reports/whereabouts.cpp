@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/reports/whereabouts.hpp"
+
+#include "experiment/build.hpp"
+#include "experiment/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+
+namespace rovernet {
+namespace {
+
+Whereabouts everybody(const Network& network) {
+    Whereabouts now{network.now(), {}};
+    for (std::uint32_t i = 0; i < network.size(); ++i) {
+        const NodeId node{i};
+        const Leg& leg = network.legs().leg(node);
+        const bool moves = now.time < leg.end;
+        RobotState robot = network.robot(node);
+        now.robots.push_back({std::move(robot.name), robot.at, moves ? leg.velocity : Vec3{},
+                              robot.heading.value, robot.presence});
+    }
+    return now;
+}
+
+/// Writes down everybody's legs.
+struct Recorder {
+    std::vector<std::vector<Leg>> legs = {};
+
+    KindMask kinds() const { return kind_of<Moved>(); }
+    void on(const Record& record, const RecordContext&) {
+        const auto* moved = std::get_if<Moved>(&record);
+        if (!moved) return;
+        const std::size_t i = moved->node.index();
+        if (i >= legs.size()) legs.resize(i + 1);
+        auto& mine = legs[i];
+        if (!mine.empty() && mine.back().start == moved->time) mine.pop_back();
+        if (!mine.empty()) end(mine.back(), moved->time);
+        mine.push_back(moved->leg);
+    }
+
+  private:
+    /// Cuts a leg that was interrupted, or lengthens its rest at the end.
+    static void end(Leg& leg, Time t) {
+        if (t >= leg.end) return;
+        leg.to = leg.position(t);
+        leg.end = t;
+    }
+};
+
+}  // namespace
+
+std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times,
+                                     const TellTime& tell) {
+    std::vector<std::size_t> order(times.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+    const Scenario played = without_idle_traffic(scenario);
+    Network network(network_settings(played));
+    populate(network, played);
+    std::vector<Whereabouts> all(times.size());
+    for (const std::size_t i : order) {
+        play_until(network, times[i], tell);
+        all[i] = everybody(network);
+    }
+    return all;
+}
+
+std::vector<Track> tracks(const Scenario& scenario, const TellTime& tell) {
+    const Scenario played = without_idle_traffic(scenario);
+    Network network(network_settings(played));
+    populate(network, played);
+    const auto recorder = std::make_shared<Recorder>();
+    network.add_sink(recorder);
+    play_until(network, start_of_run + scenario.scenario.duration, tell);
+    std::vector<Track> all;
+    recorder->legs.resize(network.size());
+    for (std::uint32_t i = 0; i < network.size(); ++i) {
+        all.push_back({network.name(NodeId{i}), std::move(recorder->legs[i])});
+    }
+    return all;
+}
+
+std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path,
+                                       const TellTime& tell) {
+    const std::filesystem::path out(path);
+    const std::string ending = out.extension().string();
+    const Time end = start_of_run + scenario.scenario.duration;
+    if (ending == ".tcl" || ending == ".ns_movements") {
+        return {{path, setdest_text(tracks(scenario, tell), end)}};
+    }
+    if (ending != ".movements") {
+        throw std::invalid_argument(
+            fmt::format("{}: unknown ending \"{}\"; expected .tcl or .ns_movements for ns-2, "
+                        ".movements for BonnMotion",
+                        path, ending));
+    }
+    const auto all = tracks(scenario, tell);
+    std::filesystem::path params(out);
+    return {{path, bonnmotion_text(all, end)},
+            {params.replace_extension(".params").string(), bonnmotion_params(all, end)}};
+}
+
+}  // namespace rovernet

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "live/carriers/address.hpp"
+#include "sim/error.hpp"
+
+#include <boost/asio.hpp>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <netinet/tcp.h>
+#include <stdexcept>
+#include <string>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+#include <utility>
+
+// What everything that listens on sockets (Boost.Asio) does the same way.
+
+namespace rovernet {
+
+/// Listens on an address of this machine. @throws RunError if it is in use
+inline boost::asio::ip::tcp::acceptor listen_on(boost::asio::io_context& io,
+                                                const Address& address) {
+    namespace asio = boost::asio;
+    try {
+        return {io, asio::ip::tcp::endpoint(asio::ip::make_address(address.host), address.port)};
+    } catch (const boost::system::system_error& fault) {
+        throw RunError(fmt::format("{}: {}", address.text(), fault.code().message()));
+    }
+}
+
+/// Listens on a Unix socket, for this user alone; one that nobody listens on is replaced.
+/// @throws RunError if something else is there; std::invalid_argument for an overlong path
+inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio::io_context& io,
+                                                                    const std::string& path) {
+    using boost::asio::local::stream_protocol;
+    if (path.empty() || path.size() >= sizeof(sockaddr_un::sun_path)) {
+        throw std::invalid_argument(fmt::format("{}: expected a path of 1 to {} bytes", path,
+                                                sizeof(sockaddr_un::sun_path) - 1));
+    }
+    const stream_protocol::endpoint endpoint(path);
+    struct stat found {};
+    if (lstat(path.c_str(), &found) == 0) {
+        stream_protocol::socket probe(io);
+        boost::system::error_code error;
+        probe.connect(endpoint, error);
+        if (!S_ISSOCK(found.st_mode) || !error) throw RunError(path + ": is there already");
+        unlink(path.c_str());
+    }
+    const mode_t mask = umask(0077);
+    try {
+        stream_protocol::acceptor acceptor(io, endpoint);
+        umask(mask);
+        return acceptor;
+    } catch (const boost::system::system_error& fault) {
+        umask(mask);
+        throw RunError(fmt::format("{}: {}", path, fault.code().message()));
+    }
+}
+
+/// Has a connection ended whose client's machine does not answer any more: it is asked after 30 s
+/// without a word, three times within 30 s.
+inline void keep_alive(int socket) {
+    const int on = 1, silence = 30, interval = 10, times = 3;  // [s]
+    setsockopt(socket, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+    setsockopt(socket, IPPROTO_TCP, TCP_KEEPIDLE, &silence, sizeof silence);
+    setsockopt(socket, IPPROTO_TCP, TCP_KEEPINTVL, &interval, sizeof interval);
+    setsockopt(socket, IPPROTO_TCP, TCP_KEEPCNT, &times, sizeof times);
+}
+
+/// Has what was received last acknowledged at once. A client that writes a command and a request,
+/// and has not switched off Nagle's algorithm, would wait 40 ms for that in each round.
+inline void acknowledge_at_once(int socket) {
+    const int on = 1;
+    setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
+}
+
+/// Gives each connection that comes in to `take`, as long as the acceptor is there.
+template <class Acceptor, class Take>
+void accept_all(Acceptor& acceptor, Take take) {
+    namespace asio = boost::asio;
+    acceptor.async_accept([&acceptor, take](boost::system::error_code error, auto socket) {
+        if (error == asio::error::operation_aborted) return;
+        if (!error) {
+            take(std::move(socket));
+            return accept_all(acceptor, take);
+        }
+        // No descriptor is free, say: that passes.
+        constexpr auto again_after = std::chrono::milliseconds(100);
+        auto timer = std::make_shared<asio::steady_timer>(acceptor.get_executor(), again_after);
+        timer->async_wait(
+            [&acceptor, take, timer](boost::system::error_code) { accept_all(acceptor, take); });
+    });
+}
+
+}  // namespace rovernet

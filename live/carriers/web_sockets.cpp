@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+#include "live/carriers/web_sockets.hpp"
+
+#include "live/carriers/acceptor.hpp"
+#include "live/carriers/admission.hpp"
+#include "live/carriers/input_rate.hpp"
+
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <list>
+#include <map>
+#include <optional>
+#include <simdjson.h>
+#include <utility>
+
+namespace rovernet {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+using websocket::close_code;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t longest_request = 8U << 10U;          // [bytes]
+constexpr std::size_t longest_input = std::size_t{1} << 20U;  // [bytes] of a client
+constexpr std::size_t most_input = std::size_t{64} << 20U;    // [bytes] of all clients
+constexpr std::size_t most_connections = 500;
+constexpr std::size_t most_messages = 1'024;                   // that wait for a client
+constexpr std::size_t most_waiting = std::size_t{4} << 20U;    // [bytes] the same
+constexpr std::size_t much_waiting = std::size_t{256} << 10U;  // [bytes] then it is not read
+constexpr int system_buffer = 256 << 10;  // [bytes] of the system: what it holds gets old
+constexpr std::size_t portion = 16'384;   // [bytes] that one read takes
+
+struct Message {
+    std::string bytes;
+    bool is_text;
+};
+
+/// An address, the rule of who may come in there, and who is told of those who do.
+struct Gate {
+    asio::ip::tcp::acceptor acceptor;
+    Admission admission;
+    Doors::Streams users;
+};
+
+using Request = http::request<http::empty_body>;
+
+bool is_base64(char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' ||
+           c == '/';
+}
+
+/// What is wrong with a request whoever asks; empty if nothing.
+std::string fault_of(const Request& request) {
+    const auto& fields = request.base();
+    // RFC 9112, 3.2: exactly one Host. RFC 6455, 11.3: neither field of the handshake twice; 10.2
+    // trusts the one Origin.
+    const std::size_t hosts = fields.count(http::field::host);
+    if (hosts > 1 || (hosts == 0 && request.version() >= 11)) return "expected one Host";
+    for (const http::field each : {http::field::origin, http::field::sec_websocket_key,
+                                   http::field::sec_websocket_version}) {
+        if (fields.count(each) <= 1) continue;
+        const auto name = http::to_string(each);
+        return fmt::format("expected one {}", std::string_view(name.data(), name.size()));
+    }
+    if (!websocket::is_upgrade(request)) return {};
+    // RFC 6455, 4.1: the base64 of 16 bytes.
+    constexpr std::string_view ending = "==";
+    constexpr std::size_t letters = 22;  // 16 bytes in 6 bits each
+    const auto field = fields[http::field::sec_websocket_key];
+    const std::string_view key(field.data(), field.size());
+    const bool is_key = key.size() == letters + ending.size() && key.ends_with(ending) &&
+                        std::all_of(key.begin(), key.begin() + letters, is_base64);
+    if (is_key) return {};
+    return "Sec-WebSocket-Key: expected 16 bytes in base64";
+}
+
+/// One client's connection.
+struct Client {
+    Client(asio::ip::tcp::socket socket, WebSockets::Connection number, const Gate& entered)
+        : stream(std::move(socket)), id(number), gate(entered) {}
+
+    websocket::stream<beast::tcp_stream> stream;
+    WebSockets::Connection id;
+    const Gate& gate;
+    http::request_parser<http::empty_body> request = {};
+    http::response<http::string_body> refusal = {};
+    beast::flat_buffer input = {};
+    InputRate rate = {};
+    std::deque<Message> output = {};  // the first is being written
+    std::size_t waiting = 0;          // [bytes] of those behind the first
+    bool is_open = false;             // its users know it
+    bool is_reading = false;
+    bool is_closing = false;                  // no message goes out any more
+    std::optional<close_code> farewell = {};  // it is closed once all is out
+};
+
+}  // namespace
+
+struct WebSockets::State {
+    State(asio::io_context& context, Patience given) : io(context), patience(given) {}
+
+    using Shared = std::shared_ptr<Client>;
+
+    void add(asio::ip::tcp::socket socket, const Gate& gate) {
+        if (clients.size() >= most_connections && !make_room()) return;
+        error_code ignored;
+        socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+        socket.set_option(asio::socket_base::send_buffer_size(system_buffer), ignored);
+        const auto client = std::make_shared<Client>(std::move(socket), next++, gate);
+        clients[client->id] = client;
+        client->request.header_limit(longest_request);
+        client->stream.next_layer().expires_after(patience.for_request);
+        http::async_read(client->stream.next_layer(), client->input, client->request,
+                         [this, client](error_code error, std::size_t) {
+                             error ? remove(client) : answer(client);
+                         });
+    }
+
+    /// Closes the oldest connection that is not let in. @return whether there was one
+    bool make_room() {
+        const auto outside = std::find_if(clients.begin(), clients.end(),
+                                          [](const auto& each) { return !each.second->is_open; });
+        if (outside == clients.end()) return false;
+        const Shared client = outside->second;  // remove() takes it off the table
+        remove(client);
+        return true;
+    }
+
+    /// Lets a client in, or tells it why not.
+    void answer(const Shared& client) {
+        const auto& request = client->request.get();
+        if (const std::string fault = fault_of(request); !fault.empty()) {
+            return refuse(client, http::status::bad_request, fault);
+        }
+        if (!websocket::is_upgrade(request)) {
+            return refuse(client, http::status::upgrade_required,
+                          "this address is one for WebSockets");
+        }
+        const auto text = [](boost::string_view view) {
+            return std::string_view(view.data(), view.size());
+        };
+        WebRequest asked{text(request.target()), text(request[http::field::host])};
+        if (const auto origin = request.find(http::field::origin); origin != request.end()) {
+            asked.origin = text(origin->value());
+        }
+        const std::string why = client->gate.admission.refusal(asked);
+        if (!why.empty()) return refuse(client, http::status::forbidden, why);
+        // It has to wait for the answer before it sends a message (RFC 6455, 4.1).
+        client->input.clear();
+        client->stream.next_layer().expires_never();
+        client->stream.set_option(
+            websocket::stream_base::timeout{patience.for_request, patience.for_silence, true});
+        client->stream.read_message_max(longest_input);
+        client->stream.auto_fragment(false);
+        client->stream.async_accept(request, [this, client](error_code error) {
+            if (error) return remove(client);
+            client->is_open = true;
+            client->gate.users.opened(client->id);
+            read(client);
+        });
+    }
+
+    void refuse(const Shared& client, http::status status, const std::string& why) {
+        auto& response = client->refusal;
+        response.result(status);
+        response.set(http::field::content_type, "text/plain");
+        response.set(http::field::connection, "close");
+        if (status == http::status::upgrade_required) {
+            response.set(http::field::upgrade, "websocket");
+        }
+        response.body() = why + "\n";
+        response.prepare_payload();
+        http::async_write(client->stream.next_layer(), response,
+                          [this, client](error_code, std::size_t) { remove(client); });
+    }
+
+    void read(const Shared& client) {
+        const bool is_busy = client->waiting > much_waiting;
+        if (client->is_reading || client->is_closing || is_busy) return;
+        client->is_reading = true;
+        if (client->rate.read_again() > Clock::now()) return read_later(client);
+        client->stream.async_read_some(
+            client->input, portion,
+            [this, client](error_code error, std::size_t) { take_in(client, error); });
+    }
+
+    /// Goes on reading once the client may say more.
+    void read_later(const Shared& client) {
+        const auto pause = std::make_shared<asio::steady_timer>(io, client->rate.read_again());
+        pause->async_wait([this, client, pause](error_code) {
+            client->is_reading = false;
+            if (clients.contains(client->id)) read(client);
+        });
+    }
+
+    void take_in(const Shared& client, error_code error) {
+        client->is_reading = false;
+        if (error) return remove(client);
+        acknowledge_at_once(client->stream.next_layer().socket().native_handle());
+        beast::flat_buffer& input = client->input;
+        if (client->is_closing) return;
+        if (!client->stream.is_message_done()) {
+            const bool is_too_much = input.size() > portion && input_of_all() > most_input;
+            return is_too_much ? say_goodbye(client, close_code::try_again_later) : read(client);
+        }
+        const std::string_view message{static_cast<const char*>(input.cdata().data()),
+                                       input.size()};
+        // Beast does not see that an empty last frame leaves a character cut.
+        if (client->stream.got_text() && !simdjson::validate_utf8(message)) {
+            return say_goodbye(client, close_code::bad_payload);
+        }
+        client->gate.users.received(client->id, message);
+        if (client->gate.users.has_rate) client->rate.add(1, input.size(), Clock::now());
+        input.clear();
+        if (input.capacity() > portion) input.shrink_to_fit();
+        read(client);
+    }
+
+    std::size_t input_of_all() const {
+        std::size_t bytes = 0;
+        for (const auto& [id, client] : clients) bytes += client->input.size();
+        return bytes;
+    }
+
+    void send(Connection to, Message message) {
+        const auto found = clients.find(to);
+        if (found == clients.end()) return;
+        const Shared client = found->second;
+        if (!client->is_open || client->is_closing || client->farewell) return;
+        if (!client->output.empty()) client->waiting += message.bytes.size();
+        client->output.push_back(std::move(message));
+        if (is_overdue(*client)) return say_goodbye(client, close_code::try_again_later);
+        if (client->output.size() == 1) write(client);
+    }
+
+    /// Too much waits for a client. Its longest message is left out: a map may be beyond the limit.
+    static bool is_overdue(const Client& client) {
+        if (client.output.size() > most_messages) return true;
+        if (client.waiting <= most_waiting) return false;
+        std::size_t longest = 0;
+        for (auto each = client.output.begin() + 1; each != client.output.end(); ++each) {
+            longest = std::max(longest, each->bytes.size());
+        }
+        return client.waiting - longest > most_waiting;
+    }
+
+    void write(const Shared& client) {
+        client->stream.text(client->output.front().is_text);
+        client->stream.async_write(asio::buffer(client->output.front().bytes),
+                                   [this, client](error_code error, std::size_t) {
+                                       error ? remove(client) : go_on_writing(client);
+                                   });
+    }
+
+    void go_on_writing(const Shared& client) {
+        client->output.pop_front();
+        if (!client->output.empty()) {
+            client->waiting -= client->output.front().bytes.size();
+            write(client);
+        } else if (client->farewell) {
+            say_goodbye(client, *client->farewell);
+        }
+        read(client);
+    }
+
+    /// Closes a connection once all is out.
+    void leave(const Shared& client, close_code why) {
+        client->farewell = why;
+        if (client->output.empty()) say_goodbye(client, why);
+    }
+
+    /// Closes a connection once the message that is being written is out. Its users are told soon.
+    void say_goodbye(const Shared& client, close_code why) {
+        if (std::exchange(client->is_closing, true)) return;
+        while (client->output.size() > 1) client->output.pop_back();
+        client->waiting = 0;
+        asio::post(io, [this, client] { tell_closed(*client); });
+        client->stream.async_close(why, [this, client](error_code) { remove(client); });
+    }
+
+    void tell_closed(Client& client) {
+        if (std::exchange(client.is_open, false)) client.gate.users.closed(client.id);
+    }
+
+    /// @param client  not the one in `clients`, which goes
+    void remove(const Shared& client) {
+        clients.erase(client->id);
+        client->is_closing = true;
+        client->stream.next_layer().close();
+        tell_closed(*client);
+    }
+
+    asio::io_context& io;
+    const Patience patience;
+    std::string token = random_token();
+    std::list<Gate> gates;  // clients refer to them
+    std::map<Connection, Shared> clients;
+    Connection next = first;
+};
+
+WebSockets::WebSockets(Doors& doors, Patience patience)
+    : state_(std::make_unique<State>(doors.io(), patience)) {}
+WebSockets::~WebSockets() = default;
+
+Address WebSockets::listen(const Address& address, Doors::Streams users) {
+    auto acceptor = listen_on(state_->io, address);
+    const Address own{address.host, acceptor.local_endpoint().port()};
+    Gate& gate = state_->gates.emplace_back(
+        Gate{std::move(acceptor), Admission(own, state_->token), std::move(users)});
+    accept_all(gate.acceptor, [state = state_.get(), &gate](asio::ip::tcp::socket socket) {
+        state->add(std::move(socket), gate);
+    });
+    return own;
+}
+
+std::string WebSockets::invitation(const Address& own) const {
+    const bool is_any = own.host == "0.0.0.0" || own.host == "::";
+    const std::string at =
+        is_any ? fmt::format("{}:{}", asio::ip::host_name(), own.port) : own.text();
+    return fmt::format("for {}: ws://{}/?token={}",
+                       own.is_loopback() ? "a page" : "each client, the token in the address", at,
+                       state_->token);
+}
+
+const std::string& WebSockets::token() const { return state_->token; }
+bool WebSockets::listens() const { return !state_->gates.empty(); }
+
+void WebSockets::send(Connection to, std::string_view text) {
+    state_->send(to, {std::string(text), true});
+}
+
+void WebSockets::send_binary(Connection to, std::string_view bytes) {
+    state_->send(to, {std::string(bytes), false});
+}
+
+void WebSockets::close(Connection which) {
+    const auto found = state_->clients.find(which);
+    if (found != state_->clients.end()) state_->leave(found->second, close_code::normal);
+}
+
+void WebSockets::close(std::chrono::milliseconds most) {
+    for (Gate& gate : state_->gates) {
+        gate.acceptor.close();
+        gate.users = {};
+    }
+    const auto clients = state_->clients;  // remove() takes them off the table
+    for (const auto& [id, client] : clients) {
+        client->is_open ? state_->leave(client, close_code::going_away) : state_->remove(client);
+    }
+    const auto until = Clock::now() + most;
+    while (!state_->clients.empty() && Clock::now() < until) {
+        state_->io.run_one_for(std::chrono::milliseconds(10));
+    }
+    for (const auto& [id, client] : clients) state_->remove(client);
+}
+
+}  // namespace rovernet

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "live/lockstep/answer.hpp"
+
+#include "experiment/version.hpp"
+#include "files/base64.hpp"
+#include "models/medium/medium.hpp"
+#include "scenario/document/json.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rovernet {
+AnswerWriter::AnswerWriter(Session& session, const Scenario& scenario)
+    : session_(session), scenario_(scenario) {
+    const Network& network = session.network();
+    for (NodeId robot{0}; robot.index() < network.size(); ++robot.value) {
+        names_.push_back(to_json_line(Value(network.name(robot))));
+    }
+}
+
+void AnswerWriter::put(double number) {
+    if (!std::isfinite(number)) return put("null");
+    line_.put_number(number);
+}
+
+/// Calls put_one(item) for each item, with a comma between two.
+template <class Items, class PutOne>
+void AnswerWriter::put_list(const Items& items, PutOne put_one) {
+    const char* between = "";
+    for (const auto& item : items) {
+        put(between);
+        put_one(item);
+        between = ",";
+    }
+}
+
+std::string_view AnswerWriter::welcome(const HelloRequest& hello) {
+    const Network& network = session_.network();
+    line_.clear();
+    put(R"({"type":"welcome","protocol":1,"version":)");
+    put(to_json_line(Value(version())));
+    put(",\"seed\":");
+    put(scenario_.scenario.seed);
+    put(",\"t_ns\":");
+    put(network.now().time_since_epoch().count());
+    put(",\"step_ns\":");
+    put(hello.step.count());
+    put(",\"end_ns\":");
+    put(session_.end().time_since_epoch().count());
+    put(",\"robots\":{");
+    put_list(hello.robots, [&](NodeId robot) {
+        const RobotState state = network.robot(robot);
+        put(name(robot));
+        put(":{\"id\":");
+        put(std::uint64_t{robot.value});
+        put(",\"radius\":");
+        put(state.radius.value);
+        put(",");
+        put_place(state.at);
+        put(",\"heading\":");
+        put(state.heading.value);
+        put("}");
+    });
+    put("},\"map\":");
+    put_map();
+    put("}");
+    return line_.text();
+}
+
+bool AnswerWriter::tells_height(Vec3 at) const {
+    return at.z != 0 || session_.network().scene().storeys().size() > 1;
+}
+
+void AnswerWriter::put_place(Vec3 at) {
+    put("\"x\":");
+    put(at.x);
+    put(",\"y\":");
+    put(at.y);
+    if (!tells_height(at)) return;
+    put(",\"z\":");
+    put(at.z);
+}
+
+void AnswerWriter::put_map() {
+    const Scene& scene = session_.network().scene();
+    if (scene.open_field()) return put("null");
+    const OccupancyGrid& grid = scene.grid();
+    put("{\"image\":");
+    const SceneTable& table = scenario_.scene;
+    const bool is_building = !table.floors.empty();
+    put(is_building ? to_json_line(Value(table.floors.front().map))
+        : table.map ? to_json_line(Value(*table.map))
+                    : "null");
+    put(",\"resolution\":");
+    put(grid.cell_width);
+    put(",\"origin\":[");
+    put(grid.origin.x);
+    put(",");
+    put(grid.origin.y);
+    put("],\"columns\":");
+    put(std::int64_t{grid.columns});
+    put(",\"rows\":");
+    put(std::int64_t{grid.rows});
+    if (is_building) {
+        put(",\"floors\":[");
+        put_list(table.floors, [&](const FloorTable& floor) {
+            put("{\"height\":");
+            put(floor.height.value);
+            put(",\"image\":");
+            put(to_json_line(Value(floor.map)));
+            put("}");
+        });
+        put("]");
+    }
+    put("}");
+}
+
+std::string_view AnswerWriter::state(const HelloRequest& hello, std::uint64_t number,
+                                     const std::vector<SentMessage>& sent,
+                                     const std::vector<HeardMessage>& heard) {
+    const Time now = session_.network().now();
+    line_.clear();
+    put(R"({"type":"state","n":)");
+    put(number);
+    put(",\"t_ns\":");
+    put(now.time_since_epoch().count());
+    if (hello.observes_pose && hello.columns) {
+        put_columns(hello.robots);
+    } else if (hello.observes_pose) {
+        put(",\"robots\":{");
+        put_list(hello.robots, [&](NodeId robot) { put_robot(robot); });
+        put("}");
+    }
+    if (hello.observes_heard) {
+        put(",\"heard\":[");
+        put_list(heard, [&](const HeardMessage& each) { put_heard(each); });
+        put("]");
+    }
+    if (hello.observes_neighbors) {
+        put(",\"neighbors\":{");
+        put_list(hello.robots, [&](NodeId robot) { put_neighbors(robot); });
+        put("}");
+    }
+    put(",\"sent\":[");
+    put_list(sent, [&](const SentMessage& each) {
+        put("{\"uid\":");
+        put(each.uid);
+        put(",\"robot\":");
+        put(name(each.robot));
+        put("}");
+    });
+    put("],\"done\":");
+    put_truth(now >= session_.end());
+    put("}");
+    return line_.text();
+}
+
+void AnswerWriter::put_robot(NodeId robot) {
+    const Network& network = session_.network();
+    const Vec3 at = network.position(robot);
+    const Twist twist = session_.twist(robot);
+    put(name(robot));
+    put(":{");
+    put_place(at);
+    put(",\"heading\":");
+    put(network.heading(robot).value);
+    put(",\"v\":");
+    put(twist.speed);
+    put(",\"w\":");
+    put(twist.turn_rate);
+    put(",\"on\":");
+    put_truth(network.medium().stations().is_on(robot));
+    put(",\"stalled\":");
+    put_truth(session_.is_stalled(robot));
+    put("}");
+}
+
+template <class PutOne>
+void AnswerWriter::put_column(std::string_view key, const std::vector<NodeId>& robots,
+                              PutOne put_one) {
+    put("\"");
+    put(key);
+    put("\":[");
+    put_list(robots, put_one);
+    put("]");
+}
+
+void AnswerWriter::put_columns(const std::vector<NodeId>& robots) {
+    const Network& network = session_.network();
+    put(",\"state\":{");
+    put_column("robots", robots, [&](NodeId robot) { put(std::uint64_t{robot.value}); });
+    put(",");
+    put_column("x", robots, [&](NodeId robot) { put(network.position(robot).x); });
+    put(",");
+    put_column("y", robots, [&](NodeId robot) { put(network.position(robot).y); });
+    put(",");
+    if (std::any_of(robots.begin(), robots.end(),
+                    [&](NodeId robot) { return tells_height(network.position(robot)); })) {
+        put_column("z", robots, [&](NodeId robot) { put(network.position(robot).z); });
+        put(",");
+    }
+    put_column("heading", robots, [&](NodeId robot) { put(network.heading(robot).value); });
+    put(",");
+    put_column("v", robots, [&](NodeId robot) { put(session_.twist(robot).speed); });
+    put(",");
+    put_column("w", robots, [&](NodeId robot) { put(session_.twist(robot).turn_rate); });
+    put(",");
+    put_column("on", robots,
+               [&](NodeId robot) { put_truth(network.medium().stations().is_on(robot)); });
+    put(",");
+    put_column("stalled", robots, [&](NodeId robot) { put_truth(session_.is_stalled(robot)); });
+    put("}");
+}
+
+void AnswerWriter::put_heard(const HeardMessage& heard) {
+    put("{\"at\":");
+    put(name(heard.at));
+    put(",\"t_ns\":");
+    put(heard.time.time_since_epoch().count());
+    put(",\"from\":");
+    put(name(heard.from));
+    put(",\"last_hop\":");
+    put(name(heard.last_hop));
+    put(",\"hops\":");
+    put(std::int64_t{heard.hops});
+    put(",\"port\":");
+    put(std::uint64_t{heard.port});
+    put(",\"rssi\":");
+    heard.level ? put(heard.level->value) : put("null");
+    put(",\"noise\":");
+    put(session_.network().medium().stations().noise(heard.at).value);
+    put(",\"data\":\"");
+    put(base64(heard.payload));
+    put("\"}");
+}
+
+void AnswerWriter::put_neighbors(NodeId robot) {
+    const Network& network = session_.network();
+    put(name(robot));
+    put(":[");
+    put_list(network.links(robot, network.now()), [&](const Neighbour& neighbour) {
+        put("{\"name\":");
+        put(name(neighbour.node));
+        put(",\"rssi\":");
+        put(neighbour.level.value);
+        put(",\"noise\":");
+        put(neighbour.noise.value);
+        put(",\"quality\":");
+        put(std::int64_t{neighbour.quality});
+        put("}");
+    });
+    put("]");
+}
+
+std::string error_line(const RequestError& fault, std::optional<std::uint64_t> number) {
+    Table table;
+    table.set("type", "error");
+    if (number) table.set("n", *number);
+    table.set("code", fault.code());
+    table.set("at", fault.at());
+    table.set("msg", fault.what());
+    return to_json_line(Value(std::move(table)));
+}
+
+std::string end_line(std::string_view reason, std::string_view fingerprint, const Table& metrics) {
+    Table table;
+    table.set("type", "end");
+    table.set("reason", reason);
+    table.set("fingerprint", fingerprint);
+    table.set("metrics", metrics);
+    return to_json_line(Value(std::move(table)));
+}
+
+}  // namespace rovernet

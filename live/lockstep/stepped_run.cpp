@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "live/lockstep/stepped_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace rovernet {
+namespace {
+
+void check(std::string_view what, const std::string& robot, double number, const Range& range) {
+    if (range.contains(number)) return;
+    throw std::invalid_argument(
+        fmt::format("{} of robot {} must be {}, got {}", what, robot, range.text, number));
+}
+
+void check(const DriveCommand& drive, const std::string& robot) {
+    check("speed", robot, drive.speed.value, drive_speeds);
+    check("turn rate", robot, drive.turn_rate.value, drive_turns);
+    if (drive.timeout && *drive.timeout <= Duration{0}) {
+        throw std::invalid_argument(fmt::format("timeout of robot {} must be > 0 s", robot));
+    }
+}
+void check(const GoalCommand& goal, const std::string& robot) {
+    for (const double place : {goal.to.x, goal.to.y, goal.to.z}) {
+        check("goal", robot, place, goal_places);
+    }
+    check("speed", robot, goal.speed.value, goal_speeds);
+}
+void check(const StopCommand&, const std::string&) {}
+void check(const PlaceCommand& place, const std::string& robot) {
+    for (const double at : {place.at.x, place.at.y, place.at.z}) {
+        check("place", robot, at, goal_places);
+    }
+    check("heading", robot, place.heading.value, any);
+}
+void check(const SendCommand& send, const std::string& robot) {
+    const std::size_t size = std::max<std::size_t>(send.payload.size(), send.size.value_or(0));
+    if (size > longest_message) {
+        throw std::invalid_argument(
+            fmt::format("a message of robot {} has {} bytes; expected {} "
+                        "at most",
+                        robot, size, longest_message));
+    }
+}
+
+}  // namespace
+
+SteppedRun::SteppedRun(Scenario scenario, Settings settings)
+    : scenario_(std::move(scenario)), settings_(std::move(settings)) {
+    if (settings_.step < shortest_step) {
+        throw std::invalid_argument(
+            fmt::format("a step must be 1 us or more, got {} s", seconds(settings_.step)));
+    }
+    begin();
+}
+
+SteppedRun::~SteppedRun() = default;
+
+void SteppedRun::begin() {
+    run_ = std::make_unique<ScenarioRun>(scenario_, &kept_);
+    Session& session = run_->session();
+    Network& network = session.network();
+    if (settings_.folder) {
+        run_->write_to(*settings_.folder);
+        log_.emplace(*settings_.folder, scenario_);
+        session.on_input([this, &network](const Input& input) { log_->add(input, network); });
+    }
+    if (settings_.prepare) settings_.prepare(network);
+    session.step(start_of_run);  // movements may draw where robots begin
+    robots_.clear();
+    if (settings_.robots) {
+        for (const std::string& each : *settings_.robots) {
+            robots_.push_back(robot_named(network, each));
+        }
+    } else {
+        for (NodeId n{0}; n.index() < network.size(); ++n.value) robots_.push_back(n);
+    }
+    client_ = session.attach(robots_, settings_.client);
+    ascending_.resize(robots_.size());
+    std::iota(ascending_.begin(), ascending_.end(), std::size_t{0});
+    std::sort(ascending_.begin(), ascending_.end(),
+              [this](std::size_t a, std::size_t b) { return robots_[a] < robots_[b]; });
+    movements_.assign(robots_.size(), std::nullopt);
+    carried_ = movements_;
+    messages_.clear();
+    poses_.resize(3 * robots_.size());
+    steps_ = 0;
+    look();
+}
+
+void SteppedRun::reset(std::optional<std::uint64_t> seed) {
+    if (log_) log_->discard();
+    log_.reset();
+    run_.reset();
+    if (seed) scenario_.scenario.seed = *seed;
+    try {
+        begin();
+    } catch (...) {
+        log_.reset();
+        run_.reset();
+        throw;
+    }
+}
+
+ScenarioRun& SteppedRun::run() const {
+    if (run_) return *run_;
+    throw RunError("the run is over; expected a reset first");
+}
+
+void SteppedRun::command(std::size_t row, RobotCommand command) {
+    std::visit([&](const auto& each) { check(each, name(row)); }, command);
+    if (auto* send = std::get_if<SendCommand>(&command)) {
+        messages_.emplace_back(row, std::move(*send));
+    } else {
+        movements_[row] = std::move(command);
+    }
+}
+
+void SteppedRun::drive(std::span<const double> velocities, std::optional<Duration> timeout) {
+    if (velocities.size() != 2 * robots_.size()) {
+        throw std::invalid_argument(
+            fmt::format("expected velocities of shape ({}, 2)", robots_.size()));
+    }
+    const auto is_left = [&](std::size_t row) {
+        return std::isnan(velocities[2 * row]) && std::isnan(velocities[2 * row + 1]);
+    };
+    const auto drive_of = [&](std::size_t row) {
+        return DriveCommand{{velocities[2 * row]}, {velocities[2 * row + 1]}, timeout};
+    };
+    const auto is_fine = [](const DriveCommand& drive) {
+        return drive_speeds.contains(drive.speed.value) &&
+               drive_turns.contains(drive.turn_rate.value);
+    };
+    for (std::size_t row = 0; row < robots_.size(); ++row) {
+        // The name is made only for an error.
+        if (!is_left(row) && (timeout || !is_fine(drive_of(row)))) check(drive_of(row), name(row));
+    }
+    for (std::size_t row = 0; row < robots_.size(); ++row) {
+        if (!is_left(row)) movements_[row] = drive_of(row);
+    }
+}
+
+void SteppedRun::carry_out() {
+    Session& session = run().session();
+    std::stable_sort(messages_.begin(), messages_.end(), [this](const auto& a, const auto& b) {
+        return robots_[a.first] < robots_[b.first];
+    });
+    // What a sink commands meanwhile is for the next step.
+    movements_.swap(carried_);
+    const auto messages = std::exchange(messages_, {});
+    auto message = messages.begin();
+    for (const std::size_t row : ascending_) {
+        if (carried_[row]) session.carry_out(client_, robots_[row], *carried_[row], steps_);
+        carried_[row].reset();
+        for (; message != messages.end() && message->first == row; ++message) {
+            session.carry_out(client_, robots_[row], message->second, steps_);
+        }
+    }
+}
+
+bool SteppedRun::step(std::uint64_t most_events, const std::function<bool()>& go_on) {
+    Session& session = run().session();
+    if (is_done()) throw RunError("the run is at its end; expected reset or finish");
+    ++steps_;
+    carry_out();
+    const Time now = session.network().now();
+    const Time end = now + std::min(settings_.step, session.end() - now);
+    bool is_whole = false;
+    do {
+        is_whole = session.advance(end, most_events);
+    } while (!is_whole && go_on());
+    if (log_) log_->keep_up();
+    look();
+    return is_whole;
+}
+
+/// Notes where the robots are.
+void SteppedRun::look() {
+    const Network& network = session().network();
+    double* pose = poses_.data();
+    for (const NodeId robot : robots_) {
+        const Vec3 at = network.position(robot);
+        *pose++ = at.x;
+        *pose++ = at.y;
+        *pose++ = network.heading(robot).value;
+    }
+}
+
+RunResult SteppedRun::finish() {
+    session().detach(client_);
+    session().step(session().network().now());  // all of that time, as a replay does
+    RunResult result = run().finish();
+    if (log_) log_->finish(result.simulated, result.fingerprint);
+    log_.reset();
+    run_.reset();
+    return result;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/document/json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace rovernet {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json convert(const Value& value);
+
+struct Convert {
+    Json operator()(std::monostate) const { return nullptr; }
+    Json operator()(bool v) const { return v; }
+    Json operator()(std::int64_t v) const { return v; }
+    Json operator()(double v) const { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+    Json operator()(const std::string& v) const { return v; }
+    Json operator()(const Array& v) const {
+        Json list = Json::array();
+        for (const auto& item : v) list.push_back(convert(item));
+        return list;
+    }
+    Json operator()(const Table& v) const {
+        Json object = Json::object();
+        for (const auto& entry : v.entries) object[entry.key] = convert(entry.value);
+        return object;
+    }
+};
+
+Json convert(const Value& value) { return std::visit(Convert{}, value.data); }
+
+Value value_of(const Json& json) {
+    if (json.is_boolean()) return json.get<bool>();
+    if (json.is_number_integer()) return json.get<std::int64_t>();
+    if (json.is_number()) return json.get<double>();
+    if (json.is_string()) return json.get<std::string>();
+    if (json.is_array()) {
+        Array list;
+        for (const auto& item : json) list.push_back(value_of(item));
+        return list;
+    }
+    if (!json.is_object()) return {};
+    Table table;
+    for (const auto& [key, item] : json.items()) table.entries.push_back({key, value_of(item), {}});
+    return table;
+}
+
+std::string dump(const Value& value, int indent) {
+    return convert(value).dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string to_json(const Value& value) { return dump(value, 2) + "\n"; }
+
+std::string to_json_line(const Value& value) { return dump(value, -1); }
+
+Value parse_json(std::string_view text) {
+    try {
+        return value_of(Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
+            constexpr int deepest = 100;  // what we write has a few levels
+            if (depth > deepest) throw InputError({}, "JSON with more than 100 levels");
+            return true;
+        }));
+    } catch (const Json::exception& error) {
+        throw InputError({}, std::string("not JSON: ") + error.what());
+    }
+}
+
+}  // namespace rovernet

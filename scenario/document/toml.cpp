@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/document/toml.hpp"
+
+#include "files/input_file.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <vector>
+
+namespace rovernet {
+namespace {
+
+constexpr std::size_t largest_file = 64U << 20;
+
+Location location(const std::string& source, const toml::source_region& region) {
+    return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+Value convert(const toml::node& node, const std::string& source);
+
+Table convert(const toml::table& table, const std::string& source) {
+    Table out;
+    for (const auto& [key, node] : table) {
+        out.entries.push_back(
+            {std::string(key.str()), convert(node, source), location(source, key.source())});
+    }
+    // toml++ keeps keys sorted by name; errors and printing follow the file's own order.
+    std::stable_sort(out.entries.begin(), out.entries.end(), [](const Entry& a, const Entry& b) {
+        return std::pair(a.key_where.line, a.key_where.column) <
+               std::pair(b.key_where.line, b.key_where.column);
+    });
+    return out;
+}
+
+Value convert(const toml::node& node, const std::string& source) {
+    Value out;
+    if (const auto* table = node.as_table()) {
+        out = convert(*table, source);
+    } else if (const auto* array = node.as_array()) {
+        Array list;
+        for (const auto& item : *array) list.push_back(convert(item, source));
+        out = std::move(list);
+    } else if (const auto* text = node.as_string()) {
+        out = text->get();
+    } else if (const auto* integer = node.as_integer()) {
+        out = integer->get();
+    } else if (const auto* number = node.as_floating_point()) {
+        out = number->get();
+    } else if (const auto* truth = node.as_boolean()) {
+        out = truth->get();
+    } else {
+        throw InputError(location(source, node.source()),
+                         "found a date or a time of day; expected a duration such as \"10 s\"");
+    }
+    out.where = location(source, node.source());
+    return out;
+}
+
+bool is_bare_key(std::string_view key) {
+    return !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_' || c == '-';
+    });
+}
+
+std::string quoted_text(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') {
+            out += '\\';
+            out += c;
+        } else if (byte < 0x20 || byte == 0x7f) {
+            out += fmt::format("\\u{:04x}", byte);
+        } else {
+            out += c;
+        }
+    }
+    return out + '"';
+}
+
+std::string key_text(std::string_view key) {
+    return is_bare_key(key) ? std::string(key) : quoted_text(key);
+}
+
+std::string inline_text(const Value& value);
+
+struct InlineText {
+    std::string operator()(std::monostate) const { return "\"\""; }
+    std::string operator()(bool v) const { return v ? "true" : "false"; }
+    std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
+    std::string operator()(double v) const {
+        std::string text = fmt::format("{}", v);
+        if (text.find_first_of(".en") == std::string::npos) text += ".0";
+        return text;
+    }
+    std::string operator()(const std::string& v) const { return quoted_text(v); }
+    std::string operator()(const Array& v) const {
+        std::string text = "[";
+        for (const auto& item : v) {
+            if (text.size() > 1) text += ", ";
+            text += inline_text(item);
+        }
+        return text + "]";
+    }
+    std::string operator()(const Table& v) const {
+        std::string text = "{";
+        for (const auto& entry : v.entries) {
+            text += text.size() > 1 ? ", " : " ";
+            text += key_text(entry.key) + " = " + inline_text(entry.value);
+        }
+        return text + " }";
+    }
+};
+
+std::string inline_text(const Value& value) { return std::visit(InlineText{}, value.data); }
+
+void append_entries(std::string& text, const Table& table) {
+    for (const auto& entry : table.entries) {
+        text += fmt::format("{} = {}\n", key_text(entry.key), inline_text(entry.value));
+    }
+}
+
+bool is_list_of_tables(const Value& value) {
+    const Array* list = value.array();
+    return list && !list->empty() &&
+           std::all_of(list->begin(), list->end(), [](const Value& v) { return v.table(); });
+}
+
+/// The value under `step` of a path, made if it is not there: a key, or in a list an index or name.
+Value& descend(Value& at, const std::string& step, const Location& option) {
+    if (Array* list = at.array()) {
+        std::size_t index = 0;
+        const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
+        if (error == std::errc{} && end == step.data() + step.size()) {
+            if (index < list->size()) return (*list)[index];
+            throw InputError(
+                option, fmt::format("there is no item {}; the list has {}, counted from 0", index,
+                                    list->size()));
+        }
+        std::vector<std::string> names;
+        for (auto& item : *list) {
+            const Value* name = item.table() ? item.table()->find("name") : nullptr;
+            if (!name || !name->string()) continue;
+            if (*name->string() == step) return item;
+            names.push_back(*name->string());
+        }
+        if (names.empty()) {
+            throw InputError(option, fmt::format("\"{}\" leads into a list; expected the number of "
+                                                 "an item before it, from 0 to {}",
+                                                 step, list->size() - 1));
+        }
+        const std::string near = did_you_mean(step, names);
+        throw InputError(option, fmt::format("nothing in the list is named \"{}\"{}{}", step,
+                                             near.empty() ? "" : "; ", near));
+    }
+    Table* table = at.table();
+    if (!table) {
+        throw InputError(
+            option, fmt::format("\"{}\" leads into {}, which has no keys", step, at.description()));
+    }
+    if (!table->find(step)) {
+        Value made{Table{}};
+        made.where = option;
+        table->entries.push_back({step, std::move(made), option});
+    }
+    return *table->find(step);
+}
+
+/// Advice on what was probably meant where the parser says these words.
+std::string_view advice_for(std::string_view description) {
+    struct Slip {
+        std::string_view words, advice;
+    };
+    constexpr Slip slips[] = {
+        {"expected a comment or whitespace", "texts and quantities stand in quotes: \"30 mW\""},
+        {"expected '='", "a line is KEY = VALUE, [TABLE] or [[LIST OF TABLES]]"},
+        {"parsing boolean", "true and false have small letters"},
+        {"dangling comma", "no comma stands before }"},
+        {"inline table", "what begins with { ends with } on the same line"},
+        {"invalid utf-8", "save the file as UTF-8"},
+    };
+    for (const Slip& slip : slips) {
+        if (description.find(slip.words) != description.npos) return slip.advice;
+    }
+    return "";
+}
+
+/// Message of the parser, and what was probably meant.
+std::string parse_message(std::string_view description) {
+    constexpr std::string_view twice = "cannot redefine existing ";
+    if (const auto found = description.find(twice); found != description.npos) {
+        const auto begin = description.find('\'', found) + 1;
+        const auto name = description.substr(begin, description.find('\'', begin) - begin);
+        if (description.substr(found + twice.size(), 5) != "table") {
+            return fmt::format("the key \"{}\" is there a second time; expected it once", name);
+        }
+        if (name == "robot" || name == "traffic") {
+            return fmt::format("[{0}] is there a second time; expected [[{0}]], once for each",
+                               name);
+        }
+        return fmt::format("[{0}] is there a second time; expected one [{0}] with all its keys",
+                           name);
+    }
+    const std::string_view advice = advice_for(description);
+    return fmt::format("not TOML: {}{}{}", description, advice.empty() ? "" : "; ", advice);
+}
+
+[[noreturn]] void fail_long(const std::string& source) {
+    throw InputError({source}, "larger than 64 MiB; expected a scenario file");
+}
+
+/// Text of the whole stream. @throws InputError if it is longer than 64 MiB
+std::string bounded_text(std::istream& in, const std::string& source) {
+    std::string text;
+    std::vector<char> portion(64 * 1024);
+    while (in.read(portion.data(), static_cast<std::streamsize>(portion.size())) ||
+           in.gcount() > 0) {
+        text.append(portion.data(), static_cast<std::size_t>(in.gcount()));
+        if (text.size() > largest_file) fail_long(source);
+    }
+    return text;
+}
+
+}  // namespace
+
+Value parse_toml(std::string_view text, const std::string& source) {
+    try {
+        Value document = convert(static_cast<const toml::node&>(toml::parse(text)), source);
+        document.where = {source};
+        return document;
+    } catch (const toml::parse_error& error) {
+        throw InputError(location(source, error.source()), parse_message(error.description()));
+    }
+}
+
+Value read_toml(const std::string& path) {
+    if (path == standard_input) {
+        static const std::string text = bounded_text(std::cin, "standard input");
+        return parse_toml(text, "standard input");
+    }
+    const InputKind kind = input_kind(path);
+    if (kind == InputKind::nothing) throw InputError({path}, "no such file; check the path");
+    if (kind == InputKind::folder) {
+        throw InputError({path}, "a directory; expected a scenario file (.toml) in it");
+    }
+    const std::string text = InputFile(path).read(largest_file + 1);
+    if (text.size() > largest_file) fail_long(path);
+    return parse_toml(text, path);
+}
+
+std::string to_toml(const Value& value) { return inline_text(value); }
+
+std::string plain_text(const Value& value) {
+    return value.string() ? *value.string() : to_toml(value);
+}
+
+std::string to_toml(const Table& document) {
+    std::string text;
+    for (const auto& entry : document.entries) {
+        if (const Table* table = entry.value.table()) {
+            text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", key_text(entry.key));
+            append_entries(text, *table);
+        } else if (is_list_of_tables(entry.value)) {
+            for (const auto& item : *entry.value.array()) {
+                text += fmt::format("{}[[{}]]\n", text.empty() ? "" : "\n", key_text(entry.key));
+                append_entries(text, *item.table());
+            }
+        } else {
+            text += fmt::format("{} = {}\n", key_text(entry.key), inline_text(entry.value));
+        }
+    }
+    return text;
+}
+
+void set_value(Value& document, const std::string& path, Value value, const Location& where) {
+    std::stringstream steps(path);
+    Value* at = &document;
+    for (std::string step; std::getline(steps, step, '.');) {
+        if (step.empty()) throw InputError(where, "expected keys joined by single dots");
+        at = &descend(*at, step, where);
+    }
+    *at = std::move(value);
+}
+
+void set_option(Value& document, const std::string& assignment, const std::string& typed) {
+    const Location option{typed, 0, 0, true};
+    const auto equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        throw InputError(option, "expected key=value, such as radio.power=\"15 dBm\"");
+    }
+    if (assignment[equals - 1] == '.') {
+        throw InputError(option, "expected keys joined by single dots");
+    }
+    const std::string text = assignment.substr(equals + 1);
+    Value value{text};
+    if (!text.empty() && text.find('\n') == std::string::npos) {
+        try {
+            value = *parse_toml("v = " + text, "").table()->find("v");
+        } catch (const InputError&) {
+            // The text is no TOML and is meant itself: the shell has eaten its quotes.
+        }
+    }
+    const auto relocate = [&](const auto& self, Value& v) -> void {
+        v.where = option;
+        if (Array* list = v.array()) {
+            for (auto& item : *list) self(self, item);
+        } else if (Table* table = v.table()) {
+            for (auto& entry : table->entries) {
+                entry.key_where = option;
+                self(self, entry.value);
+            }
+        }
+    };
+    relocate(relocate, value);
+    set_value(document, assignment.substr(0, equals), std::move(value), option);
+}
+
+}  // namespace rovernet

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "files/input_file.hpp"
+#include "scenario/document/located.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/stage/stage_world.hpp"
+#include "scenario/document/toml.hpp"
+#include "scenario/unlikely.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+namespace rovernet {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_world(const std::string& path) { return fs::path(path).extension() == ".world"; }
+
+/// World that a configuration of Player names; "NAME.world" if it names none.
+std::string world_of(const std::string& player_file) {
+    std::ifstream file(player_file);
+    for (std::string line; std::getline(file, line);) {
+        const auto key = line.find("worldfile");
+        const auto begin = line.find('"', key);
+        if (key == line.npos || begin == line.npos || line.find('#') < key) continue;
+        const std::string name = line.substr(begin + 1, line.find('"', begin + 1) - begin - 1);
+        return (fs::path(player_file).parent_path() / name).string();
+    }
+    return "NAME.world";
+}
+
+/// Refuses files of other kinds by their endings, and says what to do with them.
+void refuse_others(const std::string& path) {
+    struct Kind {
+        std::string_view endings, what;
+    };
+    constexpr Kind kinds[] = {
+        {".yaml .yml .png .pgm",
+         "a map, not a scenario; expected a scenario (.toml) that names it: [scene] map = "
+         "\"...\"; rovernet scene shows a map alone"},
+        {".inc", "a part of a Stage world; expected the world that includes it (.world)"},
+        {".db", "a study's store, not a scenario; rovernet results shows what is in it"},
+        {".tr", "a trace, not a scenario; rovernet trace stats shows its metrics"},
+        {".json", "not a scenario; the scenario of a run is the file scenario.toml beside it"}};
+    const std::string ending = fs::path(path).extension().string();
+    if (ending.empty() || input_kind(path) != InputKind::file) return;
+    if (ending == ".cfg") {
+        throw InputError(Location{path},
+                         fmt::format("a configuration of Player, not a scenario; expected the "
+                                     "Stage world that it names: {}",
+                                     world_of(path)));
+    }
+    for (const Kind& kind : kinds) {
+        for (auto at = kind.endings.find(ending); at != kind.endings.npos;
+             at = kind.endings.find(ending, at + 1)) {
+            const auto end = at + ending.size();
+            if (end != kind.endings.size() && kind.endings[end] != ' ') continue;
+            throw InputError(Location{path}, std::string(kind.what));
+        }
+    }
+}
+
+/// A Stage world alone, as the document of a scenario.
+Value world_alone(const std::string& path) {
+    Table scene, scenario, document;
+    scene.set("world", fs::path(path).filename().string());
+    scenario.set("name", fs::path(path).stem().string());
+    document.set("scenario", std::move(scenario));
+    document.set("scene", std::move(scene));
+    return document;
+}
+
+/// A movement file tells itself by its first sign that is no comment: `$`, `<`, a digit or gzip's
+/// mark; a TOML file begins with a letter, a quote or a bracket.
+bool is_movement(const std::string& path) {
+    if (fs::path(path).extension() == ".toml" || input_kind(path) != InputKind::file) return false;
+    std::ifstream file(path, std::ios::binary);
+    for (char c = 0; file.get(c);) {
+        if (c == '#') {
+            std::string comment;
+            std::getline(file, comment);
+        } else if (c != ' ' && c != '\t' && c != '\r' && c != '\n') {
+            return c == '$' || c == '<' || c == '-' || (c >= '0' && c <= '9') || c == '\x1f';
+        }
+    }
+    return false;
+}
+
+/// A movement file alone, as the document of a scenario that lasts as long.
+Value movement_alone(const std::string& path) {
+    Table movement, scenario, document;
+    const MovementFile file(path, MovementSyntax::tolerant);
+    const Time end = file.end();
+    if (end > last_of_run) {
+        throw InputError(
+            file.end_where(),
+            fmt::format("the movements end after {:.10g} s, expected at most 1e9 s (31 years); a "
+                        "scenario with [movement] file and a duration plays a part of them",
+                        seconds(end - start_of_run)));
+    }
+    movement.set("file", fs::path(path).filename().string());
+    scenario.set("name", fs::path(path).stem().string());
+    scenario.set("duration", to_value(std::max(end - start_of_run, Duration{1'000'000'000})));
+    document.set("scenario", std::move(scenario));
+    document.set("movement", std::move(movement));
+    return document;
+}
+
+/// Appends strings to a list of [scene].
+void append(Value& scene, std::string_view key, const std::vector<std::string>& more) {
+    if (more.empty()) return;
+    const Value* old = scene.table()->find(key);
+    Array list = old && old->array() ? *old->array() : Array{};
+    for (const std::string& each : more) list.emplace_back(each);
+    scene.table()->set(key, std::move(list));
+}
+
+/// Adds what the command line says about worlds, as keys of [scene].
+void apply_world_options(Table& document, const ScenarioOptions& options, const fs::path& folder) {
+    Value* scene = document.find("scene");
+    if (!scene || !scene->table() || !scene->table()->find("world")) return;
+    std::vector<std::string> path;
+    for (const std::string& each : options.world_path) {
+        path.push_back(fs::proximate(each, folder.empty() ? "." : folder).string());
+    }
+    append(*scene, "world_path", path);
+    append(*scene, "bitmaps", options.bitmaps);
+    if (options.lenient) scene->table()->set("lenient", true);
+}
+
+/// Lays a table over another: what both have is the upper's, tables within likewise.
+void lay_over(Table& lower, const Table& upper) {
+    for (const Entry& entry : upper.entries) {
+        Value* old = lower.find(entry.key);
+        if (old && old->table() && entry.value.table()) {
+            lay_over(*old->table(), *entry.value.table());
+        } else {
+            lower.set(entry.key, entry.value);
+        }
+    }
+}
+
+const std::string* name_in(const Value& robot) {
+    const Value* name = robot.table() ? robot.table()->find("name") : nullptr;
+    return name ? name->string() : nullptr;
+}
+
+/// The world's robots, each with the document's keys of the same name over its own, then the rest
+/// of the document's.
+Array merged_robots(const Array& of_world, const Array& of_document) {
+    Array all = of_world;
+    for (const Value& robot : of_document) {
+        const std::string* name = name_in(robot);
+        const auto same = std::find_if(all.begin(), all.end(), [&](const Value& other) {
+            return name && name_in(other) && *name_in(other) == *name;
+        });
+        if (same == all.end()) {
+            all.push_back(robot);
+        } else {
+            if (robot.table()->find("place")) {
+                std::erase_if(same->table()->entries, [](const Entry& e) { return e.key == "at"; });
+            }
+            lay_over(*same->table(), *robot.table());
+        }
+    }
+    return all;
+}
+
+/// Puts what the world says under what the document says.
+void add_world(Table& document, const Table& world) {
+    Table all = world;
+    const Value* below = world.find("robot");
+    const Value* above = document.find("robot");
+    Array robots;
+    if (!above || above->array()) {
+        robots = merged_robots(below && below->array() ? *below->array() : Array{},
+                               above ? *above->array() : Array{});
+    }
+    lay_over(all, document);
+    if (!robots.empty()) all.set("robot", std::move(robots));
+    document = std::move(all);
+}
+
+/// The document that a file is, or is made into.
+Value document_of(const std::string& path) {
+    refuse_others(path);
+    if (is_world(path)) return world_alone(path);
+    return is_movement(path) ? movement_alone(path) : read_toml(path);
+}
+
+}  // namespace
+
+ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& options)
+    : ScenarioFile(document_of(path), path, options) {}
+
+ScenarioFile::ScenarioFile(Value document, const std::string& path, const ScenarioOptions& options)
+    : path_(path), document_(std::move(document)) {
+    if (!document_.table()) {
+        throw InputError(document_.where, fmt::format("found {}; expected a table of tables",
+                                                      document_.description()));
+    }
+    Table& table = *document_.table();
+    const fs::path folder = fs::path(path).parent_path();
+    apply_world_options(table, options, folder);
+    const Value* scene = table.find("scene");
+    if (scene && scene->table() && scene->table()->find("world")) {
+        const SceneTable said = read_scene(*scene);
+        WorldFile world = located_file(said.map_where, "world", [&] {
+            return read_worldfile((folder / *said.world).string(), world_options(said, path));
+        });
+        notices_ = world.notices;
+        add_world(table, stage_document(world, notices_));
+        world_ = std::make_shared<const WorldFile>(std::move(world));
+    }
+    for (const auto& option : options.set) set_option(document_, option, "--set " + option);
+}
+
+Scenario ScenarioFile::scenario(const Table& settings) const {
+    Value document = document_;
+    for (const Entry& entry : settings.entries) {
+        set_value(document, entry.key, entry.value, entry.key_where);
+    }
+    std::vector<std::string> notices = notices_;
+    Scenario scenario = read_scenario(document, path_);
+    if (world_) scenario.walls = load_walls(scenario.scene, path_, *world_, notices);
+    scenario.notices.insert(scenario.notices.begin(), notices.begin(), notices.end());
+    return scenario;
+}
+
+Scenario load_scenario(const std::string& path, const ScenarioOptions& options) {
+    return load_scenario(ScenarioFile(path, options));
+}
+
+Scenario load_scenario(const ScenarioFile& file, const Table& settings) {
+    Scenario scenario = file.scenario(settings);
+    if (!scenario.walls) {
+        scenario.walls = load_map(scenario.scene, scenario.file, scenario.notices);
+    }
+    note_places(scenario, scenario.walls.get());
+    note_antennas(scenario, scenario.walls.get());
+    note_walls_twice(scenario, scenario.walls.get());
+    note_coherent_slants(scenario, scenario.walls.get());
+    note_thick_walls(scenario, scenario.walls.get());
+    return scenario;
+}
+
+}  // namespace rovernet

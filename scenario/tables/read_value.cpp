@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/tables/read_value.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace rovernet {
+namespace {
+
+[[noreturn]] void wrong_type(const Value& value, std::string_view key, std::string_view expected) {
+    throw InputError(value.where,
+                     fmt::format("{}: found {}; expected {}", key, value.description(), expected));
+}
+
+template <class T>
+T as(const Value& value, std::string_view key, std::string_view expected) {
+    if (const T* found = std::get_if<T>(&value.data)) return *found;
+    wrong_type(value, key, expected);
+}
+
+}  // namespace
+
+void read_value(const Value& value, std::string_view key, bool& out) {
+    out = as<bool>(value, key, "true or false");
+}
+
+void read_value(const Value& value, std::string_view key, int& out) {
+    const auto number = as<std::int64_t>(value, key, "a whole number without a unit");
+    if (number < std::numeric_limits<int>::min() || number > std::numeric_limits<int>::max()) {
+        wrong_type(value, key, "a whole number that fits 32 bits");
+    }
+    out = static_cast<int>(number);
+}
+
+void read_value(const Value& value, std::string_view key, std::uint64_t& out) {
+    const auto number = as<std::int64_t>(value, key, "a whole number >= 0 without a unit");
+    if (number < 0) wrong_type(value, key, "a whole number >= 0");
+    out = static_cast<std::uint64_t>(number);
+}
+
+void read_value(const Value& value, std::string_view key, double& out) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
+        out = static_cast<double>(*whole);
+    } else {
+        out = as<double>(value, key, "a number without a unit");
+    }
+    constexpr double largest = 1e9;  // factors and exponents: their products stay finite
+    if (!(std::abs(out) <= largest)) wrong_type(value, key, "a number of at most 1e9");
+}
+
+void read_value(const Value& value, std::string_view key, std::string& out) {
+    out = as<std::string>(value, key, "a text in quotes");
+}
+
+void read_value(const Value& value, std::string_view key, Dbm& out) {
+    out = {read_quantity(value, key, Dimension::power)};
+}
+void read_value(const Value& value, std::string_view key, Db& out) {
+    out = {read_quantity(value, key, Dimension::gain)};
+}
+void read_value(const Value& value, std::string_view key, Hertz& out) {
+    out = {read_quantity(value, key, Dimension::frequency)};
+}
+void read_value(const Value& value, std::string_view key, Meters& out) {
+    out = {read_quantity(value, key, Dimension::length)};
+}
+void read_value(const Value& value, std::string_view key, MetersPerSecond& out) {
+    out = {read_quantity(value, key, Dimension::speed)};
+}
+void read_value(const Value& value, std::string_view key, BitRate& out) {
+    constexpr double slowest = 1;  // [bit/s]: the largest message takes 93 days
+    out = {read_quantity(value, key, Dimension::bit_rate)};
+    if (out.value > 0 && out.value < slowest) wrong_type(value, key, "a bit rate >= 1 bit/s");
+}
+void read_value(const Value& value, std::string_view key, Radians& out) {
+    out = {read_quantity(value, key, Dimension::angle)};
+}
+void read_value(const Value& value, std::string_view key, RadiansPerSecond& out) {
+    out = {read_quantity(value, key, Dimension::turn_rate)};
+}
+void read_value(const Value& value, std::string_view key, DbPerMeter& out) {
+    out = {read_quantity(value, key, Dimension::attenuation)};
+}
+
+void read_value(const Value& value, std::string_view key, Duration& out) {
+    out = from_seconds(read_quantity(value, key, Dimension::time));
+}
+
+void read_value(const Value& value, std::string_view key, Bytes& out) {
+    constexpr double largest = 1e6;
+    const double bytes = read_quantity(value, key, Dimension::size);
+    if (!(bytes >= 0 && bytes <= largest && bytes == std::floor(bytes))) {
+        wrong_type(value, key, "a whole number of bytes from 0 B to 1 MB");
+    }
+    out = {static_cast<std::uint32_t>(bytes)};
+}
+
+void read_value(const Value& value, std::string_view key, Vec3& out) {
+    const Array* list = value.array();
+    if (!list || list->size() < 2 || list->size() > 3) {
+        wrong_type(value, key, "a position such as [\"2 m\", \"3 m\"] or with a third, z");
+    }
+    double* const axes[] = {&out.x, &out.y, &out.z};
+    out.z = 0;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+        *axes[i] = read_quantity((*list)[i], key, Dimension::length);
+    }
+}
+
+void read_value(const Value& value, std::string_view key, PatternPoint& out) {
+    const Array* pair = value.array();
+    if (!pair || pair->size() != 2) {
+        wrong_type(value, key, "a list of points, [degrees, dB] each, such as [180, -20]");
+    }
+    const auto number = [&](const Value& each, Dimension dimension, double unit) {
+        double plain = 0;
+        if (each.string()) return read_quantity(each, key, dimension) / unit;
+        read_value(each, key, plain);
+        return plain;
+    };
+    constexpr double degree = std::numbers::pi / 180;
+    out = {number((*pair)[0], Dimension::angle, degree), number((*pair)[1], Dimension::gain, 1)};
+}
+
+void check_printable(const Value& value, std::string_view key, std::string_view text) {
+    const auto control = [](char c) {
+        return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7f;
+    };
+    const auto found = std::find_if(text.begin(), text.end(), control);
+    if (found == text.end()) return;
+    throw InputError(value.where,
+                     fmt::format("{}: found the control character 0x{:02x} in it; expected a text "
+                                 "that can be printed",
+                                 key, static_cast<unsigned char>(*found)));
+}
+
+std::size_t read_choice(const Value& value, std::string_view key,
+                        const std::vector<std::string>& choices) {
+    const std::string expected =
+        fmt::format("{}\"{}\"", choices.size() > 1 ? "one of " : "", fmt::join(choices, "\", \""));
+    const auto word = as<std::string>(value, key, expected);
+    const auto found = std::find(choices.begin(), choices.end(), word);
+    if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+    const std::string near = did_you_mean(word, choices);
+    throw InputError(value.where, fmt::format("unknown {} \"{}\"; expected {}{}{}", key, word,
+                                              expected, near.empty() ? "" : "; ", near));
+}
+
+Value to_value(bool v) { return v; }
+Value to_value(int v) { return v; }
+Value to_value(std::uint64_t v) { return v; }
+Value to_value(double v) { return v; }
+Value to_value(const std::string& v) { return v; }
+Value to_value(Dbm v) { return quantity_text(v.value, Dimension::power); }
+Value to_value(Db v) { return quantity_text(v.value, Dimension::gain); }
+Value to_value(Hertz v) { return quantity_text(v.value, Dimension::frequency); }
+Value to_value(Meters v) { return quantity_text(v.value, Dimension::length); }
+Value to_value(MetersPerSecond v) { return quantity_text(v.value, Dimension::speed); }
+Value to_value(BitRate v) { return quantity_text(v.value, Dimension::bit_rate); }
+Value to_value(Radians v) { return quantity_text(v.value, Dimension::angle); }
+Value to_value(RadiansPerSecond v) { return quantity_text(v.value, Dimension::turn_rate); }
+Value to_value(DbPerMeter v) { return quantity_text(v.value, Dimension::attenuation); }
+Value to_value(Bytes v) { return quantity_text(v.value, Dimension::size); }
+
+Value to_value(Duration v) {
+    struct Unit {
+        std::int64_t ns;
+        std::string_view name;
+    };
+    for (const auto& [ns, name] :
+         {Unit{1'000'000'000, "s"}, Unit{1'000'000, "ms"}, Unit{1'000, "us"}}) {
+        if (v.count() % ns == 0) return fmt::format("{} {}", v.count() / ns, name);
+    }
+    return fmt::format("{} ns", v.count());
+}
+
+Value to_value(Vec3 v) {
+    Array list{to_value(Meters{v.x}), to_value(Meters{v.y})};
+    if (v.z != 0) list.push_back(to_value(Meters{v.z}));
+    return list;
+}
+
+Value to_value(const PatternPoint& v) { return Array{v.degrees, v.db}; }
+
+}  // namespace rovernet

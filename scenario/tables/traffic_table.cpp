@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/tables/traffic_table.hpp"
+
+#include "scenario/tables/flow_names.hpp"
+#include "scenario/tables/reader.hpp"
+
+#include <fmt/format.h>
+
+namespace rovernet {
+namespace {
+
+void read_start(const Value* start, TrafficTable& traffic, TableReader& table) {
+    traffic.start = Duration{0};
+    if (start && start->string() && *start->string() == "arrival") {
+        traffic.start.reset();
+    } else {
+        table.read("start", traffic.start, non_negative);
+    }
+}
+
+void check_receiver(const TrafficTable& traffic) {
+    if (!traffic.to || *traffic.to != traffic.from) return;
+    throw InputError(
+        traffic.to_where,
+        fmt::format("to: found \"{}\", which is the sender; expected another robot", *traffic.to));
+}
+
+/// Checks that traffic does not stop before it starts.
+void check_stop(const TrafficTable& traffic, TableReader& table) {
+    if (!traffic.stop || !traffic.start || *traffic.stop > *traffic.start) return;
+    throw InputError(table.take("stop")->where,
+                     fmt::format("stop: found {} s, and start is {} s, so that nothing would be "
+                                 "sent; expected a later time",
+                                 seconds(*traffic.stop), seconds(*traffic.start)));
+}
+
+}  // namespace
+
+TrafficTable read_traffic(const Value& value) {
+    TableReader table(value, "[[traffic]]");
+    TrafficTable traffic;
+    table.read("kind", traffic.kind);
+    if (table.read("name", traffic.name) && !is_flow_name(traffic.name)) {
+        throw InputError(table.take("name")->where,
+                         fmt::format("name: found \"{}\"; expected a name without blanks and "
+                                     "commas, as it ends the names of metrics",
+                                     traffic.name));
+    }
+    if (!table.read("from", traffic.from)) table.missing("from", "from = \"A\"");
+    traffic.from_where = table.take("from")->where;
+    if (table.read("to", traffic.to)) traffic.to_where = table.take("to")->where;
+    const bool to_one = traffic.kind == TrafficKind::unicast;
+    if (!to_one && traffic.to) {
+        throw InputError(traffic.to_where,
+                         "to: a broadcast is for everybody; expected kind = "
+                         "\"unicast\", or no to");
+    }
+    table.read("saturate", traffic.saturate);
+    const bool payload = table.read("payload", traffic.payload);
+    const bool size = table.read("size", traffic.size);
+    if (payload) traffic.payload_where = table.take("payload")->where;
+    if (!payload && !size) table.missing("payload", "payload = \"F\", or size = \"64 B\"");
+    read_start(table.take("start"), traffic, table);
+    table.read("every", traffic.every, positive);
+    table.read("stop", traffic.stop, non_negative);
+    table.read("count", traffic.count, Range{.low = 1, .text = ">= 1"});
+    if (to_one && !traffic.to) table.missing("to", "to = \"B\": whom a unicast is for");
+    table.reject_unknown();
+    check_receiver(traffic);
+    check_stop(traffic, table);
+    if (traffic.saturate && traffic.every) {
+        throw InputError(
+            table.take("every")->where,
+            "every: saturated traffic always has a message to send; expected no every");
+    }
+    if (!traffic.every && (traffic.stop || traffic.count)) {
+        table.missing("every", "every = \"3 s\": stop and count need it");
+    }
+    return traffic;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+#include "study/advise/advise_candidates.hpp"
+
+#include "models/propagation/ray_path.hpp"
+#include "scenario/tables/read_value.hpp"
+#include "scenario/document/toml.hpp"
+#include "study/calibration/calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace rovernet {
+namespace {
+
+using namespace std::string_view_literals;
+
+/// Form of a model: keys of its table.
+struct ModelForm {
+    std::string_view model, name, toml;
+};
+
+/// The most detailed forms, which references have.
+constexpr std::array most_detailed_forms{
+    ModelForm{"rays", "rays", "order = 3\ndiffraction = \"utd\""},
+    ModelForm{"two_ray", "two_ray", "form = \"exact\""}};
+
+/// Cheaper forms of models that may be the reference.
+constexpr std::array cheaper_forms{
+    ModelForm{"two_ray", "two_ray form=ns2", "form = \"ns2\""},
+    ModelForm{"rays", "rays order=1", "order = 1\ndiffraction = \"none\""},
+    ModelForm{"rays", "rays order=2 knife_edge", "order = 2\ndiffraction = \"knife_edge\""},
+    ModelForm{"rays", "rays order=2", "order = 2\ndiffraction = \"utd\""}};
+
+constexpr std::array open_field_models{"disc"sv, "friis"sv, "two_ray"sv, "log_distance"sv};
+
+std::vector<std::string> listed_models() {
+    std::vector<std::string> names;
+    for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
+    return names;
+}
+
+bool is_listed(std::string_view model) {
+    const auto names = listed_models();
+    return std::find(names.begin(), names.end(), model) != names.end();
+}
+
+/// [propagation] with this model and the scenario's parameters.
+Table propagation_with(const Scenario& scenario, const std::string& model) {
+    PropagationTable propagation = scenario.propagation;
+    const auto names = listed_models();
+    propagation.model =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), model) - names.begin());
+    Table table = propagation_document(propagation);
+    std::erase_if(table.entries, [](const Entry& entry) {
+        return entry.value.string() && entry.value.string()->starts_with("nan");  // not given
+    });
+    return table;
+}
+
+/// Takes a model's own shadowing off where the scenario has one for all models.
+void leave_shadowing_to(const Scenario& scenario, Table& propagation) {
+    const bool for_all = scenario.shadowing.model != ShadowingModel::none;
+    if (for_all && propagation.find("sigma")) propagation.set("sigma", "0 dB");
+}
+
+/// Lays the keys of a form over a table, those that it has.
+void lay_over(Table& table, const ModelForm& form) {
+    const Value keys = parse_toml(form.toml, std::string(form.model));
+    for (const Entry& entry : keys.table()->entries) {
+        if (table.find(entry.key)) table.set(entry.key, entry.value);
+    }
+}
+
+/// Tables [propagation] and [reception] of one combination.
+Table settings_of(const Table& propagation, const Table& reception) {
+    Table settings;
+    settings.set("propagation", propagation);
+    settings.set("reception", reception);
+    return settings;
+}
+
+const std::string& word_at(const Table& table, std::string_view key) {
+    return *table.find(key)->string();
+}
+
+/// The reference's tables, and where the options say something of them.
+struct Reference {
+    Table propagation, reception;
+    Location where;  // of an option that changes it; else the file
+};
+
+/// What the options say of the reference, as a document.
+Value said_of_reference(const std::vector<std::string>& options) {
+    Value said{Table{}};
+    for (const std::string& text : options) {
+        if (!text.starts_with("propagation.") && !text.starts_with("reception.")) {
+            throw InputError({"--reference " + text, 0, 0, true},
+                             "expected propagation.KEY=VALUE or reception.KEY=VALUE, such as "
+                             "propagation.model=multi_wall; --set changes other keys for all");
+        }
+        set_option(said, text, "--reference " + text);
+    }
+    return said;
+}
+
+Reference reference_for(const Scenario& scenario, const CandidateQuestion& question) {
+    const Value said = said_of_reference(question.reference);
+    const auto told = [&](const char* table, const char* key) -> const Value* {
+        const Value* of = said.table()->find(table);
+        return of && of->table() ? of->table()->find(key) : nullptr;
+    };
+    std::string model = !scenario.walls                        ? "two_ray"
+                        : scenario.walls->storeys().size() > 1 ? "multi_wall"
+                        : is_listed("rays")                    ? "rays"
+                                                               : listed_models().back();
+    const Value* named = told("propagation", "model");
+    if (named) model = listed_models()[read_choice(*named, "propagation model", listed_models())];
+    Reference out{propagation_with(scenario, model), {}, {scenario.file}};
+    for (const ModelForm& form : most_detailed_forms) {
+        if (form.model == model) lay_over(out.propagation, form);
+    }
+    append_fields(out.reception, scenario.reception);
+    out.reception.set("model", "sinr");
+    for (const auto& [name, table] :
+         {std::pair{"propagation", &out.propagation}, std::pair{"reception", &out.reception}}) {
+        const Value* over = said.table()->find(name);
+        if (!over || !over->table()) continue;
+        for (const Entry& entry : over->table()->entries) {
+            table->set(entry.key, entry.value);
+            out.where = entry.value.where;
+        }
+    }
+    return out;
+}
+
+/// Detail of a table of `rays`: its order, and the place of its diffraction in their list. Nothing
+/// if it has no such values.
+std::optional<std::array<std::int64_t, 2>> detail_of_rays(const Table& table) {
+    const Value *order = table.find("order"), *diffraction = table.find("diffraction");
+    const auto* number = order ? std::get_if<std::int64_t>(&order->data) : nullptr;
+    if (!number || !diffraction || !diffraction->string()) return std::nullopt;
+    const auto& words = EnumNames<RayDiffraction>::values;
+    const auto at = std::find(words.begin(), words.end(), *diffraction->string());
+    return std::array{*number, static_cast<std::int64_t>(at - words.begin())};
+}
+
+/// Whether a form is cheaper than the reference of the same model.
+bool is_cheaper(const ModelForm& form, const Table& reference) {
+    if (word_at(reference, "model") != form.model) return false;
+    if (form.model == "two_ray") return word_at(reference, "form") == "exact";
+    Table cheaper = reference;
+    lay_over(cheaper, form);
+    const auto less = detail_of_rays(cheaper), most = detail_of_rays(reference);
+    return less && most && *less != *most && (*less)[0] <= (*most)[0] && (*less)[1] <= (*most)[1];
+}
+
+/// Whether a model is a candidate where the question names none.
+bool is_usual(const std::string& model, const std::string& reference, bool on_map) {
+    const auto names = listed_models();
+    const auto place = [&](const std::string& name) {
+        return std::find(names.begin(), names.end(), name) - names.begin();
+    };
+    if (on_map) return place(model) < place(reference);
+    return std::find(open_field_models.begin(), open_field_models.end(), model) !=
+           open_field_models.end();
+}
+
+std::vector<CandidateModel> path_losses_for(const Scenario& scenario,
+                                            const CandidateQuestion& question,
+                                            const Table& reference) {
+    const std::string& of_reference = word_at(reference, "model");
+    for (const std::string& model : question.models) {
+        Value value{model};
+        value.where = {fmt::format("--models {}", fmt::join(question.models, ",")), 0, 0, true};
+        read_choice(value, "propagation model", listed_models());
+    }
+    std::vector<CandidateModel> out;
+    for (const std::string& model : listed_models()) {
+        const auto& asked = question.models;
+        const bool wanted =
+            asked.empty()
+                ? model == of_reference || is_usual(model, of_reference, scenario.walls != nullptr)
+                : std::find(asked.begin(), asked.end(), model) != asked.end();
+        if (!wanted) continue;
+        Table table = propagation_with(scenario, model);
+        leave_shadowing_to(scenario, table);
+        if (model != of_reference) out.push_back({model, model, table, "", ""});
+        for (const ModelForm& form : cheaper_forms) {
+            if (form.model != model || !is_cheaper(form, reference)) continue;
+            out.push_back({std::string(form.name), model, reference, "", ""});
+            lay_over(out.back().table, form);
+        }
+    }
+    return out;
+}
+
+/// "exponent 2.91, excess 3.2 dB" of the keys that a fit found.
+std::string fitted_text(const Table& propagation) {
+    std::vector<std::string> texts;
+    for (const Entry& entry : propagation.entries) {
+        if (entry.key != "model") texts.push_back(entry.key + " " + plain_text(entry.value));
+    }
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// Whether [propagation] can be had: a fit may end outside of a parameter's range.
+bool can_be_had(const Table& propagation, const Scenario& scenario) {
+    PropagationTable out = scenario.propagation;
+    try {
+        read_propagation(Value(propagation), out);
+    } catch (const InputError&) {
+        return false;
+    }
+    return true;
+}
+
+/// Takes a fit's parameters if there are some, and they can be had.
+void take_fit(CandidateModel& candidate, const CalibratedModel& fitted, const Scenario& scenario) {
+    candidate.note = fitted.failure;
+    const Value* propagation = fitted.settings.find("propagation");
+    if (!fitted.failure.empty() || !fitted.is_fitted() || !propagation) return;
+    Table table = candidate.table;
+    for (const Entry& entry : propagation->table()->entries) table.set(entry.key, entry.value);
+    leave_shadowing_to(scenario, table);
+    if (!can_be_had(table, scenario)) return;
+    candidate.table = std::move(table);
+    candidate.fitted = fitted_text(*propagation->table());
+}
+
+void fit_candidates(std::vector<CandidateModel>& candidates, const Scenario& reference,
+                    const std::function<void(double)>& tell) {
+    const Calibration fits = calibrate_to_model(reference, "", tell, beyond_radio);
+    for (CandidateModel& candidate : candidates) {
+        const auto fitted = std::find_if(
+            fits.models.begin(), fits.models.end(),
+            [&](const CalibratedModel& each) { return each.model == candidate.model; });
+        if (fitted != fits.models.end()) take_fit(candidate, *fitted, reference);
+    }
+}
+
+/// Why a scenario cannot run, as far as that shows before; empty: it can.
+std::string obstacle(const ScenarioFile& file, const Scenario& base, const Table& settings) {
+    try {
+        Scenario scenario = file.scenario(settings);
+        if (!scenario.walls) scenario.walls = base.walls;
+        const Propagation model = scenario.propagation.make();
+        model.check_frequency(scenario.radio.frequency);
+        if (scenario.walls) model.check_scene(*scenario.walls);
+    } catch (const InputError& error) {
+        return error.message();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// Finds which combinations can run, and leaves path losses out that no reception goes with.
+void lay_out(AdviceCandidates& c, const ScenarioFile& file, const Scenario& base) {
+    std::uint32_t point = 0;
+    for (std::size_t p = 0; p < c.path_losses.size();) {
+        std::vector<std::optional<std::uint32_t>> row;
+        std::string why;
+        const std::uint32_t before = point;
+        for (const CandidateModel& reception : c.receptions) {
+            const auto settings = settings_of(c.path_losses[p].table, reception.table);
+            const std::string found = obstacle(file, base, settings);
+            row.push_back(found.empty() ? std::optional(point++) : std::nullopt);
+            if (!found.empty()) why = found;
+        }
+        if (point == before) {
+            c.left_out.push_back(fmt::format("{}: {}", c.path_losses[p].name, why));
+            c.path_losses.erase(c.path_losses.begin() + static_cast<std::ptrdiff_t>(p));
+            continue;
+        }
+        c.points.push_back(std::move(row));
+        ++p;
+    }
+}
+
+}  // namespace
+
+std::size_t AdviceCandidates::reception_of(std::size_t path_loss) const {
+    std::size_t r = reference_reception();
+    while (r > 0 && !points[path_loss][r]) --r;
+    return r;
+}
+
+std::size_t AdviceCandidates::family() const {
+    std::size_t count = 0;
+    for (const auto& row : points) {
+        count += static_cast<std::size_t>(
+            std::count_if(row.begin(), row.end(), [](const auto& point) { return point; }));
+    }
+    return count - 1;
+}
+
+std::string AdviceCandidates::name_of(std::size_t path_loss, std::size_t reception) const {
+    return fmt::format("{} + {}", path_losses[path_loss].name, receptions[reception].name);
+}
+
+std::vector<Vary> AdviceCandidates::vary() const {
+    Vary propagation{"propagation", {}, {}}, reception{"reception", {}, {}};
+    for (const CandidateModel& each : path_losses) propagation.values.emplace_back(each.table);
+    for (const CandidateModel& each : receptions) reception.values.emplace_back(each.table);
+    return {propagation, reception};
+}
+
+std::vector<Exclusion> AdviceCandidates::exclude() const {
+    std::vector<Exclusion> out;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        for (std::size_t r = 0; r < receptions.size(); ++r) {
+            if (points[p][r]) continue;
+            out.push_back({Vary{"propagation", {}, {Value(path_losses[p].table)}},
+                           Vary{"reception", {}, {Value(receptions[r].table)}}});
+        }
+    }
+    return out;
+}
+
+AdviceCandidates candidates_for(const std::string& path, const ScenarioOptions& options,
+                                const CandidateQuestion& question,
+                                const std::function<void(double)>& tell) {
+    const Scenario base = load_scenario(path, options);
+    const ScenarioFile file(path, options);
+    const Reference reference = reference_for(base, question);
+    const Table settings = settings_of(reference.propagation, reference.reception);
+    if (const std::string why = obstacle(file, base, settings); !why.empty()) {
+        throw InputError(reference.where, "the reference cannot run: " + why);
+    }
+    Scenario scenario = file.scenario(settings);
+    if (!scenario.walls) scenario.walls = base.walls;
+    AdviceCandidates out;
+    out.on_map = base.walls != nullptr;
+    out.path_losses = path_losses_for(base, question, reference.propagation);
+    if (!question.as_given) fit_candidates(out.path_losses, scenario, tell);
+    const std::string& model = word_at(reference.propagation, "model");
+    out.path_losses.push_back({model, model, reference.propagation, "", ""});
+    for (const auto name : EnumNames<ReceptionChoice>::values) {
+        Table table = reference.reception;
+        table.set("model", name);
+        out.receptions.push_back({std::string(name), std::string(name), table, "", ""});
+        if (name == word_at(reference.reception, "model")) break;
+    }
+    lay_out(out, file, base);
+    return out;
+}
+
+}  // namespace rovernet

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "study/advise/study_chart.hpp"
+
+#include "scenario/document/quantity.hpp"
+#include "scenario/document/toml.hpp"
+#include "sim/error.hpp"
+#include "study/statistics/metric_bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace rovernet {
+namespace {
+
+/// The values of a key as numbers of one unit.
+struct Numbers {
+    std::vector<double> values;
+    std::string unit;
+};
+
+/// The number at the beginning of a text; the rest is its unit.
+std::optional<double> leading_number(const std::string& text, std::string& unit) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc{}) return std::nullopt;
+    unit.assign(rest, end);
+    unit.erase(0, unit.find_first_not_of(' '));
+    return number;
+}
+
+/// The values as they stand if they share their unit, or else in the base unit of what they
+/// measure; nothing if they are words.
+std::optional<Numbers> numbers_of(const std::vector<Answer>& list, const std::string& path) {
+    std::vector<std::string> texts;
+    for (const Answer& answer : list) texts.push_back(plain_text(*answer.settings.find(path)));
+    Numbers numbers;
+    bool same_unit = true;
+    for (const std::string& text : texts) {
+        std::string unit;
+        const auto number = leading_number(text, unit);
+        if (!number) return std::nullopt;
+        same_unit = same_unit && (numbers.values.empty() || unit == numbers.unit);
+        numbers.values.push_back(*number);
+        numbers.unit = unit;
+    }
+    if (same_unit) return numbers;
+    const auto dimension = shared_dimension(texts);
+    if (!dimension) return std::nullopt;
+    numbers.unit = base_unit(*dimension);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        numbers.values[i] = read_quantity(Value(texts[i]), path, *dimension);
+    }
+    return numbers;
+}
+
+std::string label_of(const std::string& path, const std::string& unit) {
+    return unit.empty() ? path : fmt::format("{} [{}]", path, unit);
+}
+
+/// Metrics in seconds end in _s.
+std::string metric_label(const std::string& metric) {
+    return metric.ends_with("_s") ? metric.substr(0, metric.size() - 2) + " [s]" : metric;
+}
+
+/// The bounds of a metric as those of an axis; after a quantile of the runs they are the same.
+ChartLimits limits_of(const std::string& metric) {
+    const Bounds bounds = bounds_of(metric);
+    return {bounds.low, bounds.high};
+}
+
+std::string percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
+
+/// Number of replications that the values are from: "30", or "5 to 30".
+std::string replications_text(const std::vector<Answer>& list) {
+    std::size_t least = SIZE_MAX, most = 0;
+    for (const Answer& answer : list) {
+        least = std::min(least, answer.values.size());
+        most = std::max(most, answer.values.size());
+    }
+    return least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most);
+}
+
+/// " by betting", or how else the intervals of means were made; nothing for those of quantiles.
+std::string methods_text(const std::vector<Answer>& list) {
+    std::string text;
+    for (const IntervalMethod method : all_interval_methods) {
+        if (std::ranges::count(list, method, &Answer::method) == 0) continue;
+        text += fmt::format("{}{}", text.empty() ? " " : " and ", words_of(method));
+    }
+    const auto skewed = std::ranges::count_if(list, &Answer::skewed);
+    if (skewed > 0) text += fmt::format(" ({} of {} too skewed for it)", skewed, list.size());
+    return text;
+}
+
+std::string note_of(const Answers& all, const ChartQuestion& q, double confidence) {
+    std::string where;
+    for (const Condition& condition : q.where) {
+        where += fmt::format("{} = {}; ", condition.path, condition.value);
+    }
+    const std::string what = where + (q.quantile ? percent(*q.quantile) + " quantiles" : "means");
+    const std::string of = replications_text(all.list);
+    const std::string covered = coverage_text(all);
+    const std::string rest = covered.empty() ? "" : "; " + covered;
+    if (q.kind == ChartKind::cdf) return fmt::format("{}of {} replications{}", where, of, rest);
+    if (q.kind == ChartKind::heat_map)
+        return fmt::format("{} of {} replications{}", what, of, rest);
+    return fmt::format("{} of {} replications, with {} intervals{}{}", what, of,
+                       percent(confidence), methods_text(all.list), rest);
+}
+
+/// A chart of no points, with its axes.
+Chart frame_of(const ChartQuestion& q, const std::string& unit) {
+    Chart chart{.kind = *q.kind, .log_x = q.log_x, .log_y = q.log_y};
+    switch (chart.kind) {
+        case ChartKind::cdf:
+            chart.x_label = metric_label(q.y);
+            chart.y_label = "share of replications";
+            break;
+        case ChartKind::heat_map:
+            chart.x_label = label_of(q.x, unit);
+            chart.y_label = q.by;
+            chart.value_label = metric_label(q.y);
+            break;
+        default: chart.x_label = label_of(q.x, unit); chart.y_label = metric_label(q.y);
+    }
+    return chart;
+}
+
+ChartSeries& series_named(Chart& chart, const std::string& name) {
+    for (ChartSeries& series : chart.series) {
+        if (series.name == name) return series;
+    }
+    return chart.series.emplace_back(ChartSeries{.name = name});
+}
+
+void add_replications(ChartSeries& series, const Answer& answer) {
+    for (const auto& [replication, value] : answer.values) series.points.push_back({.x = value});
+}
+
+/// A point of the chart, but for its x.
+ChartPoint point_of(const Answer& answer) {
+    return {.y = answer.value.value_or(std::nan("")),
+            .low = answer.low,
+            .high = answer.high,
+            .n = answer.values.size()};
+}
+
+}  // namespace
+
+std::string varied_path(const std::vector<std::string>& paths, const std::string& word) {
+    std::vector<std::string> found;
+    for (const std::string& path : paths) {
+        if (path == word) return path;
+        const bool is_count = path.starts_with("robot.") && path.ends_with(".count");
+        if (path.ends_with("." + word) || (word == "robots" && is_count)) found.push_back(path);
+    }
+    if (found.size() == 1) return found.front();
+    std::vector<std::string> words = paths;
+    for (const std::string& path : paths) words.push_back(path.substr(path.rfind('.') + 1));
+    const std::string near = did_you_mean(word, words);
+    throw std::invalid_argument(fmt::format(
+        "the key \"{}\" {} in this study; expected {}{}{}", word,
+        found.empty() ? "does not vary" : "means several", paths.empty() ? "" : "one of ",
+        paths.empty() ? "none, as nothing varies" : fmt::format("{}", fmt::join(paths, ", ")),
+        near.empty() ? "" : "; " + near));
+}
+
+std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
+                                     const std::vector<std::string>& texts) {
+    std::vector<Condition> conditions;
+    for (const std::string& text : texts) {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos) {
+            throw std::invalid_argument(
+                fmt::format("--where: \"{}\"; expected KEY=VALUE, such as ttl=6", text));
+        }
+        conditions.push_back({varied_path(paths, text.substr(0, equals)), text.substr(equals + 1)});
+    }
+    return conditions;
+}
+
+Chart study_chart(const Store& store, const ChartQuestion& question) {
+    ChartQuestion q = question;
+    const std::vector<std::string> paths = varied_paths(store);
+    const bool cdf = q.kind == ChartKind::cdf;
+    if (q.x.empty() && !cdf) throw std::invalid_argument("-x: expected a key that varies");
+    if (cdf && !q.x.empty())
+        throw std::invalid_argument("-x: a cdf has its metric on the x axis; give it with -y");
+    if (q.kind == ChartKind::heat_map && q.by.empty()) {
+        throw std::invalid_argument("--by: a heat map needs a key for its rows");
+    }
+    std::vector<std::string> group_by;
+    for (std::string* word : {&q.x, &q.by}) {
+        if (word->empty()) continue;
+        *word = varied_path(paths, *word);
+        group_by.push_back(*word);
+    }
+    const Answers all = answers(store, {.metrics = {q.y},
+                                        .group_by = group_by,
+                                        .where = q.where,
+                                        .confidence = q.confidence,
+                                        .quantile = q.quantile,
+                                        .interval = q.interval,
+                                        .common = q.common});
+    const std::vector<Answer>& list = all.list;
+    const auto numbers = q.x.empty() ? std::nullopt : numbers_of(list, q.x);
+    if (!q.kind) q.kind = numbers ? ChartKind::lines : ChartKind::bars;
+
+    Chart chart = frame_of(q, numbers ? numbers->unit : "");
+    if (*q.kind != ChartKind::heat_map) chart.legend_title = question.by;
+    (cdf ? chart.x_limits : chart.y_limits) = limits_of(q.y);
+    chart.note = note_of(all, q, q.confidence.value_or(confidence_of(store)));
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const Answer& answer = list[i];
+        ChartSeries& series =
+            series_named(chart, q.by.empty() ? "" : plain_text(*answer.settings.find(q.by)));
+        if (cdf) {
+            add_replications(series, answer);
+            continue;
+        }
+        ChartPoint point = point_of(answer);
+        if (numbers) {
+            point.x = numbers->values[i];
+        } else {
+            point.category = plain_text(*answer.settings.find(q.x));
+        }
+        series.points.push_back(point);
+    }
+    return chart;
+}
+
+std::vector<Chart> comparison_charts(const Comparison& comparison) {
+    const bool costs = std::all_of(comparison.models.begin(), comparison.models.end(),
+                                   [](const ComparedModel& m) { return m.cost.has_value(); });
+    Chart values{.kind = ChartKind::bars,
+                 .x_label = comparison.path == "propagation.model" || comparison.path.empty()
+                                ? "propagation model"
+                                : comparison.path,
+                 .y_label = metric_label(comparison.metric),
+                 .y_limits = limits_of(comparison.metric)};
+    Chart errors{
+        .kind = ChartKind::scatter,
+        .x_label = costs ? "CPU time of the medium per frame [us]" : "CPU time per run [ms]",
+        .y_label = "mean distance to " + comparison.most_detailed,
+        .log_x = true,
+        .y_limits = {.low = 0}};
+    ChartSeries& bars = values.series.emplace_back(ChartSeries{});
+    ChartSeries& dots = errors.series.emplace_back(ChartSeries{});
+    std::vector<Answer> list;
+    for (const ComparedModel& m : comparison.models) {
+        list.push_back(m.answer);
+        ChartPoint point = point_of(m.answer);
+        point.category = m.model;
+        const auto& e = m.error_interval;
+        bars.points.push_back(std::move(point));
+        dots.points.push_back({.x = costs ? 1e6 * m.cost->median_s : 1e3 * m.cpu_s,
+                               .y = m.error.value_or(std::nan("")),
+                               .low = e ? std::optional(e->low) : std::nullopt,
+                               .high = e ? std::optional(e->high) : std::nullopt,
+                               .label = m.model,
+                               .n = m.error_n});
+    }
+    values.note =
+        fmt::format("means of {} replications, with {} intervals{}", replications_text(list),
+                    percent(comparison.confidence), methods_text(list));
+    for (const std::string& text : {comparison.held, incompleteness(comparison.runs)}) {
+        if (!text.empty()) values.note += "; " + text;
+    }
+    return {values, errors};
+}
+
+}  // namespace rovernet

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/replay/message_at_robot.hpp"
+
+#include "experiment/run.hpp"
+#include "scenario/scenario.hpp"
+#include "sim/error.hpp"
+#include "test/traces/record_stream.hpp"
+#include "traces/recorded/recorded_trace.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace message_at_robot_test {
+using namespace rovernet;
+using namespace rovernet::testing;
+
+namespace {
+
+/// A run that is recorded: robots A, B, C ... on a line, at these x [m].
+struct Run {
+    TempFolder folder;
+    std::string recorded = folder / "trace.mcap";
+
+    Run(const std::vector<double>& places, const std::string& more) {
+        std::string text = "[scenario]\nduration = \"5 s\"\n[routing]\nprotocol = \"flood\"\n";
+        char name = 'A';
+        for (const double x : places) {
+            text += std::string("[[robot]]\nname = \"") + name++ + "\"\nat = [\"" +
+                    std::to_string(x) + " m\", \"0 m\"]\n";
+        }
+        write_file(folder / "s.toml", text + more);
+        record(folder / "s.toml", {});
+    }
+    explicit Run(const std::string& file) { record(file, "scenario.duration=30 s"); }
+
+    MessageAtRobot look(std::uint64_t uid, std::uint32_t robot) const {
+        return message_at_robot(recorded, uid, NodeId{robot});
+    }
+    std::string says(std::uint64_t uid, std::uint32_t robot) const {
+        return sentence(look(uid, robot));
+    }
+
+  private:
+    void record(const std::string& file, const std::string& set) {
+        std::vector<std::string> all{"trace.record=true"};
+        if (!set.empty()) all.push_back(set);
+        RunOptions to;
+        to.folder = folder / ".";
+        run_scenario(load_scenario(file, {.set = all}), to);
+    }
+};
+
+const std::string one_message = "[[traffic]]\nfrom = \"A\"\npayload = \"x\"\nstart = \"1 s\"\n";
+
+}  // namespace
+
+TEST_CASE("a message that was too weak: the margin is that of free space") {
+    const Run run({0, 1000}, one_message);
+    const MessageAtRobot there = run.look(0, 1);
+    REQUIRE(there.frames.size() == 1);
+    const FrameAtRobot& frame = there.frames[0];
+    const double wavelength = 299'792'458 / 2450e6;
+    const double loss = 20 * std::log10(4 * 3.141592653589793 * 1000 / wavelength);
+    CHECK(std::abs(frame.level.value - (10 * std::log10(45.0) - loss)) < 1e-9);
+    CHECK(std::abs(frame.margin.value - (frame.level.value + 75)) < 1e-9);
+    CHECK(frame.outcome == Outcome::too_weak);
+    CHECK(frame.others.empty());
+    CHECK(sentence(there) ==
+          "B never was within reach: the only frame came 8.7 dB below its sensitivity.");
+}
+
+TEST_CASE("a message that came: from whom, when and how strong") {
+    const Run run({0, 100, 400}, one_message);
+    CHECK(run.says(0, 0) == "A sent it.");
+    CHECK(run.says(0, 1).starts_with(
+        "B has it from A, 0.193 ms after it was sent: that frame came at -63.70 dBm, 11.3 dB "
+        "above its sensitivity."));
+    const MessageAtRobot there = run.look(0, 2);
+    REQUIRE(there.frames.size() >= 2);
+    CHECK(there.frames[0].outcome == Outcome::too_weak);  // A's, over 400 m
+    CHECK(there.frames[1].outcome == Outcome::received);
+    CHECK(sentence(there).starts_with("C has it from B"));
+    const MessageAtRobot back = run.look(0, 0);
+    REQUIRE_FALSE(back.frames.empty());
+    CHECK(back.frames[0].outcome == Outcome::duplicate);
+}
+
+TEST_CASE("a message that a robot missed while it was off, or in another network") {
+    const Run off({0, 100}, one_message +
+                                "[[robot]]\nname = \"X\"\nat = [\"50 m\", \"0 m\"]\n"
+                                "off = [\"0.5 s\"]\n");
+    CHECK(off.look(0, 2).frames.at(0).outcome == Outcome::off);
+    CHECK(off.says(0, 2) == "X was off: it could hear none of 2 frames.");
+    const Run gated({0, 100}, one_message +
+                                  "[[robot]]\nname = \"X\"\nat = [\"50 m\", \"0 m\"]\n"
+                                  "radio = { channel = 7 }\n");
+    CHECK(gated.look(0, 2).frames.at(0).outcome == Outcome::other_network);
+    CHECK(gated.says(0, 2).starts_with("X is in another network"));
+}
+
+TEST_CASE("a message that collided: who else was on air, and how strong") {
+    // A and C send at once, and B, in their middle, hears both alike.
+    const Run run({0, 200, 400},
+                  "[reception]\nmodel = \"collision\"\n" + one_message +
+                      "[[traffic]]\nfrom = \"C\"\npayload = \"y\"\nstart = \"1 s\"\n");
+    const MessageAtRobot there = run.look(0, 1);
+    REQUIRE(there.frames.size() == 1);
+    const FrameAtRobot& frame = there.frames[0];
+    CHECK(frame.outcome == Outcome::collided);
+    REQUIRE(frame.others.size() == 1);
+    CHECK(frame.others[0].from == NodeId{2});
+    CHECK(std::abs((frame.others[0].level - frame.level).value) < 1e-9);
+    CHECK(sentence(there) ==
+          "B was within reach of 1 of 1 frame and lost it: while other frames were on air.");
+    CHECK(run.says(1, 1) == sentence(there));
+}
+
+TEST_CASE("a message that came while its receiver was sending") {
+    const Run run({0, 200}, "[reception]\nmodel = \"collision\"\n" + one_message +
+                                "[[traffic]]\nfrom = \"B\"\npayload = \"y\"\nstart = \"1 s\"\n");
+    const MessageAtRobot there = run.look(0, 1);
+    REQUIRE(there.frames.size() == 1);
+    CHECK(there.frames[0].outcome == Outcome::busy);
+    REQUIRE(there.frames[0].others.size() == 1);
+    CHECK(there.frames[0].others[0].from == NodeId{1});
+    CHECK(there.frames[0].others[0].level.value == std::numeric_limits<double>::infinity());
+    CHECK(sentence(there) ==
+          "B was within reach of 1 of 1 frame and lost it: while it was sending itself.");
+}
+
+TEST_CASE("a unicast: each attempt at it is a frame, and others are told whom it was for") {
+    const Run run({0, 100, 200},
+                  "[access]\nmodel = \"csma\"\n[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = "
+                  "\"B\"\npayload = \"x\"\nstart = \"1 s\"\n"
+                  "[[traffic]]\nkind = \"unicast\"\nfrom = \"C\"\nto = \"D\"\npayload = \"x\"\n"
+                  "start = \"2 s\"\n"
+                  "[[robot]]\nname = \"D\"\nat = [\"5000 m\", \"0 m\"]\n");
+    CHECK(run.look(0, 1).frames.at(0).outcome == Outcome::received);
+    CHECK(run.look(0, 2).frames.at(0).outcome == Outcome::for_another);
+    CHECK(run.says(0, 2) == "1 frame was sent, for another robot.");
+    const MessageAtRobot far = run.look(1, 3);
+    CHECK(far.frames.size() == 7);  // the attempts at a short frame
+    CHECK(run.says(1, 3).starts_with("D never was within reach: the strongest of 7 frames"));
+}
+
+TEST_CASE("in the rescue: levels and walls are those that the command link tells") {
+    const std::string file = ROVERNET_EXAMPLES "/rescue/rescue.toml";
+    const Run run(file);
+    const Scenario scenario = load_scenario(file, {});
+    std::size_t looked = 0, behind_walls = 0;
+    for (std::uint64_t uid = 0; uid < 3; ++uid) {
+        const MessageAtRobot there = run.look(uid, 4);
+        for (const FrameAtRobot& frame : there.frames) {
+            const LinkReport link =
+                report_link(scenario, there.names[frame.from.index()], "E", frame.begin);
+            CHECK(std::abs((link.received - frame.level).value) < 1e-9);
+            CHECK(std::abs((link.margin - frame.margin).value) < 1e-9);
+            CHECK(link.walls.size() == frame.walls);
+            CHECK(std::abs(link.wall_m - frame.wall_m) < 1e-9);
+            CHECK(link.up == (frame.outcome != Outcome::too_weak));
+            ++looked;
+            if (frame.walls > 0) ++behind_walls;
+        }
+    }
+    CHECK(looked >= 6);
+    CHECK(behind_walls > 0);
+    // Message 0 reaches E, so that the sentence names a way; walls are counted in it.
+    CHECK(run.says(0, 4).find("wall") != std::string::npos);
+}
+
+TEST_CASE("a trace of a network that was made in code has no levels") {
+    const TempFolder folder;
+    RecordedTrace trace(folder / "t.mcap", {.version = "1"});
+    trace.begin({.scenario = {},
+                 .robots = 1,
+                 .name = [](NodeId) -> std::string_view { return "r"; },
+                 .seed = 1,
+                 .replication = 0});
+    trace.finish();
+    trace.close();
+    CHECK_THROWS_AS(message_at_robot(folder / "t.mcap", 0, NodeId{0}), InputError);
+    const Run run({0, 100}, one_message);
+    CHECK_THROWS_AS(run.look(0, 7), InputError);
+}
+
+}  // namespace message_at_robot_test

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/replay/ns2_day.hpp"
+
+#include "experiment/movement_play.hpp"
+#include "sim/error.hpp"
+#include "test/scene/temporary_folder.hpp"
+#include "traces/ns2/ns2_file.hpp"
+#include "traces/ns2/ns2_motion.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace ns2_day_test {
+using namespace rovernet;
+using namespace rovernet::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+const std::string sample = std::string(ROVERNET_TEST_DATA) + "/ns2_old.tr";
+
+std::string move_line(int robot, double x) {
+    return fmt::format("M 0.00000 {} ({:.2f}, 0.00, 0.00), ({:.2f}, 0.00), 0.00\n", robot, x, x);
+}
+
+/// `s AGT` of a message, number `id` of robot `from`.
+std::string said(double time, int id, int from, const std::string& to) {
+    return fmt::format(
+        "s {:.9f} _{}_ AGT  --- {} cbr 64 [0 0 0 0] ------- [{}:0 {}:0 32 0] [0] 0 0\n", time, from,
+        id, from, to);
+}
+
+std::uint64_t deliveries(const RecordedDay& day, const std::vector<std::string>& set = {}) {
+    return day.play(set).metrics.deliveries;
+}
+
+/// Motion that a movement file makes, asked for later and later times.
+class Truth {
+  public:
+    explicit Truth(const std::string& path) {
+        MovementFile file(path);
+        std::vector<NodeId> nodes;
+        for (const FileRobot& robot : file.robots()) {
+            nodes.push_back(network_.add({.name = robot.name, .at = robot.start}));
+        }
+        rovernet::play(network_, std::move(file), nodes);
+    }
+    std::size_t size() const { return network_.size(); }
+    Vec3 place(NodeId node, Time t) {
+        if (t > network_.now()) network_.run_until(t);
+        return network_.position(node);
+    }
+
+  private:
+    Network network_;
+};
+
+struct Place {
+    NodeId node;
+    Time time;
+};
+
+/// What a trace tells of the places of ten robots.
+struct Told {
+    std::vector<std::vector<Leg>> legs;
+    std::vector<Place> lines;  ///< packet lines with a place
+};
+
+Told told_by(const std::string& trace) {
+    Told told;
+    Ns2Motion motion;
+    Ns2File file(trace);
+    while (const Ns2Line* line = file.next()) {
+        if (const auto* move = std::get_if<Ns2Move>(line)) {
+            motion.begins(move->node, leg_of(*move));
+        } else if (const auto* packet = std::get_if<Ns2Packet>(line); packet && packet->position) {
+            motion.is_at(packet->node, packet->time, *packet->position);
+            told.lines.push_back({packet->node, packet->time});
+        }
+    }
+    for (NodeId n{0}; n.value < 10; ++n.value) told.legs.push_back(motion.legs(n));
+    return told;
+}
+
+Vec3 place_on(const std::vector<Leg>& legs, Time t) {
+    const auto next = std::upper_bound(legs.begin(), legs.end(), t,
+                                       [](Time time, const Leg& leg) { return time < leg.start; });
+    return std::prev(next)->position(t);
+}
+
+/// Files of ns-2 and the motion that made them; false if they are not there.
+bool find_pair(std::string& traces, std::string& movements) {
+    const char* a = std::getenv("ROVERNET_TRACES");
+    const char* b = std::getenv("ROVERNET_MOVEMENTS");
+    if (!a || !b) {
+        MESSAGE("skipped: ROVERNET_TRACES or ROVERNET_MOVEMENTS is not set");
+        return false;
+    }
+    traces = std::string(a) + "/";
+    movements = std::string(b) + "/mob10.tcl";
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("an ns-2 day: robots move and speak as the trace says, and its messages flood") {
+    const RecordedDay day = read_ns2_day(sample, {});
+    CHECK(day.robots() == std::vector<std::string>{"n0", "n1", "n2", "n3"});
+    CHECK(day.recorded().metrics.messages == 15);
+    CHECK(day.recorded().metrics.deliveries == 10);
+    const PlayedDay first = day.play({});
+    CHECK(first.metrics.messages == 15);
+    CHECK(first.metrics.deliveries == 10);  // all while robot 2 is less than 250 m from robot 1
+    CHECK(first.metrics.max_hops == 3);
+    CHECK(*first.metrics.delivery_ratio == 10.0 / 15);
+    for (const Delivery& each : first.deliveries) CHECK(each.at == NodeId{3});
+    CHECK(deliveries(day, {"radio.power=40 dBm"}) == 15);
+    CHECK(deliveries(day, {"radio.power=0 dBm"}) == 0);
+}
+
+TEST_CASE("an ns-2 day: messages that go straight reach whom their sender hears") {
+    const RecordedDay day = read_ns2_day(sample, {.routing = DayRouting::direct, .movements = {}});
+    CHECK(deliveries(day) == 0);
+    const PlayedDay strong = day.play({"radio.power=50 dBm"});
+    CHECK(strong.metrics.deliveries == 15);
+    CHECK(strong.metrics.max_hops == 1);
+    CHECK(strong.metrics.receptions == 15);  // a unicast is for nobody else
+}
+
+TEST_CASE("an ns-2 day: broadcasts are for everyone, and reach whom they reach") {
+    const TemporaryFolder folder;
+    const std::string trace = folder.write(
+        "all.tr", move_line(0, 0) + move_line(1, 200) + move_line(2, 400) + said(1, 0, 0, "-1"));
+    CHECK(deliveries(read_ns2_day(trace, {})) == 2);
+    CHECK(deliveries(read_ns2_day(trace, {.routing = DayRouting::direct, .movements = {}})) == 1);
+}
+
+TEST_CASE("an ns-2 day: its radio reaches 250 m and no farther") {
+    const TemporaryFolder folder;
+    for (const double x : {249.9, 250.1}) {
+        const std::string trace =
+            folder.write("pair.tr", move_line(0, 0) + move_line(1, x) + said(1, 0, 0, "1"));
+        CHECK(deliveries(read_ns2_day(trace, {})) == (x < 250 ? 1 : 0));
+    }
+}
+
+TEST_CASE("an ns-2 day: a robot whose place the trace does not tell is named") {
+    const TemporaryFolder folder;
+    const std::string trace = folder.write("lost.tr", move_line(0, 0) + said(1, 0, 0, "1"));
+    CHECK_THROWS_WITH_AS(read_ns2_day(trace, {}),
+                         doctest::Contains("where robot 1 is: the old format has no place"),
+                         InputError);
+    const std::string file =
+        folder.write("way.tcl",
+                     "$node_(0) set X_ 0\n$node_(0) set Y_ 0\n$node_(1) set X_ 100\n"
+                     "$node_(1) set Y_ 0\n$node_(2) set X_ 0\n$node_(2) set Y_ 100\n");
+    const RecordedDay day = read_ns2_day(trace, {.routing = {}, .movements = file});
+    CHECK(day.robots().size() == 3);
+    CHECK(deliveries(day) == 1);
+    const std::string short_file =
+        folder.write("one.tcl", "$node_(0) set X_ 0\n$node_(0) set Y_ 0\n");
+    CHECK_THROWS_WITH_AS(read_ns2_day(trace, {.routing = {}, .movements = short_file}),
+                         doctest::Contains("one.tcl: it does not tell where robot 1 is"),
+                         InputError);
+}
+
+TEST_CASE("an ns-2 day: messages to no other robot are left out, and counted") {
+    const TemporaryFolder folder;
+    const std::string trace =
+        folder.write("own.tr", move_line(0, 0) + move_line(1, 9) + said(1, 0, 0, "0") +
+                                   said(2, 1, 0, "4194305") + said(3, 2, 0, "1"));
+    const RecordedDay day = read_ns2_day(trace, {});
+    CHECK(day.notices() ==
+          std::vector<std::string>{"2 messages to no other robot of the trace are left out"});
+    CHECK(day.play({}).metrics.messages == 1);
+}
+
+TEST_CASE("an ns-2 day: a trace without robots is refused") {
+    const TemporaryFolder folder;
+    const std::string wired = folder.write("w.tr", "+ 0.1 1 2 cbr 1000 ------- 2 1.0 3.1 0 0\n");
+    CHECK_THROWS_WITH_AS(read_ns2_day(wired, {}), doctest::Contains("there is no robot"),
+                         InputError);
+}
+
+TEST_CASE("an ns-2 day: M lines alone tell the motion that made them within 15 cm") {
+    std::string traces, movements;
+    if (!find_pair(traces, movements)) return;
+    for (const char* name : {"old_aodv_mac.tr", "old_dsdv.tr", "old_dsr.tr"}) {
+        const Told told = told_by(traces + name);
+        Truth truth(movements);
+        REQUIRE(truth.size() == 10);
+        double worst = 0;
+        for (Time t = start_of_run; t <= start_of_run + 30s; t += 10ms) {
+            for (NodeId n{0}; n.value < 10; ++n.value) {
+                const Vec3 found = place_on(told.legs[n.index()], t);
+                worst = std::max(worst, distance(found, truth.place(n, t)));
+            }
+        }
+        CHECK(worst <= 0.15);
+        CHECK(worst > 0.01);  // else the comparison compares nothing
+    }
+}
+
+TEST_CASE("an ns-2 day: packet lines of the new format refine it to 1 cm at each of them") {
+    std::string traces, movements;
+    if (!find_pair(traces, movements)) return;
+    const Told told = told_by(traces + "new_aodv_mac.tr");
+    Truth truth(movements);
+    double worst = 0;
+    for (const Place& line : told.lines) {
+        const Vec3 found = place_on(told.legs[line.node.index()], line.time);
+        worst = std::max(worst, distance(found, truth.place(line.node, line.time)));
+    }
+    CHECK(told.lines.size() > 2000);
+    CHECK(worst <= 0.01);
+    const RecordedDay day = read_ns2_day(traces + "new_aodv_mac.tr", {});
+    CHECK(day.robots().size() == 10);
+    CHECK(deliveries(day) > 0);
+}
+
+TEST_CASE("an ns-2 day: the tagged format tells of places in its packet lines") {
+    std::string traces, movements;
+    if (!find_pair(traces, movements)) return;
+    const RecordedDay day = read_ns2_day(traces + "aodv_tag.tr", {});
+    CHECK(day.robots().size() == 4);
+    CHECK(deliveries(day) > 0);
+}
+
+}  // namespace ns2_day_test

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "experiment/replay/trace_input.hpp"
+
+#include "experiment/run.hpp"
+#include "scenario/scenario.hpp"
+#include "test/traces/record_stream.hpp"
+#include "traces/ns2/ns2_diff.hpp"
+#include "traces/ns2/ns2_follow.hpp"
+#include "traces/ns2/ns2_stats.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace trace_input_test {
+using namespace rovernet;
+using namespace rovernet::testing;
+
+namespace {
+
+/// The rescue, with both traces of it.
+struct Rescue {
+    TempFolder folder;
+    RunResult result;
+    std::string recorded = folder / "trace.mcap", text = folder / "trace.tr";
+
+    explicit Rescue(const std::string& format, const std::string& mac) {
+        RunOptions to;
+        to.folder = folder / ".";
+        const std::string path = ROVERNET_EXAMPLES "/rescue/rescue.toml";
+        result =
+            run_scenario(load_scenario(path, {.set = {"scenario.duration=30 s", "trace.record=true",
+                                                      "trace.ns2=" + format, "trace.mac=" + mac}}),
+                         to);
+    }
+};
+
+std::string all_of(Ns2Source source) {
+    while (source.more()) continue;
+    return std::string(source.window());
+}
+
+TraceInput old_with_mac(const std::string& path) {
+    return TraceInput(path, {.format = Ns2Format::old_format, .mac = MacTrace::on});
+}
+
+}  // namespace
+
+TEST_CASE("the text of a recorded trace is what its run wrote, to the byte") {
+    for (const char* format : {"old", "new"}) {
+        for (const char* mac : {"false", "true"}) {
+            CAPTURE(format);
+            CAPTURE(mac);
+            const Rescue run(format, mac);
+            const TraceInput::Lines lines{.format = std::string(format) == "old"
+                                                        ? Ns2Format::old_format
+                                                        : Ns2Format::new_format};
+            const TraceInput trace(run.recorded, lines);
+            CHECK(trace.is_recorded());
+            CHECK(trace.robots().size() == 5);
+            CHECK(all_of(trace.text()) == content(run.text));
+            CHECK(trace.damage().empty());
+            CHECK(render_recorded(run.recorded, run.folder / "later.tr", lines).empty());
+            CHECK(content(run.folder / "later.tr") == content(run.text));
+        }
+    }
+}
+
+TEST_CASE("a file of ns-2 text is read as it is") {
+    const Rescue run("new", "false");
+    const TraceInput trace(run.text, {});
+    CHECK_FALSE(trace.is_recorded());
+    CHECK(trace.robots().empty());
+    CHECK(all_of(trace.text()) == content(run.text));
+}
+
+TEST_CASE("a recorded trace has the counts, the ways and the events of the ns-2 trace of its run") {
+    const Rescue run("old", "true");
+    const TraceStats told = ns2_stats(old_with_mac(run.recorded).text());
+    const TraceStats written = ns2_stats(run.text);
+    CHECK(told.counts.events == written.counts.events);
+    CHECK(told.drops == written.drops);
+    CHECK(told.drops_by_layer == written.drops_by_layer);
+    CHECK(told.metrics.deliveries == run.result.metrics.deliveries);
+    CHECK(diff_ns2(old_with_mac(run.recorded).text(), run.text, Duration{0}).is_equal);
+    const FollowedMessage way = follow_ns2(old_with_mac(run.recorded).text(), 0);
+    CHECK(way.robots.size() == follow_ns2(run.text, 0).robots.size());
+}
+
+TEST_CASE("a recorded trace without its end is read as far as it goes, and says so") {
+    const Rescue run("old", "true");
+    std::filesystem::resize_file(run.recorded, std::filesystem::file_size(run.recorded) - 40);
+    const TraceInput trace = old_with_mac(run.recorded);
+    CHECK(all_of(trace.text()) == content(run.text));
+    CHECK_FALSE(trace.damage().empty());
+}
+
+}  // namespace trace_input_test

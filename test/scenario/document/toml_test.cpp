@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "scenario/document/toml.hpp"
+
+#include "scenario/document/json.hpp"
+#include "test/scene/temporary_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+namespace toml_test {
+using namespace rovernet;
+using rovernet::test::TemporaryFolder;
+
+namespace {
+
+std::string place_of_error(const std::string& text) {
+    try {
+        parse_toml(text, "f.toml");
+    } catch (const InputError& error) {
+        return error.where().text();
+    }
+    return "no error";
+}
+
+std::string error_of_file(const std::string& path) {
+    try {
+        read_toml(path);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+std::string after_option(const std::string& text, const std::string& option) {
+    Value document = parse_toml(text, "f.toml");
+    set_option(document, option, "--set " + option);
+    return to_toml(*document.table());
+}
+
+std::string error_of_option(const std::string& text, const std::string& option) {
+    try {
+        after_option(text, option);
+    } catch (const InputError& error) {
+        CHECK(error.where().is_option);
+        return error.what();
+    }
+    return "no error";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("toml: a document prints and reads back as itself") {
+    const std::string text =
+        "whole = -5\nreal = 0.1\nlarge = 1e+300\ntruth = true\n"
+        "text = \"quote \\\" slash \\\\ tab \\u0009 é\"\n\n[table]\nlist = [1, 2.0, [\"a\"]]\n"
+        "\"dotted.key\" = { a = 1, b = [] }\n\n[[each]]\nn = 1\n\n[[each]]\nn = 2\n";
+    const Value document = parse_toml(text, "f.toml");
+    const std::string printed = to_toml(*document.table());
+    CHECK(printed == text);
+    CHECK(to_json(parse_toml(printed, "f.toml")) == to_json(document));
+}
+
+TEST_CASE("toml: keys keep the order of the file") {
+    CHECK(to_toml(*parse_toml("z = 1\na = 2\nm = 3", "").table()) == "z = 1\na = 2\nm = 3\n");
+}
+
+TEST_CASE("toml: a whole real number stays a real number") {
+    CHECK(to_toml(*parse_toml("a = 30.0", "").table()) == "a = 30.0\n");
+}
+
+TEST_CASE("toml: an error has the line and column of the mistake") {
+    CHECK(place_of_error("a = 1\na = 2") == "f.toml:2:5");
+    CHECK(place_of_error("a = 1\nb = [1, 2\n") == "f.toml:2:11");
+    CHECK(place_of_error("a = 1\nb = 12:00:00") == "f.toml:2:5");
+    CHECK(place_of_error("a = 1\nb = \"\xff\"") == "f.toml:2:5");
+}
+
+TEST_CASE("toml: a file that is missing or a directory is named, with what to do") {
+    const TemporaryFolder folder;
+    CHECK(contains(error_of_file(folder.path("no.toml")), "no such file"));
+    CHECK(error_of_file(folder.path("no.toml")).starts_with(folder.path("no.toml") + ": "));
+    CHECK(contains(error_of_file(folder.path("")), "a directory"));
+}
+
+TEST_CASE("toml: an empty file is an empty document") {
+    const TemporaryFolder folder;
+    CHECK(read_toml(folder.write("empty.toml", "")).table()->entries.empty());
+}
+
+TEST_CASE("set_option: a path leads through tables, names and numbers") {
+    const std::string text = "[[robot]]\nname = \"A\"\n\n[[robot]]\nname = \"B\"\n";
+    CHECK(after_option(text, "robot.1.radius=2") == text + "radius = 2\n");
+    CHECK(after_option(text, "robot.B.radius=2") == text + "radius = 2\n");
+    CHECK(after_option(text, "robot.B.radio.power=2") == text + "radio = { power = 2 }\n");
+    CHECK(after_option("", "a.b=1") == "[a]\nb = 1\n");
+    CHECK(after_option("[a]\nb = 1\n", "a.b=2") == "[a]\nb = 2\n");
+}
+
+TEST_CASE("set_option: the value is TOML, or else the text itself") {
+    CHECK(after_option("", "a=friis") == "a = \"friis\"\n");
+    CHECK(after_option("", "a=\"friis\"") == "a = \"friis\"\n");
+    CHECK(after_option("", "a=15 dBm") == "a = \"15 dBm\"\n");
+    CHECK(after_option("", "a=1e-3") == "a = 0.001\n");
+    CHECK(after_option("", "a=true") == "a = true\n");
+    CHECK(after_option("", "a=[1, 2]") == "a = [1, 2]\n");
+    CHECK(after_option("", "a=") == "a = \"\"\n");
+    CHECK(after_option("", "a=b=c") == "a = \"b=c\"\n");
+    CHECK(after_option("", "a=1\nb = 2") == "a = \"1\\u000ab = 2\"\n");
+    CHECK(after_option("", "a=2007-01-01") == "a = \"2007-01-01\"\n");
+}
+
+TEST_CASE("set_option: a mistake quotes the option") {
+    const std::string text = "a = 1\n[[robot]]\nname = \"Anna\"\n";
+    for (const char* option : {"radio.power", "=5", "", "a..b=1", ".a=1", "a.=1", "a.b=1",
+                               "robot.7.radius=1", "robot.Ana.radius=1"}) {
+        CAPTURE(option);
+        CHECK(error_of_option(text, option).starts_with("--set " + std::string(option) + ": "));
+    }
+    CHECK(contains(error_of_option(text, "robot.7.radius=1"), "the list has 1"));
+    CHECK(contains(error_of_option(text, "robot.Ana.radius=1"), "did you mean \"Anna\"?"));
+    CHECK(contains(error_of_option(text, "a.b=1"), "which has no keys"));
+}
+
+}  // namespace toml_test
