@@ -21,8 +21,8 @@ struct Greenhouse {
     /// The loss goes by the distance alone, so that links and their changes are found exactly.
     LossShape shape() const { return LossShape::by_distance; }
 
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
-        Friis{}.loss(links, give_up, out_db);
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
+        Friis{}.loss(links, cutoff, out_db);
         for (std::size_t i = 0; i < out_db.size(); ++i)
             out_db[i] += foliage.value * links.distance(i);
     }

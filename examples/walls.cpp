@@ -44,7 +44,7 @@ int main() {
     net.on_arrival(robot, [&] { fmt::print("there at {:.1f} s\n", seconds(net.now())); });
     net.every(2s, [&] {
         const Vec3 here = net.position(base), there = net.position(robot);
-        const Db loss = net.medium().links().path_loss(base, robot, net.now(), net.legs());
+        const Db loss = net.path_loss(base, robot);
         fmt::print("{:4.1f} s at ({:4.1f}, {:.1f})  {:.1f} m of wall  {:5.1f} dB  {}\n",
                    seconds(net.now()), there.x, there.y, scene->wall_length(here, there),
                    loss.value, net.links(robot, net.now()).empty() ? "deaf" : "hears the base");

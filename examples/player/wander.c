@@ -39,9 +39,9 @@ int main(void) {
         playerc_position2d_set_cmd_vel(position, is_free ? 0.5 : 0, 0, is_free ? 0 : 0.7, 1);
         if (step % 50 != 0) continue;
         printf("(%.2f, %.2f) m%s\n", position->px, position->py, position->stall ? ", stalled" : "");
-        for (int i = 0; i < (int)wifi->link_count; ++i) {
-            printf("  hears %.*s at %d dBm\n", (int)wifi->links[i].ip_count, wifi->links[i].ip,
-                   (int)wifi->links[i].level);
+        for (int i = 0; i < wifi->link_count; ++i) {
+            printf("  hears %.32s at %d dBm\n", (const char*)wifi->links[i].ip,
+                   wifi->links[i].level);
         }
     }
     playerc_position2d_set_cmd_vel(position, 0, 0, 0, 1);
