@@ -3,6 +3,7 @@
 // exit 1 if one is outside of its band.
 
 #include "bench/aloha.hpp"
+#include "bench/broadcast_cell.hpp"
 #include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
 #include "models/reception/list.hpp"

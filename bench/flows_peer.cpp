@@ -66,6 +66,7 @@ Csma access(const Options& options) {
     Csma csma{.header = static_cast<std::uint32_t>(options.number("header", 34))};
     if (options.text("eifs", "standard") == "ns2") {
         csma.eifs = EifsRule::ns2;
+        csma.immediate_access = false;
         csma.timing = ns2_timing(csma.timing);
     }
     const auto us = [&](const char* name, Duration otherwise) {

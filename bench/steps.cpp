@@ -2,6 +2,7 @@
 // steps ROBOTS: time of a step of 100 ms in which each of so many robots gets a new velocity, in
 // C++: what bench/python_step compares Python with. Prints the least of ten rounds in microseconds.
 #include "live/lockstep/stepped_run.hpp"
+#include "scenario/scenario_file.hpp"
 
 #include <fmt/format.h>
 

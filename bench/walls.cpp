@@ -6,6 +6,7 @@
 
 #include "bench/office.hpp"
 #include "mobility/random_waypoint.hpp"
+#include "models/propagation/rays.hpp"
 #include "models/propagation/raytrace_2007.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
@@ -57,16 +58,16 @@ struct CountedRays {
 
     LossShape shape() const { return model.shape(); }
     Meters reach(Db loss, Hertz f) const { return model.reach(loss, f); }
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
-        model.loss(links, give_up, out_db);
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
+        model.loss(links, cutoff, out_db);
         std::vector<double> whole(out_db.size()), without_walls(out_db.size());
         model.loss(links, Db{std::numeric_limits<double>::infinity()}, whole);
-        Raytrace2007{.coefficient = model.coefficient, .wall_factor = 0}.loss(links, give_up,
+        Raytrace2007{.coefficient = model.coefficient, .wall_factor = 0}.loss(links, cutoff,
                                                                               without_walls);
         for (std::size_t i = 0; i < out_db.size(); ++i) {
             ++rays->all;
-            rays->up += out_db[i] <= give_up.value;
-            if (without_walls[i] > give_up.value) {
+            rays->up += out_db[i] <= cutoff.value;
+            if (without_walls[i] > cutoff.value) {
                 ++rays->too_far;
             } else {
                 rays->given_up += out_db[i] < whole[i];

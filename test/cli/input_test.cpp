@@ -95,7 +95,7 @@ TEST_CASE("input: files of other kinds are called by their names, with what to d
     CHECK(contains(said("x.inc", ""), "the world that includes it"));
     CHECK(contains(said("summary.json", "{}"), "scenario.toml"));
     const std::string empty = said("e.world", "");
-    CHECK(contains(empty, "no robot in this world; expected a position that has a wifi"));
+    CHECK(contains(empty, "no robot in this world; expected a position"));
     CHECK(!contains(empty, "the key"));
 }
 

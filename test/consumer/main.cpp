@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 struct Fog {
     static constexpr std::string_view name = "fog";
 
-    void loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+    void loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
         for (std::size_t i = 0; i < out_db.size(); ++i) out_db[i] = links.distance(i);
     }
 };
@@ -74,7 +74,7 @@ int main(int /*argc*/, char** argv) {
     fmt::print("delivery ratio {}\n", net.metrics().delivery_ratio.value_or(-1));
     fmt::print("heard {:.1f} m from home\n", moved_into_range());
 
-    Session session(load_scenario(argv[1], {}));
+    Session session(ScenarioFile(argv[1], {}));
     session.step(session.end());
     fmt::print("the file's run delivers {}\n", session.network().metrics().deliveries);
 }

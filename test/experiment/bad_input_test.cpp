@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build.hpp"
-#include "scenario/scenario.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 
@@ -284,7 +285,7 @@ const std::vector<Mistake> mistakes = {
      "7:50",
      {"at most 1e6 km"}},
     // What cannot be meant.
-    {robot_a + "[radio]\nsensitivity = \"80 dBm\"", "5:15", {"hears nobody", "\"-80 dBm\"?"}},
+    {robot_a + "[radio]\nsensitivity = \"80 dBm\"", "5:15", {"gets nothing", "\"-80 dBm\"?"}},
     {traffic("payload = \"F\"\nevery = \"1 s\"\nstart = \"5 s\"\nstop = \"5 s\""),
      "9:8",
      {"start is 5 s", "later"}},

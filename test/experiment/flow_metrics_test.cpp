@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run.hpp"
+#include "experiment/summary.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 

@@ -9,9 +9,9 @@
 #include "routing/flood.hpp"
 #include "scenario/document/toml.hpp"
 #include "sim/random.hpp"
+#include "test/traces/ns2/trace_metrics.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/fingerprint.hpp"
-#include "traces/ns2/ns2_reader.hpp"
 #include "traces/ns2/ns2_trace.hpp"
 
 #include <doctest/doctest.h>
@@ -28,6 +28,7 @@ namespace mac_trace_test {
 using namespace rovernet;
 using rovernet::testing::content;
 using rovernet::testing::TempFolder;
+using rovernet::testing::trace_metrics;
 
 namespace {
 
@@ -93,7 +94,7 @@ Traced traced(const Setting& setting) {
     const auto fingerprint = std::make_shared<Fingerprint>();
     const auto trace = std::make_shared<Ns2Trace>(folder / "run.tr", setting.format, setting.mac);
     net.add_sink(fingerprint);
-    net.trace_to(trace);
+    net.add_sink(trace);
     net.route(Flood{.ttl = 6, .jitter = 2ms});
     for (std::uint64_t i = 0; i < 60; ++i) {
         const auto draw = [&](std::uint64_t k) {
@@ -198,7 +199,7 @@ std::string row(const AccessModel& access, const std::function<void(Network&)>& 
                  .access = access,
                  .propagation_delay = false});
     const auto trace = std::make_shared<Ns2Trace>(folder / "run.tr", format, MacTrace::on);
-    net.trace_to(trace);
+    net.add_sink(trace);
     for (int i = 0; i < robots; ++i) {
         net.add({.name = "", .at = {200.0 * i, 0}, .radio = {.rate = {1e6}}});
     }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a Network keeps of its robots, and what that takes.
-#include "study/validation/flood_bench.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/propagation/disc.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
+#include "study/validation/flood_bench.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What robots of a scenario do when something happens, and robots that a movement file moves.
-#include "experiment/run.hpp"
+#include "experiment/reports/network_at.hpp"
 #include "experiment/reports/whereabouts.hpp"
+#include "experiment/run.hpp"
+#include "experiment/timeline.hpp"
 #include "models/medium/medium.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

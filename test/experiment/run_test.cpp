@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run.hpp"
 
+#include "experiment/reports/link_report.hpp"
+#include "experiment/summary.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
-#include "traces/ns2/ns2_reader.hpp"
+#include "test/traces/ns2/trace_metrics.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,6 +17,7 @@
 namespace run_test {
 using namespace rovernet;
 using rovernet::test::TemporaryFolder;
+using rovernet::testing::trace_metrics;
 
 namespace {
 
@@ -82,6 +86,27 @@ TEST_CASE("run: one that is stopped leaves none of its files") {
                              .progress = [](double share) { return share == 0; }};
     CHECK_THROWS_AS(run_scenario(three_robots("new"), options), Interrupted);
     CHECK(std::filesystem::is_empty(folder.path("out")));
+}
+
+TEST_CASE("run: parts of traces that a killed run left go with the next run, whatever it records") {
+    for (const bool is_recorded : {false, true}) {
+        CAPTURE(is_recorded);
+        const TemporaryFolder folder;
+        std::filesystem::create_directory(folder.path("out"));
+        for (const char* part :
+             {"trace.mcap.77.part", "trace.tr.78.part", "summary.json.79.part"}) {
+            folder.write(std::string("out/") + part, "");
+        }
+        folder.write("out/inputs.jsonl.80.part", "");
+        Scenario scenario = three_robots("none");
+        scenario.trace.record = is_recorded;
+        run_scenario(scenario, {.folder = folder.path("out"), .speed = {}});
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path("out"))) {
+            const std::string name = entry.path().filename();
+            CHECK((name == "inputs.jsonl.80.part" || !name.ends_with(".part")));
+        }
+        CHECK(std::filesystem::exists(folder.path("out/inputs.jsonl.80.part")));
+    }
 }
 
 TEST_CASE("run: one that is stopped before its first event makes no folder") {

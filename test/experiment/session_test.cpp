@@ -2,9 +2,11 @@
 // A scenario that is run from outside.
 #include "experiment/session.hpp"
 
+#include "experiment/reports/link_report.hpp"
 #include "experiment/run.hpp"
 #include "mobility/waypoints.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/drawn_map.hpp"
 #include "test/scene/temporary_folder.hpp"
 #include "traces/fingerprint.hpp"

@@ -75,4 +75,19 @@ TEST_CASE("input file: what has to be a regular file is no pipe") {
     need_file(folder.write("x.txt", ""));
 }
 
+TEST_CASE("input file: a name with folders of elsewhere is found beside, by its last part") {
+    const test::TemporaryFolder folder;
+    const std::string here = folder.path("");
+    folder.write("room.pgm", "");
+    std::filesystem::create_directory(folder.path("maps"));
+    folder.write("maps/room.pgm", "");
+    for (const char* name :
+         {"/home/x/room.pgm", "~/maps/room.pgm", "a/room.pgm", "C:\\m\\room.pgm"})
+        CHECK_MESSAGE(named_beside(here, name) == "room.pgm", name);
+    CHECK(named_beside(here, "maps/room.pgm") == "");  // it is where it is said to be
+    CHECK(named_beside(here, folder.path("room.pgm")) == "");
+    for (const char* name : {"gone.pgm", "~/gone.pgm", "x/", "x/maps", ""})
+        CHECK_MESSAGE(named_beside(here, name) == "", name);
+}
+
 }  // namespace input_file_test

@@ -86,4 +86,41 @@ TEST_CASE("text source: a zstd file that is cut or damaged is an error, not a sh
     CHECK(error_of(damaged).starts_with("cannot read the file: "));
 }
 
+TEST_CASE("text source: what other programs pack, and what is no text, is refused by its name") {
+    const TempFolder folder;
+    const std::string tar = std::string("a.tr") + std::string(253, '\0') + "ustar  ";
+    const std::vector<std::pair<std::string, std::string>> files = {
+        {{"\xfd\x37zXZ\0\0", 7}, "xz"},
+        {"BZh91AY&SY", "bzip2"},
+        {"7z\xbc\xaf\x27\x1c", "7-Zip"},
+        {"PK\x03\x04..", "ZIP"},
+        {"\x04\x22\x4d\x18..", "lz4"},
+        {"LZIP\x01", "lzip"},
+        {"\x1f\x9d\x90", "compress"},
+        {tar, "tar"},
+        {{"]\0\0\x80\0", 5}, "lzma"},
+        {{"\xff\xfes\0", 4}, "UTF-16"},
+        {{"\xfe\xff\0s", 4}, "UTF-16"},
+        {std::string("s\0 \0r\0 \0s\0 \0r\0 \0\n\0", 18), "NUL"},
+        {{"\x89MCAP0\r\n", 8}, "recorded trace"},
+        {{"\xd4\xc3\xb2\xa1\2\0", 6}, "pcap"}};
+    for (const auto& [bytes, name] : files) {
+        CAPTURE(name);
+        write_file(folder / "in", bytes);
+        std::string told;
+        try {
+            TextSource(folder / "in");
+        } catch (const InputError& error) {
+            told = error.what();
+        }
+        CHECK(told.find(name) != told.npos);
+    }
+    write_file(folder / "in", "\xef\xbb\xbfs 1");
+    CHECK(TextSource(folder / "in").window() == "s 1");
+    write_file(folder / "in", "\xc3\xa4");  // any letters
+    CHECK(TextSource(folder / "in").window().size() == 2);
+    write_file(folder / "in", "");
+    CHECK(TextSource(folder / "in").window().empty());
+}
+
 }  // namespace text_source_test

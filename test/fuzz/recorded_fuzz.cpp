@@ -3,6 +3,7 @@
 // without a checksum, which would keep all else out. Its metrics and its text can be computed, and
 // whatever robot a record tells of has a name, as the trace holds a scenario.
 #include "sim/error.hpp"
+#include "sim/legs.hpp"
 #include "test/fuzz/fuzz_file.hpp"
 #include "traces/metrics.hpp"
 #include "traces/recorded/record_text.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any text is a scenario or an InputError.
-#include "scenario/scenario.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
 #include "sim/error.hpp"
 
 #include <cstddef>

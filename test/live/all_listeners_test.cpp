@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Runs by the clock whose doors are all open, with clients of every kind at once that do something
+// Paced runs with all kinds of listeners, with clients of every kind at once that do something
 // all the time: such a run is made again from its log. The long forms are skipped here; .ci/full
 // runs them, and the one with 50 clients under the thread sanitizer.
 #include "live/emulate/listeners.hpp"
 #include "live/player/listeners.hpp"
 #include "live/rosbridge/listener.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/live/busy_clients.hpp"
 #include "test/live/served_run.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -18,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace all_doors_test {
+namespace all_listeners_test {
 using namespace rovernet;
 using namespace rovernet::test;
 using namespace std::chrono_literals;
@@ -116,7 +117,7 @@ void check_run(Duration duration, int of_each_kind) {
     const Address any{"127.0.0.1", 0};
     ServedRun run(
         scenario,
-        {player_ports(any, robot_names(scenario), {}), rosbridge_door(any), udp_relay(any)},
+        {player_ports(any, robot_names(scenario), {}), rosbridge_listener(any), udp_relay(any)},
         2 * scenario.robots.size() + 1);
     Crowd crowd(run);
     for (int i = 0; i < of_each_kind; ++i) {
@@ -141,17 +142,17 @@ void check_run(Duration duration, int of_each_kind) {
 
 }  // namespace
 
-TEST_CASE("all doors: a run with four kinds of clients is made again from its log") {
+TEST_CASE("all listeners: a run with four kinds of clients is made again from its log") {
     check_run(3s, 1);
 }
 
-TEST_CASE("all doors: a run of 60 s with four kinds of clients is made again from its log" *
+TEST_CASE("all listeners: a run of 60 s with four kinds of clients is made again from its log" *
           doctest::skip()) {
     check_run(60s, 1);
 }
 
-TEST_CASE("all doors: a run with 52 clients of four kinds is made again from its log") {
+TEST_CASE("all listeners: a run with 52 clients of four kinds is made again from its log") {
     check_run(2s, 16);
 }
 
-}  // namespace all_doors_test
+}  // namespace all_listeners_test

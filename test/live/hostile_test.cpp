@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr std::size_t most_connections = 500;  // of a door
+constexpr std::size_t most_connections = 500;  // of all listeners
 
 /// Memory of the command [MiB], whatever comes in. The address sanitizer keeps what was freed.
 #ifdef __SANITIZE_ADDRESS__
@@ -100,7 +100,7 @@ std::string in_office() {
 }  // namespace
 
 TEST_CASE(
-    "hostile: one connection more than a door has is closed, and a place that is left is free") {
+    "hostile: a connection beyond the limit is closed, and a connection that ends makes room") {
     const Served served;
     std::list<LineClient> players;
     std::list<WebClient> pages;
@@ -122,13 +122,12 @@ TEST_CASE(
     served.end();
 }
 
-TEST_CASE(
-    "hostile: connections that say nothing make room for one that speaks, through each door") {
+TEST_CASE("hostile: silent connections make room for a client that sends, on each listener") {
     const Served served;
     const Live controlled({"--listen-json", "127.0.0.1:0", "--unix", "SOCKET"}, long_live_row());
     const int port = controlled.port();
     controlled.said("listening on /");
-    const std::string door = controlled.folder.path("door");
+    const std::string path = controlled.folder.path("socket");
     const std::string early = R"({"type":"step","n":1})";
 
     LineClient first(port);  // has spoken, though nothing that makes sense: it stays
@@ -138,12 +137,12 @@ TEST_CASE(
     Good good(served);
     std::list<LineClient> silent;
     for (std::size_t i = 0; i < most_connections + 20; ++i) {
-        i % 2 == 0 ? silent.emplace_back(port) : silent.emplace_back(door);
+        i % 2 == 0 ? silent.emplace_back(port) : silent.emplace_back(path);
         silent.back().send_bytes(R"({"type":)");  // no whole line
         silent.emplace_back(served.player);
         silent.emplace_back(served.rosbridge).send_bytes("GET / HTTP/1.1\r\n");
     }
-    LineClient by_port(port), by_path(door);
+    LineClient by_port(port), by_path(path);
     CHECK(Json::parse(by_port.ask(early)).at("code") == "hello_first");
     CHECK(Json::parse(by_path.ask(early)).at("code") == "hello_first");
     CHECK(Json::parse(first.ask(early)).at("code") == "hello_first");
@@ -157,7 +156,7 @@ TEST_CASE(
     CHECK(controlled.wait().exit == 0);
 }
 
-TEST_CASE("hostile: whatever a page sends in a request, through any door, no robot is driven") {
+TEST_CASE("hostile: whatever a page sends in a request, on any listener, no robot is driven") {
     const Served served;
     const Live controlled(
         {"--listen-json", "127.0.0.1:0", "--unix", "SOCKET", "--listen-web", "127.0.0.1:0"},
@@ -174,7 +173,7 @@ TEST_CASE("hostile: whatever a page sends in a request, through any door, no rob
                 method +
                 " / HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: " + std::to_string(body.size()) +
                 "\r\nContent-Type: text/plain\r\n\r\n" + body;
-            LineClient by_port(controlled.port()), by_path(controlled.folder.path("door"));
+            LineClient by_port(controlled.port()), by_path(controlled.folder.path("socket"));
             for (LineClient* client : {&by_port, &by_path}) {
                 client->send_bytes(bytes);
                 const std::string answer = client->bytes(100'000);  // to its end
@@ -281,12 +280,12 @@ TEST_CASE("hostile: controllers with lines that are too deep or no text") {
 }
 
 TEST_CASE("hostile: a request that comes byte by byte has to be whole in time") {
-    Doors doors;
-    WebSockets web(doors, {.for_request = 1s, .for_silence = 60s});
+    Listeners listeners;
+    WebSockets web(listeners, {.request = 1s, .silence = 60s});
     const Address address = web.listen({"127.0.0.1", 0}, {});
     std::atomic<bool> is_over = false;
     std::thread server([&] {
-        while (!is_over) doors.wait(10ms);
+        while (!is_over) listeners.wait(10ms);
         web.close(1s);
     });
     LineClient slow(address.port);

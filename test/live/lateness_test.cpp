@@ -38,7 +38,7 @@ class SetClock {
 /// Nobody comes, and little is due.
 struct Quiet : Front {
     void begin(Session& session, const Scenario&) override { session_ = &session; }
-    void opened(Connection, Entrance) override {}
+    void opened(Connection, ListenerId) override {}
     std::size_t received(Connection, std::string_view) override { return 0; }
     void closed(Connection) override {}
     Time next() const override { return next_; }
@@ -145,10 +145,10 @@ TEST_CASE("lateness: what comes in time is no time that was asked for") {
 }
 
 TEST_CASE("live: a run by the clock that was stopped says how late it was") {
-    for (const std::string door : {"--player", "--rosbridge"}) {
-        CAPTURE(door);
-        const Live live({door, "127.0.0.1:0"}, long_live_row());
-        if (door == "--player") {
+    for (const std::string option : {"--player", "--rosbridge"}) {
+        CAPTURE(option);
+        const Live live({option, "127.0.0.1:0"}, long_live_row());
+        if (option == "--player") {
             LineClient client(live.port());
             CHECK(client.bytes(32).starts_with("Player v."));  // so the clock goes
         } else {

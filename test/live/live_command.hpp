@@ -5,6 +5,7 @@
 #include "test/live/line_client.hpp"
 #include "test/live/player/wire.hpp"
 #include "test/scene/temporary_folder.hpp"
+#include "traces/fingerprint.hpp"
 
 #include <doctest/doctest.h>
 
@@ -98,7 +99,7 @@ class Live {
         options.insert(options.begin(),
                        {"live", folder.write("s.toml", file), "--out", folder.path("out")});
         const std::pair<std::string, std::string> meanings[] = {
-            {"SOCKET", folder.path("door")},
+            {"SOCKET", folder.path("socket")},
             {"PIDFILE", folder.path("pid")},
             {"PROGRAM", "python3 " + folder.write("c.py", program)}};
         for (std::string& option : options) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The command `live` with controllers at its doors, in processes and sockets of their own.
+// The command `live` with controllers at its listeners, in processes and sockets of their own.
 #include "test/live/live_command.hpp"
 #include "test/live/web_client.hpp"
 
@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// The controller that speaks through every door.
+/// Controller for every kind of connection.
 const std::string python = R"(import json, sys
 def ask(**q):
     print(json.dumps(q), flush=True)
@@ -62,7 +62,7 @@ void drive_slowly(LineClient& client, const std::string& robot, std::uint64_t se
 
 }  // namespace
 
-TEST_CASE("live: the same controller has the same run through every door, and in its replay") {
+TEST_CASE("live: the same controller has the same run on every listener, and in its replay") {
     const Live by_stdio({"--controller", "PROGRAM"}, live_row, python);
     CHECK(by_stdio.wait().exit == 0);
     const std::string fingerprint = by_stdio.fingerprint();
@@ -75,10 +75,10 @@ TEST_CASE("live: the same controller has the same run through every door, and in
 
     const Live by_path({"--unix", "SOCKET"});
     by_path.said("listening on ");
-    LineClient local(by_path.folder.path("door"));
+    LineClient local(by_path.folder.path("socket"));
     CHECK(Json::parse(drive(local)).at("fingerprint") == fingerprint);
     CHECK(by_path.wait().exit == 0);
-    CHECK_FALSE(std::filesystem::exists(by_path.folder.path("door")));
+    CHECK_FALSE(std::filesystem::exists(by_path.folder.path("socket")));
 
     const Live by_web({"--listen-web", "127.0.0.1:0"});
     WebClient web(read_port(by_web.said("listening on ws://")));
@@ -400,7 +400,7 @@ TEST_CASE("live: with --json standard output is one document, and addresses are 
     const std::string any = "127.0.0.1:0", out = folder.path("out");
     const std::vector<std::vector<std::string>> commands = {
         {"live", file, "--out", out, "--listen-json", any, "--listen-web", any, "--unix",
-         folder.path("door")},
+         folder.path("socket")},
         {"live", file, "--out", out, "--player", any, "--rosbridge", any},
         {"emulate", file, "--out", out, "--udp", any, "--player", any, "--rosbridge", any},
     };

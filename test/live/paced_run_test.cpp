@@ -44,7 +44,7 @@ class Paced {
                  [more...](Front::Carrier carrier) {
                      return std::make_unique<FrontUnderTest>(std::move(carrier), more...);
                  },
-             .farewell = [](std::size_t lost) { return fmt::format("lost {}\n", lost); }});
+             .closing_message = [](std::size_t lost) { return fmt::format("lost {}\n", lost); }});
         options.stop.go_on = [this] { return !stopped_; };
         std::promise<void> opened;
         options.say = [&](std::string_view text) {
@@ -57,9 +57,9 @@ class Paced {
     }
     ~Paced() { stopped_ = true; }
 
-    int port(std::size_t door = 0) const {
+    int port(std::size_t listener = 0) const {
         const std::string words = "listening on 127.0.0.1:";
-        return std::stoi(said_[door].substr(words.size()));
+        return std::stoi(said_[listener].substr(words.size()));
     }
     LiveResult end() { return run_.get(); }
     void stop() { stopped_ = true; }
@@ -95,7 +95,7 @@ class Busy : public Front {
   public:
     explicit Busy(Carrier carrier) : carrier_(std::move(carrier)) {}
     void begin(Session& session, const Scenario&) override { session_ = &session; }
-    void opened(Connection client, Entrance) override { tell_time(client); }
+    void opened(Connection client, ListenerId) override { tell_time(client); }
     std::size_t received(Connection from, std::string_view) override {
         tell_time(from);
         return 1;

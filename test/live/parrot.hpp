@@ -22,7 +22,7 @@ class Parrot : public Front {
         session_ = &session;
         robot_ = session.attach({NodeId{0}}, "parrot");
     }
-    void opened(Connection client, Entrance at) override {
+    void opened(Connection client, ListenerId at) override {
         clients_[client] = at;
         carrier_.send(client, "port " + std::to_string(at.port) + "\n");
     }
@@ -39,7 +39,7 @@ class Parrot : public Front {
     void tell() override {
         const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(
             session_->network().now().time_since_epoch());
-        for (const auto& [client, entrance] : clients_) {
+        for (const auto& [client, listener] : clients_) {
             carrier_.send(client, std::to_string(time.count()) + std::string(flood_, '.') + "\n");
         }
         next_ += std::chrono::milliseconds(100);
@@ -47,7 +47,7 @@ class Parrot : public Front {
 
   protected:
     Session* session_ = nullptr;
-    std::map<Connection, Entrance> clients_;
+    std::map<Connection, ListenerId> clients_;
     Time next_ = start_of_run;
 
   private:

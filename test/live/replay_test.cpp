@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 TEST_CASE("replay: a run with clients of Player and of ROS") {
     const Address any{"127.0.0.1", 0};
     ServedRun run(three_in_a_row("[access]\nmodel = \"csma\"\n"),
-                  {player_one_port(any, {"A"}, {}), rosbridge_door(any)}, 2);
+                  {player_one_port(any, {"A"}, {}), rosbridge_listener(any)}, 2);
     LineClient player(run.port("(Player, all robots)"));
     WebClient ros(run.port("(rosbridge)"));
     open_position(player);

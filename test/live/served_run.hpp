@@ -21,7 +21,7 @@ namespace rovernet::test {
 class ServedRun {
   public:
     /// Waits until it listens at so many addresses.
-    ServedRun(const Scenario& scenario, std::vector<FrontDoor> fronts, std::size_t addresses) {
+    ServedRun(const Scenario& scenario, std::vector<FrontListeners> fronts, std::size_t addresses) {
         PacedOptions options;
         options.folder = folder_.path("out");
         options.fronts = std::move(fronts);

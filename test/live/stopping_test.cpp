@@ -81,7 +81,7 @@ TEST_CASE("stopping: while a network is set up each signal ends it at once, and 
         kill(live.process().pid(), signal);
         CHECK(live.wait().exit == 130);
         CHECK(ends(program));
-        CHECK_FALSE(fs::exists(live.folder.path("door")));
+        CHECK_FALSE(fs::exists(live.folder.path("socket")));
         CHECK_FALSE(fs::exists(live.folder.path("out/summary.json")));
     }
 }

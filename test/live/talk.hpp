@@ -3,6 +3,7 @@
 
 #include "live/lockstep/lockstep.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
 #include "traces/fingerprint.hpp"
 

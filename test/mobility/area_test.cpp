@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/area.hpp"
 
+#include "mobility/planners.hpp"
+#include "sim/legs.hpp"
 #include "test/mobility/lone_mover.hpp"
 #include "test/scene/drawn_map.hpp"
 

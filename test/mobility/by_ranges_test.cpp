@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Robots that go by their range finders: wander and follow_wall.
 #include "mobility/follow_wall.hpp"
+#include "mobility/planners.hpp"
 #include "mobility/wander.hpp"
 #include "test/mobility/lone_mover.hpp"
 #include "test/scene/drawn_map.hpp"

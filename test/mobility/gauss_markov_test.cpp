@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/gauss_markov.hpp"
 
+#include "mobility/planners.hpp"
 #include "test/mobility/lone_mover.hpp"
 #include "test/scene/drawn_map.hpp"
 

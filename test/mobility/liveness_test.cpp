@@ -2,6 +2,7 @@
 // Robots at walls make few legs: simulated time goes on, whatever a robot touches.
 #include "mobility/driven.hpp"
 #include "mobility/follow_wall.hpp"
+#include "mobility/planners.hpp"
 #include "mobility/random_walk.hpp"
 #include "mobility/wander.hpp"
 #include "mobility/waypoints.hpp"

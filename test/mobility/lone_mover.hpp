@@ -2,6 +2,8 @@
 #pragma once
 
 #include "mobility/movement.hpp"
+#include "mobility/planners.hpp"
+#include "sim/legs.hpp"
 #include "sim/random.hpp"
 
 #include <cmath>

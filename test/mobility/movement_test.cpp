@@ -4,6 +4,7 @@
 #include "mobility/planners.hpp"
 #include "mobility/waypoints.hpp"
 #include "scene/scene.hpp"
+#include "sim/legs.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/waypoints.hpp"
 
+#include "mobility/planners.hpp"
 #include "network/network.hpp"
+#include "sim/legs.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

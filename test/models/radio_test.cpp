@@ -13,8 +13,7 @@ using namespace rovernet;
 using test::near;
 
 TEST_CASE("radio: the default's power is 45 mW") {
-    constexpr double microwatt = 1e-3;  // [mW], far below what a data sheet can say
-    CHECK(near(to_milliwatts(Radio{}.power).value, 45, microwatt));
+    CHECK(near(Radio{}.power.value, to_dbm({45}).value, 1e-4));  // [dB]: 1 uW of 45 mW
 }
 
 TEST_CASE("radio: the noise floors of the vectors, with the CODATA value of k") {

@@ -65,7 +65,7 @@ class Vectors {
 /// The vectors carry 15 digits, so that losses of up to 4079 dB are good to 1e-11 dB.
 inline constexpr double vector_tolerance = 1e-9;  // [dB]
 
-inline constexpr double no_give_up = std::numeric_limits<double>::infinity();
+inline constexpr double no_cutoff = std::numeric_limits<double>::infinity();
 
 /// One link, for a batch with one receiver.
 struct OneLink {
@@ -79,7 +79,7 @@ struct OneLink {
     std::uint32_t replication = 0;
 
     /// Its loss [dB] through the library.
-    double loss(const Propagation& model, double give_up = no_give_up) const {
+    double loss(const Propagation& model, double cutoff = no_cutoff) const {
         const Scene open_field;
         double out = std::numeric_limits<double>::quiet_NaN();
         const LinkBatch batch{.frequency = frequency,
@@ -91,7 +91,7 @@ struct OneLink {
                               .floor_height = {3},
                               .seed = seed,
                               .replication = replication};
-        model.loss(batch, {give_up}, {&out, 1});
+        model.loss(batch, {cutoff}, {&out, 1});
         return out;
     }
 };

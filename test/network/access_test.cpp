@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bench/aloha.hpp"
+#include "bench/broadcast_cell.hpp"
 #include "mobility/waypoints.hpp"
 #include "models/access/list.hpp"
 #include "models/propagation/disc.hpp"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace access_test {
@@ -87,6 +89,63 @@ TEST_CASE("aloha: slotted, S = G exp(-G)") {
     for (const double load : {0.1, 1.0, 2.0}) {
         const double expected = load * std::exp(-load);
         CHECK(std::abs(bench::aloha_throughput(load, 1ms, 60000) / expected - 1) < three_sigma);
+    }
+}
+
+TEST_CASE("csma: stations that begin together collide, unless each draws a backoff first") {
+    // Two stations send at one instant, 400 times. With a backoff of 0 to CW slots before every
+    // frame they collide where both draw the same: once in CW + 1 times.
+    const auto delivered = [](bool immediate, int window) {
+        Csma csma{.immediate_access = immediate};
+        csma.timing.cw_min = csma.timing.cw_max = window;
+        Room room(3, csma);
+        room.net.route(Flood{.ttl = 1});
+        for (int i = 0; i < 400; ++i) {
+            room.net.at(start_of_run + i * 1s, [&room] {
+                for (const int from : {0, 1}) room.net.broadcast(room.nodes[from], "x", 100);
+            });
+        }
+        room.net.run_for(400s);
+        // At the third robot alone: the other two may be sending.
+        return static_cast<double>(room.ledger->delivered) / (2 * 400 * 2);
+    };
+    CHECK(delivered(true, 31) == 0);
+    CHECK(delivered(false, 0) == 0);
+    for (const int window : {7, 31})
+        CHECK(std::abs(delivered(false, window) - (1 - 1.0 / (window + 1))) <
+              3 * std::sqrt(1.0 / (window + 1) / 400));
+}
+
+TEST_CASE("csma: an idle medium is waited for by a DIFS, and by the slots of a backoff") {
+    const Csma csma;
+    for (const bool immediate : {true, false}) {
+        Csma own = csma;
+        own.immediate_access = immediate;
+        std::set<std::int64_t> waits;
+        for (int i = 0; i < 200; ++i) {
+            Room room(1 + i, own);
+            room.net.route(Flood{.ttl = 1});
+            struct Begins {
+                std::set<std::int64_t>& waits;
+                KindMask kinds() const { return kind_of<Transmitted>(); }
+                void on(const Record& record, const RecordContext&) {
+                    const Time t = std::get<Transmitted>(record).time;
+                    waits.insert((t - start_of_run - 1s).count());
+                }
+            };
+            room.net.add_sink(Begins{waits});
+            room.net.at(start_of_run + 1s,
+                        [&room] { room.net.broadcast(room.nodes.back(), "x", 100); });
+            room.net.run_for(2s);
+        }
+        const auto slots = [&](std::int64_t wait) {
+            return (wait - csma.timing.difs.count()) / csma.timing.slot.count();
+        };
+        for (const std::int64_t wait : waits)
+            CHECK((wait - csma.timing.difs.count()) % csma.timing.slot.count() == 0);
+        CHECK(slots(*waits.begin()) == 0);
+        CHECK(slots(*waits.rbegin()) == (immediate ? 0 : csma.timing.cw_min));
+        if (!immediate) CHECK(waits.size() > 28);  // of 32
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "models/medium/medium.hpp"
 #include "models/propagation/list.hpp"
+#include "network/network.hpp"
 #include "sim/error.hpp"
 #include "test/scene/drawn_map.hpp"
 
@@ -22,6 +23,17 @@ using namespace rovernet;
 using namespace std::chrono_literals;
 
 namespace {
+
+/// Up where the whole metres are even; counts how often it is asked.
+struct CountedRings {
+    static constexpr std::string_view name = "counted_rings";
+    int* looks;
+    void loss(const LinkBatch& links, Db, std::span<double> out_db) const {
+        ++*looks;
+        for (std::size_t i = 0; i < out_db.size(); ++i)
+            out_db[i] = static_cast<int>(links.distance(i)) % 2 ? 1000 : 0;
+    }
+};
 
 /// Robots, the air between them, and the watch.
 struct Harness {
@@ -265,6 +277,27 @@ TEST_CASE("link watch: a model of unknown shape is looked at for as long as its 
                                                     {begin + 10s, b, a, false},
                                                     {begin + 20s, a, b, true},
                                                     {begin + 20s, b, a, true}});
+}
+
+TEST_CASE(
+    "link watch: a model of unknown shape is looked at as far as the run goes, not the legs") {
+    const Scene field;
+    Harness network{&field, {.tolerance = 1ms, .min_dwell = 100ms}};
+    int looks = 0;
+    network.add(CountedRings{&looks}, resting({}));
+    network.add(CountedRings{&looks},
+                moving(begin, {}, {1000, 0, 0}, 1'000'000s));  // 1 mm/s: a change in 1000 s
+    network.watch.start(begin);
+    // Two links, each with ten looks a second, and at most as many ahead.
+    network.run_until(begin + 20s);
+    CHECK(looks >= 2 * 10 * 20);
+    CHECK(looks <= 2 * (2 * 10 * 20 + 20));
+    constexpr int run = 10'000, changes = run / 1000, of_a_change = 20;  // [s], -, looks
+    network.run_until(begin + run * 1s);
+    CHECK(looks >= 2 * 10 * run);
+    CHECK(looks <= 2 * (2 * 10 * run + changes * of_a_change));
+    network.check(begin + run * 1s);
+    CHECK(network.take().size() == 2 * (1 + changes));
 }
 
 TEST_CASE("link watch: more robots than it can watch are refused") {

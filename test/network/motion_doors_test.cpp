@@ -12,6 +12,7 @@
 #include "mobility/wander.hpp"
 #include "mobility/waypoints.hpp"
 #include "network/network.hpp"
+#include "scene/closed_doors.hpp"
 #include "scene/doors.hpp"
 #include "test/scene/drawn_map.hpp"
 

@@ -299,7 +299,7 @@ TEST_CASE("network: a user's router and sink are plain structs, held by value or
     Network net(disc(10));
     for (const double x : {0.0, 5.0, 50.0}) net.add(robot_at(x));
     net.route(OneHop{});
-    net.trace_to(Count{&received});
+    net.add_sink(Count{&received});
     net.broadcast({0}, "F");
     net.run_for(1s);
     CHECK(received == 1);

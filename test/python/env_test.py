@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """rovernet.ParallelEnv and Env: the shapes that programs for reinforcement learning expect."""
+import copy
 import inspect
+import pickle
 import unittest
 import warnings
 
@@ -221,6 +223,53 @@ class Env(unittest.TestCase):
         both = rn.Env(FAILING, lambda session, heard: 0, step=0.5)
         both.reset()
         self.assertEqual(both.step(np.zeros((2, 2)))[2:4], (False, False))  # B is off
+
+
+def no_reward(session, heard):
+    return 0
+
+
+def no_rewards(session, heard):
+    return np.zeros(len(session.robots))
+
+
+class Copies(unittest.TestCase):
+    def test_a_copy_begins_its_episode_anew_and_goes_on_as_the_environment_does(self):
+        env = rn.Env(SPEAKING, no_reward, set={"radio.power": "10 dBm"}, seed=5, step=0.5)
+        env.reset()
+        env.step(np.ones(env.action_space.shape))
+        self.assertEqual(env.np_random.random(), np.random.default_rng(5).random())
+        for copied in (pickle.loads(pickle.dumps(env)), copy.deepcopy(env)):
+            self.assertEqual((copied.session.seed, copied.session.time), (5, 0))
+            self.assertEqual(copied.np_random.random(), copy.deepcopy(env.np_random).random())
+            self.assertEqual(copied.step(np.ones(env.action_space.shape))[1:4], (0, False, False))
+            copied.reset()
+            self.assertEqual(copied.session.seed, 6)
+        env.reset(seed=9)
+        self.assertEqual(env.np_random.random(), np.random.default_rng(9).random())
+        agents = rn.ParallelEnv(FAILING, no_rewards, step=0.5)
+        agents.reset(seed=3)
+        copied = pickle.loads(pickle.dumps(agents))
+        action = {agent: np.array([1.0, 0.0]) for agent in agents.agents}
+        self.assertEqual(str(copied.step(action)), str(agents.step(action)))
+
+    def test_a_scan_is_observed(self):
+        scene = still(2)
+        for robot in scene["robot"]:
+            robot["scan"] = {"beams": 5, "range": 12}
+        env = rn.Env(scene, no_reward, observe="scan")
+        self.assertEqual(env.observation_space, spaces.Box(0, 12, (2, 5), np.float64))
+        observation = env.reset()[0]
+        self.assertTrue(env.observation_space.contains(observation))
+        np.testing.assert_array_equal(observation, env.session.scan())
+        agents = rn.ParallelEnv(scene, no_rewards, observe="scan")
+        self.assertEqual(agents.observation_space("r0").shape, (5,))
+        np.testing.assert_array_equal(agents.reset()[0]["r1"], observation[1])
+        for observe, why in (("scam", 'expected "pose", "scan" or a function'), (no_reward, "needs an observation_space")):
+            with self.assertRaisesRegex(ValueError, why):
+                rn.Env(scene, no_reward, observe=observe)
+        with self.assertRaisesRegex(ValueError, "robot r0 has no range finder"):
+            rn.Env(still(1), no_reward, observe="scan")
 
 
 class Spaces(unittest.TestCase):

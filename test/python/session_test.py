@@ -14,7 +14,7 @@ import weakref
 import numpy as np
 
 import rovernet as rn
-from scenes import COMMAND, ROW, SEARCH, STOREYS, FolderTest, command, still
+from scenes import COMMAND, RESCUE, ROW, SEARCH, STOREYS, FolderTest, command, still
 
 CONTROLLER = """
 import base64, json, sys
@@ -111,6 +111,54 @@ class Steps(unittest.TestCase):
         session.stop("r0")
         session.step()
         np.testing.assert_allclose(session.pose[0, :2], [1.2, 1.6], atol=1e-9)
+
+    def test_a_place_without_room_is_an_error_and_a_goal_without_a_way_is_told(self):
+        session = rn.Session(RESCUE, robots=["A", "B"], step=1)
+        for x, y, why in ((-5, 3, r"off the map, which goes from \(0, 0\) to \(48, 24\) m"),
+                          (2, 6, "in a wall, or nearer to one than the radius of robot A")):
+            with self.assertRaisesRegex(ValueError, why):
+                session.place("A", x, y)
+        session.place("A", 24, 12)
+        session.go_to("B", (2, 6))
+        session.step()
+        np.testing.assert_allclose(session.pose[0, :2], [24, 12])
+        self.assertEqual(session.no_way.tolist(), [False, True])
+        session.go_to("B", (24, 12))
+        session.step()
+        self.assertEqual(session.no_way.tolist(), [False, False])
+
+    def test_range_finders_measure_what_stands_around(self):
+        scene = still(3)
+        for robot, beams in zip(scene["robot"], (3, 3, 1)):
+            robot["scan"] = {"beams": beams, "range": 20}
+        scene["robot"][0]["scan"] = [scene["robot"][0]["scan"], {"kind": "sonar", "name": "back", "angles": ["180 deg"],
+                                                                 "at": ["-0.1 m", "0 m"]}]
+        session = rn.Session(scene, robots=["r0", "r1"])
+        np.testing.assert_allclose(session.scan(), [[20, 9.8, 20], [20, 9.8, 20]])
+        np.testing.assert_allclose(session.scan("r2"), [20])
+        np.testing.assert_allclose(session.scan("r0", "back"), session.scan("r0", 1))
+        front, back = session.scanners("r0")
+        self.assertEqual((front["name"], front["range"], back["kind"]), ("laser", 20, "sonar"))
+        np.testing.assert_allclose(front["angles"], [-np.pi / 2, 0, np.pi / 2])
+        np.testing.assert_allclose(np.abs(back["angles"]), [np.pi])
+        np.testing.assert_allclose(back["places"], [[-0.1, 0]])
+        for arguments, why in ((("r0", "front"), "expected one of laser, back"), (("r0", 2), "expected 0 to 1"),
+                               (("r9",), 'no robot "r9"')):
+            with self.assertRaisesRegex(ValueError, why):
+                session.scan(*arguments)
+        with self.assertRaisesRegex(ValueError, "robot r0 has 3 beams and robot r2 1"):
+            rn.Session(scene).scan()
+        with self.assertRaisesRegex(ValueError, "robot r0 has no range finder"):
+            rn.Session(still(1)).scan()
+
+    def test_links_are_those_of_neighbors(self):
+        session = rn.Session(ROW)
+        links = session.links()
+        self.assertEqual(links.shape, (3, 3))
+        self.assertEqual(np.isnan(links).tolist(), [[True, False, True], [False, True, False], [True, False, True]])
+        for row, name in enumerate(session.names):
+            for each in session.neighbors(name):
+                self.assertEqual(links[row, session.names.index(each["name"])], each["rssi"])
 
     def test_a_robot_goes_up_the_stairs(self):
         session = rn.Session(STOREYS, robots=["courier", "landing"])

@@ -99,14 +99,14 @@ Graph grid(int columns, int rows, std::uint32_t source) {
 }
 
 /// Floods one message over the graph; the books have to balance.
-Ledger flooded(const Graph& graph, const Flood& flood, std::uint64_t seed = 1,
-               Meters range = 1.1_m) {
+Ledger flooded(const Graph& graph, const Flood& flood, std::uint64_t seed = 1, Meters range = 1.1_m,
+               const std::string& payload = "F") {
     Network net({.seed = seed, .propagation = Disc{.range = range}, .metrics = false});
     for (const Vec3 p : graph.at) net.add({.name = {}, .at = p});
     net.route(flood);
     const auto ledger = std::make_shared<Ledger>();
     net.add_sink(ledger);
-    net.broadcast({graph.source}, "F", 64);
+    net.broadcast({graph.source}, payload, 64);
     net.run_until(end_of_flood);
     ledger->balances(flood);
     CHECK(ledger->originals == 1);
@@ -267,6 +267,33 @@ TEST_CASE("flood: along a line a message goes exactly as far as its TTL") {
         const Ledger run = flooded(grid(20, 1, 0), {.ttl = ttl});
         CHECK(run.delivered == static_cast<std::uint64_t>(ttl));
         CHECK(run.transmissions == static_cast<std::uint64_t>(ttl));
+    }
+}
+
+TEST_CASE(
+    "flood: with the TTL in the payload its first byte counts, and each message has its own") {
+    const auto run = [](const Graph& graph, const Flood& flood, const std::string& payload) {
+        return flooded(graph, flood, 1, 1.1_m, payload);
+    };
+    const Flood own{.ttl = 4, .ttl_in_payload = true};
+    for (int ttl = 1; ttl <= 8; ++ttl) {
+        CHECK(run(grid(20, 1, 0), own, std::string(1, static_cast<char>(ttl)) + "F").delivered ==
+              static_cast<std::uint64_t>(ttl));
+    }
+    CHECK(run(grid(300, 1, 0), own, "\xFF").delivered == 255);
+    CHECK(run(grid(20, 1, 0), own, std::string("\0F", 2)).delivered == 1);
+    CHECK(run(grid(20, 1, 0), own, "").delivered == 4);
+    CHECK(run(grid(20, 1, 0), {.ttl = 4}, "\x02").delivered == 4);
+    // Every copy is forwarded: as many as there are walks of that length.
+    for (const auto& [graph, by_ttl, suppressed] : exact_counts()) {
+        for (const auto& [ttl, exact] : by_ttl) {
+            if (ttl > 7) continue;
+            const Ledger all =
+                run(graph, {.duplicates = Duplicates::forward, .ttl_in_payload = true},
+                    std::string(1, static_cast<char>(ttl)));
+            CHECK(all.transmissions == exact.tx);
+            CHECK(all.heard == exact.rx);
+        }
     }
 }
 

@@ -6,8 +6,9 @@
 #include "experiment/run.hpp"
 #include "models/medium/medium.hpp"
 #include "network/network.hpp"
-#include "scenario/scenario.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 

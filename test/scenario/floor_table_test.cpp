@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // [[scene.floor]]: buildings of several storeys as scenarios give them.
 #include "experiment/build.hpp"
+#include "experiment/reports/link_report.hpp"
+#include "experiment/reports/network_at.hpp"
 #include "experiment/run.hpp"
-#include "scenario/scenario.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 
@@ -127,8 +130,16 @@ TEST_CASE("floors: a link says how many floors the model counts, and what they t
     CHECK(near(asked.floor_loss.value, 14));
     const auto own = "ceiling = { per_crossing = \"15 dB\" }\n";
     const LinkReport building_link = link(ground(own) + upper() + model + robots);
-    CHECK(building_link.floors == 1);
-    CHECK(near(building_link.floor_loss.value, 15));
+    // A ceiling with a loss of its own is no floor of the model.
+    CHECK(building_link.ceilings == 1);
+    CHECK(near(building_link.ceiling_loss.value, 15));
+    CHECK(building_link.floors == 0);
+    CHECK(building_link.floor_loss.value == 0);
+    const LinkReport by_model = link(ground() + upper() + model + robots);
+    CHECK(by_model.ceilings == 1);
+    CHECK(by_model.floors == 1);
+    CHECK(near(by_model.floor_loss.value, 18.3));
+    CHECK(near(by_model.ceiling_loss.value, 18.3));
 }
 
 TEST_CASE("floors: an antenna that its height alone puts on another storey is a notice") {

@@ -3,6 +3,7 @@
 
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -156,6 +157,7 @@ ttl = 9
 duplicates = "forward"
 upgrade = false
 jitter = "7 ms"
+ttl_in_payload = true
 
 [[traffic]]
 name = "warning"

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Scenes as scenarios ask for them: materials by grey level, sidecars, heights, boxes of worlds.
+#include "experiment/reports/link_report.hpp"
 #include "experiment/run.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
+#include "sim/error.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -66,6 +70,37 @@ TEST_CASE("scene: a bare picture's walls follow the wall factor, light greys are
     const auto [there, back] = wall_db(folder.write("s.toml", pair));
     CHECK(near(there, 2 * 20));  // two metres at 0.2 dB/cm
     CHECK(there == back);
+}
+
+TEST_CASE("scene: a map with folders of another machine is said to lie beside the scenario") {
+    const TemporaryFolder folder;
+    folder.write("m.png", picture());
+    std::string elsewhere = pair;
+    elsewhere.replace(elsewhere.find("m.png"), 5, "/home/someone/maps/m.png");
+    const std::string file = folder.write("s.toml", elsewhere);
+    try {
+        load_scenario(file, {});
+        FAIL("no error");
+    } catch (const InputError& error) {
+        CHECK(error.where().line == 2);
+        CHECK(error.message() ==
+              "map: no file \"/home/someone/maps/m.png\"; \"m.png\" lies beside "
+              "this file; write map = \"m.png\"");
+    }
+}
+
+TEST_CASE("scene: a ROS map's keys of other programs are notices of the scenario, each once") {
+    const TemporaryFolder folder;
+    folder.write("m.png", picture());
+    folder.write("m.yaml", "image: m.png\nresolution: 1\norigin: [0, 0, 0]\nmap_type: occupancy\n");
+    std::string on_ros_map = pair;
+    const std::string of_picture = "map = \"m.png\"\nsize = [\"10 m\", \"1 m\"]";
+    on_ros_map.replace(on_ros_map.find(of_picture), of_picture.size(), "map = \"m.yaml\"");
+    const Scenario scenario = load_scenario(folder.write("s.toml", on_ros_map), {});
+    const auto of_map = [](const std::string& notice) {
+        return notice.ends_with("m.yaml:4:1: key \"map_type\" is not one of a map, and left out");
+    };
+    CHECK(std::count_if(scenario.notices.begin(), scenario.notices.end(), of_map) == 1);
 }
 
 TEST_CASE("scene: a material is told by its grey level, and has a loss of its own") {

@@ -3,6 +3,7 @@
 
 #include "experiment/run.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -87,8 +88,9 @@ TEST_CASE("traffic file: what it does not say of CBR over UDP is an error with i
     CHECK(error_of("set tcp_(0) [$ns_ create-connection TCP $node_(1) TCPSink $node_(2) 0]\n")
               .find("cbr.tcl:1:14: found \"$ns_\", expected [new ...]; TCP is not known") !=
           std::string::npos);
-    CHECK(error_of(with(good, "$ns_ connect $udp_(0) $null_(0)\n", "")).find("nobody to send to") !=
-          std::string::npos);
+    CHECK(
+        error_of(with(good, "$ns_ connect $udp_(0) $null_(0)\n", "")).find("has no destination") !=
+        std::string::npos);
     CHECK(error_of(with(good, "$node_(2)", "$node_(1)")).find("its own node") != std::string::npos);
     CHECK(error_of(with(good, "512", "a lot")).find("a size in bytes") != std::string::npos);
     CHECK(error_of(with(good, "at 30.0", "at 0.5")).find("stops before it starts") !=

@@ -3,8 +3,10 @@
 #include "scenario/unlikely.hpp"
 
 #include "experiment/build.hpp"
+#include "experiment/reports/link_report.hpp"
 #include "experiment/run.hpp"
 #include "scenario/memory.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/drawn_map.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -173,24 +175,44 @@ TEST_CASE(
     CHECK(s.notices[0].find("occupied_thresh") != std::string::npos);
 }
 
-TEST_CASE("unlikely: a robot in a wall of a world is a notice if the world is read leniently") {
+TEST_CASE("unlikely: a robot in a wall of a world is a notice, as Stage lets it stand there") {
     const TemporaryFolder folder;
     const std::string world =
         folder.write("w.world",
                      "model ( name \"block\" size [2 2] pose [0 0 0] )\n"
                      "position ( name \"r\" pose [0.5 0 0] wifi ( model \"friis\" ) )\n");
-    const auto build = [](const Scenario& s) {
+    const std::string over = folder.write("s.toml",
+                                          "[scene]\nworld = \"w.world\"\n[[robot]]\nname = \"r\"\n"
+                                          "at = [\"0.5 m\", \"0 m\"]\n");
+    for (const std::string& file : {world, over}) {
+        const Scenario scenario = load_scenario(file, {});
+        Network network(network_settings(scenario));
+        populate(network, scenario);
+        CHECK(std::count_if(scenario.notices.begin(), scenario.notices.end(), [](const auto& text) {
+                  return text.find("robot \"r\" at (0.5, 0) m is inside a wall") != text.npos;
+              }) == 1);
+    }
+}
+
+TEST_CASE("unlikely: the clearance that is too small is told with the digits that show it") {
+    const TemporaryFolder folder;
+    folder.write("wall.png",
+                 test::png_bytes({.width = 4, .height = 1, .rows = {{0, 255, 255, 255}}}));
+    const std::string refused = error_of([&] {
+        const Scenario s = load_scenario(folder.write("s.toml", R"([scene]
+map = "wall.png"
+size = ["4 m", "1 m"]
+[[robot]]
+name = "r"
+at = ["1.00996 m", "0.5 m"]
+radius = "0.01 m"
+)"),
+                                         {});
         Network network(network_settings(s));
         populate(network, s);
-    };
-    const std::string refused = error_of([&] { build(load_scenario(world, {})); });
-    CHECK(refused.find("inside a wall") != std::string::npos);
-    CHECK(refused.find("--lenient") != std::string::npos);
-    const Scenario lenient = load_scenario(world, {.lenient = true});
-    build(lenient);
-    CHECK(std::any_of(lenient.notices.begin(), lenient.notices.end(), [](const auto& text) {
-        return text.find("robot \"r\" at (0.5, 0) m is inside a wall") != std::string::npos;
-    }));
+    });
+    CAPTURE(refused);
+    CHECK(refused.find("its radius of 0.01 m (clearance 0.00996 m)") != std::string::npos);
 }
 
 TEST_CASE("unlikely: a robot that chooses a model has that model's parameters, and no others'") {
@@ -276,8 +298,101 @@ TEST_CASE("unlikely: [access] eifs is a word; true and false of earlier files me
         return error_of([&] { csma("eifs = " + value + "\n"); });
     };
     CHECK(error("\"ns3\"").find("s.toml:3:8: ") != std::string::npos);
-    CHECK(error("\"ns3\"").find("did you mean \"ns2\"?") != std::string::npos);
-    CHECK(error("3").find("one of \"standard\", \"ns2\", \"none\"") != std::string::npos);
+    // Words of which only the number differs mean different things.
+    for (const char* other : {"\"ns3\"", "\"ns-3\"", "\"NS3\""}) {
+        CAPTURE(other);
+        CHECK(error(other).find("did you mean") == std::string::npos);
+        CHECK(error(other).find("\"ns2\" (after each frame that was sensed and not decoded, as "
+                                "ns-2.35 has it)") != std::string::npos);
+    }
+    CHECK(error("\"NS2\"").find("did you mean \"ns2\"?") != std::string::npos);
+    CHECK(error("\"ns-2\"").find("did you mean \"ns2\"?") != std::string::npos);
+    CHECK(error("3").find("one of \"standard\" (after a frame") != std::string::npos);
+    for (const char* no : {"\"off\"", "\"no\"", "\"False\""})
+        CHECK(error(no).find("did you mean \"none\"?") != std::string::npos);
+    for (const char* yes : {"\"on\"", "\"true\"", "\"Yes\""})
+        CHECK(error(yes).find("did you mean \"standard\"?") != std::string::npos);
+    CHECK(error("off").find("s.toml:3:8: found off without quotes; did you mean false?") !=
+          std::string::npos);
+}
+
+TEST_CASE("traffic: robots that speak at the same instants are noticed where frames collide") {
+    const TemporaryFolder folder;
+    const auto noted = [&](const std::string& head, const std::string& a, const std::string& b) {
+        const std::string robots =
+            "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
+            "[[robot]]\nname = \"B\"\nat = [\"1 m\", \"0 m\"]\n";
+        const std::string flow = "[[traffic]]\nsize = \"9 B\"\nfrom = ";
+        const Scenario scenario =
+            loaded(folder, head + robots + flow + "\"A\"\n" + a + flow + "\"B\"\n" + b);
+        return std::ranges::count_if(scenario.notices, [](const std::string& text) {
+            return text.find("begin messages at the same instants") != std::string::npos;
+        });
+    };
+    const std::string csma = "[reception]\nmodel = \"collision\"\n[access]\nmodel = \"csma\"\n";
+    const std::string aloha = "[reception]\nmodel = \"collision\"\n[access]\nmodel = \"aloha\"\n";
+    const std::string each_second = "start = \"1 s\"\nevery = \"1 s\"\n",
+                      later = "start = \"7 s\"\nevery = \"1 s\"\n",
+                      between = "start = \"1.002 s\"\nevery = \"1 s\"\n",
+                      to_b = "kind = \"unicast\"\nto = \"B\"\n",
+                      to_a = "kind = \"unicast\"\nto = \"A\"\n";
+    for (const std::string& head : {csma, aloha}) {
+        CHECK(noted(head, each_second, each_second) == 1);
+        CHECK(noted(head, each_second, later) == 1);
+        CHECK(noted(head, each_second, between) == 0);
+        CHECK(noted(head, "start = \"1 s\"\n", "start = \"1 s\"\n") == 1);
+        CHECK(noted(head, "start = \"1 s\"\n", "start = \"2 s\"\n") == 0);
+    }
+    // csma repeats a unicast after a backoff, and may draw one before every frame.
+    CHECK(noted(csma, to_b + each_second, to_a + each_second) == 0);
+    CHECK(noted(aloha, to_b + each_second, to_a + each_second) == 1);
+    CHECK(noted(csma + "immediate_access = false\n", each_second, each_second) == 0);
+    CHECK(noted(csma + "eifs = \"ns2\"\n", each_second, each_second) == 0);
+    CHECK(noted(csma + "eifs = \"ns2\"\nimmediate_access = true\n", each_second, each_second) == 1);
+    CHECK(noted("[access]\nmodel = \"csma\"\n", each_second, each_second) == 0);  // no collisions
+    // Within the time in which neither senses the other, or within a frame.
+    CHECK(noted(csma, each_second, "start = \"1.00001 s\"\nevery = \"1 s\"\n") == 1);
+    CHECK(noted(csma, each_second, "start = \"1.000017 s\"\nevery = \"1 s\"\n") == 1);
+    CHECK(noted(csma, each_second, "start = \"1.000019 s\"\nevery = \"1 s\"\n") == 0);
+    CHECK(noted(aloha, each_second, "start = \"1.0001 s\"\nevery = \"1 s\"\n") == 1);
+    // Other periods; a unicast that is repeated still takes a broadcast with it.
+    CHECK(noted(csma, each_second, "start = \"1 s\"\nevery = \"500 ms\"\n") == 1);
+    CHECK(noted(csma, each_second, "start = \"1 s\"\nevery = \"1.5 s\"\n") == 1);
+    CHECK(noted(csma, each_second, "start = \"1 s\"\nevery = \"1.01 s\"\n") == 0);
+    CHECK(noted(csma, each_second, to_a + each_second) == 1);
+    // One that has ended meets nobody.
+    for (const char* end : {"count = 3\n", "stop = \"5 s\"\n"})
+        CHECK(noted(csma, each_second + end, "start = \"5 s\"\nevery = \"1 s\"\n") == 0);
+    CHECK(noted(csma, each_second + "stop = \"5.1 s\"\n", "start = \"5 s\"\nevery = \"1 s\"\n") ==
+          0);
+    CHECK(noted(csma, each_second + "count = 5\n", "start = \"5 s\"\n") == 1);
+}
+
+TEST_CASE("words: a suggestion is a word of the same number, and off stands for none") {
+    const TemporaryFolder folder;
+    const auto error = [&](const std::string& text) {
+        return error_of([&] { loaded(folder, text + robot_a); });
+    };
+    const auto has = [&](const std::string& text, const std::string& part) {
+        const std::string found = error(text);
+        CAPTURE(found);
+        CHECK(found.find(part) != std::string::npos);
+    };
+    for (const char* other : {"802.11n", "802.11"})
+        CHECK(error(fmt::format("[access]\nstandard = \"{}\"\n", other)).find("did you mean") ==
+              std::string::npos);
+    has("[access]\nstandard = \"80211G\"\n", "did you mean \"802.11g\"?");
+    for (const char* slip : {"raytrace_2070", "raytrace_207", "raytrace2007"})
+        has(fmt::format("[propagation]\nmodel = \"{}\"\n", slip),
+            "did you mean \"raytrace_2007\"?");
+    CHECK(error("[propagation]\nmodel = \"raytrace_2008\"\n").find("did you mean") ==
+          std::string::npos);
+    has("[shadowing]\nmodel = \"off\"\n", "did you mean \"none\"?");
+    has("[shadowing]\nmodel = false\n", "model: found false; expected one of ");
+    has("[shadowing]\nmodel = false\n", "did you mean \"none\"?");
+    has("[metrics]\nreach = \"on\"\n", "did you mean true, without quotes?");
+    has("[metrics]\nreach = off\n", "s.toml:2:9: found off without quotes; did you mean false?");
+    has("[access]\nmodel = csma\n", "found csma without quotes; did you mean \"csma\"?");
 }
 
 }  // namespace unlikely_test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/doors.hpp"
 
+#include "scene/closed_doors.hpp"
+#include "scene/scene.hpp"
 #include "test/scene/drawn_map.hpp"
 
 #include <doctest/doctest.h>

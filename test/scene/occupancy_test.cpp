@@ -47,6 +47,21 @@ Cells rgba_cells(const std::vector<png_byte>& rgba, const std::string& lines) {
         .cells;
 }
 
+/// Notices of a map of one black pixel whose YAML file ends in these lines, without its folder.
+std::vector<std::string> notices_of(const std::string& lines) {
+    const TemporaryFolder folder;
+    folder.write("map.pgm", "P2 1 1 255 0");
+    std::vector<std::string> notices;
+    read_ros_map(
+        folder.write("map.yaml", "image: map.pgm\nresolution: 0.05\norigin: [1, 2, 0]\n" + lines),
+        notices);
+    for (std::string& notice : notices) {
+        CHECK(notice.starts_with(folder.path("")));
+        notice.erase(0, folder.path("").size());
+    }
+    return notices;
+}
+
 /// "line:column message" of the error in this YAML file, "" if there is none.
 std::string error_of(const std::string& yaml) {
     const TemporaryFolder folder;
@@ -172,8 +187,49 @@ TEST_CASE("ROS map: errors name the line, the column and what to do") {
     CHECK(contains(error_of(good + "free_thresh: .nan\n"), "4:14 free_thresh is \".nan\""));
     CHECK(contains(error_of(good + "free_thresh: -0.1\n"), "from 0 to 1"));
     CHECK(contains(error_of(good + "occupied_thresh: 65\n"), "from 0 to 1"));
-    CHECK(contains(error_of(good + "free_thresh: 0.7\n"), "4:14 occupied_thresh 0.65 and"));
     CHECK(contains(error_of(good + "free_thresh: 0.5\noccupied_thresh: 0.5\n"), "5:18 occupied"));
+}
+
+TEST_CASE("ROS map: a key of another program is a notice, a misspelt one an error") {
+    using Notices = std::vector<std::string>;
+    CHECK(notices_of("") == Notices{});
+    CHECK(notices_of("map_type: occupancy\n") ==
+          Notices{"map.yaml:4:1: key \"map_type\" is not one of a map, and left out"});
+    CHECK(notices_of("name: hall\nframe_id: map\nunknown_thresh: {a: [1]}\n").size() == 3);
+    CHECK(notices_of("occupied_thresh: 0.65\noccupied_threshold: 0.9\n").size() == 1);
+    CHECK(notices_of("{1: 2, [a]: b}: 3\n").size() == 1);
+    CHECK(contains(error_of(good + "free_tresh: 0.1\n"), "did you mean \"free_thresh\"?"));
+    CHECK(contains(error_of(good + "map_type: a\nmap_type: b\n"), "a second time"));
+    CHECK(contains(error_of("image: map.pgm\nresolutoin: 1\norigin: [0, 0, 0]"),
+                   "2:1 unknown key \"resolutoin\""));
+}
+
+TEST_CASE("ROS map: a threshold that the file does not have gives way, with a notice") {
+    CHECK(notices_of("occupied_thresh: 0.05\n") ==
+          std::vector<std::string>{
+              "map.yaml:4:18: no key free_thresh, whose default 0.25 does not go with "
+              "occupied_thresh 0.05: 0.05 taken, too"});
+    CHECK(notices_of("free_thresh: 0.7\n").size() == 1);
+    CHECK(notices_of("occupied_thresh: 0.3\n").empty());
+    CHECK(notices_of("free_thresh: 0.6\n").empty());
+    // occ = 1 - gray / 255: 243 -> 0.04706, 242 -> 0.05098, 77 -> 0.69804, 76 -> 0.70196
+    CHECK(cells_of({243, 242, 0}, "occupied_thresh: 0.05") == Cells{free_cell, occupied, occupied});
+    CHECK(cells_of({77, 76, 255}, "free_thresh: 0.7") == Cells{free_cell, occupied, free_cell});
+}
+
+TEST_CASE("ROS map: a picture with a path of another machine is said to lie beside the file") {
+    const std::string rest = "\nresolution: 1\norigin: [0, 0, 0]\n";
+    for (const char* path : {"/home/someone/maps/map.pgm", "~/maps/map.pgm", "maps/map.pgm",
+                             "'C:\\maps\\map.pgm'", "../map.pgm"}) {
+        const std::string error = error_of(std::string("image: ") + path + rest);
+        CHECK_MESSAGE(contains(error, "1:8 image"), error);
+        CHECK_MESSAGE(contains(error,
+                               "no such file; \"map.pgm\" lies beside this file; write "
+                               "image: map.pgm"),
+                      error);
+    }
+    CHECK_FALSE(contains(error_of("image: ~/gone.pgm" + rest), "beside"));
+    CHECK(contains(error_of("image: maps/" + rest), "no such file"));
 }
 
 TEST_CASE("ROS map: resolution and origin are checked") {
@@ -199,8 +255,8 @@ TEST_CASE("ROS map: what is no YAML, or no file, is said with its place") {
     CHECK(contains(error_of(""), "no \"key: value\" lines"));
     CHECK(contains(error_of("- image\n"), "no \"key: value\" lines"));
     CHECK(contains(error_of("just words"), "no \"key: value\" lines"));
-    CHECK(contains(error_of("{1: 2, [a]: b}"), "unknown key"));
-    CHECK(contains(error_of("[a]: b"), "unknown key"));
+    CHECK(contains(error_of("{1: 2, [a]: b}"), "no key \"image\""));
+    CHECK(contains(error_of("[a]: b"), "no key \"image\""));
     CHECK(error_of(std::string(5000, '[')) != "");
     CHECK(error_of("\xff\xfe\x00") != "");
     CHECK(contains(error_of(std::string(2'000'000, ' ')), "more than a megabyte"));

@@ -5,7 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <thread>
 #include <vector>
@@ -15,11 +17,11 @@ using namespace rovernet;
 
 namespace {
 
-constexpr int side = 200;      // [cells]
-constexpr double cell = 0.02;  // [m]
+constexpr int side = 200;           // [cells]
+constexpr double cell_side = 0.02;  // [m]
 
 /// A map with one straight wall through its middle at an angle, drawn by the centres of its cells.
-OccupancyGrid with_wall(double thickness, double angle) {
+OccupancyGrid with_wall(double thickness, double angle, double cell = cell_side) {
     OccupancyGrid grid;
     grid.columns = grid.rows = side;
     grid.cell_width = grid.cell_height = cell;
@@ -32,21 +34,53 @@ OccupancyGrid with_wall(double thickness, double angle) {
     return grid;
 }
 
-constexpr Vec3 middle{side * cell / 2 + 1e-4, side* cell / 2 + 1e-4, 0};
+constexpr Vec3 middle{side * cell_side / 2 + 1e-4, side* cell_side / 2 + 1e-4, 0};
 
 }  // namespace
 
-TEST_CASE("wall thickness: that of a straight wall at any angle, within 8 % and its outline") {
+TEST_CASE("wall thickness: that of a straight wall at any angle, within a cell") {
     for (const double thickness : {0.1, 0.3, 0.6}) {
         for (int degrees = 0; degrees < 180; degrees += 5) {
             CAPTURE(thickness);
             CAPTURE(degrees);
             const Scene scene(with_wall(thickness, degrees * std::numbers::pi / 180));
-            const double found = scene.wall_thickness(middle).value;
-            constexpr double most_over = 1.0824;  // 1 / cos 22.5 degrees
-            CHECK(found >= thickness - 2 * cell);
-            CHECK(found <= thickness * most_over + 2 * cell * std::numbers::sqrt2);
+            CHECK(std::abs(scene.wall_thickness(middle).value - thickness) <= 1.01 * cell_side);
         }
+    }
+}
+
+TEST_CASE("wall thickness: 12 cm in cells of 5 cm are more than 10 cm, however the wall slants") {
+    for (int degrees = 0; degrees < 180; ++degrees) {
+        CAPTURE(degrees);
+        const double angle = degrees * std::numbers::pi / 180;
+        const Scene scene(with_wall(0.12, angle, 0.05));
+        double thinnest = 1;
+        for (double along = -1; along < 1; along += 0.03) {
+            const double x = along * std::cos(angle), y = along * std::sin(angle);
+            const double found =
+                scene.wall_thickness({side * 0.05 / 2 + x, side * 0.05 / 2 + y}).value;
+            if (found > 0) thinnest = std::min(thinnest, found);
+        }
+        CHECK(thinnest >= 0.1);
+        CHECK(thinnest < 0.15);
+    }
+}
+
+TEST_CASE("wall thickness: where a thin wall goes on as a thick one, each has its own") {
+    OccupancyGrid grid = with_wall(0, 0);
+    const auto draw = [&](int from, int to, int cells) {
+        for (int column = from; column < to; ++column)
+            for (int row = 100; row < 100 + cells; ++row)
+                grid.cells[static_cast<std::size_t>(row * side + column)] = Cell::occupied;
+    };
+    draw(20, 100, 4);
+    draw(100, 180, 5);
+    const Scene scene(grid);
+    const double y = 100.5 * cell_side;
+    for (int column = 30; column < 170; ++column) {
+        CAPTURE(column);
+        const double found = scene.wall_thickness({(column + 0.5) * cell_side, y}).value;
+        CHECK(found == doctest::Approx(column < 100 ? 4 * cell_side : 5 * cell_side));
     }
 }
 

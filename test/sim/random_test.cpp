@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim/random.hpp"
 
+#include "network/neighbour.hpp"
+
 #include <boost/math/distributions/normal.hpp>
 #include <doctest/doctest.h>
 

@@ -36,16 +36,12 @@ TEST_CASE("power to level: ten times the power is 10 dB, exactly") {
     CHECK(to_dbm({1}).value == 0);
     CHECK(to_dbm({10}).value == 10);
     CHECK(to_dbm({1000}).value == 30);
-    CHECK(to_milliwatts({0}).value == 1);
-    CHECK(to_milliwatts({30}).value == 1000);
 }
 
-TEST_CASE("level to power and back again is the same level") {
+TEST_CASE("power to level is the inverse of ten to the power of a tenth of the level") {
     for (double level = -150; level <= 60; level += 0.37) {
-        const double power = to_milliwatts({level}).value;
         CAPTURE(level);
-        CHECK(near(to_dbm({power}).value, level, round_trip * 10));
-        CHECK(near(to_milliwatts(to_dbm({power})).value / power, 1, round_trip));
+        CHECK(near(to_dbm({std::pow(10, level / 10)}).value, level, round_trip * 10));
     }
 }
 

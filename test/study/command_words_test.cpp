@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/command_words.hpp"
 
+#include "scenario/scenario_file.hpp"
 #include "test/cli/process.hpp"
 
 namespace command_words_test {

@@ -2,9 +2,9 @@
 // Whether intervals cover the truth as often as they say: studies drawn anew, with keyed draws,
 // from the delivery ratios of examples/density itself and from shapes that are hard for intervals.
 #include "sim/random.hpp"
+#include "study/precision.hpp"
 #include "study/statistics/bounded_mean.hpp"
 #include "study/statistics/interval.hpp"
-#include "study/precision.hpp"
 #include "study/statistics/star_bets.hpp"
 #include "test/study/gaffke.hpp"
 #include "test/study/listed_numbers.hpp"

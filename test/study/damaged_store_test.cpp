@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "sim/error.hpp"
 #include "study/advise/compare.hpp"
+#include "study/advise/study_chart.hpp"
 #include "study/explain.hpp"
 #include "study/merge.hpp"
 #include "study/results.hpp"
 #include "study/results_csv.hpp"
-#include "study/advise/study_chart.hpp"
 #include "study/sweep.hpp"
 #include "test/scene/temporary_folder.hpp"
 

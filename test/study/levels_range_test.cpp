@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every number of a file of levels has its range: what is outside is told with its place.
+#include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 #include "study/calibration/known_links.hpp"
 #include "test/scene/temporary_folder.hpp"

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "study/measurement.hpp"
 
+#include "mobility/kept_planners.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 #include "study/study.hpp"
 #include "test/scene/temporary_folder.hpp"
+#include "traces/fingerprint.hpp"
 
 #include <doctest/doctest.h>
 

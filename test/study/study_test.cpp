@@ -3,6 +3,7 @@
 
 #include "experiment/build.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 

@@ -2,6 +2,7 @@
 #include "study/sweep.hpp"
 
 #include "experiment/version.hpp"
+#include "mobility/kept_planners.hpp"
 #include "sim/error.hpp"
 #include "study/explain.hpp"
 #include "study/merge.hpp"
@@ -122,6 +123,47 @@ TEST_CASE("sweep: the results are the same bytes from one worker and from five")
     one.sweep({.workers = 1});
     five.sweep({.workers = 5});
     CHECK(one.csv() == five.csv());
+}
+
+TEST_CASE("sweep: ways of a replication are searched for once, by any number of workers") {
+    const std::string walk = R"([scenario]
+duration = "60 s"
+[scene]
+map = "wall.pgm"
+size = ["20 m", "20 m"]
+[[robot]]
+name = "r"
+count = 4
+radius = "0.2 m"
+place = { model = "uniform", area = [["1 m", "1 m"], ["19 m", "19 m"]] }
+move = { model = "random_waypoint" }
+[[traffic]]
+from = "r0"
+size = "20 B"
+[study]
+replications = 5
+vary."propagation.model" = ["friis", "log_distance", "two_ray"]
+)";
+    const auto swept = [&](std::size_t workers, bool on_one) {
+        const Bench bench(walk);
+        std::string wall = "P1 20 20\n";
+        for (int row = 0; row < 20; ++row)
+            for (int column = 0; column < 20; ++column)
+                wall += column == 10 && row > 1 ? "1 " : "0 ";
+        bench.folder.write("wall.pgm", wall);
+        const SweepResult result =
+            bench.sweep({.workers = workers, .replication_on_one_worker = on_one});
+        CHECK(result.progress.finished == 15);
+        return std::pair(result.progress.searches, bench.csv());
+    };
+    const auto [once, csv] = swept(1, false);
+    CHECK(once > 20);
+    for (const std::size_t workers : {2U, 3U, 4U, 8U}) {
+        const auto [searches, same_csv] = swept(workers, true);
+        CHECK(searches == once);
+        CHECK(same_csv == csv);
+        CHECK(swept(workers, false).second == csv);
+    }
 }
 
 TEST_CASE("sweep: the same replication at two points has the same robots in the same places") {

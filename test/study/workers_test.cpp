@@ -8,11 +8,14 @@
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace workers_test {
 using namespace rovernet;
@@ -26,7 +29,8 @@ std::map<std::uint64_t, TaskEnd> all(Workers& workers, std::uint64_t tasks) {
     std::map<std::uint64_t, TaskEnd> ends;
     std::uint64_t next = 0;
     while (ends.size() < tasks) {
-        while (next < tasks && workers.has_idle()) workers.begin(next++);
+        for (const std::size_t idle : workers.idle())
+            if (next < tasks) workers.begin(idle, next++);
         const auto end = workers.wait(long_enough_s);
         REQUIRE(end);
         ends.insert({end->task, *end});
@@ -133,12 +137,12 @@ TEST_CASE("workers: a task that wants too much memory dies alone") {
 
 TEST_CASE("workers: one that died between its tasks is found and replaced") {
     Workers workers(1, [](std::uint64_t) { return std::to_string(getpid()); }, {});
-    workers.begin(0);
+    workers.begin(0, 0);
     const pid_t pid = std::stoi(workers.wait(long_enough_s)->text);
     kill(pid, SIGKILL);
-    workers.begin(1);
+    workers.begin(0, 1);
     CHECK(workers.wait(long_enough_s)->kind == TaskEnd::died);
-    workers.begin(1);
+    workers.begin(0, 1);
     CHECK(workers.wait(long_enough_s)->kind == TaskEnd::done);
 }
 
@@ -149,10 +153,10 @@ TEST_CASE("workers: waiting ends when its time is over, and there is nothing to 
                     },
                     {});
     CHECK_FALSE(workers.wait(0.01));
-    workers.begin(0);
+    workers.begin(0, 0);
     CHECK_FALSE(workers.wait(0.05));
     CHECK(workers.busy() == 1);
-    CHECK_FALSE(workers.has_idle());
+    CHECK(workers.idle().empty());
 }
 
 TEST_CASE("workers: they do not outlive the process that they work for") {
@@ -167,7 +171,7 @@ TEST_CASE("workers: they do not outlive the process that they work for") {
                             for (;;) pause();
                         },
                         {});
-        workers.begin(0);
+        workers.begin(0, 0);
         for (;;) pause();
     }
     pid_t worker = 0;
@@ -183,6 +187,22 @@ TEST_CASE("workers: they do not outlive the process that they work for") {
         std::this_thread::sleep_for(10ms);
     }
     CHECK(gone);
+}
+
+TEST_CASE("workers: a task is made by the worker that it is given to") {
+    Workers workers(3, [](std::uint64_t) { return std::to_string(getpid()); }, {});
+    std::map<std::size_t, std::set<std::string>> processes;
+    for (int i = 0; i < 9; ++i) {
+        const std::size_t worker = static_cast<std::size_t>(i) % 3;
+        CHECK(workers.idle() == std::vector<std::size_t>{0, 1, 2});
+        workers.begin(worker, 0);
+        CHECK(workers.idle().size() == 2);
+        std::optional<TaskEnd> end;
+        while (!end) end = workers.wait(1);
+        processes[worker].insert(end->text);
+    }
+    CHECK(processes.size() == 3);
+    for (const auto& [worker, pids] : processes) CHECK(pids.size() == 1);
 }
 
 }  // namespace workers_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/legs.hpp"
 #include "sim/record.hpp"
 #include "sim/sink.hpp"
 

@@ -54,6 +54,15 @@ TEST_CASE("advise: it prints verdicts, a sentence, and the choice for a scenario
         CAPTURE(part);
         CHECK(text.out.find(part) != std::string::npos);
     }
+    // Keys of other models are left out, those of the file's, too.
+    const Ended other = command(
+        advised.folder, advised.words({"--set", "propagation.coefficient=30", "--as-given"}));
+    for (const char* key : {"coefficient", "capture_ratio", "interference_cut"}) {
+        CAPTURE(key);
+        const bool takes = other.out.find("[reception]\nmodel = \"sinr\"") != std::string::npos;
+        if (!takes || std::string(key) != "interference_cut")
+            CHECK(other.out.find(key) == std::string::npos);
+    }
     // The tables are a part of a scenario: with them it runs.
     const std::string tables = text.out.substr(text.out.find("[propagation]"));
     advised.folder.write("chosen.toml", talkers + tables);
@@ -100,17 +109,24 @@ TEST_CASE("advise: a budget that is spent and Ctrl-C end it with the interim ver
         words.insert(words.end(), more.begin(), more.end());
         return words;
     };
-    const Ended spent = command(advised.folder, strict({"--budget", "300ms"}));
-    CHECK(spent.exit == 0);
-    CHECK(spent.out.find("Interim: Take ") != std::string::npos);
-    CHECK(spent.out.find("Open when it was stopped") != std::string::npos);
-    CHECK(spent.err.find("the budget of 300ms is spent") != std::string::npos);
     const Process begun(advised.folder, strict({"--store", advised.store()}));
     while (runs_in(advised.store()) < 30) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     begun.interrupt();
     const Ended ended = begun.wait();
     CHECK(ended.exit == 130);
     CHECK(ended.out.find("Interim: Take ") != std::string::npos);
+    CHECK(ended.out.find("Open when it was stopped") != std::string::npos);
+    // Nothing was compared yet: nothing is advised, and nothing is offered.
+    const Ended nothing = command(advised.folder, strict({"--budget", "1us"}));
+    CHECK(nothing.exit == 0);
+    CHECK(nothing.out.find("Interim: nothing is known yet") != std::string::npos);
+    CHECK(nothing.err.find("the budget of 1us is spent") != std::string::npos);
+    CHECK(nothing.out.find("Take ") == std::string::npos);
+    CHECK(nothing.out.find("[propagation]") == std::string::npos);
+    CHECK(nothing.out.find("friis + sinr             undecided  -  -     -") != std::string::npos);
+    const Json none = json_of(advised.folder, strict({"--budget", "1us"}));
+    CHECK(none["choice"].is_null());
+    CHECK(none["candidates"][0]["bias"].is_null());
     CHECK(command(advised.folder, strict({"--budget", "0 s"})).err.find("expected a time > 0") !=
           std::string::npos);
     CHECK(command(advised.folder, strict({"--budget", "soon"})).exit == 2);

@@ -53,6 +53,13 @@ TEST_CASE("probe: the text names the cliff, the flip and the message that is los
     CHECK(ended.out.find("up -> down") != std::string::npos);
     CHECK(ended.out.find("2 cliffs") != std::string::npos);
     CHECK(ended.out.find("1 um north of the sender") != std::string::npos);
+    // A disc has no levels: links are told by their distance.
+    CHECK(ended.out.find(" dB ") == ended.out.find(" dB per mm, then"));
+    CHECK(ended.out.find("10 m") != std::string::npos);
+    const Json all = json_of(folder, {"probe", folder.path("rim.toml")});
+    CHECK(all["perturbations"][0]["worst_db"].is_null());
+    CHECK(all["effects"][0]["change_db"].is_null());
+    CHECK(all["effects"][0]["distance_m"] == 10);
 }
 
 TEST_CASE(

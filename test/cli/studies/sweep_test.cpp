@@ -127,7 +127,7 @@ TEST_CASE("sweep: a precision that is not reached ends with 4 and says what was,
     CHECK(coarse.exit == 0);
 }
 
-TEST_CASE("results: intervals are by STaR-Bets, betting or t, as asked, and JSON says which") {
+TEST_CASE("results: intervals are by STaR-Bets, a betting confidence sequence or t, as asked") {
     const Place place;
     json_of(place.folder, {"sweep", place.file, "--replications", "6"});
     const auto first = [&](std::vector<std::string> more) {
@@ -259,6 +259,45 @@ TEST_CASE("sweep: a worker that is killed costs nothing, as its run is made once
     CHECK(finished(place.store()).size() == 15);
 }
 
+TEST_CASE("compare: ways around walls are searched for once, by any number of workers") {
+    const TemporaryFolder folder;
+    std::string wall = "P1 20 20\n";
+    for (int row = 0; row < 20; ++row)
+        for (int column = 0; column < 20; ++column) wall += column == 10 && row > 1 ? "1 " : "0 ";
+    folder.write("wall.pbm", wall);
+    const std::string file = folder.write("s.toml", R"([scenario]
+duration = "60 s"
+[scene]
+map = "wall.pbm"
+size = ["20 m", "20 m"]
+[[robot]]
+name = "r"
+count = 4
+radius = "0.2 m"
+place = { model = "uniform", area = [["1 m", "1 m"], ["19 m", "19 m"]] }
+move = { model = "random_waypoint" }
+[[traffic]]
+from = "r0"
+size = "20 B"
+[study]
+replications = 5
+)");
+    std::string once;
+    for (const char* workers : {"1", "2", "4"}) {
+        const Ended ended =
+            command(folder, {"compare", file, "--models", "friis,log_distance,two_ray", "--workers",
+                             workers, "--verbose"});
+        REQUIRE(ended.exit == 0);
+        const auto end = ended.err.find(" ways around walls searched for");
+        REQUIRE(end != std::string::npos);
+        const auto begin = ended.err.find_last_of("\n ", end - 1) + 1;
+        const std::string searches = ended.err.substr(begin, end - begin);
+        if (once.empty()) once = searches;
+        CHECK(searches == once);
+        CHECK(std::stoi(searches) > 10);
+    }
+}
+
 TEST_CASE("sweep: two at once on one store, and the second is told so") {
     const Place place;
     const Process first(place.folder, {"sweep", place.file, "--set", "scenario.duration=1e8",
@@ -332,7 +371,7 @@ TEST_CASE("results: an unfinished study says so, and a failed run is in its row"
           std::string::npos);
     CHECK(command(place.folder, {"explain", place.store(), "0/0"}).err.find(said) !=
           std::string::npos);
-    const std::string picture = place.folder.path("p.vl.json");
+    const std::string picture = place.folder.path("p.gp");
     command(place.folder,
             {"plot", place.store(), "-x", "range", "-y", "delivery_ratio", "-o", picture});
     std::ifstream file(picture);
@@ -417,6 +456,81 @@ TEST_CASE("compare: of a sweep's store it takes the points that it compares, and
     CHECK(finished(place.store()).size() == before.size() + 4);
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "5"}).exit == 0);
     CHECK(finished(place.store()).size() == 25);
+}
+
+TEST_CASE("compare: of a store it takes the values that are there, and makes those that are not") {
+    const Place place;
+    CHECK(command(place.folder, {"sweep", place.file, "--replications", "3"}).exit == 0);
+    const std::size_t before = finished(place.store()).size();
+    const auto compare = [&](const std::string& ranges) {
+        return command(place.folder,
+                       {"compare", place.file, "--vary", "propagation.range=" + ranges,
+                        "--replications", "3", "--store", place.store()});
+    };
+    const Ended mixed = compare("10 m,60 m");
+    CAPTURE(mixed.err);
+    CHECK(mixed.exit == 0);
+    CHECK(finished(place.store()).size() == before + 3);
+    CHECK(compare("60 m,30 m").exit == 0);
+    CHECK(finished(place.store()).size() == before + 3);
+    const Json all = json_of(place.folder, {"results", place.store()});
+    CHECK(all["missing"] == 0);
+    CHECK(all["runs"] == before + 3);
+    // A key that the store does not vary, and whose value in it is the file's.
+    const Ended other = command(
+        place.folder, {"compare", place.file, "--vary", "routing.ttl=3,1", "--set",
+                       "propagation.range=10 m", "--replications", "3", "--store", place.store()});
+    CAPTURE(other.err);
+    CHECK(other.exit == 0);
+    const Json joined = json_of(place.folder, {"results", place.store(), "--group-by", "ttl,range",
+                                               "--metric", "delivery_ratio"});
+    CHECK(joined["rows"].size() == 7);
+}
+
+TEST_CASE("compare: of a store with more replications it takes those that are asked for") {
+    const Place place;
+    CHECK(command(place.folder, {"sweep", place.file, "--replications", "6"}).exit == 0);
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"compare", place.file,
+                                          "--vary",  "propagation.range=10 m,15 m,20 m,25 m,30 m",
+                                          "--store", place.store()};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    const Json four = json_of(place.folder, with({"--replications", "4"}));
+    for (const Json& row : four["rows"]) CHECK(row["n"] == 4);
+    CHECK(command(place.folder, with({"--replications", "4"}))
+              .err.find("has up to 6 replications; compared are the first 4, as asked for "
+                        "(--replications 6 takes all)") != std::string::npos);
+    const Ended all = command(place.folder, with({"--replications", "6"}));
+    CHECK(all.err.find("compared are the first") == std::string::npos);
+    CHECK(finished(place.store()).size() == 30);
+}
+
+TEST_CASE("compare: what it takes for granted is said, or can be asked for") {
+    const Place place;
+    const auto with = [&](const std::string& vary, std::vector<std::string> more) {
+        std::vector<std::string> words = {"compare", place.file, "--replications",
+                                          "8",       "--vary",   vary};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    const std::string ttl = "routing.ttl=1,3";
+    const auto notices = [&](const std::vector<std::string>& more) {
+        return command(place.folder, with(ttl, more)).err;
+    };
+    const char* other = "are by Student's t, not by STaR-Bets as asked for";
+    CHECK(notices({"--interval", "star", "--metric", "transmissions"}).find(other) !=
+          std::string::npos);
+    CHECK(notices({"--interval", "star"}).find(other) == std::string::npos);
+    CHECK(notices({"--metric", "transmissions"}).find(other) == std::string::npos);
+    // The first value is the baseline, of models, too.
+    CHECK(json_of(place.folder, with("propagation.model=friis,disc", {}))["baseline"] == "friis");
+    CHECK(json_of(place.folder, with("propagation.model=disc,friis", {}))["baseline"] == "disc");
+    const Json sure = json_of(place.folder, with(ttl, {"--confidence", "0.99"}));
+    const Json usual = json_of(place.folder, with(ttl, {}));
+    CHECK(sure["confidence"] == 0.99);
+    CHECK(sure["rows"][0]["low"] < usual["rows"][0]["low"]);
 }
 
 TEST_CASE(

@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,6 +17,12 @@ using namespace rovernet::test;
 namespace {
 
 const std::string sample = std::string(ROVERNET_TEST_DATA) + "/ns2_old.tr";
+
+/// What a file has.
+std::string text_of(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
 
 const char* const two = R"([scenario]
 name = "two"
@@ -199,6 +207,47 @@ TEST_CASE("replay --store keeps the rows for results, and adds those of a second
     const std::string picture = folder.path("radios.svg");
     CHECK(command(folder, {"plot", store, "-x", "radio", "-y", "delivery_ratio", "-o", picture})
               .exit == 0);
+}
+
+TEST_CASE("replay --verify of a recording that is broken, cut off or none fails, and says why") {
+    const TemporaryFolder folder;
+    folder.write(
+        "a.toml",
+        "robot = [{ name = \"A\", at = [\"0 m\", \"0 m\"] }, { name = \"B\", at = [\"40 m\", "
+        "\"0 m\"] }]\n[scenario]\nduration = \"20 s\"\n[[traffic]]\nfrom = "
+        "\"A\"\npayload = \"F\"\nevery = \"1 s\"\n");
+    REQUIRE(command(folder, {"run", folder.path("a.toml"), "--record", "--quiet", "--out",
+                             folder.path("o")})
+                .exit == 0);
+    const std::string whole = text_of(folder.path("o/trace.mcap"));
+    const auto verify = [&](const std::string& bytes) {
+        folder.write("x.mcap", bytes);
+        return command(folder, {"replay", folder.path("x.mcap"), "--verify"});
+    };
+    CHECK(verify(whole).exit == 0);
+    const std::size_t chunk = whole.find({"\4\0\0\0zstd", 8});
+    std::string broken = whole;
+    for (std::size_t i = 0; i < 4; ++i) {
+        char& byte = broken[chunk + 60 + i];
+        byte = static_cast<char>(~byte);
+    }
+    std::string last = whole;  // the end of the file alone
+    last.resize(last.size() - 60);
+    for (const std::string& bytes :
+         {broken, whole.substr(0, chunk + 30), whole.substr(0, chunk - 37), last}) {
+        const Ended ended = verify(bytes);
+        CHECK(ended.exit == 1);
+        CHECK(ended.out.find("identical") == ended.out.npos);
+        CHECK(ended.out.find("not whole") != ended.out.npos);
+        CHECK(ended.err.find("x.mcap") != ended.err.npos);
+        CHECK(command(folder, {"replay", folder.path("x.mcap"), "--verify", "--json"})
+                  .out.find("\"identical\": false") != std::string::npos);
+    }
+    CHECK(verify("").exit == 3);
+    CHECK(verify("").err.find("empty") != std::string::npos);
+    CHECK(verify("PK\x03\x04 nothing").err.find("is a ZIP archive; expected a recorded trace") !=
+          std::string::npos);
+    CHECK(verify(whole.substr(0, 40)).exit == 3);
 }
 
 }  // namespace replay_test

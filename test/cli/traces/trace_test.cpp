@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace trace_test {
 using namespace rovernet::test;
@@ -87,6 +89,80 @@ TEST_CASE("trace convert --to pcapng wants a recorded trace, and says why") {
     CHECK(content(out).empty());
     CHECK(command(run.folder, {"trace", "convert", run.recorded, out, "--to", "pcapng"}).exit == 0);
     CHECK(content(out).size() > 100);
+}
+
+TEST_CASE("trace: an empty file, or one that another program packed, is refused with the reason") {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<std::string, std::string>> files = {
+        {"", "the file is empty"},
+        {"\n\n# nothing\n", "blank lines and comments only"},
+        {std::string("\xfd\x37zXZ\0 packed", 13), "packed by xz"},
+        {"BZh91AY packed", "packed by bzip2"},
+        {"<html>\n</html>\n", "no line of this file"}};
+    for (const auto& [bytes, why] : files) {
+        CAPTURE(why);
+        const std::string in = folder.write("in.tr", bytes);
+        for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+                 {"trace", "stats", in},
+                 {"trace", "follow", in, "--message", "0"},
+                 {"trace", "diff", in, in},
+                 {"trace", "cut", in, folder.path("out.tr")},
+                 {"trace", "convert", in, folder.path("out.csv"), "--to", "csv"}}) {
+            CAPTURE(words[1]);
+            const Ended ended = command(folder, words);
+            CHECK(ended.exit == 3);
+            const bool has_none =
+                words[1] == "follow" && ended.err.find("found no message") != ended.err.npos;
+            CHECK((has_none || ended.err.find(why) != ended.err.npos));
+        }
+    }
+}
+
+TEST_CASE("a movement file of ns-2 that begins with set, or is packed, is known as one") {
+    const TemporaryFolder folder;
+    const std::string moves =
+        "set opt(nn) 3\n$node_(0) set X_ 5.0\n$ns_ at 1.0 \"$node_(0) setdest 10.0 0.0 1.0\"\n";
+    for (const char* name : {"m.tcl", "m.txt", "m"}) {
+        CAPTURE(name);
+        const Ended ended = command(folder, {"where", folder.write(name, moves), "--at", "3 s"});
+        CHECK(ended.exit == 0);
+        CHECK(ended.out.find("at (7.000000, 0.000000") != ended.out.npos);
+        CHECK(ended.err.find("1 line is left out") != ended.err.npos);
+    }
+    const Ended packed =
+        command(folder, {"where", folder.write("m.tcl.bz2", "BZh91AY"), "--at", "3 s"});
+    CHECK(packed.exit == 3);
+    CHECK(packed.err.find("packed by bzip2") != packed.err.npos);
+    const Ended toml = command(folder, {"where", folder.write("x", "set = 3\n"), "--at", "3 s"});
+    CHECK(toml.err.find("unknown key \"set\"") != toml.err.npos);
+}
+
+TEST_CASE("disc: no command prints a level, a loss or a margin of a link") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write(
+        "d.toml",
+        "robot = [{ name = \"A\", at = [\"0 m\", \"0 m\"] }, { name = \"B\", at = [\"150 m\", \"0 "
+        "m\"] }, { name = \"C\", at = [\"90 m\", \"0 m\"] }]\n[scenario]\nduration = \"5 "
+        "s\"\n[propagation]\nmodel = \"disc\"\nrange = \"100 m\"\n[[traffic]]\nfrom = "
+        "\"A\"\npayload = \"F\"\nstart = \"1 s\"\n");
+    REQUIRE(command(folder, {"run", file, "--record", "-q", "--out", folder.path("o")}).exit == 0);
+    const std::string trace = folder.path("o/trace.mcap");
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"link", file, "A", "B"},
+             {"link", file, "A", "C"},
+             {"links", file},
+             {"loss", "disc", "range=50", "--distance", "1,51"},
+             {"trace", "follow", trace, "--message", "0", "--robot", "B"},
+             {"trace", "follow", trace, "--message", "0", "--robot", "C"}}) {
+        const Ended ended = command(folder, words);
+        CAPTURE(ended.out);
+        CHECK(ended.exit == 0);
+        CHECK(ended.out.find("dB") == ended.out.npos);
+        CHECK(ended.out.find("range") != ended.out.npos);
+    }
+    const auto link = json_of(folder, {"link", file, "A", "B"});
+    CHECK(link["margin_db"].is_null());
+    CHECK(link["why_down"] == "150 m, beyond its range of 100 m");
 }
 
 }  // namespace trace_test

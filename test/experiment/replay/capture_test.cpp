@@ -4,6 +4,7 @@
 #include "experiment/replay/recorded_air.hpp"
 #include "experiment/run.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 #include "test/traces/record_stream.hpp"
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/replay/message_at_robot.hpp"
 
+#include "experiment/reports/link_report.hpp"
 #include "experiment/run.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/recorded/recorded_trace.hpp"
@@ -94,7 +96,7 @@ TEST_CASE("a message that a robot missed while it was off, or in another network
                                 "[[robot]]\nname = \"X\"\nat = [\"50 m\", \"0 m\"]\n"
                                 "off = [\"0.5 s\"]\n");
     CHECK(off.look(0, 2).frames.at(0).outcome == Outcome::off);
-    CHECK(off.says(0, 2) == "X was off: it could hear none of 2 frames.");
+    CHECK(off.says(0, 2) == "X was off: it could receive none of 2 frames.");
     const Run gated({0, 100}, one_message +
                                   "[[robot]]\nname = \"X\"\nat = [\"50 m\", \"0 m\"]\n"
                                   "radio = { channel = 7 }\n");

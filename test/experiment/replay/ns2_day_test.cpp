@@ -133,6 +133,71 @@ TEST_CASE("an ns-2 day: messages that go straight reach whom their sender hears"
     CHECK(strong.metrics.receptions == 15);  // a unicast is for nobody else
 }
 
+TEST_CASE("an ns-2 day: sources that speak together draw a backoff first, as in ns-2") {
+    const TemporaryFolder folder;
+    const auto day_of = [&](double apart) {
+        std::string text = move_line(0, 0) + move_line(1, 50) + move_line(2, -50);
+        for (int i = 0; i < 40; ++i)
+            text += said(1 + i, 2 * i, 1, "0") + said(1 + i + apart, 2 * i + 1, 2, "0");
+        return read_ns2_day(folder.write("together.tr", text), {});
+    };
+    const RecordedDay together = day_of(0);
+    // Both of 31 slots are the same once in 31 times, and then both messages are lost.
+    CHECK(deliveries(together) >= 80 - 2 * 6);
+    CHECK(deliveries(together, {"access.immediate_access=true"}) == 0);
+    CHECK(together.starts_together({}).empty());
+    for (const char* access :
+         {"access.immediate_access=true", "access.model=aloha", "access.model=none"}) {
+        CHECK(
+            together.starts_together({access}).starts_with("80 of 80 messages begin at the same"));
+        CHECK(day_of(0.002).starts_together({access}).empty());
+    }
+    // Within a frame of 118 bytes and its preamble, 1.1 ms, where nobody listens.
+    CHECK(day_of(0.0005).starts_together({"access.model=aloha"}).starts_with("80 of 80"));
+    CHECK(day_of(0.0005).starts_together({"access.immediate_access=true"}).empty());
+    CHECK(deliveries(day_of(0.0005), {"access.model=aloha"}) == 0);
+    CHECK(together.starts_together({"access.model=aloha", "reception.model=threshold"}).empty());
+}
+
+TEST_CASE("an ns-2 day: lines that are none of ns-2 are told") {
+    const TemporaryFolder folder;
+    const RecordedDay day =
+        read_ns2_day(folder.write("half.tr", move_line(0, 0) + move_line(1, 50) +
+                                                 "s 1.0 garbage\n" + said(1, 0, 0, "1")),
+                     {});
+    REQUIRE(day.notices().size() == 1);
+    CHECK(day.notices()[0] == "1 of 4 lines are none of ns-2, and left out; the first is line 3");
+}
+
+TEST_CASE("an ns-2 day: receptions from beyond its radio's range are told, with a power for them") {
+    const TemporaryFolder folder;
+    const auto day_of = [&](double metres) {
+        const std::string heard =
+            "r 1.005 _1_ RTR  --- 0 cbr 84 [13a 1 0 800] ------- [0:0 1:0 32 1] [0] 1 0\n"
+            "r 1.005 _1_ AGT  --- 0 cbr 84 [13a 1 0 800] ------- [0:0 1:0 32 1] [0] 1 0\n";
+        return read_ns2_day(
+            folder.write("far.tr", move_line(0, 0) + move_line(1, metres) + said(1, 0, 0, "1") +
+                                       "s 1.000 _0_ RTR  --- 0 cbr 84 [0 0 0 0] ------- [0:0 1:0 "
+                                       "32 1] [0] 0 0\n" +
+                                       heard),
+            {});
+    };
+    CHECK(day_of(240).hears_farther({}).empty());
+    const RecordedDay far = day_of(397);
+    CHECK(deliveries(far) == 0);
+    const std::string told = far.hears_farther({});
+    CAPTURE(told);
+    // 40 log10(397 / 250) = 8.03 dB over flat ground.
+    CHECK(told.find("n1 received n0 from 397 m at 1.005000 s, 8.0 dB below") != std::string::npos);
+    CHECK(told.find("--as \"radio.power=32.6 dBm\"") != std::string::npos);
+    CHECK(deliveries(far, {"radio.power=32.6 dBm"}) == 1);
+    CHECK(far.hears_farther({"radio.power=32.6 dBm"}).empty());
+    const std::vector<std::string> disc = {"propagation.model=disc", "propagation.range=100 m"};
+    CHECK(far.hears_farther(disc).find("reaches 100 m; --as \"propagation.model=disc;"
+                                       "propagation.range=397 m\"") != std::string::npos);
+    CHECK(far.hears_farther({"propagation.model=disc", "propagation.range=397 m"}).empty());
+}
+
 TEST_CASE("an ns-2 day: broadcasts are for everyone, and reach whom they reach") {
     const TemporaryFolder folder;
     const std::string trace = folder.write(
@@ -154,7 +219,7 @@ TEST_CASE("an ns-2 day: a robot whose place the trace does not tell is named") {
     const TemporaryFolder folder;
     const std::string trace = folder.write("lost.tr", move_line(0, 0) + said(1, 0, 0, "1"));
     CHECK_THROWS_WITH_AS(read_ns2_day(trace, {}),
-                         doctest::Contains("where robot 1 is: the old format has no place"),
+                         doctest::Contains("no position of robot 1: the old format has none"),
                          InputError);
     const std::string file =
         folder.write("way.tcl",
@@ -166,8 +231,7 @@ TEST_CASE("an ns-2 day: a robot whose place the trace does not tell is named") {
     const std::string short_file =
         folder.write("one.tcl", "$node_(0) set X_ 0\n$node_(0) set Y_ 0\n");
     CHECK_THROWS_WITH_AS(read_ns2_day(trace, {.routing = {}, .movements = short_file}),
-                         doctest::Contains("one.tcl: it does not tell where robot 1 is"),
-                         InputError);
+                         doctest::Contains("one.tcl: no position of robot 1"), InputError);
 }
 
 TEST_CASE("an ns-2 day: messages to no other robot are left out, and counted") {

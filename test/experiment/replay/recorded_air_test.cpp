@@ -4,6 +4,7 @@
 #include "experiment/run.hpp"
 #include "experiment/session.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/traces/record_stream.hpp"
 
 #include <doctest/doctest.h>

@@ -2,6 +2,7 @@
 #include "experiment/replay/recorded_day.hpp"
 
 #include "experiment/run.hpp"
+#include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 #include "test/scene/temporary_folder.hpp"
 

@@ -3,7 +3,9 @@
 
 #include "experiment/recorded_scenario.hpp"
 #include "experiment/run.hpp"
+#include "experiment/summary.hpp"
 #include "scenario/document/json.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/fingerprint.hpp"
 #include "traces/metrics.hpp"

@@ -3,6 +3,7 @@
 
 #include "experiment/run.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/ns2/ns2_diff.hpp"
 #include "traces/ns2/ns2_follow.hpp"

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/reports/link_table.hpp"
 
+#include "experiment/reports/network_at.hpp"
 #include "experiment/run.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

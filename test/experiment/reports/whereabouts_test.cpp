@@ -2,6 +2,7 @@
 #include "experiment/reports/whereabouts.hpp"
 
 #include "models/medium/medium.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>

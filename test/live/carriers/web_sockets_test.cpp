@@ -28,8 +28,8 @@ constexpr std::size_t longest = std::size_t{1} << 20U;  // [bytes] of a message
 /// sends 20 MiB, "crowd" 2,000 messages, "map" one of 9 MiB among short ones.
 class Echo {
   public:
-    explicit Echo(WebSockets::Patience patience = {}) : web_(doors_, patience) {
-        Doors::Streams users;
+    explicit Echo(WebSockets::Timeouts patience = {}) : web_(listeners_, patience) {
+        Listeners::Streams users;
         users.opened = [this](auto client) { here_.insert(client); };
         users.received = [this](auto from, auto bytes) {
             answer(from, bytes);
@@ -40,7 +40,7 @@ class Echo {
         token = web_.token();
         thread_ = std::thread([this] {
             while (!stopped_) {
-                doors_.wait(10ms);
+                listeners_.wait(10ms);
                 open = here_.size();
             }
             web_.close(1s);
@@ -84,7 +84,7 @@ class Echo {
         bytes.starts_with('b') ? web_.send_binary(from, bytes) : web_.send(from, bytes);
     }
 
-    Doors doors_;
+    Listeners listeners_;
     WebSockets web_;
     std::set<WebSockets::Connection> here_;
     std::atomic<bool> stopped_ = false;
@@ -200,7 +200,7 @@ TEST_CASE("web sockets: a server closes once all is out, and says goodbye at its
 }
 
 TEST_CASE("web sockets: clients that are silent are asked, and gone if they do not answer") {
-    const Echo echo({.for_request = 100ms, .for_silence = 1s});
+    const Echo echo({.request = 100ms, .silence = 1s});
     WebClient alive(echo.port), dead(echo.port);
     LineClient asks_nothing(echo.port);
     CHECK(echo.has(2));

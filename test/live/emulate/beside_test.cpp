@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The command `emulate` with doors for Player and for ROS beside the packets of programs.
+// The command `emulate` with listeners for Player and for ROS beside the packets of programs.
 #include "test/live/emulate/datagrams.hpp"
 #include "test/live/emulate/emulation.hpp"
 #include "test/live/live_command.hpp"

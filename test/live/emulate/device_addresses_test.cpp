@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/emulate/device_addresses.hpp"
 
+#include "scenario/scenario_file.hpp"
 #include "test/cli/process.hpp"
 #include "test/scene/temporary_folder.hpp"
 

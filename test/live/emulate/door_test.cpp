@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Programs of two robots on the sides of a door that closes and opens: examples/emulate/door.toml.
 #include "live/emulate/relay.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/live/emulate/programs.hpp"
 
 #include <doctest/doctest.h>

@@ -63,11 +63,11 @@ bool is_root() {
     return false;
 }
 
-/// Opens a door as a run has one, and hands out the network of this process to all who come.
+/// Opens a listener like a run, and passes the network of this process to every client.
 int hand_out_own_network(const std::string& robot) {
-    const int door = open_door(getpid(), robot);
+    const int listener = open_listener(getpid(), robot);
     const int space = open("/proc/self/ns/net", O_RDONLY | O_CLOEXEC);
-    for (int client = 0; (client = accept(door, nullptr, nullptr)) >= 0;) {
+    for (int client = 0; (client = accept(listener, nullptr, nullptr)) >= 0;) {
         send_descriptor(client, {.descriptor = space, .text = "/"});
     }
     return 0;
@@ -145,7 +145,7 @@ TEST_CASE("in: a network that another user hands out is entered only if root is 
 TEST_CASE("in: a plain user does not enter another's run, by whatever option") {
     if (!is_root()) return;
     const std::string robot = "Q" + std::to_string(getpid());
-    const int door = open_door(getpid(), robot);
+    const int listener = open_listener(getpid(), robot);
     Stranger caller([&] {
         const TemporaryFolder folder;
         const auto exit_of = [&](std::vector<std::string> words) {
@@ -156,16 +156,16 @@ TEST_CASE("in: a plain user does not enter another's run, by whatever option") {
         return exit_of({}) == 2 && exit_of({"--user", "0"}) == 2 ? 0 : 1;
     });
     CHECK(caller.exit_code() == 0);
-    close(door);
+    close(listener);
 }
 
 TEST_CASE("emulate: the namespaces of a run are handed to its user alone") {
     const auto run = is_root() ? emulated_by_tap() : nullptr;
     if (!run) return;
     const auto gets_it = [&] {
-        for (const RobotDoor& each : all_doors()) {
+        for (const RobotListener& each : all_listeners()) {
             if (each.run != run->pid() || each.robot != "A") continue;
-            const auto socket = each.enter();
+            const auto socket = each.connect_to();
             if (!socket) return 2;
             fcntl(*socket, F_SETFL, 0);
             const auto message = receive_descriptor(*socket);
@@ -178,15 +178,15 @@ TEST_CASE("emulate: the namespaces of a run are handed to its user alone") {
     CHECK(gets_it() == 1);
 }
 
-TEST_CASE("robot door: a name that is taken is passed over, and each door is found") {
+TEST_CASE("robot listener: a name that is taken is passed over, and each listener is found") {
     const std::string robot = "R/.." + std::to_string(getpid());
-    const int first = open_door(getpid(), robot), second = open_door(getpid(), robot);
+    const int first = open_listener(getpid(), robot), second = open_listener(getpid(), robot);
     std::set<std::string> marks;
-    for (const RobotDoor& each : all_doors()) {
+    for (const RobotListener& each : all_listeners()) {
         if (each.robot != robot) continue;
         CHECK(each.run == getpid());
         CHECK(marks.insert(each.mark).second);
-        const auto in = each.enter();
+        const auto in = each.connect_to();
         REQUIRE(in);
         CHECK(user_behind(*in) == geteuid());
         close(*in);
@@ -195,7 +195,7 @@ TEST_CASE("robot door: a name that is taken is passed over, and each door is fou
     CHECK(marks.contains(""));
     close(first);
     close(second);
-    CHECK_FALSE(RobotDoor{getpid(), "", robot}.enter());
+    CHECK_FALSE(RobotListener{getpid(), "", robot}.connect_to());
 }
 
 TEST_CASE("in: several runs are told apart by their folders") {

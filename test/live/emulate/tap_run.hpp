@@ -53,7 +53,7 @@ inline Process in(const TemporaryFolder& folder, const Emulation& run, const std
 }
 
 /// Whether something of a run is left on the machine.
-inline bool has_doors(pid_t run) {
+inline bool has_listeners(pid_t run) {
     return content("/proc/net/unix").find("@rovernet/" + std::to_string(run) + "/") !=
            std::string::npos;
 }

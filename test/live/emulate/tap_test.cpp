@@ -60,7 +60,7 @@ TEST_CASE("emulate: the kernel's pings cross the radio, and the run is replayed 
     CHECK(run->summary().at("live").at("packets_sent") > 40);
     CHECK(run->replay().out.find(", fingerprint " + fingerprint) != std::string::npos);
     CHECK(run->replay().out.starts_with("identical: "));
-    CHECK_FALSE(has_doors(run->pid()));
+    CHECK_FALSE(has_listeners(run->pid()));
 }
 
 TEST_CASE("emulate: a radio that loses a fifth each way loses 36 % of the pings") {
@@ -117,11 +117,11 @@ print(got == f"{len(sent)} {hashlib.sha256(sent).hexdigest()}", len(sent))
 TEST_CASE("emulate: nothing is left of a run that is killed") {
     const auto run = emulated_by_tap();
     if (!run) return;
-    CHECK(has_doors(run->pid()));
+    CHECK(has_listeners(run->pid()));
     CHECK(content("/proc/net/dev").find("wlan0") == std::string::npos);  // not among the machine's
     run->end_by_force();
-    for (int i = 0; i < 1000 && has_doors(run->pid()); ++i) std::this_thread::sleep_for(5ms);
-    CHECK_FALSE(has_doors(run->pid()));
+    for (int i = 0; i < 1000 && has_listeners(run->pid()); ++i) std::this_thread::sleep_for(5ms);
+    CHECK_FALSE(has_listeners(run->pid()));
 }
 
 TEST_CASE("in: no run, no such robot, no such program") {

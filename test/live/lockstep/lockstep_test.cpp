@@ -2,6 +2,7 @@
 // The lock-step protocol, line by line, without sockets.
 #include "live/lockstep/lockstep.hpp"
 
+#include "scenario/scenario_file.hpp"
 #include "test/live/talk.hpp"
 
 #include <doctest/doctest.h>
@@ -282,6 +283,67 @@ TEST_CASE("lockstep: a robot is put elsewhere, at rest, as it is told or as it w
     CHECK(state(talk.ask(0, step(3, R"(,"do":{"A":{"place":[1,2,5],"heading":-1.5}})"))) ==
           State{1, 2, 5, -1.5, 0});
     CHECK(state(talk.ask(0, step(4, R"(,"do":{"A":{"place":[0,0]}})"))) == State{0, 0, 5, -1.5, 0});
+}
+
+TEST_CASE("lockstep: a place without room is an error, a goal without a way is in the state") {
+    Talk talk(load_scenario(ROVERNET_EXAMPLES "/rescue/rescue.toml", {}));
+    talk.say(0, hello_a);
+    for (const char* place : {"[-5,3]", "[24,100]", "[2,6]"}) {
+        const std::string answer =
+            talk.ask(0, step(1, std::string(R"(,"do":{"A":{"place":)") + place + "}}"));
+        CHECK(fault(answer) == "no_room do.A.place");
+    }
+    const auto has_no_way = [](const std::string& answer) {
+        return Json::parse(answer).at("robots").at("A").at("no_way").get<bool>();
+    };
+    CHECK_FALSE(has_no_way(talk.ask(0, step(1, R"(,"do":{"A":{"place":[24,12]}})"))));
+    CHECK(has_no_way(talk.ask(0, step(2, R"(,"do":{"A":{"goal":[2,6]}})"))));
+    CHECK(has_no_way(talk.ask(0, step(3))));
+    for (const char* command :
+         {R"({"goal":[25,12]})", R"({"v":0.5})", R"({"stop":true})", R"({"place":[24,12]})"}) {
+        CAPTURE(command);
+        static int n = 4;
+        CHECK_FALSE(
+            has_no_way(talk.ask(0, step(n++, std::string(R"(,"do":{"A":)") + command + "}"))));
+        CHECK(has_no_way(talk.ask(0, step(n++, R"(,"do":{"A":{"goal":[2,6]}})"))));
+    }
+}
+
+TEST_CASE("lockstep: scans are told to those who ask, in the frame that the welcome tells") {
+    const std::string hello =
+        R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"100 ms","observe":["scan"]})";
+    Talk without(three_in_a_row());
+    CHECK(fault(without.ask(0, hello)) == "bad_value observe");
+    const TemporaryFolder folder;
+    Talk talk(load_scenario(folder.write("scan.toml", R"([scenario]
+duration = "1 s"
+[[robot]]
+name = "A"
+at = ["0 m", "0 m"]
+scan = [{ beams = 3, range = "6 m", at = ["0.1 m", "0 m"] },
+        { kind = "sonar", name = "back", angles = ["180 deg"] }]
+[[robot]]
+name = "B"
+at = ["2 m", "0 m"]
+)"),
+                            {}));
+    const Json welcome = Json::parse(talk.ask(0, hello));
+    const Json scanners = welcome.at("robots").at("A").at("scan");
+    CHECK(scanners.size() == 2);
+    CHECK(scanners[0].at("name") == "laser");
+    CHECK(scanners[0].at("range") == 6);
+    CHECK(scanners[0].at("beams")[1] == Json{0.1, 0.0, 0.0});
+    CHECK(scanners[1].at("kind") == "sonar");
+    CHECK(welcome.at("robots").at("B").at("scan").empty());
+    const Json state = Json::parse(talk.ask(0, step(1)));
+    CHECK_FALSE(state.contains("robots"));
+    const Json scan = state.at("scan");
+    CHECK(scan.at("B").empty());
+    CHECK(scan.at("A")[1] == Json{8.0});
+    CHECK(scan.at("A")[0].size() == 3);
+    // To the body of B, whose radius is 0.2 m.
+    CHECK(scan.at("A")[0][1].get<double>() == doctest::Approx(1.7));
+    CHECK(scan.at("A")[0][0] == 6);
 }
 
 TEST_CASE("lockstep: a robot goes up the stairs by its goals, and heights are told") {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Player's configuration files, and the doors that follow from them.
+// Player's configuration files, and the listeners that follow from them.
 #include "live/player/config.hpp"
 
 #include "live/player/listeners.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -64,6 +65,54 @@ TEST_CASE("player configuration: world, robots and their places") {
               .index == 3);
 }
 
+TEST_CASE("player configuration: blanks in an address and lists over lines do not matter") {
+    const PlayerConfig config = read(head + R"(driver ( name "stage" provides [
+  " 7001 :position2d: 2 "   # where it drives
+  "7001:ranger:1 "
+] model "r" ))");
+    REQUIRE(config.robots.size() == 1);
+    CHECK(config.robots[0].port == 7001);
+    CHECK(config.robots[0].index == 2);
+    CHECK(config.notices.empty());
+}
+
+TEST_CASE("player configuration: comdrivers and relays belong to the robots whose radio they use") {
+    const PlayerConfig config = read(head + R"(
+driver ( name "comdriver" provides [ "6666:opaque:3" ] requires [ "6666:wifi:1" "6666:opaque:2" ]
+         mapping [ "192.168.0.1" 6665
+                   "192.168.0.9" 6666 ] )
+driver ( name "stage" provides [ "6665:position2d:0" "6665:wifi:0" ] model "r0" )
+driver ( name "stage" provides [ "6666:position2d:0" "6666:wifi:0" ] model "r1" )
+driver ( name "stage" provides [ "6666:position2d:1" "6666:wifi:1" ] model "r2" )
+driver ( name "relay" provides [ "6666:opaque:0" ] )
+driver ( name "amcl" provides [ "localize:0" ] )
+driver ( name "vfh" provides [ "6665:position2d:1" ] )
+driver ( name "comdriver" provides [ "6667:opaque:1" ] )
+)");
+    REQUIRE(config.robots.size() == 3);
+    CHECK(config.has_comdriver());
+    CHECK(!config.robots[0].comdriver);
+    CHECK(!config.robots[1].comdriver);
+    CHECK(config.robots[1].relay == 0);
+    REQUIRE(config.robots[2].comdriver);
+    CHECK(config.robots[2].comdriver->index == 3);
+    REQUIRE(config.robots[2].comdriver->mapping.size() == 2);
+    CHECK(config.robots[2].comdriver->mapping[1].ip == "192.168.0.9");
+    CHECK(config.robots[2].comdriver->mapping[1].port == 6666);
+    REQUIRE(config.notices.size() == 1);
+    CHECK(
+        config.notices[0].ends_with("two.cfg:17: drivers that run beside Stage in a Player server "
+                                    "do not run here, and their devices are missing: amcl, vfh, "
+                                    "comdriver at port 6667, which has no robot"));
+
+    const auto notices = mapping_notices(config, {"192.168.0.1", "192.168.0.2", "192.168.0.3"});
+    REQUIRE(notices.size() == 2);
+    CHECK(notices[0].ends_with("has this IP address at this port: 192.168.0.9 6666"));
+    CHECK(notices[1].find("mapping leaves out r1; every robot in range") != std::string::npos);
+    CHECK(mapping_notices(config, {"192.168.0.1", "192.168.0.9", ""}).empty());
+    CHECK(!read(head + robots).has_comdriver());
+}
+
 TEST_CASE("player configuration: mistakes are told with their place") {
     const auto fault = [](const std::string& text) -> std::string {
         try {
@@ -88,18 +137,27 @@ TEST_CASE("player configuration: mistakes are told with their place") {
     CHECK(fault(head + "driver ( name \"stage\" model \"r\" provides [ 6665 ] )")
               .find("expected texts") != std::string::npos);
     CHECK(fault(head + "driver ( name").find("two.cfg") != std::string::npos);
+    const std::string com = head + robots + "driver ( name \"comdriver\" provides [\"opaque:1\"] ";
+    for (const char* mapping :
+         {"[\"1.2\"]", "[6665 \"1.2\"]", "[\"1.2\" 0]", "[\"1.2\" 6665.5]", "[\"1.2\" \"6665\"]"}) {
+        CAPTURE(mapping);
+        CHECK(fault(com + "mapping " + mapping + " )").find("mapping: expected pairs") !=
+              std::string::npos);
+    }
+    CHECK(fault(head + robots + "driver ( name \"relay\" )").find("no opaque that it provides") !=
+          std::string::npos);
     CHECK_THROWS_AS(read_player_config("/nowhere/two.cfg"), InputError);
 }
 
-TEST_CASE("player doors: a port for each robot, one for all, or those of a configuration") {
+TEST_CASE("player listeners: a port for each robot, one for all, or those of a configuration") {
     const std::vector<std::string> names = {"r0", "r1", "r2"};
-    const FrontDoor ports = player_ports({"127.0.0.1", 7000}, names, {});
+    const FrontListeners ports = player_ports({"127.0.0.1", 7000}, names, {});
     REQUIRE(ports.entries.size() == 3);
     CHECK(ports.entries[2].at.text() == "127.0.0.1:7002");
     CHECK(ports.entries[2].what == "Player, robot r2");
     CHECK(player_ports({"127.0.0.1", 0}, names, {}).entries[2].at.text() == "127.0.0.1:0");
     CHECK(player_one_port({"::1", 7000}, names, {}).entries.size() == 1);
-    const FrontDoor configured =
+    const FrontListeners configured =
         player_configured({"127.0.0.1", 6665}, read(head + robots), names, {});
     REQUIRE(configured.entries.size() == 2);
     CHECK(configured.entries[1].at.text() == "127.0.0.1:6666");
@@ -112,7 +170,7 @@ TEST_CASE("player doors: a port for each robot, one for all, or those of a confi
     CHECK_THROWS_AS(player_ports({"127.0.0.1", 65535}, {"a", "b"}, {}), std::invalid_argument);
 }
 
-TEST_CASE("player doors: robots of tables, of a count and of a movement file") {
+TEST_CASE("player listeners: robots of tables, of a count and of a movement file") {
     const TemporaryFolder folder;
     folder.write("m.tcl", R"($node_(0) set X_ 1
 $node_(0) set Y_ 2

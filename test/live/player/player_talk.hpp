@@ -3,6 +3,7 @@
 
 #include "live/player/front.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/live/player/wire.hpp"
 #include "test/live/run_front.hpp"
 #include "test/scene/temporary_folder.hpp"
@@ -38,9 +39,9 @@ class PlayerTalk {
     }
 
     /// A new client, its banner taken off.
-    Front::Connection come(std::size_t entrance = 0) {
+    Front::Connection come(std::size_t listener = 0) {
         const Front::Connection client = next_client_++;
-        front.opened(client, {entrance, static_cast<std::uint16_t>(6665 + entrance)});
+        front.opened(client, {listener, static_cast<std::uint16_t>(6665 + listener)});
         told_[client].erase(0, 32);
         return client;
     }
@@ -58,7 +59,7 @@ class PlayerTalk {
     void run_for(Duration time) { run_until(session.network().now().time_since_epoch() + time); }
 
   private:
-    /// Robot k at the entrance k, unless it is said otherwise.
+    /// Robot k at listener k, unless it is said otherwise.
     PlayerSettings placed(PlayerSettings settings) const {
         if (!settings.places.empty()) return settings;
         for (const RobotTable& robot : scenario_.robots) {

@@ -15,7 +15,7 @@
 #include <future>
 #include <string>
 
-namespace rosbridge_door_test {
+namespace rosbridge_listener_test {
 using namespace rovernet;
 using namespace rovernet::test;
 using namespace std::chrono_literals;
@@ -23,13 +23,13 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// A run by the clock with a door for ROS clients, in a thread of its own.
+/// A run by the clock with a rosbridge listener, in a separate thread.
 class Server {
   public:
     Server() {
         PacedOptions options;
         options.folder = folder_.path("out");
-        options.fronts.push_back(rosbridge_door({"127.0.0.1", 0}));
+        options.fronts.push_back(rosbridge_listener({"127.0.0.1", 0}));
         options.stop.go_on = [this] { return !stopped_; };
         std::promise<int> opened;
         options.say = [&](std::string_view text) {
@@ -71,7 +71,8 @@ Json call(WebClient& client, const std::string& service, const Json& args = Json
 
 }  // namespace
 
-TEST_CASE("rosbridge door: clients drive by WebSocket while time stands still and goes by steps") {
+TEST_CASE(
+    "rosbridge listener: clients drive by WebSocket while time stands still and goes by steps") {
     Server server;
     WebClient client(server.port);
     call(client, "/simulation/pause");
@@ -97,7 +98,7 @@ TEST_CASE("rosbridge door: clients drive by WebSocket while time stands still an
     CHECK(replay.now == result.run.fingerprint);
 }
 
-TEST_CASE("rosbridge door: robots of a client that is killed stop, and nothing of it is left") {
+TEST_CASE("rosbridge listener: robots of a client that is killed stop, and nothing of it is left") {
     Server server;
     WebClient watcher(server.port);
     call(watcher, "/simulation/pause");
@@ -115,4 +116,4 @@ TEST_CASE("rosbridge door: robots of a client that is killed stop, and nothing o
     CHECK(replay.now == result.run.fingerprint);
 }
 
-}  // namespace rosbridge_door_test
+}  // namespace rosbridge_listener_test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Several range finders of a robot, as ROS clients find them.
+#include "scenario/scenario_file.hpp"
 #include "test/live/rosbridge/ros_talk.hpp"
 #include "test/scene/temporary_folder.hpp"
 

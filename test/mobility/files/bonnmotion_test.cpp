@@ -272,4 +272,18 @@ TEST_CASE("bonnmotion: a line without end is refused, zipped or not") {
     CHECK(movement_error(folder.write("scen.movements", comment)).find(words) != std::string::npos);
 }
 
+TEST_CASE("bonnmotion: a track with a line for each time is refused; robots that stand are not") {
+    for (const char* track : {"0 0.5 1.5\n1 1.5 1.5\n2 2.5 1.5\n", "0.0 1 2 0\n0.1 1 3 0\n",
+                              "0 1 1\n0 5 5\n1 1 2\n1 5 6\n", "3 1 1\n4 1 1\n"}) {
+        CAPTURE(track);
+        CHECK(error_of(track).find("this is a track") != std::string::npos);
+        CHECK(error_of(track, "J=2D\n").find("this is a track") == std::string::npos);
+    }
+    for (const char* standing : {"0 1 1\n0 5 5\n", "2 1 1\n2 5 5\n", "0 0.5 1.5\n",
+                                 "2 1 1\n1 2 2\n", "0 1 1 1 2 2\n2 3 3\n"}) {
+        CAPTURE(standing);
+        CHECK(error_of(standing).empty());
+    }
+}
+
 }  // namespace bonnmotion_test

@@ -34,9 +34,9 @@ struct Counted {
     int* looks;
     LossShape shape() const { return LossShape::by_distance; }
     Meters reach(Db loss, Hertz f) const { return Friis{}.reach(loss, f); }
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
         ++*looks;
-        Friis{}.loss(links, give_up, out_db);
+        Friis{}.loss(links, cutoff, out_db);
     }
 };
 
@@ -194,7 +194,9 @@ TEST_CASE("link changes: of a model that goes by heights they are exact between 
     CHECK_FALSE(pair.up(a, b, found[0]));
 }
 
-TEST_CASE("link changes: a robot that comes down to the storey has the link after it was nearest") {
+TEST_CASE(
+    "link changes: a robot on the stairs gets the link when it reaches the storey, after its "
+    "closest approach") {
     const Scene field;
     MovingPair pair{.scene = &field, .floor_height = Meters{3}};
     const ItuIndoor office{.environment = Environment::office};
@@ -228,6 +230,35 @@ TEST_CASE("link changes: of a model of unknown shape those of the dwell time are
     endless.add(ItuIndoor{}, resting({}));
     endless.add(Rings{}, {.velocity = {1e-12, 0, 0}});
     CHECK(endless.changes(b, a, start_of_run, never).empty());
+}
+
+TEST_CASE("link changes: a search in pieces finds what one in a row finds, in as many looks") {
+    const Scene field;
+    MovingPair pair{&field};
+    pair.add(Rings{}, resting({}));
+    pair.add(Rings{}, moving({-7, 0.5, 0}, {0.4, 0, 0}, 40s));
+    const LinkSearch search{.tolerance = 1us, .min_dwell = 70ms};
+    for (const std::int64_t most : {1, 2, 16, 1000}) {
+        Time after = start_of_run;
+        const Time until = start_of_run + 40s;
+        while (after < until) {
+            const auto expected = next_link_change(pair.medium, pair.legs, WallPassages(), a, b,
+                                                   after, until, search);
+            LinkOutlook outlook{.change = {}, .until = after};
+            int pieces = 0;
+            while (!outlook.change && outlook.until < until) {
+                const Time from = outlook.until;
+                outlook = look_ahead(pair.medium, pair.legs, WallPassages(), a, b, from, until,
+                                     search, most);
+                CHECK(outlook.until > from);
+                CHECK(outlook.until - from <= most * 70ms);
+                ++pieces;
+            }
+            CHECK(outlook.change == expected);
+            if (most == 1 && expected) CHECK(pieces == (*expected - after) / 70ms + 1);
+            after = outlook.until;
+        }
+    }
 }
 
 }  // namespace link_changes_test

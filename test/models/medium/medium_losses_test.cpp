@@ -28,9 +28,9 @@ struct CountedRays {
     std::shared_ptr<std::size_t> rays = std::make_shared<std::size_t>(0);
 
     Meters reach(Db loss, Hertz f) const { return model.reach(loss, f); }
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
         *rays += links.size();
-        model.loss(links, give_up, out_db);
+        model.loss(links, cutoff, out_db);
     }
 };
 

@@ -15,8 +15,8 @@ constexpr NodeId a{0}, b{1}, c{2};
 constexpr Db budget{90};
 
 /// What is kept of the loss [dB] from one node to another, for a query of that budget.
-std::optional<double> kept(PairCache& cache, NodeId from, NodeId to, Db give_up = budget) {
-    cache.open(from, give_up);
+std::optional<double> kept(PairCache& cache, NodeId from, NodeId to, Db cutoff = budget) {
+    cache.open(from, cutoff);
     const double* const loss = cache.find(to);
     return loss ? std::optional(*loss) : std::nullopt;
 }

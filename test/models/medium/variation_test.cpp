@@ -174,6 +174,16 @@ TEST_CASE("variation: who hears is who a search over all pairs finds, and whose 
     }
 }
 
+TEST_CASE("variation: shadowing of sigma 0 is none") {
+    for (const ShadowingModel kind : {ShadowingModel::link, ShadowingModel::field}) {
+        Medium medium({.shadowing = {.model = kind, .sigma = Db{0}}});
+        const Propagation friis = Friis{};
+        medium.add({}, 1, friis);
+        CHECK(medium.stations().model(NodeId{0}).as<Shadowed>() == nullptr);
+        CHECK(medium.stations().model(NodeId{0}) == friis);
+    }
+}
+
 TEST_CASE("variation: shadowing of links is log_distance's sigma over any model") {
     Medium own({.scene = &open_field, .seed = 4, .replication = 1});
     Medium over({.scene = &open_field,

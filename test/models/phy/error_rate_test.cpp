@@ -33,7 +33,7 @@ double ratio(double db) { return std::pow(10, db / 10); }
 
 /// Of a frame of so many bits.
 double packet_error(Modulation modulation, double db, int bits) {
-    return frame_error_rate(bits * log_success(modulation, ratio(db)));
+    return -std::expm1(bits * log_success(modulation, ratio(db)));
 }
 
 bool close(double a, double b, double relative) {
@@ -146,7 +146,6 @@ TEST_CASE("error rate: success of the parts of a frame multiplies, whatever thei
     const double body = 4000 * log_success(Modulation::cck_11, ratio(5.5));
     constexpr double roundings = 1e-14;  // relative
     CHECK(close(success(header + body), success(header) * success(body), roundings));
-    CHECK(close(frame_error_rate(header + body), 1 - success(header + body), 1e-12));
     CHECK(test::near(log_success(Modulation::ofdm_6, ratio(2)),
                      std::log1p(-bit_error_rate(Modulation::ofdm_6, ratio(2))), roundings));
 }
@@ -155,7 +154,6 @@ TEST_CASE("error rate: each bit rate of 802.11 has its modulation, and others no
     const std::array rates{1.0, 2.0, 5.5, 11.0, 6.0, 9.0, 12.0, 18.0, 24.0, 36.0, 48.0, 54.0};
     for (std::size_t i = 0; i < rates.size(); ++i) {
         CHECK(modulation_of({rates[i] * 1e6}) == all[i]);
-        CHECK(bandwidth_of(all[i]) == (i < 4 ? 22_MHz : 20_MHz));
     }
     for (const double other : {0.0, 1.0, 3e6, 5.5e6 + 1, 6e9, -1e6, std::nan("")}) {
         CHECK_FALSE(modulation_of({other}));

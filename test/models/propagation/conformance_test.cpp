@@ -120,7 +120,7 @@ struct World {
 
 std::vector<double> losses(const Propagation& model, const LinkBatch& batch) {
     std::vector<double> out(batch.size(), no_number);
-    model.loss(batch, {test::no_give_up}, out);
+    model.loss(batch, {test::no_cutoff}, out);
     return out;
 }
 

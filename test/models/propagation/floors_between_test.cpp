@@ -79,7 +79,7 @@ TEST_CASE("storeys: a scene that says nothing of them has one, however high ante
                        .scene = &field};
         if (storey != no_storeys) link.floor_height = storey;
         double out = 0;
-        model.loss(link, {test::no_give_up}, {&out, 1});
+        model.loss(link, {test::no_cutoff}, {&out, 1});
         return out;
     };
     const ItuIndoor office{.environment = Environment::office};

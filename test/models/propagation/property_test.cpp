@@ -112,7 +112,7 @@ std::vector<double> losses(const Propagation& model, Vec3 from, const std::vecto
                           .from_key = 7,
                           .to_keys = keys,
                           .scene = &rooms()};
-    model.loss(batch, {test::no_give_up}, out);
+    model.loss(batch, {test::no_cutoff}, out);
     return out;
 }
 

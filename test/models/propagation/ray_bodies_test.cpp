@@ -3,6 +3,7 @@
 
 #include "models/propagation/edges/diffraction.hpp"
 #include "models/propagation/edges/edge_pair.hpp"
+#include "models/propagation/edges/edge_row.hpp"
 #include "models/propagation/friis.hpp"
 #include "models/propagation/rays.hpp"
 #include "scene/scene.hpp"
@@ -90,6 +91,49 @@ TEST_CASE("edge pair: at grazing it is asin(rho) / pi, without a face 1/4 + asin
         CHECK(near(20 * std::log10(std::abs(field)),
                    20 * std::log10(std::asin(rho) / std::numbers::pi), 0.02));
     }
+}
+
+namespace {
+
+double row_loss(std::vector<RowCorner> corners, double length) {
+    const EdgeRow row(std::move(corners), length, wavelength);
+    return -20 * std::log10(std::abs(row.field_without(std::vector<char>(8, 0))));
+}
+
+}  // namespace
+
+TEST_CASE("edge row: n screens in the line leave 1 / (n + 1); two are those of a pair") {
+    const std::array limits{0.001, 0.05, 0.3, 0.7, 1.2, 1.75};
+    std::vector<RowCorner> corners;
+    for (std::size_t n = 1; n <= limits.size(); ++n) {
+        corners.push_back({static_cast<double>(n), 0, 0, n});
+        for (std::size_t i = 0; i < n; ++i) corners[i].at = 3.0 * static_cast<double>(i + 1);
+        const double lost = row_loss(corners, 3 * static_cast<double>(n + 1));
+        CHECK(near(lost, 20 * std::log10(static_cast<double>(n) + 1), limits[n - 1]));
+    }
+    const EdgePair pair{5, 2, 5, 5 * 2.0 / 7 / 2 * 0.01, 5 * 2.0 / 7 / 2 * 0.04, false};
+    CHECK(near(row_loss({{5, 0, 0.1, 0}, {7, 0, 0.2, 1}}, 12),
+               -20 * std::log10(std::abs(pair_field(pair, wavelength))), 0.05));
+}
+
+TEST_CASE("edge row: in deep shadow it is the product of the edges' rays") {
+    // A ray that turns by w at an edge has the coefficient 1 / (2 pi w) sqrt(lambda) there.
+    const std::vector<RowCorner> corners{{4, 0, 0.9, 0}, {7, 0, 0.8, 1}, {12, 0, 0.9, 2}};
+    double field = std::sqrt(20 / (4.0 * 3 * 5 * 8));
+    for (const RowCorner& c : corners)
+        field *= std::sqrt(wavelength) / (4 * std::numbers::pi * std::sin(c.bend / 2));
+    CHECK(near(row_loss(corners, 20), -20 * std::log10(field), 1));
+}
+
+TEST_CASE("edge row: it is the same both ways; a corner far below takes nothing; none steps") {
+    const std::vector<RowCorner> there{{3, 0, 0.2, 0}, {6, 0.1, 0, 1}, {8, 0, 0.05, 2}};
+    const std::vector<RowCorner> back{{2, 0, 0.05, 2}, {4, 0.1, 0, 1}, {7, 0, 0.2, 0}};
+    CHECK(near(row_loss(there, 10), row_loss(back, 10), 1e-9));
+    CHECK(near(row_loss({{3, 0, 0.2, 0}, {6, 3, 0, 1}, {8, 0, 0.05, 2}}, 10),
+               row_loss({{3, 0, 0.2, 0}, {8, 0, 0.05, 2}}, 10), 0.3));
+    for (const double tiny : {1e-5, 1e-7})
+        CHECK(near(row_loss({{3, 0, 0.2, 0}, {6, tiny, 0, 1}, {8, 0, 0.05, 2}}, 10),
+                   row_loss({{3, 0, 0.2, 0}, {6, 0, tiny, 1}, {8, 0, 0.05, 2}}, 10), 0.15));
 }
 
 TEST_CASE("edge pair: a face of no length leaves a single edge; far from one edge the other") {
@@ -245,6 +289,83 @@ TEST_CASE("rays: shelves in a row are gone around one by one") {
                             free_space_db(distance({-8, 0.3}, {8, 0.1}), f);
         CHECK(lost > 30);
         CHECK(lost < 70);
+    }
+}
+
+TEST_CASE("rays: a thin wall between shelves is passed through on the way around these") {
+    const auto shelf = [](double x, double y) {
+        return std::abs(y) < 0.2 && std::abs(std::abs(x) - 3.5) < 0.45;
+    };
+    const auto wall = [](double x, double y) { return std::abs(x) < 0.05 && std::abs(y) < 5.5; };
+    const auto both_of = [&](double x, double y) { return shelf(x, y) || wall(x, y); };
+    const Vec3 from{-8, 0.05}, to{8, 0.02};
+    for (const auto by : both) {
+        const Rays model{.order = 0, .diffraction = by};
+        const double through =
+            loss(model, drawn(wall), from, to) - free_space_db(distance(from, to), f);
+        const double shelves = loss(model, drawn(shelf), from, to);
+        CHECK(shelves - free_space_db(distance(from, to), f) > 10);
+        CHECK(std::abs(loss(model, drawn(both_of), from, to) - shelves - through) < 2);
+    }
+}
+
+TEST_CASE(
+    "rays: shelves in a row do not jump where the way around the first comes to graze the next") {
+    const auto shelves = [](double width) {
+        return [=](double x, double y) {
+            return y > -4 && y < 3 && x > -4 && x < 5 && std::fmod(x + 4, 3) < width;
+        };
+    };
+    const Vec3 from{-8, 1.5}, first{4.5, -4.05}, last{4.5, -3.95};
+    for (const double width : {0.2, 0.9})
+        for (const Material& material :
+             {Material{}, Material{.slab = ItuMaterial::concrete, .thickness = 0.2_m}, metal}) {
+            const Scene scene = drawn(shelves(width), material);
+            for (const auto by : both) {
+                CAPTURE(width);
+                CAPTURE(static_cast<int>(by));
+                CHECK(largest_step({.order = 0, .diffraction = by}, scene, from, first, last) <
+                      0.6);
+            }
+        }
+}
+
+TEST_CASE("rays: nothing jumps at the shadow borders of pillars, and of a slanting wall's end") {
+    struct Case {
+        std::function<bool(double, double)> inside;
+        Material material;
+        Vec3 from, first, last;
+        double limit;
+    };
+    const auto bar = [](double x0, double y0, double x1, double y1, double width) {
+        const double length = std::hypot(x1 - x0, y1 - y0);
+        const double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
+        return [=](double x, double y) {
+            const double along = (x - x0) * ux + (y - y0) * uy;
+            const double off = (y - y0) * ux - (x - x0) * uy;
+            return along > 0 && along < length && std::abs(off) < width / 2;
+        };
+    };
+    const auto in_row = [](double x, double y) {
+        return y > 0 && y < 0.4 && x > -4 && x < 2.4 && std::fmod(x + 4, 3) < 0.4;
+    };
+    const std::vector<Case> cases{
+        {block(-1, 0, -0.8, 0.2), {}, {-7, -1}, {4, 0.5}, {4, 1.9}, 0.8},
+        {block(-1, 0, 0, 1), {}, {-7, -1}, {4, 0.6}, {4, 3.8}, 0.8},
+        {bar(-3, -3, 2, 2, 0.3), metal, {-3.1, 5.6}, {6.8, -5}, {6.8, 2}, 1},
+        {bar(-3, -3, 2, 2, 0.3), {}, {-3.1, 5.6}, {6.8, -5}, {6.8, 2}, 1},
+        {bar(-3, -3, 2, 0, 1), metal, {4, 2.7}, {-5.5, -4.8}, {-4, -4.8}, 3},
+        {in_row, metal, {-8, -0.1}, {6, -2}, {6, 3}, 3.6},
+    };
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const Case& c = cases[i];
+        const Scene scene = drawn(c.inside, c.material);
+        for (const auto by : both) {
+            CAPTURE(i);
+            CAPTURE(static_cast<int>(by));
+            CHECK(largest_step({.order = 0, .diffraction = by}, scene, c.from, c.first, c.last) <
+                  c.limit);
+        }
     }
 }
 

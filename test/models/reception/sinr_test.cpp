@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "models/reception/sinr.hpp"
-
 #include "models/phy/error_rate.hpp"
 #include "models/phy/wifi.hpp"
+#include "models/reception/sinr_receiver.hpp"
 #include "sim/math.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/variation/fading.hpp"
-
+#include "models/variation/fades.hpp"
 #include "models/variation/gamma.hpp"
 #include "test/models/vectors.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/variation/shadowing.hpp"
-
+#include "models/variation/shadowing_field.hpp"
 #include "sim/random.hpp"
 #include "test/models/vectors.hpp"
 

@@ -75,6 +75,42 @@ Chart ramp(ChartKind kind, int count) {
 
 }  // namespace
 
+TEST_CASE("chart: marks stay within the axes, also at their ends and where series stand apart") {
+    for (const ChartKind kind : {ChartKind::lines, ChartKind::scatter, ChartKind::bars}) {
+        for (const std::size_t count : {1U, 2U, 6U, 12U}) {
+            Chart chart{.kind = kind, .y_limits = {0, 1}};
+            for (std::size_t i = 0; i < count; ++i) {
+                ChartSeries series{"s" + std::to_string(i), {}};
+                for (const double x : {0.0, 1.0})
+                    for (const double y : {0.0, 1.0})
+                        series.points.push_back({.x = x, .y = y, .low = 0.0, .high = 1.0});
+                chart.series.push_back(std::move(series));
+            }
+            if (kind == ChartKind::bars)  // dots
+                for (ChartSeries& series : chart.series)
+                    for (ChartPoint& point : series.points)
+                        point = {.x = point.x, .y = 0.99 + 0.01 * point.y};
+            const auto svg = svg_elements(drawn(chart));
+            auto pieces = corners(of_class(svg, "axes").at(0));
+            std::erase_if(pieces, [](const auto& piece) { return piece.size() != 3; });
+            REQUIRE(pieces.size() == 1);
+            const auto& axes = pieces[0];
+            const PicturePoint top = axes[0], bottom = axes[1], right = axes[2];
+            const auto marks = of_class(svg, "mark");
+            CHECK(marks.size() == 4 * count);
+            for (const SvgElement& mark : marks) {
+                const auto outline = corners(mark).at(0);
+                for (const PicturePoint corner : outline) {
+                    const bool inside = corner.x >= top.x && corner.x <= right.x &&
+                                        corner.y >= top.y && corner.y <= bottom.y;
+                    CHECK_MESSAGE(inside, count, " series: ", corner.x, " ", corner.y, " in ",
+                                  top.x, " ", top.y, " ", right.x, " ", bottom.y);
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("chart: a point with y = 0.5 stands midway between the ticks 0 and 1, and so in x") {
     for (const ChartKind kind : {ChartKind::lines, ChartKind::scatter}) {
         const auto svg = svg_elements(

@@ -46,6 +46,68 @@ TEST_CASE("dot plot: every name is written whole, however close the dots are") {
     CHECK(count(svg, "class=\"mark\"") == 82);   // and two in the legend
 }
 
+TEST_CASE("dot plot: the dots of a row stay within it, however many") {
+    DotPlot plot = crowded(1);
+    plot.title = "";
+    for (std::size_t i = 0; i < 6; ++i) {
+        plot.series.push_back("");
+        plot.rows[0].dots.push_back({.series = 2, .value = 5, .beside = 10});
+    }
+    const std::string svg = drawn(plot);
+    const auto heights = [&](const char* pattern) {
+        std::vector<double> out;
+        const std::regex wanted(pattern);
+        for (std::sregex_iterator at(svg.begin(), svg.end(), wanted), end; at != end; ++at)
+            out.push_back(std::stod((*at)[1]));
+        return out;
+    };
+    const double top = heights("<rect x=\"0\" y=\"([0-9.]+)\" width=\"640\" height=\"20\"").at(0);
+    const auto joins = heights("class=\"guide\" d=\"M[0-9.]+[ ,]([0-9.]+)");
+    REQUIRE(joins.size() == 2);
+    for (const double first : joins) {
+        CHECK(first >= top + 4.5);
+        CHECK(first < top + 10);
+    }
+}
+
+TEST_CASE("dot plot: intervals have a legend where there are some") {
+    DotPlot plot = crowded(2);
+    plot.whisker_label = "95 % interval";
+    const std::string svg = drawn(plot);
+    CHECK(count(svg, ">95 % interval</text>") == 1);
+    CHECK(count(svg, "class=\"whisker\"") == 3);  // and the one in the legend
+    for (DotRow& row : plot.rows) row.dots.back().high.reset();
+    CHECK(count(drawn(plot), ">95 % interval</text>") == 0);
+}
+
+TEST_CASE("dot plot: the numbers of both scales have room between them") {
+    DotPlot plot = crowded(1);
+    plot.series = {""};
+    for (const double most : {0.5, 9.0, 80.0, 100.0, 1200.0, 25000.0}) {
+        for (const double least_cost : {1.0, 900.0, 1e6, 1e9}) {
+            CAPTURE(most);
+            CAPTURE(least_cost);
+            plot.rows[0].dots = {{.value = most, .beside = least_cost},
+                                 {.value = 0, .beside = 1000 * least_cost}};
+            const std::string svg = drawn(plot);
+            // Numbers of one height: those below the scales, from left to right.
+            const std::regex number(
+                "<text x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*text-anchor=\"middle\"[^>]*>"
+                "([0-9][^<]*)</text>");
+            double end = -1e9, last = 0;
+            for (std::sregex_iterator at(svg.begin(), svg.end(), number), none; at != none; ++at) {
+                const double x = std::stod((*at)[1]),
+                             half = 3.2 * static_cast<double>((*at)[3].length());
+                if (x <= last) continue;
+                CHECK(x - half > end);
+                end = x + half;
+                last = x;
+            }
+            CHECK(last > 0);
+        }
+    }
+}
+
 TEST_CASE("dot plot: a value stands farther right than a smaller one, by its scale") {
     DotPlot plot = crowded(1);
     plot.series = {""};

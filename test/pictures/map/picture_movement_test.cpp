@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures of robots that only a movement file names: all is asked of the network.
 #include "pictures/map/picture.hpp"
+#include "scenario/scenario_file.hpp"
 #include "test/pictures/draw/svg_elements.hpp"
 #include "test/pictures/draw/well_formed.hpp"
 #include "test/scene/temporary_folder.hpp"

@@ -8,6 +8,7 @@
 #include "pictures/map/map_layer.hpp"
 #include "pictures/map/trail.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 #include "scene/images/image.hpp"
 #include "sim/error.hpp"
 #include "test/pictures/draw/well_formed.hpp"
@@ -277,6 +278,22 @@ TEST_CASE("picture: the coverage of a shadowed model is said to be the median") 
     const PictureOptions options{.coverage = "A", .cells = 100};
     CHECK(has(draw_svg(scenario(text("5 dB")), options), "median"));
     CHECK_FALSE(has(draw_svg(scenario(text("0 dB")), options), "median"));
+}
+
+TEST_CASE("picture: shadowing is named with its sigma beside the model, and not at sigma 0") {
+    const auto svg = [](const char* model, const char* sigma) {
+        return draw_svg(scenario(fmt::format("[propagation]\nmodel = \"friis\"\n[shadowing]\n"
+                                             "model = \"{}\"\nsigma = \"{}\"\n",
+                                             model, sigma) +
+                                 robot("A", 0, 0)),
+                        {});
+    };
+    CHECK(has(svg("link", "3 dB"), "friis, with shadowing: model link, sigma 3 dB"));
+    CHECK(has(svg("field", "3 dB"), "friis, with shadowing: model field, sigma 3 dB"));
+    for (const char* model : {"link", "field", "none"}) {
+        CHECK(has(svg(model, "0 dB"), "friis"));
+        CHECK_FALSE(has(svg(model, "0 dB"), "shadow"));
+    }
 }
 
 TEST_CASE("picture: trails remember corners and where a robot was at equal times") {

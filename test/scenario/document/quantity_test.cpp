@@ -86,6 +86,56 @@ TEST_CASE("quantity: blanks around number and unit, a plus sign and exponents do
     CHECK(read("-80dBm", Dimension::power) == -80);
 }
 
+TEST_CASE("quantity: a unit of a power of ten moves the decimal point, to the last bit") {
+    struct Case {
+        const char* unit;
+        int exponent;
+        const char* base;
+        Dimension dimension;
+    };
+    const Case cases[] = {{"cm", -2, "m", Dimension::length},
+                          {"mm", -3, "m", Dimension::length},
+                          {"km", 3, "m", Dimension::length},
+                          {"ms", -3, "s", Dimension::time},
+                          {"us", -6, "s", Dimension::time},
+                          {"ns", -9, "s", Dimension::time},
+                          {"GHz", 9, "Hz", Dimension::frequency},
+                          {"MHz", 6, "Hz", Dimension::frequency},
+                          {"kb/s", 3, "b/s", Dimension::bit_rate},
+                          {"MB", 6, "B", Dimension::size},
+                          {"dB/cm", 2, "dB/m", Dimension::attenuation}};
+    for (const auto& c : cases) {
+        int wrong = 0;
+        for (int hundredths = 1; hundredths < 40'000; hundredths += 7) {
+            const std::string number = std::to_string(hundredths / 100) + "." +
+                                       std::to_string(100 + hundredths % 100).substr(1);
+            const std::string moved = number + "e" + std::to_string(c.exponent) + " " + c.base;
+            wrong += read(number + " " + c.unit, c.dimension) != read(moved, c.dimension);
+        }
+        CAPTURE(c.unit);
+        CHECK(wrong == 0);
+    }
+    CHECK(read("3730 cm", Dimension::length) == 37.3);
+    CHECK(read("3.73e3 cm", Dimension::length) == 37.3);
+    CHECK(read("-7 mm", Dimension::length) == -0.007);
+    CHECK(read("1e9 W", Dimension::power) == read("1e12 mW", Dimension::power));
+    CHECK(read("5 uW", Dimension::power) == read("0.005 mW", Dimension::power));
+}
+
+TEST_CASE("quantity: kilometres an hour are rounded once") {
+    int wrong = 0;
+    for (int tenths = 1; tenths < 40'000; ++tenths) {
+        const std::string text =
+            std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " km/h";
+        wrong += read(text, Dimension::speed) != tenths / 36.0;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("quantity: a power too small for a number has no level") {
+    CHECK(contains(error_of("1e-322 uW", Dimension::power), "which has no level"));
+}
+
 TEST_CASE("quantity: a bare number is an error in a file, and the suggestion carries the unit") {
     const Value bare_numbers[] = {Value(5), Value(5.0), Value("5")};
     for (const auto& value : bare_numbers) {

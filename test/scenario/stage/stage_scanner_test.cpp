@@ -3,6 +3,7 @@
 #include "scenario/stage/stage_scanner.hpp"
 
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "scenario/stage/stage_world.hpp"
 #include "test/scene/temporary_folder.hpp"
 
@@ -193,7 +194,7 @@ TEST_CASE("stage scanner: a robot has all that it carries, in their order, and n
         "  position ( name \"b\" pose [1 0 0] wifi ( model \"friis\" ) laser ( samples 7 ) )\n"
         "  position ( laser ( samples 9 ) ) )\n"
         "position ( name \"c\" wifi ( model \"friis\" ) )\n");
-    REQUIRE(world.robots.size() == 3);
+    REQUIRE(world.robots.size() == 4);
     const auto& scan = world.scan();
     REQUIRE(scan.size() == 4);
     CHECK(scan[0].label() == "sonar");
@@ -203,8 +204,10 @@ TEST_CASE("stage scanner: a robot has all that it carries, in their order, and n
     CHECK(scan[3].finder.beams == 5);
     REQUIRE(world.robots[1].scan.size() == 1);
     CHECK(world.robots[1].scan[0].finder.beams == 7);
-    CHECK(world.robots[2].scan.empty());
-    CHECK(world.notices.back() == "a.world: ignored: laser (2)");
+    REQUIRE(world.robots[2].scan.size() == 1);
+    CHECK(world.robots[2].scan[0].finder.beams == 9);
+    CHECK(world.robots[3].scan.empty());
+    CHECK(world.notices.back() == "a.world: ignored: laser (1)");
 }
 
 TEST_CASE("stage scanner: values that make no sense are errors at their place") {

@@ -3,15 +3,17 @@
 
 #include "models/link_gain.hpp"
 #include "models/radio.hpp"
-#include "scenario/tables/propagation_table.hpp"
 #include "scenario/document/quantity.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
+#include "scenario/tables/propagation_table.hpp"
 #include "scene/scene.hpp"
 #include "scene/stage/stage_walls.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -287,11 +289,58 @@ TEST_CASE("stage world: the wifi of a carried robot is not its carrier's") {
     const Read world = read(
         "position ( name \"truck\" pose [5 0 180]\n"
         "  position ( name \"a\" pose [1 0 0] wifi ( model \"friis\" ) ) )\n");
-    REQUIRE(world.robots().size() == 1);
-    CHECK(value(world.robot(0), "name") == "a");
-    CHECK(value(world.robot(0), "at") == "4 m, 0 m");
+    REQUIRE(world.robots().size() == 2);
+    CHECK(value(world.robot(0), "name") == "truck");
+    CHECK(world.robot(0).find("radio") == nullptr);
+    CHECK(value(world.robot(1), "name") == "a");
+    CHECK(value(world.robot(1), "at") == "4 m, 0 m");
+    CHECK(value(world.propagation(1), "model") == "friis");
     REQUIRE(world.notices.size() == 1);
-    CHECK(world.notices[0] == "a.world:1: positions without a wifi are left out: truck");
+    CHECK(world.notices[0] ==
+          "a.world:1: robots without a wifi have the radio of [radio] and the model of "
+          "[propagation], friis by default: truck");
+}
+
+TEST_CASE("stage world: robots without a wifi have the scenario's radio, with one notice for all") {
+    const TemporaryFolder folder;
+    folder.write("hall.world",
+                 "define rover position ( size [0.5 0.4 0.2] laser ( samples 9 ) )\n"
+                 "model ( size [10 6 1] boundary 1 noblocks 1 )\n"
+                 "rover ( name \"r0\" pose [-3 1 0 90] )\nrover ( pose [3 1 0 180] )\n");
+    const Scenario alone = load_scenario(folder.path("hall.world"), {});
+    REQUIRE(alone.robots.size() == 2);
+    CHECK(alone.robots[0].radio.power.value == Radio{}.power.value);
+    CHECK(!alone.robots[0].propagation);
+    CHECK(alone.robots[0].scan.size() == 1);
+    const auto about_radio = std::count_if(
+        alone.notices.begin(), alone.notices.end(),
+        [](const std::string& n) { return n.find("have the radio of [radio]") != n.npos; });
+    CHECK(about_radio == 1);
+
+    const Scenario over = load_scenario(
+        folder.write("s.toml",
+                     "[scene]\nworld = \"hall.world\"\n[radio]\npower = \"3 dBm\"\n"
+                     "[[robot]]\nname = \"r0\"\nradio = { sensitivity = \"-60 dBm\" }\n"),
+        {});
+    REQUIRE(over.robots.size() == 2);
+    const RobotTable& r0 = over.robots[0];
+    CHECK(r0.at == Vec3{-3, 1, 0});
+    CHECK(r0.radius.value == 0.2);
+    CHECK(r0.scan.size() == 1);
+    CHECK(r0.radio.power.value == 3);
+    CHECK(r0.radio.sensitivity.value == -60);
+    CHECK(over.robots[1].radio.sensitivity.value == -75);
+}
+
+TEST_CASE("stage world: a world without robots is a scene, and no scenario to run") {
+    const TemporaryFolder folder;
+    const std::string world = folder.write("plan.world", "model ( size [4 2 1] )\n");
+    const Scenario scene = load_scenario(world, {.needs_robots = false});
+    CHECK(scene.robots.empty());
+    CHECK(scene.walls);
+    CHECK_THROWS_WITH_AS(load_scenario(world, {}),
+                         doctest::Contains("no robot in this world; expected a position"),
+                         InputError);
 }
 
 TEST_CASE("stage world: a robot whose macro is missing is a robot by its wifi") {
@@ -364,11 +413,18 @@ TEST_CASE("stage world: robots without a name get one that nobody has") {
     CHECK(world.notices[0] == "a.world:2: robots without a name get one: robot0, robot2_, robot3");
 }
 
-TEST_CASE("stage world: two robots of one name are an error that names both") {
-    const std::string message =
-        mistake(robot_with + ") )\nmodel ( name \"a\" )\n  " + robot_with + ") )\n");
-    CHECK(message.starts_with("3:14: two robots are named \"a\"; the other is at "));
-    CHECK(message.ends_with("a.world:1:12; give each a name of its own"));
+TEST_CASE("stage world: a second robot of a name gets one of its own, with a notice") {
+    const Read world = read(
+        "define bot position ( wifi ( model \"friis\" ) )\n"
+        "bot ( name \"a\" )\nbot ( name \"a_\" )\nmodel ( name \"a\" )\n"
+        "bot ( name \"a\" )\nbot ( name \"a\" )\nbot ( )\n");
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < world.robots().size(); ++i) {
+        names.push_back(value(world.robot(i), "name"));
+    }
+    CHECK(names == std::vector<std::string>{"a", "a_", "a__", "a___", "robot4"});
+    CHECK(world.notices.back() ==
+          "a.world:5: robots of a name that another has get one of their own: a__, a___");
 }
 
 TEST_CASE("stage world: an address that two robots have is a notice that names both") {
@@ -388,10 +444,13 @@ TEST_CASE("stage world: what is no robot and no wall is said in one line") {
         "window ( )\nmodel ( laser ( ) )\n"
         "position ( name \"a\" laser ( ) ranger ( sensor ( ) ) wifi ( model \"friis\" ) )\n"
         "position ( name \"b\" laser ( ) )\nposition ( )\nwifi ( )\n");
-    REQUIRE(world.notices.size() == 3);
-    CHECK(world.notices[0] == "a.world:4: positions without a wifi are left out: b, line 5");
-    CHECK(world.notices[1] == "a.world:6: a wifi outside a position is left out: wifi");
-    CHECK(world.notices[2] == "a.world: ignored: laser (2), window (1)");
+    CHECK(world.robots().size() == 3);
+    REQUIRE(world.notices.size() == 4);
+    CHECK(world.notices[1] ==
+          "a.world:4: robots without a wifi have the radio of [radio] and the model of "
+          "[propagation], friis by default: b, robot2");
+    CHECK(world.notices[2] == "a.world:6: a wifi outside a position is left out: wifi");
+    CHECK(world.notices[3] == "a.world: ignored: laser (1), window (1)");
 }
 
 TEST_CASE("stage world: an unknown key of a wifi is a notice each; a model's are none") {

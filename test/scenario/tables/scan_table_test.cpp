@@ -2,8 +2,8 @@
 // The key `scan` of a robot: what it says, what it refuses, and how it is printed.
 #include "scenario/tables/scan_table.hpp"
 
-#include "scenario/scenario.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,6 +2,7 @@
 #include "scene/images/image.hpp"
 
 #include "sim/error.hpp"
+#include "test/scene/images/read_bytes.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 
@@ -12,28 +13,15 @@
 
 namespace image_test {
 using namespace rovernet;
+using test::picture_error;
 using test::png_bytes;
 using test::PngPicture;
+using test::read_bytes;
 using test::TemporaryFolder;
 
 namespace {
 
 using Samples = std::vector<std::uint8_t>;
-
-Image read_bytes(const std::string& bytes) {
-    const TemporaryFolder folder;
-    return read_image(folder.write("image", bytes));
-}
-
-/// The message of the error that reading these bytes ends in, without its place; "" if none.
-std::string error_of(const std::string& bytes) {
-    try {
-        read_bytes(bytes);
-    } catch (const InputError& error) {
-        return error.message();
-    }
-    return "";
-}
 
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
@@ -132,8 +120,8 @@ TEST_CASE("PNG: cut anywhere it is an error, never a crash") {
     }
     const std::string bytes = png_bytes(picture);
     for (std::size_t size = 0; size < bytes.size(); size += size < 100 ? 1 : 37)
-        CHECK_MESSAGE(error_of(bytes.substr(0, size)) != "", "cut at ", size);
-    CHECK(contains(error_of(bytes.substr(0, 200)), "truncated PNG"));
+        CHECK_MESSAGE(picture_error(bytes.substr(0, size)) != "", "cut at ", size);
+    CHECK(contains(picture_error(bytes.substr(0, 200)), "truncated PNG"));
 }
 
 TEST_CASE("PNG: a changed byte is an error or another picture, never a crash") {
@@ -142,7 +130,7 @@ TEST_CASE("PNG: a changed byte is an error or another picture, never a crash") {
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         std::string changed = bytes;
         changed[i] = static_cast<char>(changed[i] ^ 0x41);
-        CHECK_NOTHROW(error_of(changed));
+        CHECK_NOTHROW(picture_error(changed));
     }
 }
 
@@ -162,7 +150,7 @@ TEST_CASE("PNG: 30,000 x 30,000 pixels are refused from the header alone") {
     std::string bytes = "\x89PNG\r\n\x1a\n" + bytes_of({0, 0, 0, 13}) + chunk;
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(sum >> shift);
     bytes += bytes_of({0, 0, 0, 0}) + "IDAT" + bytes_of({0x35, 0xaf, 0x06, 0x1e});
-    CHECK(contains(error_of(bytes), "30000 x 30000 pixels; expected at most 64 million"));
+    CHECK(contains(picture_error(bytes), "30000 x 30000 pixels; expected at most 256 million"));
 }
 
 TEST_CASE("PGM: plain and raw give the same samples") {
@@ -190,19 +178,21 @@ TEST_CASE("PGM: any maxval is stretched to 255 and rounded to nearest") {
 }
 
 TEST_CASE("PGM: what is wrong is said") {
-    CHECK(contains(error_of("P5 2 2 255\nabc"), "truncated PGM"));
-    CHECK(contains(error_of("P2 2 2 255\n1 2 3"), "truncated PGM"));
-    CHECK(contains(error_of("P5 2"), "truncated PGM"));
-    CHECK(contains(error_of("P2 1 1 255\n256"), "above 255"));
-    CHECK(contains(error_of("P5 1 1 100\n" + bytes_of({101})), "sample 101 above the maxval 100"));
-    CHECK(contains(error_of("P2 1 1 255\n-1"), "expected a sample"));
-    CHECK(contains(error_of("P2 x 1 255\n1"), "expected a width"));
-    CHECK(contains(error_of("P2 1x 1 255\n1"), "expected a width"));
-    CHECK(contains(error_of("P2 1 1 0\n0"), "maxval 0"));
-    CHECK(contains(error_of("P2 1 1 65536\n0"), "maxval from 1 to 65535"));
-    CHECK(contains(error_of("P2 0 1 255\n"), "at least one pixel"));
-    CHECK(contains(error_of("P5 30000 30000 255\n"), "at most 64 million"));
-    CHECK(contains(error_of("P5 99999999999999999999 1 255\n"), "number above"));
+    CHECK(contains(picture_error("P5 2 2 255\nabc"), "truncated PGM"));
+    CHECK(contains(picture_error("P2 2 2 255\n1 2 3"), "truncated PGM"));
+    CHECK(contains(picture_error("P5 2"), "truncated PGM"));
+    CHECK(contains(picture_error("P2 1 1 255\n256"), "above 255"));
+    CHECK(contains(picture_error("P5 1 1 100\n" + bytes_of({101})),
+                   "sample 101 above the maxval 100"));
+    CHECK(contains(picture_error("P2 1 1 255\n-1"), "expected a sample"));
+    CHECK(contains(picture_error("P2 x 1 255\n1"), "expected a width"));
+    CHECK(contains(picture_error("P2 1x 1 255\n1"), "expected a width"));
+    CHECK(contains(picture_error("P2 1 1 0\n0"), "maxval 0"));
+    CHECK(contains(picture_error("P2 1 1 65536\n0"), "maxval from 1 to 65535"));
+    CHECK(contains(picture_error("P2 0 1 255\n"), "at least one pixel"));
+    CHECK(contains(picture_error("P5 30000 30000 255\n"), "at most 256 million"));
+    CHECK(!contains(picture_error("P5 9000 9000 255\n"), "at most"));  // it has no pixels
+    CHECK(contains(picture_error("P5 99999999999999999999 1 255\n"), "number above"));
 }
 
 TEST_CASE("images: a missing file, a folder and other kinds of file are told apart") {
@@ -220,8 +210,14 @@ TEST_CASE("images: a missing file, a folder and other kinds of file are told apa
     CHECK(fails(folder.path("."), "is a directory"));
     CHECK(fails("/dev/zero", "not a regular file"));
     CHECK(fails(folder.write("empty.png", ""), "an empty file"));
-    CHECK(fails(folder.write("page.png", "<html></html>"), "neither a PNG nor a PGM"));
-    CHECK(fails(folder.write("color.ppm", "P6 1 1 255\nabc"), "neither a PNG nor a PGM"));
+    CHECK(fails(folder.write("page.png", "<html></html>"), "no picture of a kind that is read"));
+    CHECK(fails(folder.write("page.png", "<html></html>"), "expected a PNG, JPEG, BMP, GIF or"));
+}
+
+TEST_CASE("images: their names, in any case of letters") {
+    for (const char* name : {"a.png", "maps/b.JPG", "c.jpeg", "d.bmp", "e.Gif", "f.ppm", "g.pbm"})
+        CHECK_MESSAGE(is_image_name(name), name);
+    for (const char* name : {"a.yaml", "png", "b.png.toml", ""}) CHECK_FALSE(is_image_name(name));
 }
 
 }  // namespace image_test

@@ -3,6 +3,7 @@
 
 #include "scene/images/image.hpp"
 #include "scene/scene.hpp"
+#include "test/scene/pictures.hpp"
 #include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 
@@ -195,9 +196,12 @@ TEST_CASE("stage walls: parts of a wall are walls, in its frame; robots and sens
 TEST_CASE("stage walls: what a laser passes is no wall, but its parts may be") {
     World world;
     CHECK(world.walls("model ( laser_return 0 )\nmodel ( ranger_return -1 )\n").grids.empty());
-    CHECK(world.walls("model ( ranger_return 0 )\n").grids.empty());
+    CHECK(world.walls("model ( ranger_return -0.5 )\nmodel ( laser_return -1 )\n").grids.empty());
+    CHECK(world.walls("model ( ranger_return 0 )\n").grids.size() == 1);
+    CHECK(world.walls("model ( laser_return 0 ranger_return 0 )\n").grids.empty());
     CHECK(world.walls("model ( laser_return 2 )\nmodel ( ranger_return 0.5 )\n").grids.size() == 2);
     CHECK(world.walls("model ( obstacle_return 0 )\n").grids.size() == 1);
+    CHECK(world.walls("model ( bitmap \"\" )\n").grids.size() == 1);  // a box
     CHECK(world.walls("model ( laser_return 0 model ( ) )\n").grids.size() == 1);
 }
 
@@ -451,6 +455,22 @@ TEST_CASE("stage walls: wall lengths in the worlds that came with Stage are the 
         CHECK(std::abs(scene.wall_length(row.a, row.b) - row.length) < half_a_digit);
         CHECK(scene.wall_length(row.b, row.a) == scene.wall_length(row.a, row.b));
     }
+}
+
+TEST_CASE("stage walls: a bitmap may be a JPEG, a BMP or a GIF") {
+    const World world;
+    world.folder.write("half.jpg", test::gray_jpeg());
+    world.folder.write("dots.gif", test::opaque_gif());
+    world.folder.write("dots.bmp",
+                       test::bmp_header(2, 1, 24) + std::string(3, '\0') + std::string(5, '\377'));
+    const auto walls = [&](const char* name) {
+        const OccupancyGrid grid =
+            world.grid("model ( bitmap \"" + std::string(name) + "\" size [4 2 1] )");
+        return std::count(grid.cells.begin(), grid.cells.end(), Cell::occupied);
+    };
+    CHECK(walls("half.jpg") == 64);
+    CHECK(walls("dots.gif") == 2);
+    CHECK(walls("dots.bmp") == 1);
 }
 
 }  // namespace stage_walls_test

@@ -164,6 +164,28 @@ TEST_CASE("worldfile: a type that Stage does not know is a notice, once, with th
     CHECK(world_role(world.root.children[3]) == WorldRole::wall);
 }
 
+TEST_CASE("worldfile: of a run of digits, signs and points the number at the front counts") {
+    const WorldFile world = read("position ( pose [3.75.2 -1-2 +.5. 0] size [4 5.-] a 6.0.0.1 )\n");
+    const WorldPose pose = world_pose(world.root.children[0], "pose", {});
+    CHECK(pose.at.x == 3.75);
+    CHECK(pose.at.y == -1);
+    CHECK(pose.at.z == 0.5);
+    CHECK(world_size(world.root.children[0], {}).y == 5);
+    CHECK(world.root.children[0].find("a")->number() == 6);
+    REQUIRE(world.notices.size() == 5);
+    CHECK(world.notices[0].ends_with(
+        "a.world:1: \"3.75.2\" is read as 3.75, as in Stage; what follows counts nothing"));
+}
+
+TEST_CASE("worldfile: a tuple may go on over lines, with comments between") {
+    const WorldFile world = read("position ( pose [ 1\r\n 2 # two\n\n 3\n] name \"a\" )\n");
+    const WorldPose pose = world_pose(world.root.children[0], "pose", {});
+    CHECK(pose.at.x == 1);
+    CHECK(pose.at.y == 2);
+    CHECK(pose.degrees == 3);
+    CHECK(world.root.children[0].find("name")->where.line == 5);
+}
+
 TEST_CASE("worldfile: a syntax error names line, column, what was found and what to write") {
     CHECK(mistake("size [16 16]\n power 1e-3\n") ==
           "2:8: found \"1e-3\"; expected a number without an exponent; write 0.001");
@@ -175,14 +197,13 @@ TEST_CASE("worldfile: a syntax error names line, column, what was found and what
           "1:13: found \";\"; expected a blank or a new line; remove it");
     CHECK(mistake("name 'a'\n") ==
           "1:6: found \"'\"; expected a text in double quotes; write \"...\"");
-    CHECK(
-        mistake("size [16\n16]\n") ==
-        "1:9: found the end of the line inside the [ ] of \"size\"; expected numbers or texts and "
-        "the \"]\", all on one line; add the \"]\"");
-    CHECK(mistake("size [16 # x\n16]\n").starts_with("1:13: found the end of the line inside"));
+    CHECK(mistake("model (\n size [16 16\n pose [0 0 0]\n)\n") ==
+          "3:2: found the word \"pose\" inside the [ ] of \"size\"; expected numbers or texts and "
+          "the \"]\"; add the \"]\"");
+    CHECK(mistake("size [16\n\n").starts_with("3:1: found the end of the file inside the [ ]"));
     CHECK(mistake("a [b]\n") ==
           "1:4: found the word \"b\" inside the [ ] of \"a\"; expected numbers or texts and the "
-          "\"]\", all on one line; put a text in quotes");
+          "\"]\"; put a text in quotes");
     CHECK(mistake("model (\n a 1\n")
               .starts_with("3:1: found the end of the file; expected the \")\" of the \"(\" at "));
     CHECK(mistake("model (\n a 1\n").ends_with("a.world:1:7; add it"));
@@ -205,10 +226,10 @@ TEST_CASE("worldfile: a syntax error names line, column, what was found and what
     CHECK(mistake("size[16 16]\n") ==
           "1:1: found \"size[16\"; expected a key, a blank and its value; write size [...]");
     CHECK(mistake("range 4m\n").starts_with("1:7: found \"4m\"; expected a number, such as -0.5"));
-    CHECK(mistake("range 1.2.3\n").starts_with("1:7: found \"1.2.3\"; expected a number"));
     CHECK(mistake("range -\n").starts_with("1:7: found \"-\"; expected a number"));
     CHECK(mistake("range +-5\n").starts_with("1:7: found \"+-5\"; expected a number"));
     CHECK(mistake("a = 5\n").starts_with("1:3: found \"=\""));
+    CHECK(mistake("<sdf>\n").starts_with("1:1: found \"<\"; expected a world of Stage"));
     CHECK(mistake("// x\n").starts_with("1:1: found \"/\""));
     CHECK(mistake("model { }\n").starts_with("1:7: found \"{\""));
     CHECK(mistake("a 1 \x01\n").starts_with("1:5: found the byte 0x01;"));
@@ -231,7 +252,7 @@ TEST_CASE("worldfile: a define without its parts is an error") {
     CHECK(mistake("define a model 5\n") ==
           "1:16: found the number 5; expected \"(\" after \"define a model\"; write define a model "
           "( ... )");
-    CHECK(mistake("define a model ( size [1 \n").starts_with("1:26: "));  // though nobody uses it
+    CHECK(mistake("define a model ( size [1 \n").starts_with("2:1: "));  // though nobody uses it
     CHECK(mistake("define a model ( define b model ( ) )\n").starts_with("1:"));
 }
 
@@ -385,6 +406,20 @@ TEST_CASE("worldfile: poses of Stage 2 and of Stage 4 are told apart by their le
     CHECK(world_size(models[3], units).x == 0.4);
 }
 
+TEST_CASE("worldfile: lengths in cm and mm are those in metres, to the last bit") {
+    const WorldUnits cm = world_units(read("unit_length \"cm\"\n"));
+    const WorldUnits mm = world_units(read("unit_length \"mm\"\n"));
+    CHECK(cm.metres(3730) == 37.3);
+    CHECK(cm.metres(3730.3) == 37.303);
+    CHECK(mm.metres(-4.7) == -0.0047);
+    int wrong = 0;
+    for (int n = 1; n < 10'000; ++n) {
+        wrong += cm.metres(n) != n / 100.0;
+        wrong += mm.metres(n) != n / 1000.0;
+    }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("worldfile: unit_length and unit_angle count, in lengths and angles") {
     const WorldFile world = read(
         "unit_length \"cm\"\nunit_angle \"radians\"\nmodel ( pose [100 250 1.5] size [20 40] )\n");
@@ -423,6 +458,7 @@ TEST_CASE("worldfile: a pose or size that is none is an error at its place") {
     CHECK(refused("size [1 -1]").starts_with("2:2: size: found 1 m x -1 m; expected lengths >= 0"));
     CHECK(refused("pose [9999999999 0 0]").starts_with("2:2: pose: found 9999999999 m; expected"));
     CHECK(refused("pose [1 2 3] size [1 1]") == "");
+    CHECK(refused("size [5 1.5 0.5 0]") == "");  // the first ones count, as in Stage
 }
 
 TEST_CASE("worldfile: poses compose: turn, then move") {

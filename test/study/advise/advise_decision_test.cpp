@@ -163,6 +163,26 @@ TEST_CASE("decision: what is undecided tells how many replications would decide"
     CHECK_FALSE(decision.needed());
 }
 
+TEST_CASE("decision: a larger tolerance that decides is told, and decides; else there is none") {
+    const DecisionRule rule{.tolerance = 0.05, .bounds = share, .family = 3};
+    CandidateDecision near(rule), few(rule), student({.tolerance = 1, .bounds = delay, .most = 40});
+    for (int i = 0; i < 200; ++i) add(near, i % 2 == 0 ? 0.15 : -0.05);
+    for (int i = 0; i < 2; ++i) add(few, 0.9);
+    for (int i = 0; i < 40; ++i) student.add(i % 2 == 0 ? 3 : 0, 0.6);
+    CHECK_FALSE(CandidateDecision(rule).deciding_tolerance());
+    CHECK_FALSE(few.deciding_tolerance());
+    REQUIRE(near.verdict() == Equivalence::undecided);
+    REQUIRE(near.deciding_tolerance());
+    CHECK(*near.deciding_tolerance() > 0.05);
+    DecisionRule larger = rule;
+    larger.tolerance = *near.deciding_tolerance();
+    CandidateDecision decided(larger);
+    for (int i = 0; i < 200; ++i) add(decided, i % 2 == 0 ? 0.15 : -0.05);
+    CHECK(decided.verdict() == Equivalence::within);
+    REQUIRE(student.verdict() == Equivalence::undecided);
+    CHECK(*student.deciding_tolerance() == doctest::Approx(1.7).epsilon(0.1));
+}
+
 TEST_CASE("decision: of 1000 studies with candidates at the tolerance at most 5 % decide falsely") {
     // Six candidates each, one for each distribution, with E D = 0.05, the tolerance: neither
     // within nor outside. Half of the studies judge the mean, half the single run, where E|D| =

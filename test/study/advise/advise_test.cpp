@@ -177,11 +177,30 @@ TEST_CASE("advise: forms of rays that are no more detailed in either respect are
         return names_of(c.path_losses);
     };
     using Names = std::vector<std::string>;
-    CHECK(forms_below("3", "utd") ==
-          Names{"rays order=1", "rays order=2 knife_edge", "rays order=2", "rays"});
-    CHECK(forms_below("2", "utd") == Names{"rays order=1", "rays order=2 knife_edge", "rays"});
-    CHECK(forms_below("2", "knife_edge") == Names{"rays order=1", "rays"});
+    CHECK(forms_below("3", "utd") == Names{"rays order=1 diffraction=none",
+                                           "rays order=2 diffraction=knife_edge",
+                                           "rays order=2 diffraction=utd", "rays"});
+    CHECK(forms_below("2", "utd") ==
+          Names{"rays order=1 diffraction=none", "rays order=2 diffraction=knife_edge", "rays"});
+    CHECK(forms_below("2", "knife_edge") == Names{"rays order=1 diffraction=none", "rays"});
+    CHECK(forms_below("1", "utd") == Names{"rays diffraction=none", "rays"});
+    CHECK(forms_below("3", "none") == Names{"rays order=1", "rays"});
     CHECK(forms_below("1", "none") == Names{"rays"});
+}
+
+TEST_CASE("advise: candidates can be asked for by the names that are printed") {
+    const auto candidates = [](std::vector<std::string> models) {
+        return names_of(
+            candidates_for(std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml", {},
+                           {.models = std::move(models), .reference = {}, .as_given = true})
+                .path_losses);
+    };
+    using Names = std::vector<std::string>;
+    CHECK(candidates({"rays order=2 diffraction=utd", "friis"}) ==
+          Names{"friis", "rays order=2 diffraction=utd", "rays"});
+    CHECK(candidates({"rays"}).size() == 4);
+    CHECK_THROWS_WITH(candidates({"rays order=2 diffraction=udt"}),
+                      doctest::Contains("did you mean \"rays order=2 diffraction=utd\"?"));
 }
 
 TEST_CASE("advise: the reference and the candidates are what the options say") {
@@ -393,6 +412,16 @@ TEST_CASE("advise: what was stopped is an interim verdict that says what is open
     CHECK(advice_text(advice).find(
               "Open when it was stopped, and taken as insufficient so far: ") != std::string::npos);
     CHECK(advice_text(advice).find("would decide") != std::string::npos);
+}
+
+TEST_CASE("advise: stopped before anything ran, it says that nothing is known yet") {
+    MadeUp study([](std::size_t, std::size_t, std::uint32_t) { return 0.5; });
+    study.most_blocks = 0;
+    const Advice advice = study.advice(rule_of(0.2));
+    CHECK(advice.knows_nothing());
+    CHECK(advice_text(advice).starts_with(
+        "Interim: nothing is known yet, as no candidate was compared with top + all."));
+    CHECK(advice_text(advice).find("tolerance") == std::string::npos);
 }
 
 TEST_CASE("advise: blocks grow by a quarter, from 10 to the most") {

@@ -8,6 +8,7 @@
 #include "models/propagation/log_distance.hpp"
 #include "models/propagation/rays.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 #include "scene/scene.hpp"
 #include "sim/random.hpp"
 #include "test/models/vectors.hpp"
@@ -81,9 +82,9 @@ struct CountedFriis {
     int* asked;
 
     Meters reach(Db loss, Hertz f) const { return Friis{}.reach(loss, f); }
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
         ++*asked;
-        Friis{}.loss(links, give_up, out_db);
+        Friis{}.loss(links, cutoff, out_db);
     }
 };
 

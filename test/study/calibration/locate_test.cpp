@@ -2,11 +2,17 @@
 // Robots in a hall with an anchor in each corner, and measured levels of the same.
 #include "study/calibration/locate.hpp"
 
+#include "models/propagation/disc.hpp"
+#include "models/propagation/friis.hpp"
+#include "scenario/scenario_file.hpp"
+#include "scenario/unlikely.hpp"
 #include "sim/error.hpp"
+#include "study/calibration/calibration.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -49,6 +55,76 @@ TEST_CASE("locate: without shadowing robots are found where they are, also by a 
         for (const Fix& fix : located.fixes) CHECK(*fix.error() <= 2e-3);
         CHECK(located.too_few == 0);
     }
+}
+
+TEST_CASE("locate: each time has the doors as they are then") {
+    const TemporaryFolder folder;
+    const Scenario scenario = load_scenario(folder.write("door.toml", R"([scenario]
+name = "door"
+duration = "30 s"
+[scene]
+map = ")" ROVERNET_EXAMPLES R"(/rescue/map.yaml"
+[scene.materials]
+steel = { per_crossing = "40 dB" }
+[[scene.door]]
+from = ["20.3 m", "13.3 m"]
+to = ["21.7 m", "13.3 m"]
+material = "steel"
+closes = ["10 s"]
+opens = ["20 s"]
+[radio]
+sensitivity = "-150 dBm"
+[propagation]
+model = "multi_wall"
+[[robot]]
+name = "SW"
+at = ["20.5 m", "12 m"]
+[[robot]]
+name = "SE"
+at = ["21.5 m", "12.2 m"]
+[[robot]]
+name = "NE"
+at = ["24 m", "15 m"]
+[[robot]]
+name = "NW"
+at = ["19.5 m", "16 m"]
+[[robot]]
+name = "R"
+at = ["21 m", "15 m"]
+)"),
+                                            {});
+    const auto at = [](int s) { return start_of_run + std::chrono::seconds{s}; };
+    const Located all = locate_robots(scenario, corners, {at(0), at(15), at(25)}, {.sigma = Db{4}});
+    REQUIRE(all.fixes.size() == 3);
+    for (const Fix& fix : all.fixes) CHECK(*fix.error() <= 2e-3);
+}
+
+TEST_CASE("locate, fit, probe: disc has no levels, and is refused") {
+    const Propagation model = Disc{.range = 20_m};
+    const auto fault = [](const auto& call) {
+        try {
+            call();
+        } catch (const InputError& error) {
+            return error.message();
+        }
+        return std::string();
+    };
+    CHECK(fault([&] { refuse_disc(model, {}, "locate"); }) ==
+          "\"disc\" has no levels, which locate looks at; expected another propagation model");
+    CHECK(fault([&] { refuse_disc(Friis{}, {}, "locate"); }).empty());
+    const TemporaryFolder folder;
+    const Scenario scenario =
+        load_scenario(folder.write("disc.toml",
+                                   "propagation = { model = \"disc\", range = \"20 m\" }\n"
+                                   "robot = [{ name = \"A\", at = [\"0 m\", \"0 m\"] },\n"
+                                   "  { name = \"B\", at = [\"9 m\", \"0 m\"] }]\n"),
+                      {});
+    CHECK(fault([&] {
+              calibrate_to_model(scenario, "", {}, Db{0});
+          }).find("\"disc\" has no levels") == 0);
+    CHECK(fault([&] {
+              locate_robots(scenario, {"A"}, {start_of_run}, {.sigma = Db{4}});
+          }).find("\"disc\" has no levels") == 0);
 }
 
 TEST_CASE("locate: under shadowing the error is about as large as the bound") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/probe/probe.hpp"
 
+#include "scenario/scenario_file.hpp"
 #include "scene/scene.hpp"
 #include "sim/random.hpp"
 #include "study/probe/displaced.hpp"

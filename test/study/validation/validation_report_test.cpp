@@ -61,6 +61,33 @@ TEST_CASE("validation: the front has what nothing beats, from the cheapest to th
     CHECK(pareto_front(small_panel().points) == std::vector<std::size_t>{1, 3});
 }
 
+TEST_CASE("validation: on the front is only what its parts or intervals tell from all cheaper") {
+    const auto front_of = [](double spread, std::size_t parts) {
+        ValidationPanel panel{.error_label = "error [dB]"};
+        for (int i = 0; i < 3; ++i) {
+            panel.points.push_back({.label = std::string(1, static_cast<char>('a' + i)),
+                                    .cost = {1.0 + i, 1, 1},
+                                    .error = 3.0 - i});
+            for (std::size_t k = 0; k < parts; ++k)
+                panel.points.back().parts.push_back(
+                    3.0 - i +
+                    spread * (static_cast<int>(k + static_cast<std::size_t>(i)) % 4 - 1.5));
+        }
+        return pareto_front(panel.points);
+    };
+    using Front = std::vector<std::size_t>;
+    CHECK(front_of(0.01, 20) == Front{0, 1, 2});
+    CHECK(front_of(5, 20) == Front{0});
+    CHECK(front_of(0.01, 5) == Front{0});     // too few to tell
+    CHECK(front_of(0, 0) == Front{0, 1, 2});  // nothing is known but the values
+    ValidationPanel panel = small_panel();
+    panel.points[3].error_low = 0;
+    panel.points[3].error_high = 1.6;  // meets that of the cheaper one
+    CHECK(pareto_front(panel.points) == Front{1});
+    CHECK(count(validation_svg({.name = "s", .title = "t", .truth = "", .panels = {panel}}),
+                "surely nearer the truth") == 1);
+}
+
 TEST_CASE("validation: a promise is kept up to its limit, and one that is not breaks the whole") {
     Validation validation = small_validation();
     CHECK(validation.kept());

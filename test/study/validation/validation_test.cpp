@@ -3,8 +3,8 @@
 #include "scene/scene.hpp"
 #include "study/validation/cases/drawn_map.hpp"
 #include "study/validation/cases/naive_walls.hpp"
-#include "study/validation/validation_charts.hpp"
 #include "study/validation/cases/validation_scene.hpp"
+#include "study/validation/validation_charts.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,6 +2,8 @@
 #include "traces/ns2/ns2_reader.hpp"
 
 #include "sim/error.hpp"
+#include "sim/legs.hpp"
+#include "test/traces/ns2/trace_metrics.hpp"
 #include "test/traces/record_stream.hpp"
 #include "traces/ns2/ns2_trace.hpp"
 

@@ -243,4 +243,62 @@ TEST_CASE("trace stats: the files of one run of ns-2 are the same in each format
     CHECK_THROWS_AS(ns2_stats(in + "ns3_aodv_wifi_ascii.tr"), InputError);
 }
 
+TEST_CASE("stats: frames of S-MAC, whose bracket has signed addresses and no ethertype, count") {
+    const TempFolder folder;
+    write_file(
+        folder / "smac.tr",
+        "s 1.000000000 _0_ AGT  --- 0 cbr 512 [0.00 0 0] ------- [0:0 2:0 32 0] [0] 0 0\n"
+        "r 1.000000000 _0_ RTR  --- 0 cbr 512 [0.00 0 0] ------- [0:0 2:0 32 0] [0] 0 0\n"
+        "s 1.000000000 _0_ RTR  --- 0 AODV 48 [0.00 0 0] ------- [0:255 -1:255 30 0] [0x2 1 "
+        "1 [2 0] [0 4]] (REQUEST)\n"
+        "f 1.100000000 _1_ RTR  --- 0 AODV 48 [0.00 -1 0] ------- [0:255 -1:255 29 0] [0x2 1 "
+        "1 [2 0] [0 4]] (REQUEST)\n"
+        "s 1.200000000 _0_ RTR  --- 0 cbr 532 [0.00 0 0] ------- [0:0 2:0 30 1] [0] 0 0\n"
+        "r 1.300000000 _1_ RTR  --- 0 cbr 532 [0.01 1 0] ------- [0:0 2:0 30 1] [0] 1 0\n"
+        "f 1.300000000 _1_ RTR  --- 0 cbr 532 [0.01 1 0] ------- [0:0 2:0 29 2] [0] 1 0\n"
+        "r 1.400000000 _2_ AGT  --- 0 cbr 532 [0.01 2 1] ------- [0:0 2:0 29 2] [0] 2 0\n"
+        "D 1.500000000 _2_ MAC  COL 0 AODV 48 [0.00 -1 1] ------- [1:255 -1:255 29 0] [0x2 2 "
+        "1 [2 0] [0 4]] (REQUEST)\n");
+    const TraceStats s = ns2_stats(folder / "smac.tr", Ns2Strictness::strict);
+    CHECK(s.routing_packets == 2);
+    CHECK(s.metrics.receptions == 2);
+    CHECK(s.metrics.deliveries == 1);
+    CHECK(s.metrics.mean_hops == 2.0);
+    CHECK(s.drops_by_layer.at({"MAC", "COL"}) == 1);
+}
+
+TEST_CASE("stats: M lines with the options of a script are a header, others are still refused") {
+    const TempFolder folder;
+    write_file(folder / "in.tr",
+               "M 0.0 nn 3 x 600 y 300 rp AODV\n"
+               "M 0.0 sc moves.tcl cp  seed 1.0\n"
+               "M 0.0 prop Propagation/TwoRayGround ant Antenna/OmniAntenna\n"
+               "M 1.00000 0 (10.00, 20.00, 0.00), (50.00, 20.00), 2.00\n"
+               "M 1.00000 x1 (10.00, 20.00, 0.00), (50.00, 20.00), 2.00\n"
+               "M x 0 (10.00, 20.00, 0.00), (50.00, 20.00), 2.00\n");
+    const TraceStats s = ns2_stats(folder / "in.tr");
+    CHECK(s.counts.skipped_of(Ns2Other::header) == 3);
+    CHECK(s.counts.events == 1);
+    CHECK(s.counts.refused == 2);
+}
+
+TEST_CASE("stats: a file without a line of a trace is refused, whatever its lines look like") {
+    const TempFolder folder;
+    const std::vector<std::pair<std::string, std::string>> files = {
+
+        {"<!DOCTYPE html>\n<html></html>\n", "no line of this file"},
+        {"Sorry, this page\nhas moved\nelsewhere\nfor good\n", "no line of this file"}};
+    for (const auto& [text, why] : files) {
+        CAPTURE(text);
+        write_file(folder / "in.tr", text);
+        std::string told;
+        try {
+            ns2_stats(folder / "in.tr");
+        } catch (const InputError& error) {
+            told = error.what();
+        }
+        CHECK(told.find(why) != told.npos);
+    }
+}
+
 }  // namespace ns2_stats_test

@@ -2,6 +2,7 @@
 #include "traces/ns2/ns2_trace.hpp"
 
 #include "sim/error.hpp"
+#include "sim/legs.hpp"
 #include "test/files/no_room.hpp"
 #include "test/traces/record_stream.hpp"
 

@@ -9,11 +9,13 @@
 #include "traces/recorded/recorded_trace.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -222,6 +224,41 @@ std::vector<Variant> broken_chunks(const Sample& s) {
     return all;
 }
 
+/// A chunk whose length leads to what looks like records: the bytes of its indexes. No other is
+/// lost.
+std::vector<Variant> misled(const Sample& s) {
+    const std::size_t at = s.chunks[1].begin, length = s.chunks[1].size - mcap_record_head;
+    std::vector<Variant> all;
+    for (std::size_t more = 2; more < 90; ++more) {
+        all.push_back({fmt::format("length {} more", more),
+                       with_number(s.bytes, at + length_at, length + more)});
+        all.back().lost = {1};
+    }
+    for (const char opcode : {'\x02', '\x07', '\x0f'}) {  // the end, an index, the end of the data
+        std::string looks = with_number(s.bytes, at + length_at, length + 40);
+        looks.replace(at + mcap_record_head + length + 40, 9,
+                      std::string(1, opcode) + std::string(8, '\0'));
+        all.push_back({fmt::format("length 40 more, then opcode {}", int{opcode}), looks});
+        all.back().lost = {1};
+    }
+    return all;
+}
+
+/// Lengths of indexes of messages: nothing is lost.
+std::vector<Variant> broken_indexes(const Sample& s) {
+    std::vector<Variant> all;
+    for (const Part& part : s.parts) {
+        if (part.opcode != McapOpcode::message_index || part.begin > s.chunks[2].begin) continue;
+        const std::size_t length = part.size - mcap_record_head;
+        for (const std::uint64_t wrong :
+             {std::uint64_t{0}, std::uint64_t{6}, length - 16, length + 16, length + 30, huge}) {
+            all.push_back({fmt::format("index at {}: length {}", part.begin, wrong),
+                           with_number(s.bytes, part.begin + 1, wrong)});
+        }
+    }
+    return all;
+}
+
 /// Damage beside the chunks: no record is lost.
 std::vector<Variant> broken_elsewhere(const Sample& s) {
     const std::size_t metadata = s.first(McapOpcode::metadata).begin,
@@ -290,6 +327,8 @@ std::vector<Variant> nonsense(const Sample& s) {
         {"a link to robot 400", chunk_of(10, varints({1, 400}))}};
     const std::vector<std::pair<const char*, std::string>> chunks = {
         {"a message in slot 2^63", chunk_of(1, varints({huge, 0, 0, 0, 0, 0, 0, 0}, 3))},
+        {"a kind of 5,000 letters", chunk_of(1, varints({0, 0, 0, 0, 0, 0, 0, 0, 0, 5000}) +
+                                                    std::string(5000, 'x') + varints({0}))},
         {"a payload of 2^64 - 1 bytes", chunk_of(1, varints({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, most}))},
         {"2^63 receptions", chunk_of(4, varints({0, 0, 1, 1, 0, 0, 0, huge}, 50))},
         {"2^30 receptions", chunk_of(4, varints({0, 0, 1, 1, 0, 0, 0, 1 << 30}, 50))},
@@ -335,11 +374,51 @@ void check(const Sample& sample, const Variant& variant) {
 
 TEST_CASE("damaged recorded trace: each record is read or lost with its chunk, and that is told") {
     const Sample sample;
-    for (const auto& make : {truncated, broken_chunks, broken_elsewhere, nonsense}) {
+    for (const auto& make :
+         {truncated, broken_chunks, misled, broken_indexes, broken_elsewhere, nonsense}) {
         const std::vector<Variant> variants = make(sample);
         CHECK(variants.size() >= 9);
         for (const Variant& variant : variants) check(sample, variant);
     }
+}
+
+TEST_CASE("recorded trace: behind each chunk, an index leads to each of its messages") {
+    const Sample s;
+    std::size_t chunk = 0, messages = 0;
+    std::string plain;
+    for (const Part& part : s.parts) {
+        ByteReader content(std::string_view(s.bytes).substr(part.begin + mcap_record_head,
+                                                            part.size - mcap_record_head));
+        if (part.opcode == McapOpcode::chunk) {
+            McapReader file(s.path);
+            std::optional<McapRecord> record = file.next();
+            while (record->offset != part.begin) record = file.next();
+            plain = file.unpack(*record)->records;
+            CHECK(messages == 0);  // of the chunk before
+            messages = 0;
+            for (ByteReader from(plain); from.left() > 0; ++messages) {
+                from.fixed<std::uint8_t>();
+                from.take(from.fixed<std::uint64_t>());
+            }
+            ++chunk;
+        } else if (part.opcode == McapOpcode::message_index) {
+            const auto channel = content.fixed<std::uint16_t>();
+            for (ByteReader entries(content.text()); entries.left() > 0; --messages) {
+                const auto time = entries.fixed<std::uint64_t>();
+                const auto place = entries.fixed<std::uint64_t>();
+                REQUIRE(place < plain.size());
+                ByteReader message(std::string_view(plain).substr(place));
+                CHECK(message.fixed<std::uint8_t>() == 5);  // opcode
+                message.fixed<std::uint64_t>();
+                CHECK(message.fixed<std::uint16_t>() == channel);
+                message.fixed<std::uint32_t>();
+                CHECK(message.fixed<std::uint64_t>() == time);
+            }
+            CHECK(content.is_done());
+        }
+    }
+    CHECK(chunk == s.chunks.size());
+    CHECK(messages == 0);
 }
 
 TEST_CASE("damaged recorded trace: whatever it says of sizes, it takes no more than 256 MB") {

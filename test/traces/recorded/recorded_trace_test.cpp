@@ -232,6 +232,8 @@ TEST_CASE("what is no recorded trace is refused with a word") {
         }
         return std::string("read");
     };
+    CHECK(refused("\x1f\x8b\x08 and more") ==
+          "the file is packed by gzip; expected a recorded trace, unpacked");
     CHECK(refused("") == "this is no recorded trace: expected a file that begins as MCAP does");
     CHECK(refused("s 1.0 _0_ AGT") ==
           "this is no recorded trace: expected a file that begins as MCAP does");

@@ -21,8 +21,8 @@ struct Foliage {
 
     LossShape shape() const { return LossShape::by_distance; }
 
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
-        Friis{}.loss(links, give_up, out_db);
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
+        Friis{}.loss(links, cutoff, out_db);
         for (std::size_t i = 0; i < out_db.size(); ++i) {
             out_db[i] += attenuation.value * links.distance(i);
         }

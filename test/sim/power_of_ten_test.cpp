@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "sim/power_of_ten.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace power_of_ten_test {
+using namespace rovernet;
+
+TEST_CASE("power of ten: the decimal point moves, and nothing is rounded twice") {
+    CHECK(times_power_of_ten(3730.3, -2) == 37.303);
+    CHECK(times_power_of_ten(-0.7, -1) == -0.07);
+    CHECK(times_power_of_ten(2412.3, 6) == 2412300000.0);
+    CHECK(times_power_of_ten(1e22, -22) == 1);
+    CHECK(times_power_of_ten(0.1, 0) == 0.1);
+}
+
+TEST_CASE("power of ten: zero, the largest and the smallest numbers keep their sign") {
+    CHECK(times_power_of_ten(0, 3) == 0);
+    CHECK(std::signbit(times_power_of_ten(-0.0, 3)));
+    CHECK(times_power_of_ten(1e308, 3) == HUGE_VAL);
+    CHECK(times_power_of_ten(-1e308, 3) == -HUGE_VAL);
+    CHECK(times_power_of_ten(5e-324, -3) == 0);
+    CHECK(times_power_of_ten(HUGE_VAL, -3) == HUGE_VAL);
+    CHECK(std::isnan(times_power_of_ten(std::numeric_limits<double>::quiet_NaN(), 3)));
+}
+
+}  // namespace power_of_ten_test
