@@ -15,7 +15,8 @@ namespace {
 
 using namespace rovernet;
 
-/// The command as it was typed, for a person to go on with: what it threw away stays so.
+/// Command line as typed, for a hint how to continue; options that confirm the loss of data are
+/// removed.
 std::string command_line(int argc, char** argv) {
     std::vector<std::string> words{"rovernet"};
     std::copy_if(argv + 1, argv + argc, std::back_inserter(words),

@@ -13,12 +13,12 @@ configure_file(cmake/version_build.cmake.in version_build.cmake @ONLY)
 add_custom_command(
   OUTPUT ${generated}/version_build.hpp
   COMMAND ${CMAKE_COMMAND} -P ${PROJECT_BINARY_DIR}/version_build.cmake
-  DEPENDS ${ROVERNET_SOURCES} ${ROVERNET_HEADERS} ${ROVERNET_CLI_SOURCES}
+  DEPENDS ${ROVERNET_ENGINE_SOURCES} ${ROVERNET_UPPER_SOURCES} ${ROVERNET_HEADERS} ${ROVERNET_CLI_SOURCES}
           ${PROJECT_BINARY_DIR}/version_build.cmake
   DEPFILE ${generated}/version_build.d
   COMMENT "Looking up the git commit"
   VERBATIM)
-target_sources(rovernet PRIVATE ${generated}/version_build.hpp)
+target_sources(rovernet_upper PRIVATE ${generated}/version_build.hpp)
 set_source_files_properties(${PROJECT_SOURCE_DIR}/experiment/version.cpp PROPERTIES
                             INCLUDE_DIRECTORIES ${generated}
                             SKIP_UNITY_BUILD_INCLUSION ON)

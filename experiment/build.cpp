@@ -45,7 +45,7 @@ class Builder {
     std::function<void(NodeId)> answer(const Built& robot, const ReactionTable& reaction,
                                        MotionBuilder::Plan plan);
 
-    /// Action of a robot at a time that the scenario tells.
+    /// Action of a robot at a time given in the scenario.
     struct Due {
         std::uint64_t key;  // the robot's
         Time time;
@@ -75,8 +75,8 @@ void Builder::add_robots() {
     }
 }
 
-/// The model of a robot table that has its own: one handle, so that the medium keeps one model for
-/// all robots of the table.
+/// Propagation model of a robot table with its own model: one handle, so that the medium stores one
+/// model for all robots of the table.
 std::optional<Propagation> Builder::own_propagation(const RobotTable& table) const {
     const auto& given = table.propagation ? *table.propagation : scenario_.propagation;
     const auto& where = table.propagation ? table.propagation_where : scenario_.propagation_where;
@@ -116,8 +116,8 @@ void Builder::add_robot(const RobotTable& table, const std::string& name,
     }
 }
 
-/// Schedules the actions. Those due at one time are done in the order of the robots' keys: the
-/// order of the file decides nothing.
+/// Schedules the actions. Actions at the same time are executed in the order of the robots' keys,
+/// independent of the order in the file.
 void Builder::schedule() {
     std::stable_sort(due_.begin(), due_.end(),
                      [](const Due& a, const Due& b) { return a.key < b.key; });
@@ -220,7 +220,7 @@ std::vector<NodeId> any_robot(const Network& network, std::optional<NodeId> but)
     return robots;
 }
 
-/// Sends, and sees to the next sending.
+/// Sends a message, and schedules the next one.
 void send_and_repeat(const std::shared_ptr<Source>& source) {
     auto& [network, table, flow, to, from, draw, sent] = *source;
     const NodeId sender = source->sender();

@@ -6,13 +6,13 @@
 
 namespace rovernet {
 
-/// Settings of a Network for this scenario; loads its map.
-/// @throws InputError naming the scenario's line, then the map's own error
+/// Settings of a Network for this scenario; loads the scenario's map.
+/// @throws InputError at the line of the scenario, followed by the error of the map
 NetworkSettings network_settings(const Scenario& scenario);
 
 /// Puts the scenario's robots, protocol, reactions and traffic into a Network made with
 /// network_settings(scenario).
-/// @throws InputError for what only shows on the map: a robot in a wall, a goal without a way
+/// @throws InputError for errors that need the map: a robot in a wall, a goal that no path reaches
 void populate(Network& network, const Scenario& scenario);
 
 }  // namespace rovernet

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/build_motion.hpp"
 
+#include "mobility/planners.hpp"
 #include "mobility/waypoints.hpp"
 #include "scenario/document/located.hpp"
 #include "sim/random.hpp"
+#include "sim/told_apart.hpp"
 
 #include <fmt/format.h>
 
@@ -50,13 +52,13 @@ Vec3 MotionBuilder::start(const RobotTable& table, const std::string& name) {
     const Vec3 at = table.at      ? *table.at
                     : table.place ? drawn_place(table, name)
                                   : place_of_model(table, name);
-    if (scenario_.scene.lenient || fits(at, table.radius)) return at;
+    if (scenario_.scene.world || fits(at, table.radius)) return at;  // as in Stage
     throw InputError(
         table.place ? table.place->where : table.at_where,
         fmt::format("robot \"{}\" at {} m is inside a wall or nearer to one than its radius "
-                    "of {} m (clearance {:.3f} m); move it or give it a smaller radius{}",
-                    name, coordinates(at), table.radius.value, network_.scene().clearance(at),
-                    scenario_.scene.world ? "; --lenient goes on with a notice" : ""));
+                    "of {} m (clearance {} m); move it or give it a smaller radius",
+                    name, coordinates(at), table.radius.value,
+                    told_apart(network_.scene().clearance(at), table.radius.value, 3)));
 }
 
 Vec3 MotionBuilder::drawn_place(const RobotTable& table, const std::string& name) const {

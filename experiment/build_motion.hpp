@@ -9,20 +9,20 @@
 
 namespace rovernet {
 
-/// Builder of motion: where a scenario's robots start and how they move, checked against the map.
+/// Builder of start positions and movements of a scenario's robots, checked against the map.
 class MotionBuilder {
   public:
-    /// Plan of a robot: its movement from the start, or one in answer to something. Each has its
-    /// own draws.
+    /// Number of a movement of a robot: the movement at the start, or a movement of one of its
+    /// reactions. Each number has its own random stream.
     using Plan = std::uint64_t;
     static constexpr Plan from_the_start = 0;
 
-    /// Makes a builder, which scenario and network must outlive.
+    /// Makes a builder. Scenario and network must outlive it.
     MotionBuilder(Network& network, const Scenario& scenario);
 
-    /// Start of the robot. @throws InputError if there is no room for it
+    /// Start position of the robot [m]. @throws InputError if the robot does not fit there
     Vec3 start(const RobotTable& table, const std::string& name);
-    /// Movement of the robot from `from` on. @throws InputError for a way that there is not
+    /// Movement of the robot that begins at `from`. @throws InputError if no path reaches a goal
     Movement movement(const MoveTable& move, const RobotTable& robot, const std::string& name,
                       Vec3 from, Plan plan);
 
@@ -49,8 +49,9 @@ class MotionBuilder {
 
     Network& network_;
     const Scenario& scenario_;
-    std::map<const MoveTable*, Movement> shared_;     // copies share their parameters
-    std::map<std::string, NodeId, std::less<>> ids_;  // all robots, also those not yet built
+    std::map<const MoveTable*, Movement> shared_;  // robots of one table share the parameters
+    // All robots, including robots that are not built yet.
+    std::map<std::string, NodeId, std::less<>> ids_;
 };
 
 }  // namespace rovernet

@@ -11,8 +11,8 @@
 
 namespace rovernet {
 
-/// Sink that notes what the callbacks of a network do not tell: the numbers of messages, and whose
-/// frame brought a message at what level.
+/// Sink that stores data which network callbacks do not include: uids of messages, and last hop and
+/// level of received frames.
 class ClientRadios::Ears {
   public:
     struct Frame {
@@ -34,7 +34,7 @@ class ClientRadios::Ears {
             const auto listening = frames_.find(at.node);
             if (!at.delivered || listening == frames_.end()) continue;
             auto& frames = listening->second;
-            // A robot that was switched off before it could react leaves its frames here.
+            // Frames of a robot that was switched off before delivery remain here.
             std::erase_if(frames, [&](const Frame& f) { return f.time + reacts_in < at.time; });
             frames.push_back({context.messages[got->frame.message].uid, at.time, got->frame.sender,
                               got->levels.empty() ? std::nullopt : std::optional(got->levels[i])});
@@ -43,7 +43,7 @@ class ClientRadios::Ears {
 
     void listen(NodeId robot) { frames_[robot]; }
     void stop_listening(NodeId robot) { frames_.erase(robot); }
-    /// The frame that brought a message to a robot, which is forgotten then.
+    /// Removes and returns the frame that brought a message to a robot.
     std::optional<Frame> take(NodeId robot, std::uint64_t uid) {
         auto& frames = frames_[robot];
         const auto found = std::find_if(frames.begin(), frames.end(),
@@ -53,7 +53,7 @@ class ClientRadios::Ears {
         frames.erase(found);
         return frame;
     }
-    /// Notes the port of a message, later than those before.
+    /// Stores the port of a message; uids ascend.
     void put_port(std::uint64_t uid, std::uint16_t port) { ports_.emplace_back(uid, port); }
     std::uint16_t port(std::uint64_t uid) const {
         const auto found = std::lower_bound(ports_.begin(), ports_.end(), std::pair{uid, no_port});

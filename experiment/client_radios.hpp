@@ -18,73 +18,57 @@
 
 namespace rovernet {
 
-/// Client outside that takes part in a Session.
-using ClientId = std::uint32_t;
-
-/// Message that a robot of a client heard.
-struct HeardMessage {
-    Time time;    ///< at which the robot was handed it, 1 us after the frame was received
-    NodeId at;    ///< robot that heard it
-    NodeId from;  ///< robot that sent it first
-    int hops;     ///< that it crossed, from 1
-    std::string payload;
-    NodeId last_hop = {};           ///< robot whose frame it was
-    std::optional<Dbm> level = {};  ///< level of that frame here [dBm]; none: on its way already
-                                    ///< when the first client came
-    std::uint16_t port = 0;         ///< as it was sent by a client; 0: none was given
-    bool is_for_everyone = true;    ///< otherwise it was sent to `at`
-    friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
-};
-
-/// Radios by which clients of a Session take part: clients send from robots, and hear what these
-/// hear. Several clients may share the radio of a robot; each of them hears every message.
+/// Radios of robots, used by clients of a Session: a client sends messages from robots, and gets
+/// the messages that these robots receive. Several clients may share the radio of a robot; each
+/// client gets every message.
 ///
-/// Messages are kept for each client until it asks for them: one that never asks has to say so by
-/// set_hearing(), or they fill the memory.
+/// Messages are queued for each client until heard() fetches them. A client that never fetches must
+/// call set_hearing(), or its queue fills the memory.
 ///
-/// A callback of a network tells neither the number of a message nor whose frame brought it at what
-/// level. A sink notes these from the records Sent and Received. It is added as the first client
-/// joins, so that a network without clients costs nothing more.
+/// A sink takes uid, last hop and level of messages from the records Sent and Received, since
+/// callbacks of the network do not include them. The sink is added when the first client joins, so
+/// that a network without clients does not pay for it.
 class ClientRadios {
   public:
-    /// @param network  has to live as long, and may live longer
+    /// @param network  must outlive this object
     explicit ClientRadios(Network& network) : network_(network) {}
-    /// Ends what the clients hear.
+    /// Stops all clients from receiving messages.
     ~ClientRadios();
     ClientRadios(const ClientRadios&) = delete;  // callbacks of the network refer to it
     ClientRadios& operator=(const ClientRadios&) = delete;
 
-    /// A client hears what robots hear, from now on.
-    /// @param client  has not joined yet, and names itself in all calls below
+    /// Adds a client, which gets the messages that `robots` receive from now on.
+    /// @param client  id of a client that has not joined yet, for the calls below
     /// @param robots  each listed once; may be empty
     void join(ClientId client, const std::vector<NodeId>& robots);
-    /// A client leaves, and messages that were kept for it are gone.
-    /// @param robots  those with which it joined
+    /// Removes a client and its queued messages.
+    /// @param robots  robots given to join()
     void leave(ClientId client, const std::vector<NodeId>& robots);
-    /// Whether a client joined with that robot, and has not left.
+    /// Whether a client has joined with that robot.
     bool has(ClientId client, NodeId robot) const;
 
-    /// A robot sends a message, on behalf of any client: who may use its radio is not checked.
-    /// Some client has joined before.
-    /// @return the message's number, unique in the run; none if the robot is off and sends nothing
-    /// @throws std::invalid_argument if the message is for everyone and there is no protocol
+    /// Sends a message from a robot for any client; the right to use the robot's radio is not
+    /// checked. At least one client must have joined.
+    /// @return uid of the message, unique in the run; none if the robot is off and sends nothing
+    /// @throws std::invalid_argument if the message is for everyone and the network has no routing
+    /// protocol
     std::optional<std::uint64_t> send(NodeId robot, const SendCommand& command);
 
-    /// Messages that a client heard since it asked last, in order of time and then of robot.
-    /// @throws std::out_of_range if it has not joined
+    /// Fetches the messages that a client got since its last call, in order of time, then of robot.
+    /// @throws std::out_of_range if the client has not joined
     std::vector<HeardMessage> heard(ClientId client);
-    /// Says whether messages are kept for heard(), as they are from join() on. What was kept before
-    /// a client stops hearing is gone. @throws std::out_of_range if it has not joined
+    /// Sets whether messages are queued for heard(); true after join(). False also drops the queue.
+    /// @throws std::out_of_range if the client has not joined
     void set_hearing(ClientId client, bool hears);
 
   private:
     class Ears;
-    /// Messages that are kept for a client.
+    /// Messages queued for a client.
     struct Inbox {
         std::vector<HeardMessage> heard = {};
         bool hears = true;
     };
-    /// Clients who hear what a robot hears.
+    /// Clients that get the messages received by a robot.
     struct Listeners {
         std::vector<ClientId> clients;
         Subscription subscription;

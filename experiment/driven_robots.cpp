@@ -2,6 +2,7 @@
 #include "experiment/driven_robots.hpp"
 
 #include "mobility/waypoints.hpp"
+#include "sim/legs.hpp"
 
 #include <cmath>
 #include <utility>
@@ -9,12 +10,15 @@
 namespace rovernet {
 namespace {
 
-/// Place where no robot is, for an arc that nobody is on.
+/// Position without a robot, for an arc that no robot follows.
 constexpr Vec3 not_driven{1e300, 0, 0};
 
 }  // namespace
 
+DrivenRobots::DrivenRobots(Network& network) : network_(network) { network_.add_sink(no_ways_); }
+
 void DrivenRobots::carry_out(NodeId robot, const DriveCommand& command) {
+    no_ways_->robots.erase(robot);
     Driven driven{.speed = command.speed, .turn_rate = command.turn_rate};
     if (command.timeout) driven.until = network_.now() + *command.timeout;
     Driving& driving = driving_[robot];
@@ -30,16 +34,19 @@ void DrivenRobots::carry_out(NodeId robot, const GoalCommand& command) {
 }
 
 void DrivenRobots::carry_out(NodeId robot, const StopCommand&) {
+    no_ways_->robots.erase(robot);
     driving_.erase(robot);
     network_.stop(robot);
 }
 
 void DrivenRobots::carry_out(NodeId robot, const PlaceCommand& command) {
+    no_ways_->robots.erase(robot);
     driving_.erase(robot);
     network_.place(robot, command.at, command.heading);
 }
 
 void DrivenRobots::move(NodeId robot, Movement movement) {
+    no_ways_->robots.erase(robot);
     driving_.erase(robot);
     network_.move(robot, std::move(movement));
 }
@@ -53,6 +60,10 @@ const DrivenRobots::Driving* DrivenRobots::driving(NodeId robot) const {
 bool DrivenRobots::is_stalled(NodeId robot) const {
     const Driving* driven = driving(robot);
     return driven && driven->speed != 0 && network_.legs().leg(robot).velocity == Vec3{};
+}
+
+bool DrivenRobots::has_no_way(NodeId robot) const {
+    return no_ways_->robots.contains(robot) && network_.legs().leg(robot).velocity == Vec3{};
 }
 
 Twist DrivenRobots::twist(NodeId robot) const {

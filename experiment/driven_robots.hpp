@@ -4,37 +4,39 @@
 #include "experiment/robot_command.hpp"
 #include "mobility/driven.hpp"
 #include "network/network.hpp"
+#include "sim/record.hpp"
+#include "sim/sink.hpp"
 
 #include <map>
 #include <memory>
+#include <set>
+#include <variant>
 
 namespace rovernet {
 
-/// Speed of a robot as its own sensors would tell it.
-struct Twist {
-    double speed = 0;      ///< ahead [m/s], < 0: backwards
-    double turn_rate = 0;  ///< [rad/s], counter-clockwise
-};
-
-/// Robots of a network that are told from outside how to move, and how far they do it.
+/// Robots of a network that external commands steer, and the state of these commands.
 class DrivenRobots {
   public:
-    explicit DrivenRobots(Network& network) : network_(network) {}
+    explicit DrivenRobots(Network& network);
+    DrivenRobots(const DrivenRobots&) = delete;
+    DrivenRobots& operator=(const DrivenRobots&) = delete;
 
     void carry_out(NodeId robot, const DriveCommand& command);
     void carry_out(NodeId robot, const GoalCommand& command);
     void carry_out(NodeId robot, const StopCommand& command);
     void carry_out(NodeId robot, const PlaceCommand& command);
-    /// Gives a robot any other movement.
+    /// Gives a robot any movement, instead of a command.
     void move(NodeId robot, Movement movement);
 
-    /// The robot was told to drive ahead and cannot.
+    /// Whether the robot is commanded to drive ahead but stands still, blocked (by a wall, say).
     bool is_stalled(NodeId robot) const;
-    /// Speed of a robot: as it is driven, or else that of its leg.
+    /// Whether the robot is commanded to a goal that no path reaches, so that it stands still.
+    bool has_no_way(NodeId robot) const;
+    /// Velocity of a robot: of its drive command, or else of its current leg (piece of movement).
     Twist twist(NodeId robot) const;
 
   private:
-    /// Robot that is driven by a velocity.
+    /// Drive command (velocity) of a robot.
     struct Driving {
         Time until;
         double speed;  // [m/s] as commanded
@@ -42,8 +44,19 @@ class DrivenRobots {
     };
     const Driving* driving(NodeId robot) const;
 
+    /// Sink that collects the robots that found no path to a goal.
+    struct NoWays {
+        std::set<NodeId> robots = {};
+
+        KindMask kinds() const { return kind_of<NoWay>(); }
+        void on(const Record& record, const RecordContext&) {
+            robots.insert(std::get<NoWay>(record).node);
+        }
+    };
+
     Network& network_;
     std::map<NodeId, Driving> driving_;
+    std::shared_ptr<NoWays> no_ways_ = std::make_shared<NoWays>();
 };
 
 }  // namespace rovernet

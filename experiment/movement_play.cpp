@@ -31,7 +31,7 @@ struct Player {
         }
     }
 
-    /// Obeys what the file says for now, and waits for its next command.
+    /// Executes the commands due now, and schedules the next one.
     static void go_on(const std::shared_ptr<Player>& player) {
         auto& next = player->next;
         for (; next && next->time <= player->network.now(); next = player->file.next()) {

@@ -9,8 +9,9 @@
 
 namespace rovernet {
 
-/// Moves robots as the file says, from now on. A robot that appears later is off until then.
-/// @param nodes  for each of file.robots(), in their order
+/// Moves robots along the trajectories of a movement file, from now on. A robot that appears later
+/// in the file is off until then.
+/// @param nodes  node of each robot of file.robots(), in that order
 void play(Network& network, MovementFile file, std::vector<NodeId> nodes);
 
 }  // namespace rovernet

@@ -8,22 +8,23 @@
 
 namespace rovernet {
 
-/// A file to be written, with all its bytes.
+/// Path and content of a file to write.
 struct OutputFile {
     std::string path;
     std::string bytes;
 };
 
-/// Writes files, each whole or not at all, see PartFile: none has its name before all are written.
+/// Writes files, each completely or not at all, see PartFile. Files get their final names once all
+/// of them are written.
 /// @throws RunError if one cannot be written
 void write_files(const std::vector<OutputFile>& files);
 /// Writes one file. @throws RunError if it cannot be written
 void write_file(const std::string& path, std::string_view bytes);
 
-/// Takes a piece of a text.
+/// Function that writes the next piece of a text.
 using Write = std::function<void(std::string_view)>;
 
-/// Makes a folder and those above it. @throws RunError if that fails or `path` is a file
+/// Makes a folder and its parent folders. @throws RunError if that fails or `path` is a file
 void make_folder(const std::string& path);
 
 }  // namespace rovernet

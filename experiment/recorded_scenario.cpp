@@ -3,6 +3,7 @@
 
 #include "experiment/run_folder.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -77,7 +78,7 @@ void put_file(const fs::path& path, const std::string& content) {
     if (!out.flush()) throw RunError(path.string() + ": cannot be written");
 }
 
-/// Whether a file of this name goes into its own folder below, and nowhere else.
+/// Whether a file of this name stays inside its folder.
 bool is_inside(const std::string& name) {
     const fs::path path(name);
     return name.find('\0') == name.npos && path.has_filename() && path.is_relative() &&
@@ -186,7 +187,7 @@ Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
     try {
         return load_scenario(file_, {.set = set});
     } catch (const InputError& error) {
-        // The folder is nothing that the user knows.
+        // The user does not know the temporary folder.
         Location where = error.where();
         if (!where.source.starts_with(folder_.path + "/")) throw;
         where.source.replace(0, folder_.path.size() + 1, trace_ + ": ");

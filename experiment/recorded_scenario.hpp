@@ -7,37 +7,37 @@
 #include <string>
 #include <vector>
 
-// The scenario inside a recorded trace: how it is stored, and how it is taken out again.
+// Storing a scenario in a recorded trace, and loading it from there.
 
 namespace rovernet {
 
-/// Scenario as it goes into a recorded trace.
+/// Scenario in the form in which a recorded trace stores it.
 struct RecordedScenario {
-    /// TOML with every default. Attached files are named as they are attached, such as
-    /// map/office.yaml; others as from the folder of the trace.
+    /// Scenario as TOML with every default. Paths of attached files are those of the attachment,
+    /// such as map/office.yaml; other paths are relative to the folder of the trace.
     std::string text;
-    /// Its map with the picture, and its movement file, unless they are larger than 64 MB. The
-    /// files of a Stage world are not among them.
+    /// Attached files: the map with its picture and the movement file, unless they are larger than
+    /// 64 MB. Files of a Stage world are not attached.
     std::vector<AttachedFile> files;
 };
-/// @param folder  of the trace
+/// Scenario in the form in which a recorded trace stores it. @param folder  folder of the trace
 RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& folder);
 
-/// Scenario that was recorded, in a temporary folder with the files that were attached. It has to
-/// live as long as what is run of it.
+/// Scenario of a recorded trace, unpacked with its attached files into a temporary folder. It must
+/// outlive the runs of the scenario.
 class ReplayedScenario {
   public:
-    /// @param path  of the trace, for errors, and for files that were not attached
-    /// @throws InputError if there is none, it is no TOML, or a file that it names is broken or
-    ///         cannot be unpacked
+    /// @param path  path of the trace, for errors, and to find files that are not attached
+    /// @throws InputError if the trace has no scenario, the scenario is no TOML, or one of its
+    ///         files is broken or cannot be unpacked
     ReplayedScenario(const RecordedRun& run, const std::string& path);
 
-    /// Scenario with its map loaded, and these assignments "path=value" over it, see set_option().
-    /// @throws InputError for what is wrong with it
+    /// Scenario with its map loaded, overridden by assignments "path=value", see set_option().
+    /// @throws InputError if the scenario is invalid
     Scenario with(const std::vector<std::string>& set) const;
 
   private:
-    /// A folder for this process alone, gone with its object.
+    /// Temporary folder of this process, removed by the destructor.
     struct Folder {
         Folder();
         Folder(const Folder&) = delete;
@@ -45,16 +45,17 @@ class ReplayedScenario {
         std::string path;
     };
 
-    /// Name of a file of the scenario, as from its folder.
+    /// Path of a file of the scenario, relative to the temporary folder.
     std::string find_file(const RecordedRun& run, const std::string& name) const;
 
-    std::string trace_;  // its path
+    std::string trace_;  // path of the trace
     Folder folder_;      // folder of the attached files
-    std::string file_;   // path of the scenario in it
+    std::string file_;   // path of the scenario file in the folder
 };
 
-/// Checks that a trace names the robots of the scenario inside, in their order: robots of records
-/// are found by these names. @param path  of the trace. @throws InputError if they differ
+/// Checks that the robots listed in a trace are the robots of its scenario, in the same order,
+/// since records refer to robots by this order. @param path  path of the trace. @throws InputError
+/// if they differ
 void check_robots(const RecordedRun& run, const Scenario& scenario, const std::string& path);
 
 }  // namespace rovernet

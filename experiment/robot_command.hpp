@@ -13,62 +13,88 @@
 #include <string>
 #include <variant>
 
-// Commands that a program outside gives to its robots, as values: a session carries them out, a log
-// of inputs keeps them.
+// Commands from external programs to robots. A session executes them; an input log stores them.
 
 namespace rovernet {
 
 /// Command to drive ahead and turn, as Driven does, until the next command.
 struct DriveCommand {
-    MetersPerSecond speed{0};              ///< [m/s], < 0: backwards
-    RadiansPerSecond turn_rate{0};         ///< [rad/s], counter-clockwise
-    std::optional<Duration> timeout = {};  ///< the robot stands still after that; none: never
+    MetersPerSecond speed{0};       ///< speed ahead [m/s], < 0: backwards
+    RadiansPerSecond turn_rate{0};  ///< turn rate [rad/s], counter-clockwise
+    /// The robot stops after this time; none: it does not stop.
+    std::optional<Duration> timeout = {};
 };
 
-/// Command to go to a place, around the walls, and to rest there.
+/// Command to drive to a point, around the walls, and to stop there.
 struct GoalCommand {
-    Vec3 to;                   ///< [m]
-    MetersPerSecond speed{1};  ///< [m/s], > 0
+    Vec3 to;                   ///< goal [m]
+    MetersPerSecond speed{1};  ///< speed [m/s], > 0
 };
 
 /// Command to stand still.
 struct StopCommand {};
 
-/// Command that puts the robot somewhere else at once, at rest.
+/// Command that moves the robot to another position at once (teleport), at rest.
 struct PlaceCommand {
-    Vec3 at;          ///< [m]
-    Radians heading;  ///< [rad], counter-clockwise from the x axis
+    Vec3 at;          ///< new position [m]
+    Radians heading;  ///< new heading [rad], counter-clockwise from the x axis
 };
 
 /// Command to send a message: to everyone by the routing protocol, or over one hop.
 struct SendCommand {
-    /// Over one hop to a robot, or to `everyone` that hears it; none: to everyone, by routing.
+    /// Destination over one hop: a robot, or `everyone` in range; none: to everyone, by the routing
+    /// protocol.
     std::optional<NodeId> to = {};
-    std::uint16_t port = 0;  ///< which program of the receiver it is for
+    std::uint16_t port = 0;  ///< port: selects a program of the receiver
     std::string payload = {};
-    std::optional<std::uint32_t> size = {};  ///< on air [bytes]; the payload's length if not given
+    std::optional<std::uint32_t> size = {};  ///< size on air [bytes]; none: length of the payload
 };
 
-// Ranges of the numbers in commands, for the doors through which they come.
+// Ranges of the numbers in commands, checked by every interface that accepts commands.
 
 inline constexpr Range drive_speeds{.low = -1000, .high = 1000, .text = "from -1000 to 1000 m/s"};
 inline constexpr Range drive_turns{.low = -1000, .high = 1000, .text = "from -1000 to 1000 rad/s"};
 inline constexpr Range goal_speeds{
     .low = 0, .high = 1000, .low_included = false, .text = "above 0 and up to 1000 m/s"};
 inline constexpr Range goal_places{.low = -1e9, .high = 1e9, .text = "from -1e9 to 1e9 m"};
-inline constexpr std::size_t longest_message = 65'535;  ///< [bytes]
-inline constexpr Duration shortest_step{1'000};         ///< [ns] of a program that asks for steps
+inline constexpr std::size_t longest_message = 65'535;  ///< largest payload of a message [bytes]
+inline constexpr Duration shortest_step{
+    1'000};  ///< shortest step [ns] that a lock-step controller may request
 
 using RobotCommand =
     std::variant<DriveCommand, GoalCommand, StopCommand, PlaceCommand, SendCommand>;
 
-/// Command as it was accepted: what happens after that follows from it and the scenario.
+/// Accepted command of a client. The scenario and all inputs together reproduce a run.
 struct Input {
     Time time;
     NodeId robot;
-    std::string client;        ///< name of the client that gave it
-    std::uint64_t number = 0;  ///< client's own number of it
+    std::string client;        ///< name of the client that gave the command
+    std::uint64_t number = 0;  ///< number that the client gave to the command
     RobotCommand command;
+};
+
+/// Id of a client (external program) of a Session.
+using ClientId = std::uint32_t;
+
+/// Message that a client's robot received.
+struct HeardMessage {
+    Time time;    ///< delivery to the robot, 1 us after the frame was received
+    NodeId at;    ///< robot that received the message
+    NodeId from;  ///< origin of the message
+    int hops;     ///< number of hops, from 1
+    std::string payload;
+    NodeId last_hop = {};           ///< transmitter of the frame that brought the message
+    std::optional<Dbm> level = {};  ///< level of that frame at the receiver [dBm]; none if the
+                                    ///< frame was on air before the first client joined
+    std::uint16_t port = 0;         ///< port given by the sending client; 0: none
+    bool is_for_everyone = true;    ///< false: a unicast to `at`
+    friend bool operator==(const HeardMessage&, const HeardMessage&) = default;
+};
+
+/// Velocity of a robot in its own frame, as its odometry would measure it.
+struct Twist {
+    double speed = 0;      ///< speed ahead [m/s], < 0: backwards
+    double turn_rate = 0;  ///< turn rate [rad/s], counter-clockwise
 };
 
 }  // namespace rovernet

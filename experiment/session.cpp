@@ -2,7 +2,12 @@
 #include "experiment/session.hpp"
 
 #include "experiment/build.hpp"
+#include "experiment/client_radios.hpp"
+#include "experiment/driven_robots.hpp"
 #include "scenario/document/located.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
+#include "scene/scanner.hpp"
 
 #include <fmt/format.h>
 
@@ -11,18 +16,21 @@
 #include <stdexcept>
 #include <thread>
 #include <type_traits>
-#include <utility>
 
 namespace rovernet {
 
 Session::Session(const Scenario& scenario) : Session(scenario, network_settings(scenario)) {}
 
+Session::Session(const ScenarioFile& file, const Table& settings)
+    : Session(load_scenario(file, settings)) {}
+
 Session::Session(const Scenario& scenario, NetworkSettings settings)
     : file_(scenario.file),
       network_(std::make_shared<Network>(std::move(settings))),
       end_(start_of_run + scenario.scenario.duration),
-      driven_(*network_),
-      radios_(*network_) {
+      has_border_(scenario.scene.has_maps()),
+      driven_(std::make_unique<DrivenRobots>(*network_)),
+      radios_(std::make_unique<ClientRadios>(*network_)) {
     populate(*network_, scenario);
     for (const RobotTable& table : scenario.robots) {
         if (table.scan.empty()) continue;
@@ -32,6 +40,12 @@ Session::Session(const Scenario& scenario, NetworkSettings settings)
         }
     }
 }
+
+Session::~Session() = default;
+
+bool Session::is_stalled(NodeId robot) const { return driven_->is_stalled(robot); }
+bool Session::has_no_way(NodeId robot) const { return driven_->has_no_way(robot); }
+Twist Session::twist(NodeId robot) const { return driven_->twist(robot); }
 
 bool Session::advance(Time until, std::uint64_t most_events) {
     // A fault that a model finds only when its turn comes is the scenario's, too.
@@ -82,7 +96,7 @@ ClientId Session::attach_radios(const std::vector<NodeId>& robots, std::string n
     advance(network_->now(), every_event);  // a command comes after all events of its time
     const ClientId client = next_client_++;
     clients_[client] = {.name = std::move(name), .robots = robots};
-    radios_.join(client, robots);
+    radios_->join(client, robots);
     return client;
 }
 
@@ -93,7 +107,7 @@ void Session::detach(ClientId client) {
         carry_out(client, robot, StopCommand{});
         drivers_.erase(robot);
     }
-    radios_.leave(client, robots);
+    radios_->leave(client, robots);
     clients_.erase(client);
 }
 
@@ -118,15 +132,15 @@ void Session::check_robot(ClientId client, NodeId robot) const {
 std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,
                                                 const RobotCommand& command, std::uint64_t number) {
     const bool sends = std::holds_alternative<SendCommand>(command);
-    if (!sends || !radios_.has(client, robot)) check_robot(client, robot);
+    if (!sends || !radios_->has(client, robot)) check_robot(client, robot);
     advance(network_->now(), every_event);  // what the last command caused at this time comes first
     if (tell_) tell_({network_->now(), robot, client_of(client).name, number, command});
     std::optional<std::uint64_t> uid;
     const auto act = [&](const auto& each) {
         if constexpr (std::is_same_v<decltype(each), const SendCommand&>) {
-            uid = radios_.send(robot, each);
+            uid = radios_->send(robot, each);
         } else {
-            driven_.carry_out(robot, each);
+            driven_->carry_out(robot, each);
         }
     };
     std::visit(act, command);
@@ -135,17 +149,41 @@ std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,
 
 void Session::move(ClientId client, NodeId robot, Movement movement) {
     check_robot(client, robot);
-    driven_.move(robot, std::move(movement));
+    driven_->move(robot, std::move(movement));
 }
 
 std::vector<HeardMessage> Session::heard(ClientId client) {
     client_of(client);
-    return radios_.heard(client);
+    return radios_->heard(client);
 }
 
 void Session::set_hearing(ClientId client, bool hears) {
     client_of(client);
-    radios_.set_hearing(client, hears);
+    radios_->set_hearing(client, hears);
+}
+
+std::string Session::why_not_at(NodeId robot, Vec3 at) const {
+    const Scene& storey = network_->scene().storey_at(at.z);
+    const Vec3 low = storey.lower_left(), high = storey.upper_right();
+    const bool is_on_map = at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y;
+    if (has_border_ && !is_on_map)
+        return fmt::format(
+            "({:g}, {:g}) m is off the map, which goes from ({:g}, {:g}) to "
+            "({:g}, {:g}) m",
+            at.x, at.y, low.x, low.y, high.x, high.y);
+    const Storeys& storeys = network_->scene().storeys();
+    if (const std::size_t top = storeys.size() - 1; top > 0) {
+        const double lowest = storeys.floor(0), highest = storeys.floor(top);
+        const double above = highest - storeys.floor(top - 1);
+        if (at.z < lowest || at.z >= highest + above)
+            return fmt::format("a height of {:g} m is on no storey; floors are at {:g} to {:g} m",
+                               at.z, lowest, highest);
+    }
+    const double radius = network_->robot(robot).radius.value;
+    if (network_->scene().clearance(at) >= radius) return "";
+    return fmt::format(
+        "({:g}, {:g}) m is in a wall, or nearer to one than the radius of robot {}, {:g} m", at.x,
+        at.y, network_->name(robot), radius);
 }
 
 std::span<const Scanner> Session::range_finders(NodeId robot) const {

@@ -2,12 +2,12 @@
 #include "experiment/timeline.hpp"
 
 #include "scenario/document/json.hpp"
+#include "sim/legs.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
-#include <string_view>
 
 namespace rovernet {
 namespace {
@@ -54,7 +54,7 @@ std::uint32_t Timeline::words_of(MessageId id, const RecordContext& context) {
     if (id.index() >= by_message_.size()) by_message_.resize(id.index() + 1, {~0ULL, 0});
     auto& [uid, words] = by_message_[id.index()];
     if (std::exchange(uid, message.uid) == message.uid) return words;
-    if (!is_text(message.payload)) return words = no_text;
+    if (message.payload.empty() || !is_text(message.payload)) return words = no_text;
     const auto found = word_index_.find({message.origin, message.payload});
     if (found != word_index_.end()) return words = found->second;
     words = static_cast<std::uint32_t>(words_.size());
@@ -63,7 +63,16 @@ std::uint32_t Timeline::words_of(MessageId id, const RecordContext& context) {
     return words;
 }
 
+void Timeline::add(const Entry& entry) {
+    if (entries_.size() < most) {
+        entries_.push_back(entry);
+    } else {
+        ++left_out_;
+    }
+}
+
 std::uint32_t Timeline::place(Vec3 p) {
+    if (entries_.size() >= most) return 0;  // its entry is left out
     places_.emplace_back(p.x, p.y);
     return static_cast<std::uint32_t>(places_.size() - 1);
 }
@@ -71,31 +80,31 @@ std::uint32_t Timeline::place(Vec3 p) {
 void Timeline::tell(const Sent& sent, const RecordContext& context) {
     const std::uint32_t words = words_of(sent.message, context);
     if (words == no_text || !known_.add(words, sent.node)) return;
-    entries_.push_back({sent.time, sent.node, words, Event::says, 0});
+    add({sent.time, sent.node, words, Event::says, 0});
 }
 
-/// A repeated message is no news: the same words from the same robot.
+/// A repeated text of the same robot gets no entry.
 void Timeline::tell(const Received& received, const RecordContext& context) {
     for (const auto& r : received.receptions) {
         if (!r.delivered) continue;
         const std::uint32_t words = words_of(received.frame.message, context);
         if (words == no_text || !known_.add(words, r.node)) continue;
-        entries_.push_back({r.time, r.node, words, Event::hears, received.frame.hops});
+        add({r.time, r.node, words, Event::hears, received.frame.hops});
     }
 }
 
 void Timeline::tell(const Arrived& arrived, const RecordContext& context) {
     const Vec3 p = context.legs.position(arrived.node, arrived.time);
-    entries_.push_back({arrived.time, arrived.node, place(p), Event::arrives, 0});
+    add({arrived.time, arrived.node, place(p), Event::arrives, 0});
 }
 
 void Timeline::tell(const NoWay& blocked, const RecordContext&) {
-    entries_.push_back({blocked.time, blocked.node, place(blocked.goal), Event::finds_no_way, 0});
+    add({blocked.time, blocked.node, place(blocked.goal), Event::finds_no_way, 0});
 }
 
 void Timeline::tell(const Switched& switched, const RecordContext&) {
     const Event event = switched.on ? Event::goes_on : Event::fails;
-    entries_.push_back({switched.time, switched.node, 0, event, 0});
+    add({switched.time, switched.node, 0, event, 0});
 }
 
 std::string Timeline::text(const Entry& entry) const {

@@ -17,21 +17,23 @@
 
 namespace rovernet {
 
-/// Timeline of a run with few robots, for a person: who said something for the first time, who
-/// heard of it when and over how many hops, who arrived where, whose way was blocked, who failed.
+/// Timeline of a run with few robots, for human readers: first transmission of each text, its
+/// receptions with time and hops, arrivals, blocked paths, failures of robots.
 ///
-/// An entry takes 24 bytes, a place 16 more, and 16 or so for each pair of words and robot that
-/// heard them; text is made of it when it is shown.
+/// Messages without a text have no entry.
+///
+/// Memory: 24 bytes for each entry, 16 for each position, and about 16 for each pair of text and
+/// receiver. Sentences are made when the timeline is shown.
 class Timeline {
   public:
-    /// An entry as it is shown.
+    /// Entry of the timeline as shown to the user.
     struct Happening {
         Time time;
         std::string robot;
-        std::string text;  ///< "hears \"F\" from A over 2 hops"
+        std::string text;  ///< event as a text: "hears \"F\" from A over 2 hops"
     };
 
-    /// The network must outlive the timeline; it knows the names.
+    /// The network, which has the robots' names, must outlive the timeline.
     explicit Timeline(const Network& network) : network_(&network) {}
 
     KindMask kinds() const {
@@ -40,11 +42,15 @@ class Timeline {
     }
     void on(const Record& record, const RecordContext& context);
 
+    /// Largest number of entries of the timeline; longer runs are better examined by a trace.
+    static constexpr std::size_t most = 10'000;
+
     std::size_t size() const { return entries_.size(); }
-    /// The i-th entry, in the order in which they happened.
+    /// Number of entries beyond the limit `most`, which are dropped.
+    std::uint64_t left_out() const { return left_out_; }
+    /// Entry number i of the timeline, in order of time.
     Happening operator[](std::size_t i) const;
-    /// Appends the i-th entry as a JSON object; its lines but the first are indented by four
-    /// blanks.
+    /// Appends entry number i as a JSON object; its lines after the first are indented by 4 blanks.
     void append_json(std::size_t i, std::string& out) const;
 
   private:
@@ -52,20 +58,20 @@ class Timeline {
     struct Entry {
         Time time;
         NodeId node;
-        std::uint32_t about;  // an index into words_ or places_
+        std::uint32_t about;  // index into words_ or places_
         Event event;
         Hops hops;
     };
     static_assert(sizeof(Entry) == 24);
-    /// Words that a robot says: in one message, or again in later ones.
+    /// Text that a robot sends, in one or several messages.
     struct Words {
         NodeId origin;
         std::string payload;
     };
-    /// Pairs of words and robot, in an open-addressed table at most two thirds full.
+    /// Set of pairs (text, robot): a hash table with open addressing, at most two thirds full.
     class Pairs {
       public:
-        /// Adds a pair. @return false if it was there already
+        /// Adds a pair. @return false if the set already has it
         bool add(std::uint32_t words, NodeId node);
 
       private:
@@ -83,15 +89,17 @@ class Timeline {
     void tell(const Other&, const RecordContext&) {}
     std::uint32_t words_of(MessageId message, const RecordContext& context);
     std::uint32_t place(Vec3 p);
+    void add(const Entry& entry);
     std::string text(const Entry& entry) const;
 
     const Network* network_;
     Chunks<Entry> entries_;
-    std::deque<Words> words_;  // stable: the index refers to their payloads
+    std::uint64_t left_out_ = 0;
+    std::deque<Words> words_;  // stable addresses: word_index_ refers to the payloads
     std::map<std::pair<NodeId, std::string_view>, std::uint32_t> word_index_;
-    // By message: its uid and its words.
+    // Uid and text of each message, by MessageId.
     std::vector<std::pair<std::uint64_t, std::uint32_t>> by_message_;
-    std::vector<std::pair<double, double>> places_;  // [m]
+    std::vector<std::pair<double, double>> places_;  // x and y of each place [m]
     Pairs known_;
 };
 

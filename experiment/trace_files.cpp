@@ -3,6 +3,7 @@
 
 #include "experiment/recorded_scenario.hpp"
 #include "experiment/version.hpp"
+#include "files/part_file.hpp"
 #include "traces/ns2/ns2_trace.hpp"
 #include "traces/recorded/recorded_trace.hpp"
 
@@ -28,6 +29,8 @@ Ns2Trace ns2_trace(const TraceTable& table, const std::string& path) {
 
 std::vector<TraceFile> trace_files(const Scenario& scenario, const std::string& folder) {
     std::vector<TraceFile> files;
+    // A killed run leaves them; those of inputs.jsonl can be played again.
+    for (const char* name : {ns2_name, recorded_name}) remove_orphans(folder + name);
     if (scenario.trace.ns2 != Ns2Choice::none) {
         const std::string path = folder + ns2_name;
         const auto trace = std::make_shared<Ns2Trace>(ns2_trace(scenario.trace, path));

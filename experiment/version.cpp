@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <ctime>
 #include <fstream>
 #include <sstream>
+#include <unistd.h>
 
 namespace rovernet {
 
@@ -43,6 +45,19 @@ Table build_provenance() {
     table.set("build_type", build::type);
     table.set("flags", build::flags);
     return table;
+}
+
+std::string utc_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", utc.tm_year + 1900, utc.tm_mon + 1,
+                       utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
+}
+
+std::string host_name() {
+    char name[256] = {};
+    return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
 }
 
 }  // namespace rovernet

@@ -8,14 +8,19 @@
 
 namespace rovernet {
 
-/// The version of the library, such as "0.1.0".
+/// Version of the library, such as "0.1.0".
 std::string_view version();
 
-/// Version that decides results: version and commit, such as "0.1.0 (4f1c...)"; if the sources
-/// differed from the commit or it is not known, with XXH64 of the running program.
+/// Version and commit of the code that computes results, such as "0.1.0 (4f1c...)". If the sources
+/// differ from the commit, or the commit is unknown, XXH64 of the running program is appended.
 const std::string& code_version();
 
-/// Build of the program: version, commit, dirty, compiler, type, flags.
+/// Build information of the program: version, commit, dirty, compiler, type, flags.
 Table build_provenance();
+
+/// Current date and time (UTC), as "2025-06-30T23:59:59Z".
+std::string utc_now();
+/// Name of this machine.
+std::string host_name();
 
 }  // namespace rovernet

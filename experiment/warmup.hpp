@@ -6,10 +6,9 @@
 
 namespace rovernet {
 
-/// Time after the start of a scenario's run at which its metrics begin, as [study] warmup says.
-/// With "mser5" it makes a first run and applies mser5() to the series of each message's delivery
-/// ratio.
-/// @param settings  network_settings(scenario), with planners kept from run to run
+/// Warm-up [ns] of a scenario's run, by [study] warmup: metrics start after it. With "mser5", a
+/// first run is made, and mser5() is applied to the series of the messages' delivery ratios.
+/// @param settings  from network_settings(scenario); their planners are shared by all runs
 Duration warmup_of(const Scenario& scenario, NetworkSettings settings);
 
 }  // namespace rovernet

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <poll.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -23,7 +24,7 @@ namespace {
 using namespace std::chrono_literals;
 using WaitClock = std::chrono::steady_clock;
 
-constexpr auto patience = 5s;  // with a FIFO that nobody has opened for writing
+constexpr auto writer_timeout = 5s;  // for a FIFO that no program has opened for writing
 
 bool is_terminal(const std::string& path) {
     const int file = open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -38,7 +39,7 @@ InputKind device_kind(const std::string& path, const struct stat& status) {
     return InputKind::device;
 }
 
-/// Whether a FIFO is open for writing somewhere. Bytes are copied, not taken.
+/// Whether any process has the FIFO open for writing. Bytes are copied, not consumed.
 bool has_writer(int fifo) {
     std::array<int, 2> copy{};
     if (pipe2(copy.data(), O_CLOEXEC) != 0) return true;
@@ -82,7 +83,7 @@ std::string_view fault_of(InputKind kind) {
 InputFile::InputFile(const std::string& path) : path_(path) {
     const InputKind kind = input_kind(path);
     if (kind != InputKind::file && kind != InputKind::stream) fail(fault_of(kind));
-    // Opening a FIFO would wait for its writer otherwise.
+    // Opening a FIFO without O_NONBLOCK would wait for its writer.
     file_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (file_ < 0) fail(errno == EACCES ? "no permission to read it" : std::strerror(errno));
     try {
@@ -103,13 +104,14 @@ int InputFile::release() { return std::exchange(file_, -1); }
 void InputFile::wait_for_writer() const {
     struct stat status {};
     if (fstat(file_, &status) != 0 || !S_ISFIFO(status.st_mode)) return;
-    for (const auto end = WaitClock::now() + patience; WaitClock::now() < end;) {
+    for (const auto end = WaitClock::now() + writer_timeout; WaitClock::now() < end;) {
         pollfd events{.fd = file_, .events = POLLIN, .revents = 0};
         constexpr int a_while = 20;  // [ms]
-        // A hang-up is of a writer that has been there: the end of what it wrote.
+        // A hang-up means that a writer was there and has closed the FIFO: the end of its data.
         if (poll(&events, 1, a_while) > 0 || has_writer(file_)) return;
     }
-    fail(fmt::format("it is a FIFO into which nobody has written for {} s", patience.count()));
+    fail(
+        fmt::format("it is a FIFO into which nobody has written for {} s", writer_timeout.count()));
 }
 
 std::string InputFile::read(std::size_t most) {
@@ -129,6 +131,15 @@ std::string InputFile::read(std::size_t most) {
 
 void InputFile::fail(std::string_view what) const {
     throw InputError({.source = path_}, fmt::format("cannot read the file: {}", what));
+}
+
+std::string named_beside(const std::string& folder, const std::string& name) {
+    const std::filesystem::path here(folder);
+    if (!is_no_path(input_kind((here / name).string()))) return "";
+    const std::string last = name.substr(name.find_last_of("/\\") + 1);
+    const bool beside =
+        last != name && !last.empty() && input_kind((here / last).string()) == InputKind::file;
+    return beside ? last : "";
 }
 
 void need_file(const std::string& path) {

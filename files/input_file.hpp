@@ -7,39 +7,40 @@
 
 namespace rovernet {
 
-/// What a path leads to, as far as it can be read.
+/// Kind of file-system object at a path that is to be read.
 enum class InputKind {
     file,     ///< regular file
-    stream,   ///< pipe, FIFO or terminal, to be read once; /dev/null, too
+    stream,   ///< pipe, FIFO or terminal, readable only once; also /dev/null
     nothing,  ///< no such file
-    loop,     ///< links that lead to one another
-    closed,   ///< a folder on the way there may not be entered, or a name is too long
+    loop,     ///< symbolic links that form a loop
+    closed,   ///< no permission to enter a folder of the path, or a name is too long
     folder,
-    device,  ///< any other device, such as /dev/zero: it may have no end
+    device,  ///< any other device, such as /dev/zero, which may be endless
     socket,
 };
 
 InputKind input_kind(const std::string& path);
-/// What is wrong with a path that is neither a file nor a stream: "is a folder", "no such file".
+/// Text of the error about a path that is neither a file nor a stream: "is a folder", "no such
+/// file".
 std::string_view fault_of(InputKind kind);
 
-/// Whether the path leads nowhere.
+/// Whether no object can be reached at the path.
 constexpr bool is_no_path(InputKind kind) {
     return kind == InputKind::nothing || kind == InputKind::loop || kind == InputKind::closed;
 }
 
-/// A file or stream that is open for reading; it is closed with its object.
+/// File or stream that is open for reading; the destructor closes it.
 class InputFile {
   public:
-    /// Opens it. A FIFO gets 5 s in which somebody has to open it for writing.
-    /// @throws InputError that says what is wrong with the path
+    /// Opens the path. For a FIFO it waits up to 5 s until a program opens it for writing.
+    /// @throws InputError if the path cannot be read
     explicit InputFile(const std::string& path);
     ~InputFile();
     InputFile(const InputFile&) = delete;
 
-    /// Hands its descriptor over.
+    /// Returns the file descriptor, which the caller then owns.
     int release();
-    /// Reads bytes; fewer than `most` at the end only. @throws InputError if it cannot be read
+    /// Reads bytes; fewer than `most` only at the end. @throws InputError if reading fails
     std::string read(std::size_t most);
 
   private:
@@ -50,7 +51,13 @@ class InputFile {
     int file_ = -1;
 };
 
-/// @throws InputError that says what is wrong, unless the path leads to a regular file
+/// File name, without folders, of `name`, if no file exists at `name` but one of that file name
+/// exists in `folder`; otherwise "". So an error can distinguish a wrong folder (of another
+/// machine, or `~`, which only a shell expands) from a missing file. Backslashes also separate
+/// folders.
+std::string named_beside(const std::string& folder, const std::string& name);
+
+/// Checks a path. @throws InputError unless it is a regular file
 void need_file(const std::string& path);
 
 }  // namespace rovernet

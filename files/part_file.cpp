@@ -22,16 +22,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The lock on a part says that its writer lives.
+/// Lock on a part: it shows that the writer is alive.
 constexpr int mine = LOCK_EX;
 
-/// A new file, locked; -1 and errno if there can be none.
+/// Creates a new locked file; -1 and errno on failure.
 int create_locked(const std::string& part) {
     for (;;) {
         const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file < 0) return file;
         struct stat status {};
-        // The file may have been taken for an orphan between open and flock.
+        // Another process may have removed the file as an orphan between open and flock.
         if (flock(file, mine) != 0 || fstat(file, &status) != 0 || status.st_nlink > 0) return file;
         ::close(file);
     }
@@ -49,13 +49,28 @@ bool is_part_of(std::string_view whole, std::string_view name) {
            std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+void remove_orphans(const std::string& whole) {
+    const fs::path path(whole);
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    std::error_code ignored;
+    for (fs::directory_iterator entry(folder, ignored), end; entry != end;
+         entry.increment(ignored)) {
+        const fs::path& other = entry->path();
+        if (!is_part_of(path.filename().native(), other.filename().native())) continue;
+        const int file = open(other.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+        if (file < 0) continue;
+        if (flock(file, mine | LOCK_NB) == 0) unlink(other.c_str());
+        ::close(file);
+    }
+}
+
 PartFile::PartFile(std::string path, Failed failed, Orphans orphans)
     : path_(std::move(path)), failed_(failed) {
     std::error_code ignored;
     const auto status = fs::status(path_, ignored);
     // A rename would replace a device by a file.
     if (exists(status) && !is_regular_file(status)) fail("it exists and is no regular file");
-    if (orphans == Orphans::are_removed) remove_orphans();
+    if (orphans == Orphans::are_removed) remove_orphans(path_);
     for (auto n = static_cast<std::uint64_t>(getpid());; ++n) {
         const std::string part = fmt::format("{}.{}.part", path_, n);
         file_ = create_locked(part);
@@ -71,22 +86,6 @@ PartFile::PartFile(PartFile&& other) noexcept
       part_(std::exchange(other.part_, {})),
       file_(std::exchange(other.file_, -1)) {}
 
-/// Removes the parts of this name whose writers are dead.
-void PartFile::remove_orphans() const {
-    const fs::path path(path_);
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    std::error_code ignored;
-    for (fs::directory_iterator entry(folder, ignored), end; entry != end;
-         entry.increment(ignored)) {
-        const fs::path& other = entry->path();
-        if (!is_part_of(path.filename().native(), other.filename().native())) continue;
-        const int file = open(other.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
-        if (file < 0) continue;
-        if (flock(file, mine | LOCK_NB) == 0) unlink(other.c_str());
-        ::close(file);
-    }
-}
-
 void PartFile::write(std::string_view bytes) {
     if (file_ < 0) fail("an earlier write has failed");
     while (!bytes.empty()) {
@@ -99,7 +98,7 @@ void PartFile::write(std::string_view bytes) {
 
 void PartFile::close() {
     if (file_ < 0) fail("an earlier write has failed");
-    // A full disk is told only now by some file systems; the copy keeps the lock.
+    // Some file systems report a full disk only at close(); the copy keeps the lock.
     const int copy = fcntl(file_, F_DUPFD_CLOEXEC, 0);
     if (copy < 0 || ::close(std::exchange(file_, copy)) != 0) fail(std::strerror(errno));
 }

@@ -6,54 +6,57 @@
 
 namespace rovernet {
 
-/// A file that gets its name once it is whole.
+/// Output file that gets its name only when it is complete.
 ///
-/// Until then it is NAME.N.part in the same folder, with a number of its own, so that processes
-/// that write NAME at the same time do not meet: the last to name it wins. A part that is not named
-/// is removed with its object. A process that is killed leaves its part; who writes NAME next
-/// removes it.
+/// Until then it is NAME.N.part in the same folder. Every process uses its own number N, so that
+/// processes can write NAME at the same time; the last one to finish wins. A part without a final
+/// name is removed by the destructor. A killed process leaves its part behind; the next writer of
+/// NAME removes it.
 class PartFile {
   public:
-    /// What becomes of the part when a write fails: it is removed, or kept for those who can read
-    /// a part. The error then says its name.
+    /// Action on the incomplete file NAME.N.part when a write fails: remove it, or keep it for
+    /// programs that can read incomplete files; the error then names it.
     enum class Failed { is_removed, is_kept };
-    /// What becomes of the parts of writers that are dead: they are removed, or kept for those who
-    /// can read a part.
+    /// Action on incomplete files NAME.N.part left by killed processes: remove them, or keep them
+    /// for programs that can read incomplete files.
     enum class Orphans { are_removed, are_kept };
 
-    /// @throws RunError if `path` cannot be written, or is there and no regular file
+    /// @throws RunError if `path` cannot be written, or exists and is not a regular file
     explicit PartFile(std::string path, Failed failed = Failed::is_removed,
                       Orphans orphans = Orphans::are_removed);
     PartFile(PartFile&& other) noexcept;
     PartFile& operator=(PartFile&&) = delete;
     ~PartFile() { discard(); }
 
-    /// Adds bytes to the end. @throws RunError (disk full, say); see Failed
+    /// Appends bytes. @throws RunError (disk full, for example); see Failed
     void write(std::string_view bytes);
-    /// Ends the writing; give_name() cannot fail for want of space then. @throws RunError as
-    /// write()
+    /// Closes the file; give_name() then cannot fail for lack of space.
+    /// @throws RunError as for write()
     void close();
-    /// Closes it, and puts it in the place of whatever has the name. @throws RunError as write()
+    /// Closes the file and renames it to its final name, replacing any file there. @throws RunError
+    /// as for write()
     void give_name();
-    /// Leaves the part as it is. @throws RunError as write()
+    /// Closes the incomplete file and leaves it as NAME.N.part. @throws RunError as for write()
     void keep();
 
   private:
-    void remove_orphans() const;
     void discard();
     [[noreturn]] void fail(std::string_view why);
 
     std::string path_;
     Failed failed_;
-    std::string part_;  // empty: named, removed, or kept
-    int file_ = -1;     // open for as long as nobody may take the part for an orphan
+    std::string part_;  // empty: renamed, removed, or kept
+    int file_ = -1;  // open (and locked) while other processes must not take the part for an orphan
 };
 
-/// Whether `name` is that of a part of the file `whole`: WHOLE.N.part.
+/// Removes the incomplete files PATH.N.part that killed processes left.
+void remove_orphans(const std::string& path);
+
+/// Whether `name` has the form WHOLE.N.part, an incomplete version of the file `whole`.
 bool is_part_of(std::string_view whole, std::string_view name);
 
-/// The right to name several files of a folder with nobody else's between them. Processes that ask
-/// for it wait for one another. Where the file system has no locks it does nothing.
+/// Lock of a folder, for naming several files without files of another process between them. Other
+/// processes that ask for the lock wait. It does nothing if the file system has no locks.
 class FolderLock {
   public:
     explicit FolderLock(const std::string& folder);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <unistd.h>
@@ -20,7 +21,45 @@ namespace {
 constexpr std::size_t portion = 64 * 1024;  // [bytes] read at once
 constexpr unsigned packed_portion = 16 * 1024;
 
+/// Magic number of a file format that is not text.
+struct Mark {
+    std::size_t at;  ///< offset in the file
+    std::string_view bytes;
+    std::string_view what;
+};
+// Sources: the formats' specifications; of bzip2, lzip and compress their manuals' magic numbers.
+constexpr Mark marks[] = {
+    {0, {"\xfd\x37zXZ\0", 6}, "the file is packed by xz"},
+    {0, {"]\0\0", 3}, "the file is packed by lzma"},
+    {0, "BZh", "the file is packed by bzip2"},
+    {0, "7z\xbc\xaf\x27\x1c", "the file is an archive of 7-Zip"},
+    {0, "PK\x03\x04", "the file is a ZIP archive"},
+    {0, "Rar!\x1a\x07", "the file is a RAR archive"},
+    {0, "\x04\x22\x4d\x18", "the file is packed by lz4"},
+    {0, "LZIP", "the file is packed by lzip"},
+    {0, "\x1f\x9d", "the file is packed by compress"},
+    {0, "\x1f\x8b", "the file is packed by gzip"},
+    {0, "\x28\xb5\x2f\xfd", "the file is packed by zstd"},
+    {257, "ustar", "the file is a tar archive"},
+    {0, "\xff\xfe", "the file is in UTF-16"},
+    {0, "\xfe\xff", "the file is in UTF-16"},
+    {0, "\x89MCAP", "the file is a recorded trace (MCAP), which is read as a plain file only"},
+    {0, "\xd4\xc3\xb2\xa1", "the file is a capture (pcap)"},
+    {0, "\xa1\xb2\xc3\xd4", "the file is a capture (pcap)"},
+    {0, "\x0a\x0d\x0d\x0a", "the file is a capture (pcapng)"},
+    {0, "SQLite format 3", "the file is a database of SQLite"},
+    {0, "\x89PNG", "the file is a picture (PNG)"},
+    {0, "%PDF-", "the file is a PDF document"}};
+constexpr std::size_t longest_mark = 512;  // number of bytes searched for marks [bytes]
+
 }  // namespace
+
+std::string_view foreign_kind(std::string_view begin) {
+    for (const Mark& mark : marks)
+        if (begin.size() >= mark.at && begin.substr(mark.at).starts_with(mark.bytes))
+            return mark.what;
+    return "";
+}
 
 void TextSource::Close::operator()(gzFile_s* file) const { gzclose(file); }
 
@@ -39,10 +78,32 @@ TextSource::TextSource(const std::string& path, Reads reads) : name_(path), buff
     }
     gzbuffer(file_.get(), packed_portion);
     detect_zstd();
+    ensure(longest_mark);
+    refuse_foreign();
     skip_mark();
 }
 
-/// What zlib passes on unchanged begins with zstd's magic number (RFC 8878, 3.1.1).
+/// Refuses files that are not text: a line reader might accept parts of them.
+void TextSource::refuse_foreign() const {
+    const std::string_view text = window().substr(0, longest_mark);
+    std::string_view kind = foreign_kind(text);
+    // One layer of packing is already removed.
+    if (kind.ends_with("gzip") || kind.ends_with("zstd")) kind = "the file is packed twice";
+    if (!kind.empty())
+        fail(fmt::format("{}; expected text in UTF-8, plain or packed by gzip or zstd", kind));
+    // A few such bytes may be damage, which the readers report with its place.
+    constexpr std::ptrdiff_t part = 8, shortest = 16;
+    if (std::ssize(text) < shortest ||
+        part * std::count(text.begin(), text.end(), '\0') <= std::ssize(text))
+        return;
+    fail(
+        "the file is no text: it has many NUL bytes; expected text in UTF-8, plain or packed by "
+        "gzip or "
+        "zstd");
+}
+
+/// Detects zstd: data that zlib passes on unchanged may begin with zstd's magic number (RFC 8878,
+/// 3.1.1).
 void TextSource::detect_zstd() {
     constexpr std::string_view magic = "\x28\xb5\x2f\xfd";
     ensure(magic.size());

@@ -18,39 +18,48 @@ struct ZSTD_DCtx_s;
 
 namespace rovernet {
 
-/// The bytes of a file, unpacked if it is a gzip or a zstd file, in portions: memory does not grow
-/// with it. A byte order mark of UTF-8 is not among them.
+/// Kind of a file that is not UTF-8 text, for an error, such as "the file is packed by xz"; "" for
+/// UTF-8 text.
+/// @param begin  first 512 bytes of the file, or all of it
+std::string_view foreign_kind(std::string_view begin);
+
+/// Bytes of a text file, read in portions, so that memory does not grow with the file. gzip and
+/// zstd files are unpacked. A UTF-8 byte order mark is skipped. Files of other packers, UTF-16 text
+/// and binary files are refused.
 class TextSource {
   public:
-    /// How often the source is read: one that is read once may be a pipe.
+    /// Number of times that the source is read: a pipe can be read only once.
     enum class Reads { once, twice };
 
-    /// @throws InputError if `path` is no file that can be read; later calls too, if it is damaged
+    /// @throws InputError if `path` is not a readable file; later calls also throw, if it is
+    ///         damaged
     explicit TextSource(const std::string& path, Reads reads = Reads::twice);
-    /// Text that is made piece by piece, and read once.
-    /// @param name  of the source, for errors
-    /// @param next  called for the next piece, good until the next call; empty: there is no more
+    /// Text that is generated piece by piece, and read once.
+    /// @param name  name of the source, for errors
+    /// @param next  returns the next piece, valid until the next call; empty at the end
     TextSource(std::string name, std::function<std::string_view()> next)
         : name_(std::move(name)), next_(std::move(next)) {}
 
-    /// Bytes that have been read and not yet taken; valid until the next call of more().
+    /// Bytes that were read and not yet consumed; valid until the next call of more().
     std::string_view window() const { return {buffer_.data() + begin_, end_ - begin_}; }
-    /// Makes the window longer; it moves. False at the end of the file.
+    /// Reads more bytes behind those of window(); they may move. @return false at the end of the
+    /// file
     bool more();
-    /// Makes the window at least `bytes` long, or all that is left of the file.
+    /// Reads until window() has at least `bytes` bytes, or the file ends.
     void ensure(std::size_t bytes) {
         while (end_ - begin_ < bytes && more()) continue;
     }
-    /// Moves the window's begin; n <= window().size().
+    /// Consumes the first n bytes of window(); n <= window().size().
     void take(std::size_t n) { begin_ += n; }
-    /// Number of bytes that have been taken since the start.
+    /// Number of bytes consumed since the start.
     std::uint64_t taken() const { return before_buffer_ + begin_; }
-    /// Back to the start of a file; of one alone.
+    /// Returns to the start; only for a file, not for generated text.
     void rewind();
 
     const std::string& name() const { return name_; }
 
   private:
+    void refuse_foreign() const;
     void skip_mark();
     std::size_t read_file(char* out, std::size_t most);
     std::size_t unpack(char* out, std::size_t most);
@@ -61,18 +70,18 @@ class TextSource {
         void operator()(gzFile_s* file) const;
         void operator()(ZSTD_DCtx_s* context) const;
     };
-    /// Bytes of a zstd file that have been read and not yet unpacked.
+    /// Bytes of a zstd file that were read and not yet unpacked.
     struct Packed {
         std::unique_ptr<ZSTD_DCtx_s, Close> context;
         std::vector<char> bytes;
         std::size_t begin = 0;
         std::size_t end = 0;
-        bool in_frame = false;  ///< the file must not end here
+        bool in_frame = false;  ///< true inside a zstd frame: the file must not end here
     };
     std::string name_;
-    std::function<std::string_view()> next_;  ///< makes the text; empty: file_ has it
+    std::function<std::string_view()> next_;  ///< generates the text; empty if file_ is the source
     std::unique_ptr<gzFile_s, Close> file_;
-    std::unique_ptr<Packed> zstd_;  ///< if it is a zstd file
+    std::unique_ptr<Packed> zstd_;  ///< state of unpacking; null unless the file is packed by zstd
     std::vector<char> buffer_;
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
@@ -80,27 +89,27 @@ class TextSource {
     bool at_end_ = false;
 };
 
-/// The lines of a file.
+/// Reader of the lines of a text file.
 class TextLines {
   public:
-    static constexpr std::size_t longest = 64 * 1024;  ///< [bytes]
+    static constexpr std::size_t longest = 64 * 1024;  ///< length of the longest line [bytes]
 
     explicit TextLines(TextSource source)
         : source_(std::move(source)), where_{.source = source_.name(), .line = 0, .column = 1} {}
 
-    /// The next line without its end, LF or CR LF; nothing after the last. Valid until the next
-    /// call.
+    /// Next line without its end (LF or CR LF); empty optional after the last line. Valid until the
+    /// next call.
     /// @throws InputError if a line is longer than `longest`
     std::optional<std::string_view> next();
-    /// Back to the first line.
+    /// Returns to the first line.
     void rewind();
-    /// The line that next() gave last.
+    /// Place in the file of the last line that next() returned.
     const Location& where() const { return where_; }
 
   private:
     TextSource source_;
     Location where_;
-    std::size_t last_ = 0;  ///< bytes of the last line
+    std::size_t last_ = 0;  ///< length of the last line, with its end [bytes]
 };
 
 }  // namespace rovernet

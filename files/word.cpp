@@ -5,7 +5,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <string>
 
 namespace rovernet {
 namespace {
@@ -14,22 +13,23 @@ constexpr std::string_view a_coordinate = "a coordinate from -1e9 to 1e9 [m]";
 constexpr std::string_view a_moment = "a time from 0 to 9e9 [s]";
 constexpr std::string_view a_pace = "a speed from 0 to 1e9 [m/s]";
 
-/// A broken word, fit to be shown.
-std::string quoted(std::string_view text) {
-    constexpr std::size_t longest = 40;
+}  // namespace
+
+std::string printable(std::string_view text, std::size_t longest) {
     std::string shown(text.substr(0, longest));
     for (char& c : shown) {
         if (c < ' ' || c > '~') c = '?';
     }
-    return '"' + shown + (text.size() > longest ? "...\"" : "\"");
+    if (text.size() > longest) shown += "...";
+    return shown;
 }
 
-}  // namespace
-
 void fail_at(Location line, Word word, std::string_view expected) {
+    constexpr std::size_t longest = 40;
     line.column = word.column;
-    const auto found =
-        word.text.empty() ? "the line ends" : fmt::format("found {}", quoted(word.text));
+    const auto found = word.text.empty()
+                           ? "the line ends"
+                           : fmt::format("found \"{}\"", printable(word.text, longest));
     throw InputError(std::move(line), fmt::format("{}, expected {}", found, expected));
 }
 

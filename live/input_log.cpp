@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <filesystem>
 
 namespace rovernet {
 namespace {
@@ -101,7 +100,7 @@ InputLog::InputLog(const std::string& folder, const Scenario& scenario)
     : file_(fmt::format("{}/{}", folder, input_log_name), PartFile::Failed::is_kept,
             PartFile::Orphans::are_kept) {
     const std::string document = to_toml(document_in(folder, scenario));
-    // A folder that has results has the scenario of those, until new ones take their place.
+    // A folder with results keeps their scenario until new results replace it.
     if (!has_results(folder)) {
         scenario_ = fs::path(folder) / "scenario.toml";
         write_file(scenario_, document);
@@ -128,7 +127,7 @@ InputLog::~InputLog() {
         flush();
         file_.keep();
     } catch (const RunError&) {
-        // It says nothing that the run has not said: that is how a run fails.
+        // The error is ignored: it is the one with which the run has failed.
     }
 }
 

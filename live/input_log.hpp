@@ -11,9 +11,9 @@
 #include <string>
 #include <string_view>
 
-// Log of the inputs of a live run, inputs.jsonl in its folder: it makes the run again. One JSON
-// object a line; the first has version, scenario (a digest of it, and its text) and seed, the last
-// the end and the fingerprint:
+// Log of the inputs (commands) of a live run, for replay: inputs.jsonl in the run's folder. One
+// JSON object per line. The first line has version, scenario (digest and text) and seed, the last
+// line end time and fingerprint:
 //
 //     {"version":"0.1.0","scenario":"8c5d...","seed":1,"toml":"[scenario]\nname = ..."}
 //     {"t_ns":100000000,"n":1,"client":"A","robot":"A","do":"velocity","v":0.5,"w":0.1}
@@ -28,33 +28,34 @@ namespace rovernet {
 
 class Network;
 
-/// Name of the log in the folder of its run.
+/// File name of the input log in the folder of the run.
 inline constexpr std::string_view input_log_name = "inputs.jsonl";
 
-/// Digest by which a log knows its scenario.
+/// Digest of a scenario's text, stored in the input log.
 std::string text_digest(const std::string& text);
 
-/// Writer of a log. Until finish() it is a part, inputs.jsonl.N.part, to which what came in is
-/// added every second: that of a run that is killed, or fails, replays as far as it goes. Nobody
-/// removes such a part but whoever no longer wants it.
+/// Writer of an input log. Until finish() the file has the name inputs.jsonl.N.part, and inputs are
+/// written to it every second. The part file of a killed or failed run can be replayed up to its
+/// end. Part files are never removed automatically.
 class InputLog {
   public:
-    /// Begins it, and writes scenario.toml if the folder has no results yet.
-    /// @param folder  of the run
+    /// Starts the input log, and writes scenario.toml if the folder has no results yet.
+    /// @param folder  folder of the run
     /// @throws RunError if a file cannot be written
     InputLog(const std::string& folder, const Scenario& scenario);
-    /// Keeps the part and the scenario, if there is any input and they are not discarded.
+    /// Keeps the part file and scenario.toml if there are inputs and discard() was not called;
+    /// removes both otherwise.
     ~InputLog();
     InputLog(const InputLog&) = delete;
     InputLog& operator=(const InputLog&) = delete;
 
-    /// Adds an input. @throws RunError
+    /// Adds an input to the log. @throws RunError
     void add(const Input& input, const Network& network);
-    /// Writes what is a second old: to be called now and then. @throws RunError
+    /// Writes inputs older than 1 s to the file; must be called now and then. @throws RunError
     void keep_up();
-    /// Has both removed with its object: the run begins anew.
+    /// Makes the destructor remove the part file and scenario.toml, since the run starts again.
     void discard();
-    /// Writes the last line, and gives the file its name. @throws RunError
+    /// Writes the last line of the log, and gives the file its final name. @throws RunError
     void finish(Duration simulated, std::string_view fingerprint);
 
   private:
@@ -62,10 +63,10 @@ class InputLog {
     void flush();
 
     PartFile file_;
-    JsonLine lines_;           // not written yet
-    bool has_inputs_ = false;  // that are worth a part
+    JsonLine lines_;           // lines not written yet
+    bool has_inputs_ = false;  // whether there are inputs, so that the part is kept
     bool is_finished_ = false;
-    std::filesystem::path scenario_;  // the one that it has written
+    std::filesystem::path scenario_;  // scenario.toml, if written by this log
     Clock::time_point written_ = Clock::now();
 };
 

@@ -6,9 +6,11 @@
 #include "files/base64.hpp"
 #include "files/input_file.hpp"
 #include "files/part_file.hpp"
-#include "live/input_log.hpp"
 #include "live/carriers/json_object.hpp"
+#include "live/input_log.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
+#include "traces/fingerprint.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -94,7 +96,7 @@ Input input_in(const JsonElement& line, const Network& network) {
     return input;
 }
 
-/// Run that is made again from the lines of its log.
+/// Replay of a run from the lines of its log.
 class Replayed {
   public:
     Replayed(const Scenario& scenario, const std::function<bool(double)>& progress)
@@ -166,7 +168,7 @@ class LogLines {
                          fmt::format("expected a JSON object: {}", simdjson::error_message(error)));
     }
     Location where() const { return {.source = path_, .line = number_, .column = 1}; }
-    /// Line that was not written to its end.
+    /// Line that was not written completely.
     std::optional<int> torn() const { return is_torn_ ? std::optional(number_) : std::nullopt; }
 
   private:

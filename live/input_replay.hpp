@@ -9,28 +9,29 @@
 
 namespace rovernet {
 
-/// What came out when the inputs of a run were carried out again.
+/// Result of replaying the inputs of a run.
 struct InputReplay {
     std::uint64_t inputs = 0;
-    std::string recorded;     ///< fingerprint that the log has; empty if the run did not end
-    std::string now;          ///< fingerprint of the replay
-    std::string recorded_by;  ///< version
+    std::string recorded;     ///< fingerprint in the input log; empty if the run did not finish
+    std::string now;          ///< fingerprint of the replayed run
+    std::string recorded_by;  ///< version of rovernet that wrote the log
 
-    std::string log;                  ///< path of the log that was read
-    std::vector<std::string> others;  ///< parts beside it, of runs that did not end
-    std::optional<int> torn;          ///< last line, which was not written to its end
-    bool is_other_scenario = false;   ///< scenario.toml is not the one that was run, or not there
-    bool has_own_scenario = false;    ///< then the text in the log was run
+    std::string log;                  ///< path of the input log
+    std::vector<std::string> others;  ///< part files beside the log, of runs that did not finish
+    std::optional<int> torn;  ///< line number of an incomplete last line of the log; none: complete
+    /// True: scenario.toml is missing, or differs from the scenario of the run.
+    bool is_other_scenario = false;
+    bool has_own_scenario = false;  ///< true: the scenario text in the log was used instead
 };
 
-/// Whether the path is a folder with a log or a part of one, or is one itself.
+/// Whether the path is an input log or a part file of one, or a folder with one.
 bool has_input_log(const std::string& path);
 
-/// Runs a scenario again with the inputs of its log, unpaced. It is the scenario.toml beside the
-/// log, or the log's own text if that file is not as it was run.
-/// @param path      log, or a part of one; or a folder: its log, or else its newest part
-/// @param progress  told the share that is done, 0 ... 1; false stops it
-/// @throws InputError with the line of the log that is wrong; RunError, Interrupted
+/// Runs a scenario again with the inputs of an input log, unpaced. The scenario is the file
+/// scenario.toml beside the log, or the text in the log if that file is missing or differs.
+/// @param path      input log or part file; or a folder, with its log or else its newest part file
+/// @param progress  called with the finished share, 0 ... 1; returning false stops the replay
+/// @throws InputError at the wrong line of the log; RunError, Interrupted
 InputReplay replay_inputs(const std::string& path, const std::function<bool(double)>& progress);
 
 }  // namespace rovernet

@@ -4,8 +4,6 @@
 #include "experiment/session.hpp"
 #include "live/input_log.hpp"
 
-#include <optional>
-
 namespace rovernet {
 namespace {
 

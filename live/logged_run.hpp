@@ -13,24 +13,27 @@ namespace rovernet {
 
 class InputLog;
 
-/// Live run that has ended; its results are written.
+/// Result of a finished live run, whose files are written.
 struct LiveResult {
     RunResult run;
-    Scenario scenario;  ///< as it ran: a controller may have asked for another seed
-    std::string fault;  ///< what went wrong with a program outside; empty if nothing did
-    std::optional<Lateness> lateness = {};  ///< of a run by the clock
+    Scenario scenario;  ///< scenario that was run: a controller may have changed the seed
+    std::string fault;  ///< error of an external program; empty: no error
+    std::optional<Lateness> lateness = {};  ///< delay behind the clock; none: not paced
 };
 
-/// How a run ends early, and what is at stake then.
+/// Rules for stopping a run early.
 struct StopRules {
-    std::function<bool()> go_on = [] { return true; };  ///< asked now and then; false ends the run
-    /// Told true when the run begins to write, and false while a network is set up: that is not
-    /// asked `go_on`, may take minutes, and leaves nothing if the process ends meanwhile.
+    std::function<bool()> go_on = [] {
+        return true;
+    };  ///< called now and then; returning false ends the run
+    /// Called with true when the run starts to write files, and with false while a network is set
+    /// up. The setup may take minutes, does not call `go_on`, and leaves no files if the process is
+    /// killed meanwhile.
     std::function<void(bool)> writes = [](bool) {};
 };
 
-/// Runs a scenario by `drive`, and writes the log of its inputs beside the other results.
-/// @param drive  as RunOptions::drive; the session has served all events of its start
+/// Runs a scenario by the function `drive`, and writes the input log beside the other results.
+/// @param drive  as RunOptions::drive; the session has processed all events of its start time
 /// @throws InputError, RunError; Interrupted if `drive` returns false, or before it is called
 RunResult run_logged(const Scenario& scenario, const std::string& folder, const StopRules& stop,
                      const std::function<bool(ScenarioRun&, InputLog&)>& drive);

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "live/paced_run.hpp"
 
-#include "live/carriers/address.hpp"
 #include "live/carriers/listeners.hpp"
-#include "live/input_log.hpp"
 #include "live/carriers/web_sockets.hpp"
+#include "live/input_log.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <list>
 #include <utility>
 
@@ -20,14 +18,14 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
-constexpr Duration longest_wait = 10ms;        // then it looks at the clock; Ctrl-C is seen
+constexpr Duration longest_wait = 10ms;        // interval of polling the clock and Ctrl-C
 constexpr Duration shortest_wait = 1ms;        // the same, if it must hardly be late
 
-/// Fronts with their doors around one session, and the clock.
+/// Server of a paced run: fronts and their listeners, one session, and the clock.
 class PacedServer {
   public:
     explicit PacedServer(const PacedOptions& options) : options_(options) {
-        for (const FrontDoor& each : options.fronts) open(each);
+        for (const FrontListeners& each : options.fronts) open(each);
     }
 
     /// Serves clients until the run is over.
@@ -36,13 +34,13 @@ class PacedServer {
         session.step(start_of_run);  // movements may draw where robots begin
         for (Open& each : open_) {
             each.front->begin(session, scenario);
-            if (each.door.open_ports) open_ports(each);
+            if (each.listeners.open_ports) open_ports(each);
         }
         started_ = options_.clock();
         promised_ = start_of_run;
         while (!is_over() && options_.stop.go_on()) {
             catch_up();
-            doors_.wait(promise(spare_time()));
+            listeners_.wait(promise(spare_time()));
             log.keep_up();
         }
         look();  // it may have been told to stop while it was late
@@ -51,10 +49,10 @@ class PacedServer {
 
     void close() {
         web_.close(300ms);
-        doors_.close(300ms);
+        listeners_.close(300ms);
     }
 
-    /// What summary.json tells of the run's clients.
+    /// Client statistics for summary.json.
     Table report() const {
         Table counts;
         if (options_.speed) {
@@ -71,39 +69,40 @@ class PacedServer {
     const std::string& fault() const { return fault_; }
 
   private:
-    /// A front behind its door.
+    /// Front with its listeners.
     struct Open {
-        const FrontDoor& door;
+        const FrontListeners& listeners;
         std::unique_ptr<Front> front = nullptr;
-        FrontDoor::Ports ports = {};
+        FrontListeners::Ports ports = {};
         Time due = never;  // its next(), before the session went on
     };
 
-    void open(const FrontDoor& door) {
-        Open& opened = open_.emplace_back(Open{door});
-        opened.front = door.make(carrier_for(opened));
-        for (std::size_t i = 0; i < door.entries.size(); ++i) listen(*opened.front, door, i);
+    void open(const FrontListeners& listeners) {
+        Open& opened = open_.emplace_back(Open{listeners});
+        opened.front = listeners.make(carrier_for(opened));
+        for (std::size_t i = 0; i < listeners.entries.size(); ++i)
+            listen(*opened.front, listeners, i);
     }
 
     Front::Carrier carrier_for(Open& opened) {
-        if (opened.door.open_ports) {
+        if (opened.listeners.open_ports) {
             return {.send = [&opened](auto to, auto packet) { opened.ports[to]->write(packet); },
                     .close = [](auto) {}};
         }
-        if (opened.door.is_web) {
+        if (opened.listeners.is_web) {
             return {.send = [this](auto to, auto message) { web_.send(to, message); },
                     .close = [this](auto which) { web_.close(which); },
                     .send_binary = [this](auto to, auto bytes) { web_.send_binary(to, bytes); }};
         }
-        return {.send = [this](auto to, auto message) { doors_.send(to, message); },
-                .close = [this](auto which) { doors_.close(which); }};
+        return {.send = [this](auto to, auto message) { listeners_.send(to, message); },
+                .close = [this](auto which) { listeners_.close(which); }};
     }
 
-    void listen(Front& front, const FrontDoor& door, std::size_t number) {
-        const auto entrance = std::make_shared<Entrance>(Entrance{number, 0});
-        Doors::Streams streams;
-        streams.opened = [this, &front, entrance](auto client) {
-            if (reach_present()) front.opened(client, *entrance);
+    void listen(Front& front, const FrontListeners& listeners, std::size_t number) {
+        const auto listener = std::make_shared<ListenerId>(ListenerId{number, 0});
+        Listeners::Streams streams;
+        streams.opened = [this, &front, listener](auto client) {
+            if (reach_present()) front.opened(client, *listener);
         };
         streams.received = [this, &front](auto from, auto bytes) {
             return reach_present() ? front.received(from, bytes) : 0;
@@ -112,21 +111,21 @@ class PacedServer {
             if (reach_present()) front.closed(gone);
         };
         streams.has_rate = options_.speed.has_value();  // else its clients set the pace
-        if (door.farewell) streams.farewell = door.farewell;
-        const auto& [wanted, what] = door.entries[number];
-        const Address address = door.is_web ? web_.listen(wanted, std::move(streams))
-                                            : doors_.listen(wanted, std::move(streams));
-        entrance->port = address.port;
+        if (listeners.closing_message) streams.closing_message = listeners.closing_message;
+        const auto& [wanted, what] = listeners.entries[number];
+        const Address address = listeners.is_web ? web_.listen(wanted, std::move(streams))
+                                                 : listeners_.listen(wanted, std::move(streams));
+        listener->port = address.port;
         options_.say(fmt::format("listening on {} ({})", address.text(), what));
-        if (door.is_web) options_.say(web_.invitation(address));
+        if (listeners.is_web) options_.say(web_.token_notice(address));
     }
 
     void open_ports(Open& opened) {
-        opened.ports = opened.door.open_ports(session_->network());
+        opened.ports = opened.listeners.open_ports(session_->network());
         for (Front::Connection robot = 0; robot < opened.ports.size(); ++robot) {
             PacketPort& port = *opened.ports[robot];
             options_.say("listening on " + port.text());
-            doors_.watch(port.descriptor(), [this, &opened, &port, robot] {
+            listeners_.watch(port.descriptor(), [this, &opened, &port, robot] {
                 return port.read([&](std::string_view packet) {
                     if (reach_present()) opened.front->received(robot, packet);
                 });
@@ -167,15 +166,16 @@ class PacedServer {
         return stop;
     }
 
-    /// Sets the clock back to the limit of the fronts: the run does not make up for what they held.
+    /// Sets the clock back to the limit of the fronts, so that the run does not catch up after a
+    /// pause.
     void hold_clock() {
         if (!options_.speed || by_clock() <= limit()) return;
         const std::chrono::duration<double> run_for(seconds(limit()) / *options_.speed);
         started_ = options_.clock() - std::chrono::duration_cast<Clock::duration>(run_for);
     }
 
-    /// Looks at the clock, and notes by how much it comes later than promised: what clients said
-    /// meanwhile has waited, whether or not anything was due.
+    /// Polls the clock, and records the delay against the promised time: messages of clients have
+    /// waited that long.
     void look() {
         hold_clock();
         if (!options_.speed) return;
@@ -188,7 +188,7 @@ class PacedServer {
         promised_ = present;
     }
 
-    /// Promises to look again within some real time. @return it
+    /// Sets the real time within which the clock will be polled again. @return this time
     Duration promise(Duration wait) {
         look();
         if (options_.speed) {
@@ -200,8 +200,8 @@ class PacedServer {
         return wait;
     }
 
-    /// Runs on to the time of the clock or to the next stop, for a slice of events at most, and to
-    /// the end of all events of one time.
+    /// Runs up to the time of the clock or the next stop, at most one slice of events, and
+    /// completes all events of a time.
     void catch_up() {
         look();
         const Time until = std::min(next_stop(), by_clock());
@@ -214,7 +214,8 @@ class PacedServer {
         }
     }
 
-    /// Runs on to the time that the clock has now: a client's words count from when they come in.
+    /// Runs up to the current time of the clock, so that a message of a client takes effect at its
+    /// arrival.
     /// @return false after the run
     bool reach_present() {
         if (!session_) return false;
@@ -232,7 +233,7 @@ class PacedServer {
         judge(behind, now());
     }
 
-    /// Says that it is late, or ends the run, if it is later than it may be.
+    /// Prints a notice about the delay, or ends the run, if the delay exceeds the limit.
     /// @param at  simulated time
     void judge(Duration behind, Time at) {
         if (!options_.most_late || behind <= *options_.most_late || !fault_.empty()) return;
@@ -250,7 +251,7 @@ class PacedServer {
         return from_seconds(seconds(simulated) / *options_.speed);
     }
 
-    /// Real time until there is something to do that no client brings.
+    /// Real time until the next event that does not come from a client.
     Duration spare_time() {
         if (is_behind_) return 0ms;
         const Time stop = next_stop();
@@ -260,8 +261,8 @@ class PacedServer {
         return std::clamp<Duration>(real_time(stop - by_clock()), 0ms, longest);
     }
 
-    /// Longest wait, after which it would have noticed that it had been away: a part of what it may
-    /// be late.
+    /// Longest wait, a fraction of the allowed delay, so that a suspension of the process is
+    /// noticed.
     Duration longest_wait_now() const {
         constexpr int looks = 4;
         if (!options_.most_late) return longest_wait;
@@ -269,8 +270,8 @@ class PacedServer {
     }
 
     const PacedOptions& options_;
-    Doors doors_;
-    WebSockets web_{doors_};
+    Listeners listeners_;
+    WebSockets web_{listeners_};
     std::list<Open> open_;
     Session* session_ = nullptr;  // while it is served
     Clock::time_point started_;

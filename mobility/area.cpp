@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/area.hpp"
 
+#include "scene/scene.hpp"
 #include "sim/math.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ bool has_room(const Mover& mover, Vec3 p) {
     return scene.inside_map(p) && scene.passable(p, p, mover.radius);
 }
 
-/// The share of `direction` that reaches the border in one coordinate; infinity if none does.
+/// Factor on `direction` for reaching the border in one coordinate; infinity if it is never
+/// reached.
 double exit_length(double x, double along, double lower, double upper) {
     if (along == 0) return std::numeric_limits<double>::infinity();
     return ((along > 0 ? upper : lower) - x) / along;

@@ -12,57 +12,61 @@
 
 namespace rovernet {
 
-/// Place where a movement begins.
+/// Start position of a movement model.
 enum class StartPlace {
-    uniform,  ///< drawn, uniform in the area; after the start of the run it begins where it is
-    here,     ///< place where the robot is
+    uniform,  ///< uniform random position in the area; current position if it begins after the
+              ///< run's start
+    here,     ///< current position of the robot
 };
 template <>
 struct EnumNames<StartPlace> {
     static constexpr std::array<std::string_view, 2> values = {"uniform", "here"};
 };
 
-/// The rectangle along the axes in which a robot moves. It says nothing of heights.
+/// Axis-parallel rectangle in which a robot moves; its height is not limited.
 struct Area {
-    Vec3 lower;  ///< [m]
-    Vec3 upper;  ///< [m] beyond `lower` in x and y
+    Vec3 lower;  ///< lower-left corner [m]
+    Vec3 upper;  ///< upper-right corner [m], beyond `lower` in x and y
 
-    /// @param corners  lower-left and upper-right [m], cut to the map's box where there is a map;
-    ///                 empty: the map's box
-    /// @param model    for errors
-    /// @throws std::invalid_argument for corners that make no area, or none without a map
+    /// @param corners  lower-left and upper-right corner [m], limited to the map's box if there is
+    ///                 a map; empty: the map's box
+    /// @param model    name of the model, for errors
+    /// @throws std::invalid_argument for corners without an area between, or no corners without a
+    ///         map
     Area(const std::vector<Vec3>& corners, const Scene& scene, std::string_view model);
 
     bool contains(Vec3 p) const {
         return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y;
     }
     Vec3 middle() const { return 0.5 * (lower + upper); }
-    double diagonal() const;      ///< [m]
-    double shorter_side() const;  ///< [m]
-    /// Distance to the nearest border [m] of a point inside.
+    double diagonal() const;      ///< length of the diagonal [m]
+    double shorter_side() const;  ///< length of the shorter side [m]
+    /// Distance [m] of a point inside the area to its nearest border.
     double to_border(Vec3 p) const;
-    /// The place inside that is nearest to `p`.
+    /// Point of the area nearest to `p`.
     Vec3 clamped(Vec3 p) const;
-    /// Point where the ray from `p` inside along `direction`, a vector in the plane of length 1,
-    /// leaves: exactly on the border.
+    /// Point where the ray from `p`, inside the area, along `direction`, a horizontal unit vector,
+    /// crosses the area's border, exactly.
     Vec3 exit(Vec3 p, Vec3 direction) const;
 
-    /// A place, uniform among those where the mover's body has room and, on a map, is on it; at the
-    /// mover's height. None if 10,000 draws find none.
+    /// Uniform random position in the area among those where the mover's body fits and, on a map,
+    /// that are on the map; at the mover's height. Empty if 10,000 draws find none.
     std::optional<Vec3> free_place(const Mover& mover, Draws& draws) const;
-    /// Place where a movement begins: at the mover for StartPlace::here or after the start of the
-    /// run.
-    /// @throws std::invalid_argument if that lies outside
+    /// Start position of a movement: the mover's own position for StartPlace::here or after the
+    /// start of the run.
+    /// @throws std::invalid_argument if the mover's position is outside the area
     std::optional<Vec3> first_place(const Mover& mover, StartPlace start, Draws& draws,
                                     std::string_view model) const;
 };
 
-/// Least length of a leg [m]: a robot that could go less far stands at an obstacle or a border.
+/// Shortest leg [m]: a robot that can only move less stands at an obstacle or a border.
 inline constexpr double least_leg = 1e-6;
 
-/// Share of a way that a mover can go, if `open` tells whether it can go a share of it: 1; or
-/// `off`, the share of a least_leg, less than up to where it can; 0 if that is less than a
-/// least_leg.
+/// Fraction of a path [-] that a robot can move, found by bisection.
+/// @param open  open(f): whether the robot can move along the first fraction f of the path
+/// @param off   fraction of the path that has the length least_leg
+/// @return 1 for the whole path; otherwise the free fraction less `off`; 0 if less than `off` is
+///        left
 template <class Open>
 double free_share(Open open, double off) {
     if (open(1.0)) return 1;
@@ -72,19 +76,19 @@ double free_share(Open open, double off) {
         const double middle = 0.5 * (good + bad);
         (open(middle) ? good : bad) = middle;
     }
-    // The stop keeps off the very limit, where rounding would decide whether the next leg may
+    // The stop keeps a distance to the limit, where rounding would decide whether the next leg may
     // begin.
     good -= off;
     return good >= off && open(good) ? good : 0;
 }
 
-/// Point up to which the mover can go straight from where it is towards `to`: `to`, or a micrometre
-/// before it would touch an obstacle or leave the map; where it is, if it cannot go a least_leg.
+/// End of the longest free straight path of the mover towards `to`: `to`, or a micrometre before an
+/// obstacle or the map's border; the mover's position if it cannot move by a least_leg.
 Vec3 straight_stop(const Mover& mover, Vec3 to);
 
-/// The vector of length 1 at `angle` [rad], counter-clockwise from the x axis.
+/// Unit vector at `angle` [rad], counter-clockwise from the x axis.
 Vec3 direction_of(double angle);
-/// Direction in the plane, all equally likely: a vector of length 1.
+/// Uniform random direction in the plane, as a unit vector.
 Vec3 any_direction(const Mover& mover, Draws& draws);
 
 }  // namespace rovernet

@@ -39,7 +39,7 @@ std::vector<int> CellSearch::shortest_way(std::span<const std::uint8_t> steps, c
     return way_to(last);
 }
 
-/// Forgets the last search and opens the cells near the start.
+/// Resets the search and opens the cells near the start.
 void CellSearch::begin(std::size_t cells, const PathEnd& start, const PathEnd& goal) {
     for (const int cell : touched_) reached_[static_cast<std::size_t>(cell)] = {};
     touched_.clear();
@@ -55,14 +55,14 @@ void CellSearch::begin(std::size_t cells, const PathEnd& start, const PathEnd& g
     for (const auto& [cell, length] : start.ways) reach({length, -1, 0}, cell);
 }
 
-/// Distance of a cell from the straight line between the ends, in units of that search.
+/// Distance of a cell from the straight line between the ends, in units of this search.
 float CellSearch::aside(int cell) const {
     const CellPoint p = centre(cell);
     return static_cast<float>(std::abs((p.u - start_.u) * (goal_.v - start_.v) -
                                        (p.v - start_.v) * (goal_.u - start_.u)));
 }
 
-/// A way leads to a cell.
+/// Handles a path that reaches a cell.
 void CellSearch::reach(const Reached& way, int cell) {
     Reached& known = reached_[static_cast<std::size_t>(cell)];
     const double longer = way.so_far - known.so_far;
@@ -71,19 +71,19 @@ void CellSearch::reach(const Reached& way, int cell) {
     if (way.aside < known.aside) known = {known.so_far, way.before, way.aside};
 }
 
-/// A way leads to a cell and is shorter than what was known.
+/// Opens a cell for a path that is shorter than the known one.
 void CellSearch::open(const Reached& way, int cell) {
     Reached& known = reached_[static_cast<std::size_t>(cell)];
     if (known.so_far == infinity) touched_.push_back(cell);
     known = way;
     const double above = (way.so_far + least_left(cell) - least_) / bucket_width_;
     const auto bucket = std::max(static_cast<std::size_t>(std::max(above, 0.0)), bucket_);
-    // A cell beyond the last bucket comes into one that is too early, which does no harm.
+    // A cell beyond the last bucket is put into an earlier one, which is harmless.
     buckets_[bucket % buckets_.size()].push_back({cell, way.so_far});
     ++open_;
 }
 
-/// Takes all steps from a cell.
+/// Handles all steps from a cell.
 void CellSearch::go_on(Open from, std::span<const std::uint8_t> steps) {
     const auto i = static_cast<std::size_t>(from.cell);
     if (reached_[i].so_far < from.so_far) return;

@@ -15,9 +15,9 @@
 
 namespace rovernet {
 
-/// Length [m] of the shortest way that goes along the axes and diagonals of the cells.
+/// Length [m] of the shortest path along the axes and diagonals of the cells.
 ///
-/// All lengths of the search are in this norm, which makes it an exact bound on an empty map.
+/// All lengths of the search use this norm, which is an exact lower bound on an empty map.
 struct CellNorm {
     double width, height, diagonal;  ///< sides and diagonal of a cell [m]
 
@@ -34,24 +34,24 @@ struct CellNorm {
     }
 };
 
-/// An end of a path, and straight ways between it and the centres of cells near it.
+/// End of a path, with straight connections to the centres of cells nearby.
 struct PathEnd {
     struct Access {
         int cell;
-        double length;  ///< length in CellNorm [m]
+        double length;  ///< length of the connection in CellNorm [m]
     };
     CellPoint at;
-    std::vector<Access> ways;  ///< access to each cell
+    std::vector<Access> ways;  ///< connections to the centres of cells nearby
 };
 
-/// Finds shortest ways over the cells of a map by A*, best first to within half a cell.
+/// Search for shortest paths over the cells of a map by A*, best first to within half a cell.
 ///
-/// Cells to go on from lie in buckets by their total: the length so far plus the least that may be
-/// left. A cell to which a shorter way turns up is put into a bucket again; the search ends when no
-/// bucket is left that could shorten the way found. Of ways equally long but for rounding a cell
-/// keeps the one whose last cell is nearest to the straight line between the ends. Boost's
-/// astar_search takes four times as many instructions: it makes its arrays anew and keeps its heap
-/// in full order.
+/// Open cells are stored in buckets by their estimate: the length so far plus the lower bound of
+/// the rest. A cell for which a shorter path is found is put into a bucket again; the search ends
+/// when no bucket is left that could shorten the path found. Among paths of equal length (except
+/// for rounding) a cell keeps the one whose previous cell is nearest to the straight line between
+/// the ends. Boost's astar_search takes four times as many instructions: it allocates its arrays
+/// for each search and keeps its heap fully ordered.
 ///
 /// Sources: P. E. Hart, N. J. Nilsson, B. Raphael, A Formal Basis for the Heuristic Determination
 /// of Minimum Cost Paths, IEEE SSC-4 (1968); R. B. Dial, Algorithm 360, Comm. ACM 12 (1969).
@@ -59,8 +59,8 @@ class CellSearch {
   public:
     CellSearch(const MapFrame& frame, int columns);
 
-    /// The cells from the start to the goal; none if there is no way. From the first call on it
-    /// keeps 16 bytes for every cell of the map.
+    /// Indices of the cells on the shortest path from start to goal; empty if there is no path.
+    /// After the first call it has 16 bytes allocated for every cell of the map.
     /// @param steps  FreeSpace::steps, the same in every call
     std::vector<int> shortest_way(std::span<const std::uint8_t> steps, const PathEnd& start,
                                   const PathEnd& goal);
@@ -68,13 +68,13 @@ class CellSearch {
   private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    /// Best way to a cell that is known so far.
+    /// Shortest path to a cell found so far.
     struct Reached {
-        double so_far = infinity;  // [m] from the start
-        int before = -1;           // the cell before it on the way; -1: the start
+        double so_far = infinity;  // length from the start [m]
+        int before = -1;           // previous cell of the path; -1: the start
         float aside = 0;           // distance of `before` from the straight line, see aside()
     };
-    /// A cell to go on from, unless a shorter way to it has been found meanwhile.
+    /// Cell in the open list of A*; obsolete if a shorter path to the cell was found since.
     struct Open {
         int cell;
         double so_far;
@@ -91,18 +91,18 @@ class CellSearch {
 
     CellNorm norm_;
     int columns_;
-    double bucket_width_;                             // [m]
-    double rounding_;                                 // [m] lengths so much apart are equal
-    std::array<int, cell_steps.size()> offset_{};     // of a step: difference of the cells' indices
-    std::array<double, cell_steps.size()> length_{};  // of a step [m]
+    double bucket_width_;                             // [m] range of estimates in a bucket
+    double rounding_;                                 // [m] lengths that differ by less are equal
+    std::array<int, cell_steps.size()> offset_{};     // by step: difference of the cells' indices
+    std::array<double, cell_steps.size()> length_{};  // by step: length [m]
 
     CellPoint start_{}, goal_{};
     std::vector<Reached> reached_;               // by cell
     std::vector<int> touched_;                   // cells whose entry in reached_ was changed
     std::array<std::vector<Open>, 32> buckets_;  // ring of buckets
-    std::size_t bucket_ = 0;  // number of the current bucket, not yet modulo the ring
-    std::size_t open_ = 0;    // cells in all buckets
-    double least_ = 0;        // total at which the first bucket begins [m]
+    std::size_t bucket_ = 0;  // number of the current bucket, not reduced modulo the ring's size
+    std::size_t open_ = 0;    // number of cells in all buckets
+    double least_ = 0;        // estimate at which the first bucket begins [m]
 };
 
 }  // namespace rovernet

@@ -8,12 +8,12 @@
 
 namespace rovernet {
 
-/// The random numbers of one movement, one after the other.
+/// Sequence of random numbers for one movement.
 ///
-/// They depend on seed, replication, the robot's name and the number of its movement, and on
-/// nothing that other robots do.
+/// They depend only on seed, replication, the robot's name and the number of its movement, not on
+/// other robots.
 struct Draws {
-    std::uint32_t used = 0;  // a leg takes a few: enough for a billion legs
+    std::uint32_t used = 0;  // number of draws so far; 2^32 are enough for a billion legs
 
     double uniform(const Mover& mover) { return rovernet::uniform(mover.key(used++)); }
     double normal(const Mover& mover) { return rovernet::normal(mover.key(used++)); }

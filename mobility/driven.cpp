@@ -2,6 +2,8 @@
 #include "mobility/driven.hpp"
 
 #include "mobility/area.hpp"
+#include "scene/contact.hpp"
+#include "scene/scene.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 namespace rovernet {
@@ -17,21 +18,21 @@ namespace {
 
 constexpr double longest_leg = 1e6;  // [s]
 
-/// Time that a chord may take [ns] so that the arc is nowhere farther from it than `chord`: an arc
-/// of radius v / w is |v w| t^2 / 8 away at most. No chord spans more than a quarter of the circle.
+/// Duration of a chord [ns] for which the arc is at most `chord` from it: an arc of radius v / w
+/// deviates by at most |v w| t^2 / 8. No chord spans more than a quarter of the circle.
 Duration chord_time(double v, double w, double chord) {
     constexpr double quarter = 1.5707963267948966;  // [rad]
     const double t = std::min(std::sqrt(8 * chord / std::abs(v * w)), quarter / std::abs(w));
     return std::max(from_seconds(std::min(t, longest_leg)), Duration{1});
 }
 
-/// Far enough ahead to leave any map from anywhere on it [m].
+/// Length [m] that leads off any map from any point on it.
 double beyond_map(const Scene& scene) {
     const Vec3 size = scene.upper_right() - scene.lower_left();
     return 1 + std::hypot(size.x, size.y);
 }
 
-/// Time until the end of the next chord, or of the straight way; nothing: it goes on for ever.
+/// Time until the end of the next chord, or of the straight path; empty if it is endless.
 std::optional<Duration> time_ahead(const Mover& mover, double v, double w, double chord, Time end) {
     Duration time = end == never ? Duration::max() : end - mover.now;
     if (w != 0) return std::min(time, chord_time(v, w, chord));
@@ -42,16 +43,16 @@ std::optional<Duration> time_ahead(const Mover& mover, double v, double w, doubl
     return end == never ? std::nullopt : std::optional(time);
 }
 
-/// Place on the arc where a command takes the robot over: where the robot is, unless it is on a
-/// chord of the command before.
+/// Position on the arc at which a command starts: the robot's position, or the point of the
+/// previous command's arc if the robot is on one of its chords.
 Vec3 place_on(const DrivenArc* arc, const Mover& mover, double chord) {
     if (!arc) return mover.position;
     const Vec3 place = arc->position(mover.now);
     return distance(place, mover.position) <= chord ? place : mover.position;
 }
 
-/// Angle by which the direction `way` [rad] has to turn, in the sense of `sign`, until it points
-/// off everything that the robot touches; 0 if it does now; infinity if none does.
+/// Angle by which the heading `way` [rad] has to turn, in the direction of `sign`, until it points
+/// away from all contacts; 0 if it does now; infinity if there is none.
 double turn_off(const std::vector<Contact>& contacts, double way, double sign) {
     constexpr double rounding = 1e-9;  // [rad]
     double turned = 0;
@@ -68,8 +69,8 @@ double turn_off(const std::vector<Contact>& contacts, double way, double sign) {
     return turned < 2 * std::numbers::pi ? turned : std::numeric_limits<double>::infinity();
 }
 
-/// Time of the longest part of the arc, of at most `time`, whose chord the robot's body can go from
-/// where it is; 0 if that is shorter than a least_leg.
+/// Duration of the longest free chord of the arc, at most `time`, from the robot's position; 0 if
+/// the chord is shorter than a least_leg.
 Duration free_time(const Mover& mover, const DrivenArc& arc, Duration time) {
     const Scene& scene = mover.scene();
     const auto open = [&](double share) {
@@ -80,7 +81,7 @@ Duration free_time(const Mover& mover, const DrivenArc& arc, Duration time) {
     return from_seconds(free_share(open, off) * seconds(time));
 }
 
-/// The leg on a straight way to `to`, where it ends.
+/// Leg on a straight path that ends at `to`.
 Leg ended_at(Leg leg, Vec3 to) {
     leg.to = to;
     leg.velocity = (1 / seconds(leg.end - leg.start)) * (to - leg.from);
@@ -110,7 +111,8 @@ Step Driven::next_leg(Mover& mover) {
     if (v == 0) return leg;
 
     const DrivenArc ahead{mover.now, begin, mover.heading, v, w};
-    // A chord that begins beside the arc is half as long: it is nowhere farther off than it began.
+    // A chord that begins beside the arc is half as long, so that it is nowhere farther off than at
+    // its start.
     const double off = begin == mover.position ? 1 : 0.25;
     const std::optional<Duration> time = time_ahead(mover, v, w, off * chord.value, end);
     if (!time) {
@@ -140,7 +142,7 @@ Leg Driven::along_arc(const Mover& mover, const DrivenArc& ahead, Duration time,
     const auto contacts = mover.scene().contacts(mover.position, mover.radius);
     const double to_turn = turn_off(contacts, way, ahead.turn_rate > 0 ? 1 : -1);
     if (to_turn > 0) {
-        // Held by what it touches, it turns until it points off that.
+        // The robot is blocked and turns until its heading points away from the contacts.
         const double held = std::ceil(1e9 * (to_turn / std::abs(ahead.turn_rate)));  // [ns]
         if (held < 1e9 * longest_leg) {
             leg.end = std::min(leg.end, mover.now + Duration{static_cast<std::int64_t>(held)});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mobility/intervals.hpp"
 #include "mobility/movement.hpp"
 #include "sim/ids.hpp"
 
@@ -9,21 +8,21 @@
 
 namespace rovernet {
 
-/// Keeps behind another robot: every `every` it looks where the leader is and goes along the way
-/// there, around the walls, until `distance` is left of it.
+/// Movement behind another robot: every `every` it reads the leader's position and moves along the
+/// path there, around the walls, until the remaining path is `distance` long.
 ///
-/// It spreads what it has to go over the interval, at `speed` at most, and stands while the leader
-/// is nearer. Behind a leader of constant speed v < `speed` on a straight line, it is
-/// `distance` + v `every` away at each look. While there is no way it stands and looks again. Its
-/// height stays.
+/// It spreads the path over the interval, with at most `speed`, and stands while the leader is
+/// nearer. Behind a leader with constant speed v < `speed` on a straight line, its distance at each
+/// update is `distance` + v `every`. If there is no path, it stands until the next update. Its
+/// height is constant.
 struct Follow {
     static constexpr std::string_view name = "follow";
     static constexpr AtDoors at_doors = AtDoors::looks;
 
     NodeId leader = {};
-    Meters distance{2};                        ///< [m], >= 0, along the way
-    MetersPerSecond speed{1};                  ///< [m/s], > 0, at most
-    Duration every = std::chrono::seconds{1};  ///< [ns], from 1 us
+    Meters distance{2};                        ///< kept distance [m], >= 0, along the path
+    MetersPerSecond speed{1};                  ///< largest speed behind the leader [m/s], > 0
+    Duration every = std::chrono::seconds{1};  ///< time between two path updates [ns], from 1 us
 
     static constexpr auto fields() {
         return describe(
@@ -32,7 +31,7 @@ struct Follow {
             field("every", &Follow::every, step_length, "time from one look to the next"));
     }
 
-    /// @throws std::invalid_argument for a parameter out of its range or a leader that is not there
+    /// @throws std::invalid_argument for a parameter out of its range or an unknown leader
     Step next_leg(Mover& mover);
 };
 

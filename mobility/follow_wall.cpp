@@ -14,8 +14,8 @@ namespace {
 
 constexpr double quarter = std::numbers::pi / 2;
 
-/// Leg along `direction`, as far as the body can go; turned away from the wall, by `away` [rad], as
-/// often as it takes to go on, or into the direction that lets it go the farthest.
+/// Leg along `direction` as far as the body can move; the direction is turned away from the wall by
+/// `away` [rad] until it is free, otherwise the direction with the longest free path is used.
 Step leg_along(const Mover& mover, double direction, double way, MetersPerSecond speed,
                double away) {
     constexpr double enough = 1.0 / 16;  // of the way

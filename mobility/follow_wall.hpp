@@ -9,32 +9,32 @@
 
 namespace rovernet {
 
-/// Side on which a robot has its wall.
+/// Side of a robot on which it follows its wall.
 enum class WallSide { left, right };
 template <>
 struct EnumNames<WallSide> {
     static constexpr std::array<std::string_view, 2> values = {"left", "right"};
 };
 
-/// A robot that goes along the walls, by what its range finder measures: it has the nearest wall of
-/// its `side` there, `keep` away from its body, goes round corners and never arrives. Where the way
-/// is too narrow for that it keeps to the middle. A robot that has no wall on that side within
-/// `range` goes straight ahead until it has.
+/// Movement along walls by a range finder: the robot keeps the nearest wall on its `side` at the
+/// distance `keep` from its body, turns at corners and never arrives. In a passage too narrow for
+/// that it stays in the middle. Without a wall on that side within `range` it moves straight ahead
+/// until it finds one.
 ///
-/// Each `stride` it looks again and goes along the wall that is nearest then, corrected by the
-/// error of the distance. On a straight wall there is no error; round a corner that points at it
-/// the robot goes on chords, at most stride^2 / (8 (keep + radius)) off the circle.
+/// After each `stride` it measures again and moves along the wall that is nearest then, corrected
+/// by the distance error. There is no error at a straight wall; around a convex corner the robot
+/// moves on chords, at most stride^2 / (8 (keep + radius)) off the circle.
 ///
-/// It needs a map. Robots do not see one another.
+/// It needs a map. Robots do not detect each other.
 struct FollowWall {
     static constexpr std::string_view name = "follow_wall";
     static constexpr AtDoors at_doors = AtDoors::looks;
 
     WallSide side = WallSide::left;
-    MetersPerSecond speed{0.5};  ///< > 0
-    Meters keep{0.5};            ///< from its body to the wall, > 0
-    Meters stride{0.1};          ///< way between two looks, > 0
-    Meters range{8};             ///< farthest that its range finder measures, > 0
+    MetersPerSecond speed{0.5};  ///< speed along the wall, > 0
+    Meters keep{0.5};            ///< distance from the robot's body to the wall, > 0
+    Meters stride{0.1};          ///< path length between two measurements, > 0
+    Meters range{8};             ///< largest distance that the robot's range finder measures, > 0
 
     static constexpr auto fields() {
         return describe(field("side", &FollowWall::side, "side on which it has the wall"),
@@ -48,7 +48,7 @@ struct FollowWall {
     /// @throws std::invalid_argument for a parameter out of its range, or without a map
     Step next_leg(Mover& mover);
 
-    /// Left to the model.
+    /// State of the robot in this movement, for the model only.
     struct Progress {
         bool begun = false;
     } progress = {};

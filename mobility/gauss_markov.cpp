@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/gauss_markov.hpp"
 
+#include "mobility/area.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mobility/area.hpp"
-#include "mobility/intervals.hpp"
+#include "mobility/draws.hpp"
 #include "mobility/movement.hpp"
 #include "sim/fields.hpp"
 
@@ -12,16 +12,16 @@
 
 namespace rovernet {
 
-/// Speed and direction drawn anew every `step`, correlated with those before: the Gauss-Markov
-/// model.
+/// Gauss-Markov mobility model: every `step` speed and direction are drawn, correlated with the
+/// previous ones:
 ///   s' = a s + (1 - a) mean_speed + sqrt(1 - a^2) speed_sigma w,   w normal; direction alike.
 ///
-/// Speed is normal with mean_speed and speed_sigma at all times, and its autocorrelation over k
-/// steps is a^k; a speed below 0 drives along the opposite direction. Within a tenth of the area's
-/// shorter side from a border the mean direction turns to the middle, and stays so until the next
-/// border. A leg that would cross a border or a wall ends there (a micrometre before a wall), with
-/// a new step: at a border towards the middle, at a wall turned round. A robot goes no faster than
-/// its top speed.
+/// The speed is normally distributed with mean_speed and speed_sigma at all times, and its
+/// autocorrelation over k steps is a^k; at a speed below 0 the robot moves in the opposite
+/// direction. Within a tenth of the area's shorter side from a border, the mean direction points to
+/// the middle of the area, until the next border. A leg that would cross a border or a wall ends
+/// there (a micrometre before a wall), and a new step begins: at a border towards the middle, at a
+/// wall in the reverse direction. The robot's top speed limits the speed.
 /// Sources: B. Liang, Z. Haas, Predictive distance-based mobility management for PCS networks,
 /// INFOCOM 1999; T. Camp, J. Boleng, V. Davies, A survey of mobility models for ad hoc network
 /// research, Wireless Communications and Mobile Computing 2(5), 2002, section 2.5.
@@ -29,14 +29,13 @@ struct GaussMarkov {
     static constexpr std::string_view name = "gauss_markov";
     static constexpr AtDoors at_doors = AtDoors::looks;
 
-    std::vector<Vec3> area = {};       ///< [m] as in the other models
-    MetersPerSecond mean_speed{1};     ///< [m/s], >= 0
-    MetersPerSecond speed_sigma{0.2};  ///< [m/s], >= 0
-    std::optional<Radians> mean_direction =
-        std::nullopt;                         ///< direction at first; nothing: drawn, uniform
-    Radians direction_sigma{0.4};             ///< >= 0
-    double memory = 0.75;                     ///< a [-], 0 ... 1
-    Duration step = std::chrono::seconds{1};  ///< [ns], from 1 us
+    std::vector<Vec3> area = {};       ///< area [m]: lower-left, upper-right corner; empty: the map
+    MetersPerSecond mean_speed{1};     ///< mean of the speed [m/s], >= 0
+    MetersPerSecond speed_sigma{0.2};  ///< standard deviation of the speed [m/s], >= 0
+    std::optional<Radians> mean_direction = std::nullopt;  ///< first mean direction; empty: random
+    Radians direction_sigma{0.4};             ///< standard deviation of the direction, >= 0
+    double memory = 0.75;                     ///< a, correlation of consecutive steps [-], 0 ... 1
+    Duration step = std::chrono::seconds{1};  ///< time between two draws [ns], from 1 us
     StartPlace start = StartPlace::uniform;
 
     static constexpr auto fields() {
@@ -62,7 +61,7 @@ struct GaussMarkov {
     /// @throws std::invalid_argument for a parameter out of its range
     Step next_leg(Mover& mover);
 
-    /// Left to the model.
+    /// State of the robot in this movement, for the model only.
     struct Progress {
         bool begun = false;
         Draws draws = {};

@@ -9,7 +9,7 @@
 namespace rovernet {
 namespace {
 
-/// The way to a place that is drawn in the disc around `centre`; none leads nowhere.
+/// Path to a random position in the disc around `centre`; an empty path if none is found.
 Way way_into_disc(Mover& mover, Vec3 centre, Meters radius, Draws& draws) {
     constexpr int most_tries = 16;
     for (int i = 0; i < most_tries; ++i) {

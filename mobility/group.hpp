@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mobility/draws.hpp"
-#include "mobility/intervals.hpp"
 #include "mobility/movement.hpp"
 #include "mobility/way.hpp"
 #include "sim/ids.hpp"
@@ -11,21 +10,21 @@
 
 namespace rovernet {
 
-/// A member of a group that moves with its leader: the reference point group model.
+/// Reference point group mobility model: a member of a group that moves with its leader.
 ///
-/// Every `every` it heads for the leader's place at the end of the interval (as far as the leader's
-/// present leg says) + `offset` + a vector uniform in the disc of `radius`, and arrives then, top
-/// speed permitting, around the walls where there are any. If 16 draws find no place that it can
-/// reach, it stands for the interval. Its height stays.
+/// Every `every` it moves to the leader's position at the end of the interval (predicted by the
+/// leader's current leg) + `offset` + a uniform random vector in the disc of `radius`. It arrives
+/// at the end of the interval if its top speed allows, around the walls if there are any. If 16
+/// draws find no reachable position, it stands for the interval. Its height is constant.
 /// Source: X. Hong, M. Gerla, G. Pei, C.-C. Chiang, A group mobility model for ad hoc wireless
 /// networks, MSWiM 1999.
 struct Group {
     static constexpr std::string_view name = "group";
 
     NodeId leader = {};
-    Meters radius{5};                          ///< [m], >= 0, around the reference point
+    Meters radius{5};  ///< radius of the disc around the reference point [m], >= 0
     Duration every = std::chrono::seconds{5};  ///< time from one draw to the next [ns], from 1 us
-    Vec3 offset = {};                          ///< [m] of the reference point from the leader
+    Vec3 offset = {};  ///< vector from the leader to the reference point [m]
 
     static constexpr auto fields() {
         return describe(
@@ -34,14 +33,14 @@ struct Group {
             field("offset", &Group::offset, "of the reference point from the leader"));
     }
 
-    /// @throws std::invalid_argument for a parameter out of its range or a leader that is not there
+    /// @throws std::invalid_argument for a parameter out of its range or an unknown leader
     Step next_leg(Mover& mover);
 
-    /// Left to the model.
+    /// State of the robot in this movement, for the model only.
     struct Progress {
         Draws draws = {};
-        Time arrival = start_of_run;  // the end of the interval
-        Way way = {};                 // way until then
+        Time arrival = start_of_run;  // end of the interval
+        Way way = {};                 // path until then
     } progress = {};
 };
 

@@ -2,7 +2,6 @@
 #include "mobility/kept_planners.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace rovernet {
 namespace {

@@ -10,18 +10,16 @@
 
 namespace rovernet {
 
-/// Planners of the scenes that were used last: a worker that makes many runs keeps them from run to
-/// run.
+/// Cache of path planners for the scenes used last, for a worker that makes many runs.
 ///
-/// A scene never changes, so its address tells which one it is: it is kept alive as long as its
-/// planners are.
+/// A scene is immutable, so its address identifies it; it is kept alive as long as its planners.
 class KeptPlanners {
   public:
-    /// @param most_cells  of the scenes that are kept, all together: each takes some 30 bytes. The
-    ///                    scene asked for last is kept anyhow
+    /// @param most_cells  largest total number of cells of the cached scenes; each takes about 30
+    ///                    bytes. The last scene is always kept
     explicit KeptPlanners(std::size_t most_cells = 16'000'000) : most_cells_(most_cells) {}
 
-    /// The planners of `scene`; none for an open field (null), which needs none.
+    /// Path planners of `scene`; null for an open field (null), which needs none.
     std::shared_ptr<Planners> of(const std::shared_ptr<const Scene>& scene);
 
   private:
@@ -30,7 +28,7 @@ class KeptPlanners {
         std::shared_ptr<Planners> planners;
     };
     std::size_t most_cells_;
-    std::deque<Kept> kept_;  // the one that was asked for last comes first
+    std::deque<Kept> kept_;  // last used scene first
 };
 
 }  // namespace rovernet

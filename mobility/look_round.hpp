@@ -12,14 +12,14 @@
 
 namespace rovernet {
 
-/// Time between two looks of a robot that hardly gets on: it looks no more often [ns].
+/// Shortest time between two measurements of a robot that hardly moves [ns].
 inline constexpr Duration shortest_look{10'000'000};
 
-/// What a robot's range finder measures all round: the way to the nearest wall, each degree.
+/// Measurement of a robot's range finder all around: distance to the nearest wall, for each degree.
 class LookRound {
   public:
     static constexpr int beams = 360;
-    static constexpr double step = 2 * std::numbers::pi / beams;  ///< [rad]
+    static constexpr double step = 2 * std::numbers::pi / beams;  ///< angle between two beams [rad]
 
     LookRound(const Mover& mover, Meters range) : heading_(mover.heading), range_(range.value) {
         const RangeFinder finder{
@@ -27,18 +27,18 @@ class LookRound {
         finder.measure(mover.scene(), mover.position, Radians{heading_}, {}, ways_);
     }
 
-    /// Way that a beam measures [m]; the range if there is nothing nearer.
+    /// Distance that a beam measures [m]; the finder's range if no wall is nearer.
     double way(std::size_t beam) const { return ways_[beam]; }
     const std::array<double, beams>& ways() const { return ways_; }
-    /// Direction of a beam [rad]: the first one is straight ahead, the others counter-clockwise.
+    /// Direction of a beam [rad]: the first is straight ahead, the others follow counter-clockwise.
     double direction(std::size_t beam) const { return heading_ + static_cast<double>(beam) * step; }
-    /// Way that the beam nearest to a direction [rad] measures [m].
+    /// Distance measured by the beam nearest to a direction [rad], in [m].
     double way_towards(double direction) const {
         const double beam = std::round((direction - heading_) / step);
         return ways_[static_cast<std::size_t>(std::fmod(beam + 4 * beams, beams))];
     }
-    /// Beam that measures least of those from straight ahead to straight behind, on the left or on
-    /// the right; nothing if none of them measures less than the range.
+    /// Beam with the smallest distance between straight ahead and straight behind, on the left or
+    /// on the right; empty if all distances are at least the range finder's range.
     std::optional<std::size_t> nearest(bool on_the_left) const {
         std::size_t least = 0;
         for (std::size_t i = 1; i <= beams / 2; ++i) {

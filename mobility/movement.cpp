@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/movement.hpp"
 
+#include "mobility/planners.hpp"
+#include "scene/scene.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>
@@ -11,7 +13,7 @@ namespace {
 
 constexpr double last_s = 9.2e9;  // 291 years: beyond any run, within the clock
 
-/// `s` seconds after now, at least a nanosecond; nothing if no run lasts until then.
+/// Time `s` seconds after now, at least a nanosecond; empty if it is beyond every run.
 std::optional<Time> after(const Mover& mover, double s) {
     if (!(s < last_s - seconds(mover.now))) return std::nullopt;
     return mover.now + std::max(from_seconds(s), Duration{1});
@@ -27,7 +29,7 @@ Leg leg_until(const Mover& mover, Vec3 to, Time arrival) {
             .heading = way.x == 0 && way.y == 0 ? mover.heading : math::atan2(way.y, way.x)};
 }
 
-/// The part of the way to `to` that the mover makes before the clock ends.
+/// Part of the path to `to` that the mover travels before the clock ends.
 Leg endless_leg(const Mover& mover, Vec3 to, MetersPerSecond speed) {
     const Time end = start_of_run + from_seconds(last_s);
     const double share = speed.value * seconds(end - mover.now) / distance(mover.position, to);
@@ -35,6 +37,10 @@ Leg endless_leg(const Mover& mover, Vec3 to, MetersPerSecond speed) {
 }
 
 }  // namespace
+
+const Scene& Mover::scene() const {
+    return (scene_now ? *scene_now : planners.scene()).storey_at(position.z);
+}
 
 Leg straight_leg(const Mover& mover, Vec3 to, MetersPerSecond speed) {
     const MetersPerSecond v = std::min(speed, mover.top_speed);

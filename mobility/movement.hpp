@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mobility/planners.hpp"
-#include "scene/scene.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
-#include "sim/legs.hpp"
+#include "sim/leg.hpp"
 #include "sim/random.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -18,31 +16,40 @@
 
 namespace rovernet {
 
-/// Rates [rad/s] at which robots turn in place: half a turn ends well before the clock does.
+class Legs;
+class Planners;
+class Scene;
+
+/// Valid turn rates [rad/s] of robots that turn in place: half a turn ends long before the clock
+/// does.
 inline constexpr Range turn_rates{.low = 1e-8, .text = ">= 1e-8 rad/s"};
 
-/// A robot that asks for its next leg, and what its movement model may know.
+/// Valid ranges of step times and rests of movements [s]; the clock of the simulation (292 years)
+/// is long enough for many of them.
+inline constexpr Range step_length{
+    .low = 1e-6, .high = 9e8, .text = "from 1 us to 9e8 s (28 years)"};
+inline constexpr Range rest_length{.low = 0, .high = 9e8, .text = "from 0 s to 9e8 s (28 years)"};
+
+/// Robot that needs its next leg: the input of a movement model.
 struct Mover {
     Time now;
-    Vec3 position;       ///< [m] now
+    Vec3 position;       ///< current position [m]
     Meters radius;       ///< radius of the robot's body
-    Planners& planners;  ///< ways around the scene's walls, as if all doors were open
-    const Legs& legs;    ///< legs of all robots, for models that go by others
-    double heading = 0;  ///< [rad] now, counter-clockwise from the x axis
+    Planners& planners;  ///< planners of paths around the scene's walls, with all doors open
+    const Legs& legs;    ///< legs of all robots, for models that depend on other robots
+    double heading = 0;  ///< current heading [rad], counter-clockwise from the x axis
     static constexpr MetersPerSecond any_speed{std::numeric_limits<double>::infinity()};
-    MetersPerSecond top_speed = any_speed;  ///< [m/s] no leg of the library's models is faster
-    /// Seed, replication, the robot's key (a) and the number of its movement (b): what its draws
-    /// depend on.
+    MetersPerSecond top_speed = any_speed;  ///< speed limit of the library's movement models [m/s]
+    /// Seed, replication, the robot's key (a) and the number of its movement (b), for keys of
+    /// draws.
     Key draws = {};
 
-    /// Scene now, with the doors that are closed; null: that of the planners.
+    /// Current scene, with closed doors; null: the scene of the planners.
     const Scene* scene_now = nullptr;
 
-    /// Its storey now; the whole scene if that has one only.
-    const Scene& scene() const {
-        return (scene_now ? *scene_now : planners.scene()).storey_at(position.z);
-    }
-    /// The key of the robot's draw `index` of this movement.
+    /// Current storey of the robot; the whole scene if it has only one storey.
+    const Scene& scene() const;
+    /// Key of the robot's draw `index` in this movement.
     Key key(std::uint64_t index) const {
         Key key = draws;
         key.purpose = Purpose::movement;
@@ -51,61 +58,61 @@ struct Mover {
     }
 };
 
-/// The movement is over, the robot has arrived: it rests where it is.
+/// Result of a movement model: the movement is over and the robot rests at its goal.
 struct AtRest {};
 
-/// Answer that there is no way to the goal: the robot rests where it is.
+/// Result of a movement model: there is no path to the goal, and the robot rests at its position.
 struct Blocked {
-    Vec3 goal;  ///< [m]
+    Vec3 goal;  ///< goal without a path [m]
 };
 
 using Step = std::variant<Leg, AtRest, Blocked>;
 
-/// A movement model: a generator of legs, asked whenever a leg has run out. Nothing ticks. A leg
-/// starts at mover.now at mover.position and lasts at least a nanosecond; only the first leg of a
-/// run may start elsewhere: that is where the robot then starts.
+/// Movement model: a generator of legs, called when a leg has ended; there are no ticks. A leg
+/// starts at mover.now at mover.position and lasts at least a nanosecond. Only the first leg of a
+/// run may start elsewhere: the robot then starts there.
+/// Example: examples/own_movement.cpp.
 template <class T>
 concept MovementModel = std::copy_constructible<T> && requires(T model, Mover& mover) {
     { model.next_leg(mover) } -> std::same_as<Step>;
 };
 
-/// The straight leg from where the mover is to `to` at `speed` [m/s], > 0, or at its top speed if
-/// that is less.
+/// Straight leg from the mover's position to `to` at `speed` [m/s], > 0, limited to its top speed.
 Leg straight_leg(const Mover& mover, Vec3 to, MetersPerSecond speed);
-/// The straight leg from where the mover is to `to`, which it reaches at `arrival` > mover.now, or
-/// later if its top speed is too low for that.
+/// Straight leg from the mover's position to `to`, which it reaches at `arrival` > mover.now, or
+/// later if its top speed is too low.
 Leg straight_leg(const Mover& mover, Vec3 to, Time arrival);
 
-/// A leg without end where the mover is.
+/// Endless leg at rest at the mover's position.
 inline Leg standing_leg(const Mover& mover) {
     return {
         .start = mover.now, .from = mover.position, .to = mover.position, .heading = mover.heading};
 }
 
-/// Stays where it is, for ever: it never comes to rest from a movement.
+/// Robot that never moves; it has no end of a movement.
 struct Fixed {
     Step next_leg(Mover& mover) { return standing_leg(mover); }
 };
 
-/// What a movement model does where a door closes in the way of its leg. A model says so by a
-/// member `at_doors`; others wait.
+/// Action of a movement model when a door closes in the path of its leg. A model sets it by a
+/// member `at_doors`; the default is `waits`.
 enum class AtDoors {
-    waits,   ///< the robot stops at the door, and goes on with the leg once it opens
-    looks,   ///< it stops there, and the model is asked for another leg
-    drives,  ///< the same; one that stands is asked again, too, whenever a door closes or opens
-    passes   ///< it goes on, as it does through walls
+    waits,   ///< the robot stops at the door, and continues the leg once the door opens
+    looks,   ///< the robot stops at the door, and the model is asked for another leg
+    drives,  ///< like `looks`; a standing robot also gets a new leg whenever a door closes or opens
+    passes   ///< the robot moves on, also through walls
 };
 
-/// A movement model that keeps what it knows of a robot apart, in its Progress: copies of one
-/// Movement share its parameters, which saves their memory where there are millions of robots.
+/// Movement model that stores the state of a robot separately, in its Progress: copies of one
+/// Movement share their parameters, which saves memory with millions of robots.
 template <class T>
 concept SharedMovementModel = MovementModel<T> &&
     requires(const T& model, Mover& mover, typename T::Progress& progress) {
     { model.next_leg(mover, progress) } -> std::same_as<Step>;
 };
 
-/// Any movement model, held by value. By default, and moved from, it is Fixed, which takes no
-/// memory of its own.
+/// Movement model of any type, stored by value. A default-constructed or moved-from Movement is
+/// Fixed, without memory of its own.
 class Movement {
   public:
     Movement() = default;

@@ -11,15 +11,15 @@
 
 namespace rovernet {
 
-/// Patrol from place to place and round again for ever, around the walls where there are any.
+/// Patrol: endless movement from place to place in a cycle, around the walls if there are any.
 ///
-/// A place without a way to it ends the movement: Blocked. A round without any distance to go ends
-/// it, too: AtRest.
+/// If there is no path to a place, the movement ends with Blocked. If all places are equal, it ends
+/// with AtRest.
 struct Patrol {
     static constexpr std::string_view name = "patrol";
 
-    std::vector<Vec3> path = {};  ///< [m], at least one place
-    MetersPerSecond speed{1};     ///< [m/s], > 0
+    std::vector<Vec3> path = {};  ///< positions to visit in a cycle [m], one or more
+    MetersPerSecond speed{1};     ///< speed [m/s], > 0
 
     static constexpr auto fields() {
         return describe(
@@ -30,10 +30,10 @@ struct Patrol {
     /// @throws std::invalid_argument for a parameter out of its range
     Step next_leg(Mover& mover);
 
-    /// Progress of the robot; left to the model.
+    /// State of the robot in this movement, for the model only.
     struct Progress {
-        std::size_t next = 0;  // place of the path
-        Way way = {};          // way to the place before
+        std::size_t next = 0;  // index of the next place of the path
+        Way way = {};          // path to the previous place
     } progress = {};
 };
 

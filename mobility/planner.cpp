@@ -14,8 +14,8 @@ namespace {
 
 CellPoint centre(int column, int row) { return {column + 0.5, row + 0.5}; }
 
-/// Ways between an end of the path and the centres of free cells around it, ring by ring until
-/// enough are found; nearest first.
+/// Straight connections between an end of the path and the centres of free cells around it, ring by
+/// ring until enough are found; nearest first.
 PathEnd joined_to_cells(const Scene& scene, Meters radius, const std::vector<std::uint8_t>& free,
                         Vec3 end) {
     constexpr std::size_t enough = 8, most = 16;
@@ -45,7 +45,7 @@ PathEnd joined_to_cells(const Scene& scene, Meters radius, const std::vector<std
     return {p, std::move(ways)};
 }
 
-/// Whether some cell of the one lies in the same part of the map as some cell of the other.
+/// Whether cells of the two ends lie in the same connected part of the map.
 bool joined(const PathEnd& from, const PathEnd& to, const std::vector<std::int32_t>& part) {
     const auto part_of = [&](const PathEnd::Access& way) {
         return part[static_cast<std::size_t>(way.cell)];
@@ -64,7 +64,7 @@ double length_of(const Path& path) {
     return sum;
 }
 
-/// Way with points no farther apart than `spacing` [m].
+/// Path with points at most `spacing` [m] apart.
 Path subdivided(const Path& path, double spacing) {
     Path points{path.front()};
     for (std::size_t i = 1; i < path.size(); ++i) {
@@ -76,8 +76,8 @@ Path subdivided(const Path& path, double spacing) {
     return points;
 }
 
-/// Way that goes from each corner straight to a far point in sight: the farthest that doubling
-/// jumps find.
+/// Path that goes from each corner straight to a far visible point: the farthest found by doubling
+/// jumps.
 Path straightened(const Scene& scene, Meters radius, const Path& path) {
     Path corners{path.front()};
     for (std::size_t anchor = 0; anchor + 1 < path.size();) {
@@ -101,7 +101,7 @@ bool passable(const Scene& scene, Meters radius, const Path& path) {
     return true;
 }
 
-/// Straightened from the start, then, its points a cell apart, from the goal.
+/// Path straightened from the start and then, with points a cell apart, from the goal.
 Path pulled_tight(const Scene& scene, Meters radius, const Path& cells) {
     const double spacing = std::max(scene.frame().cell_width(), scene.frame().cell_height());
     const Path forward = straightened(scene, radius, cells);
@@ -109,12 +109,12 @@ Path pulled_tight(const Scene& scene, Meters radius, const Path& cells) {
     std::reverse(points.begin(), points.end());
     Path both = straightened(scene, radius, points);
     std::reverse(both.begin(), both.end());
-    // Rounded points between passable ones may miss the radius by a hair.
+    // Rounded points between passable ones may violate the radius minimally.
     const bool better = length_of(both) < length_of(forward) && passable(scene, radius, both);
     return better ? both : forward;
 }
 
-/// The numbers as they are in memory: -0 is another than 0.
+/// Numbers as bits: -0 differs from 0.
 std::array<std::uint64_t, 6> bits_of(const std::array<double, 6>& numbers) {
     return std::bit_cast<std::array<std::uint64_t, 6>>(numbers);
 }
@@ -133,7 +133,7 @@ Planner::Planner(const Scene& scene, Meters radius)
       space_(scene, radius),
       search_(scene.frame(), scene.grid().columns) {}
 
-/// The ends of a way around obstacles; none if there is none.
+/// Ends of a path around obstacles; empty if there is none.
 std::optional<Planner::Ends> Planner::ends(Vec3 from, Vec3 to) const {
     Ends ends{joined_to_cells(*scene_, radius_, space_.free, from),
               joined_to_cells(*scene_, radius_, space_.free, to)};
@@ -153,6 +153,7 @@ std::optional<std::vector<Vec3>> Planner::shortest_path(Vec3 from, Vec3 to) {
     const Question question = bits_of({from.x, from.y, from.z, to.x, to.y, to.z});
     if (const auto found = known_.find(question); found != known_.end()) return found->second;
     if (known_.size() == most_known) known_.clear();
+    ++searches_;
     return known_.emplace(question, path_around(from, to)).first->second;
 }
 

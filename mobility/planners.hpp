@@ -6,6 +6,7 @@
 #include "sim/units.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
@@ -13,29 +14,35 @@
 
 namespace rovernet {
 
-/// The planners of one scene, one for each storey and radius of robot, made when first asked for.
+/// Path planners of one scene, one for each storey and robot radius, created on first use.
 ///
-/// Stairs are no part of a scene: a way from one storey to another is straight, wherever its ends
-/// are, as long as Scene::passable allows it. A planner's answers do not depend on what it was
-/// asked before: runs in one scene may share its planners, one run after the other.
+/// Stairs are not part of a scene: a path between storeys is a straight line between any two
+/// points, if Scene::passable allows it. Results do not depend on earlier calls: runs in one scene
+/// may share its planners, one run after the other.
 class Planners {
   public:
     /// The scene must outlive the planners.
     explicit Planners(const Scene& scene) : scene_(&scene) {}
 
     const Scene& scene() const { return *scene_; }
-    /// Corners of the way [m], both ends included; none if there is no way. See Planner.
+    /// Corners of the path [m], including both ends; empty if there is no path. See Planner.
     std::optional<std::vector<Vec3>> shortest_path(Vec3 from, Vec3 to, Meters radius) {
         if (is_level(from, to)) return planner(from.z, radius).shortest_path(from, to);
         if (!has_stairs(from, to, radius)) return std::nullopt;
         return std::vector{from, to};
     }
-    /// Whether there is a way, without searching for it.
+    /// Whether there is a path, without searching for it.
     bool has_way(Vec3 from, Vec3 to, Meters radius) {
         return is_level(from, to) ? planner(from.z, radius).has_way(from, to)
                                   : has_stairs(from, to, radius);
     }
-    /// Both places are on one storey.
+    /// Number of searches for paths around obstacles.
+    std::uint64_t searches() const {
+        std::uint64_t sum = 0;
+        for (const auto& [key, planner] : planners_) sum += planner.searches();
+        return sum;
+    }
+    /// Whether both positions are on one storey.
     bool is_level(Vec3 from, Vec3 to) const {
         return scene_->storeys().number_at(from.z) == scene_->storeys().number_at(to.z);
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/pursuit.hpp"
 
+#include "sim/legs.hpp"
+
 #include <fmt/format.h>
 
 #include <stdexcept>

@@ -8,16 +8,16 @@
 
 namespace rovernet {
 
-/// Position of `leader` at `t` >= mover.now [m], as far as its present leg says, at the mover's own
+/// Position of `leader` at `t` >= mover.now [m], predicted by its current leg, at the mover's
 /// height.
-/// @throws std::invalid_argument if there is no such robot
+/// @throws std::invalid_argument if there is no such robot; the error names the movement `model`
 Vec3 foreseen(const Mover& mover, NodeId leader, Time t, std::string_view model);
 
-/// The part of a leg, which begins where the mover is, until `end` > mover.now; all of it if it
-/// ends before.
+/// First part of a leg that starts at the mover's position, until `end` > mover.now; the whole leg
+/// if it ends earlier.
 Leg cut_short(const Mover& mover, const Leg& leg, Time end);
 
-/// A nanosecond's rest: at the start of a run, until everybody has been placed.
+/// Leg at rest for one nanosecond, used at the start of a run until all robots have been placed.
 Leg moment(const Mover& mover);
 
 }  // namespace rovernet

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/random_direction.hpp"
 
+#include "mobility/area.hpp"
+#include "mobility/speed_range.hpp"
+
 #include <cmath>
 #include <utility>
 
 namespace rovernet {
 namespace {
 
-/// The inward normal of the border on which `p` lies; zero for a place off the border.
+/// Inward normal of the border on which `p` lies; zero if it lies on none.
 Vec3 inward_normal(const Area& field, Vec3 p) {
     if (p.x == field.lower.x) return {1, 0, 0};
     if (p.x == field.upper.x) return {-1, 0, 0};

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "mobility/area.hpp"
-#include "mobility/intervals.hpp"
+#include "mobility/draws.hpp"
 #include "mobility/movement.hpp"
-#include "mobility/speed_range.hpp"
 #include "sim/fields.hpp"
 
 #include <array>
@@ -13,34 +12,36 @@
 
 namespace rovernet {
 
-/// The law of the direction in which a robot leaves a border.
+struct SpeedRange;
+
+/// Distribution of the direction in which a robot leaves a border.
 enum class BorderTurn {
     cosine,   ///< density cos of the angle to the border's normal (Lambert's law)
-    uniform,  ///< all angles are equally likely
+    uniform,  ///< all angles equally likely
 };
 template <>
 struct EnumNames<BorderTurn> {
     static constexpr std::array<std::string_view, 2> values = {"cosine", "uniform"};
 };
 
-/// Movement in a random direction as far as the border of the area or a wall, at a speed uniform
-/// between the two; a rest; and again in a new direction: the random direction model.
+/// Random direction mobility model: the robot moves in a random direction to the border of the area
+/// or a wall, at a uniform random speed between min_speed and max_speed, rests, and repeats.
 ///
 /// With border_turn = cosine, an open field, no pause and min_speed > 0 it is stationary from a
-/// uniform start: the density of places is uniform at all times, and the first speed is drawn with
-/// density 1/v for that. With border_turn = uniform, the rule of the source, robots are denser
-/// along the borders. It stops a micrometre before a wall and leaves it at a uniform angle. Speeds
-/// above the robot's top speed are not drawn.
+/// uniform start: the density of positions is uniform at all times; for this the first speed is
+/// drawn with density 1/v. With border_turn = uniform, the rule of the source, the density is
+/// higher along the borders. The robot stops a micrometre before a wall and leaves it at a uniform
+/// angle. Speeds above the robot's top speed are not drawn.
 /// Source: E. Royer, P. Melliar-Smith, L. Moser, An analysis of the optimum node density for ad hoc
 /// mobile networks, ICC 2001.
 struct RandomDirection {
     static constexpr std::string_view name = "random_direction";
     static constexpr AtDoors at_doors = AtDoors::looks;
 
-    std::vector<Vec3> area = {};     ///< [m] lower-left and upper-right; empty: the map
-    MetersPerSecond min_speed{0.5};  ///< [m/s], >= 0
-    MetersPerSecond max_speed{1.5};  ///< [m/s], > 0, >= min_speed
-    Duration pause{0};               ///< [ns] rest at each border or wall
+    std::vector<Vec3> area = {};     ///< area [m]: lower-left, upper-right corner; empty: the map
+    MetersPerSecond min_speed{0.5};  ///< lowest speed [m/s], >= 0
+    MetersPerSecond max_speed{1.5};  ///< highest speed [m/s], > 0, >= min_speed
+    Duration pause{0};               ///< rest at each border or wall [ns]
     BorderTurn border_turn = BorderTurn::cosine;
     StartPlace start = StartPlace::uniform;
 
@@ -58,10 +59,10 @@ struct RandomDirection {
     /// @throws std::invalid_argument for a parameter out of its range
     Step next_leg(Mover& mover);
 
-    /// Left to the model.
+    /// State of the robot in this movement, for the model only.
     struct Progress {
         bool begun = false;
-        bool rested = true;  // since the last leg
+        bool rested = true;  // has rested since the last leg
         Draws draws = {};
     } progress = {};
 

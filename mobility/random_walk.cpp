@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/random_walk.hpp"
 
+#include "mobility/area.hpp"
+#include "mobility/speed_range.hpp"
+
 #include <utility>
 
 namespace rovernet {
 namespace {
 
-/// Direction that is turned back where it points out of the area.
+/// Direction, reflected in each coordinate in which it points out of the area.
 Vec3 reflected(Vec3 direction, const Area& field, Vec3 p) {
     const bool left = p.x <= field.lower.x && direction.x < 0;
     const bool right = p.x >= field.upper.x && direction.x > 0;

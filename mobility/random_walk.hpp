@@ -2,9 +2,8 @@
 #pragma once
 
 #include "mobility/area.hpp"
-#include "mobility/intervals.hpp"
+#include "mobility/draws.hpp"
 #include "mobility/movement.hpp"
-#include "mobility/speed_range.hpp"
 #include "sim/fields.hpp"
 
 #include <string_view>
@@ -12,22 +11,24 @@
 
 namespace rovernet {
 
-/// Random walk: every `step` a new direction, uniform, and a new speed, uniform between the two;
-/// the borders of the area reflect: the random walk model.
+struct SpeedRange;
+
+/// Random walk mobility model: every `step` a uniform random direction and a uniform random speed
+/// between min_speed and max_speed; the borders of the area reflect.
 ///
-/// On an open field, from a uniform start, the density of places is uniform and that of speeds is
-/// as drawn at all times. Where a wall or the map's end would be hit, the step ends a micrometre
-/// before it and the next one begins. Speeds above the robot's top speed are not drawn.
+/// On an open field, from a uniform start, the density of positions is uniform and that of speeds
+/// is as drawn at all times. At a wall or the map's border the step ends a micrometre before it,
+/// and the next one begins. Speeds above the robot's top speed are not drawn.
 /// Source: T. Camp, J. Boleng, V. Davies, A survey of mobility models for ad hoc network research,
 /// Wireless Communications and Mobile Computing 2(5), 2002, section 2.1.
 struct RandomWalk {
     static constexpr std::string_view name = "random_walk";
     static constexpr AtDoors at_doors = AtDoors::looks;
 
-    std::vector<Vec3> area = {};               ///< [m] lower-left and upper-right; empty: the map
-    MetersPerSecond min_speed{0.5};            ///< [m/s], >= 0
-    MetersPerSecond max_speed{1.5};            ///< [m/s], > 0, >= min_speed
-    Duration step = std::chrono::seconds{10};  ///< [ns], from 1 us
+    std::vector<Vec3> area = {};     ///< area [m]: lower-left, upper-right corner; empty: the map
+    MetersPerSecond min_speed{0.5};  ///< lowest speed [m/s], >= 0
+    MetersPerSecond max_speed{1.5};  ///< highest speed [m/s], > 0, >= min_speed
+    Duration step = std::chrono::seconds{10};  ///< time between two draws [ns], from 1 us
     StartPlace start = StartPlace::uniform;
 
     static constexpr auto fields() {
@@ -43,12 +44,12 @@ struct RandomWalk {
     /// @throws std::invalid_argument for a parameter out of its range
     Step next_leg(Mover& mover);
 
-    /// Left to the model.
+    /// State of the robot in this movement, for the model only.
     struct Progress {
         bool begun = false;
         Draws draws = {};
         Time step_end = start_of_run;
-        Vec3 direction = {};  // vector of length 1
+        Vec3 direction = {};  // unit vector
         MetersPerSecond speed = {};
     } progress = {};
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/random_waypoint.hpp"
 
+#include "mobility/area.hpp"
+#include "mobility/speed_range.hpp"
+#include "scene/scene.hpp"
+
 #include <stdexcept>
 #include <utility>
 
@@ -16,8 +20,8 @@ void check(const RandomWaypoint& model) {
         "2003)");
 }
 
-/// The leg of the way on which `metres` of it are behind, from there; nothing if the way is shorter
-/// or rounding put that place too near to a wall.
+/// Leg of the path after `metres` of it, from that point on; empty if the path is shorter, or if
+/// rounding put the point too near to a wall.
 std::optional<Leg> leg_after(Way& way, Mover& at, double metres, MetersPerSecond speed) {
     while (auto leg = way.next_leg(at, speed)) {
         const double length = distance(leg->from, leg->to);

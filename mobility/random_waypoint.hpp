@@ -2,9 +2,8 @@
 #pragma once
 
 #include "mobility/area.hpp"
-#include "mobility/intervals.hpp"
+#include "mobility/draws.hpp"
 #include "mobility/movement.hpp"
-#include "mobility/speed_range.hpp"
 #include "mobility/way.hpp"
 #include "sim/fields.hpp"
 
@@ -14,38 +13,42 @@
 
 namespace rovernet {
 
+struct SpeedRange;
+
 /// Start of a random waypoint movement. After the start of the run it is always `here`.
 enum class StartState {
-    stationary,  ///< state as if it had gone on for ever
-    uniform,     ///< place uniform in the area, with a new trip: the mean speed decays
-    here,        ///< place where the robot is, with a new trip: the mean speed decays
+    stationary,  ///< stationary distribution, as after an infinite time
+    uniform,     ///< start of a trip at a random position: the mean speed falls with time
+    here,        ///< start of a trip where the robot is: the mean speed falls with time
 };
 template <>
 struct EnumNames<StartState> {
     static constexpr std::array<std::string_view, 3> values = {"stationary", "uniform", "here"};
 };
 
-/// Random waypoint movement: to a place uniform in the area, around the walls where there are any,
-/// at a speed uniform between the two; then a rest; and again.
+/// Random waypoint mobility model: trips to uniform random positions in the area, around the walls
+/// if there are any, at a uniform random speed between min_speed and max_speed, each followed by a
+/// rest.
 ///
-/// On a map, places are uniform among those where the robot's body has room and to which there is a
-/// way; ways may leave the area. Blocked if 200 draws find none. Speeds above the robot's top speed
-/// are not drawn.
+/// On a map, goals are uniform among the positions where the robot's body fits and to which there
+/// is a path; paths may leave the area. It returns Blocked if 200 draws find no goal. Speeds above
+/// the robot's top speed are not drawn.
 ///
-/// Stationary start: a trip is drawn as any other, kept with probability proportional to the time
-/// that it and its rest take on average, and met at a uniform moment of that time; while it moves,
-/// its speed has density 1/v. Exact on an open field. On a map a way longer than twice the area's
-/// diagonal counts as that long. Needs min_speed > 0, as the slowest trips would last for ever.
+/// Stationary start: a trip is drawn like any other, accepted with probability proportional to the
+/// mean duration of trip and rest, and started at a uniform random time within it; while the robot
+/// moves, its speed has density 1/v. Exact on an open field. On a map, a path longer than twice the
+/// area's diagonal counts as that long. It needs min_speed > 0, because the slowest trips would
+/// last for ever.
 /// Sources: D. Johnson, D. Maltz, Dynamic source routing in ad hoc wireless networks, 1996; W.
 /// Navidi, T. Camp, Stationary distributions for the random waypoint mobility model, IEEE TMC 3(1),
 /// 2004; J. Yoon, M. Liu, B. Noble, Random waypoint considered harmful, INFOCOM 2003.
 struct RandomWaypoint {
     static constexpr std::string_view name = "random_waypoint";
 
-    std::vector<Vec3> area = {};     ///< [m] lower-left and upper-right; empty: the map
-    MetersPerSecond min_speed{0.5};  ///< [m/s], >= 0; > 0 for a stationary start
-    MetersPerSecond max_speed{1.5};  ///< [m/s], > 0, >= min_speed
-    Duration pause{0};               ///< [ns] rest after each trip
+    std::vector<Vec3> area = {};     ///< area [m]: lower-left, upper-right corner; empty: the map
+    MetersPerSecond min_speed{0.5};  ///< lowest speed [m/s], >= 0; > 0 for a stationary start
+    MetersPerSecond max_speed{1.5};  ///< highest speed [m/s], > 0, >= min_speed
+    Duration pause{0};               ///< rest after each trip [ns]
     StartState start = StartState::stationary;
 
     static constexpr auto fields() {
@@ -60,10 +63,10 @@ struct RandomWaypoint {
                   "stationary; or with a new trip: from a uniform place, or from here"));
     }
 
-    /// Left to the model: what it remembers of one robot.
+    /// State of one robot in this movement, for the model only.
     struct Progress {
         bool begun = false;
-        bool rested = true;  // since the last trip
+        bool rested = true;  // has rested since the last trip
         Draws draws = {};
         Way way = {};
     } progress = {};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/recorded_legs.hpp"
 
+#include "sim/legs.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -23,7 +25,7 @@ RecordedLegs::RecordedLegs(std::vector<Leg> legs) {
 
 Step RecordedLegs::next_leg(Mover& mover) {
     const std::vector<Leg>& legs = *legs_;
-    // A robot that was switched off has not asked for those that it took meanwhile.
+    // A robot that was switched off has skipped the legs of that time.
     while (next_ + 1 < legs.size() && legs[next_ + 1].start <= mover.now) ++next_;
     if (next_ == legs.size() || legs[next_].end <= mover.now) return AtRest{};
     Leg leg = legs[next_];

@@ -9,13 +9,13 @@
 
 namespace rovernet {
 
-/// Motion as it was: the legs that a robot took, one after the other, whatever stands in its way
-/// now. A leg that was given up early ends where the next one begins; between legs it rests.
+/// Replay of a recorded motion: the legs of a robot in order, through any obstacles of the present
+/// scene. A leg that was interrupted ends where the next one begins; between legs the robot rests.
 class RecordedLegs {
   public:
     static constexpr AtDoors at_doors = AtDoors::passes;
 
-    /// @param legs  by start, each later than the one before; the first one is where it begins
+    /// @param legs  in ascending order of start; the first one gives the start position
     /// @throws std::invalid_argument if they are in another order
     explicit RecordedLegs(std::vector<Leg> legs);
 
@@ -23,7 +23,7 @@ class RecordedLegs {
 
   private:
     std::shared_ptr<const std::vector<Leg>> legs_;
-    std::size_t next_ = 0;  // leg that comes
+    std::size_t next_ = 0;  // index of the next leg
 };
 
 }  // namespace rovernet

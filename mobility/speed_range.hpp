@@ -7,21 +7,21 @@
 
 namespace rovernet {
 
-/// The speeds that a movement draws from: between two bounds, none above the robot's top speed.
+/// Range of the speeds that a movement model draws, limited by the robot's top speed.
 struct SpeedRange {
-    double low;   ///< [m/s], >= 0
-    double high;  ///< [m/s], > 0, >= low
+    double low;   ///< lowest speed [m/s], >= 0
+    double high;  ///< highest speed [m/s], > 0, >= low
 
     /// @throws std::invalid_argument unless 0 <= min <= max and max > 0, finite
     SpeedRange(MetersPerSecond min, MetersPerSecond max, const Mover& mover,
                std::string_view model);
 
-    /// A trip's speed [m/s] for u uniform in (0, 1): all speeds are equally likely.
+    /// Speed of a trip [m/s], for u uniform in (0, 1): uniformly distributed.
     double of_a_trip(double u) const { return low + u * (high - low); }
-    /// The speed [m/s] at a moment, for u uniform in (0, 1) and low > 0: of density 1/v, as a slow
-    /// trip lasts longer. Its mean is (high - low) / ln(high / low).
+    /// Speed at a random time [m/s], for u uniform in (0, 1) and low > 0: of density 1/v, because
+    /// slow trips last longer. Its mean is (high - low) / ln(high / low).
     double at_a_moment(double u) const;
-    /// The mean of 1/v over the trips [s/m]: ln(high / low) / (high - low); low > 0.
+    /// Mean of 1/v over the trips [s/m]: ln(high / low) / (high - low); low > 0.
     double mean_slowness() const;
 };
 

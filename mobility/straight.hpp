@@ -7,13 +7,13 @@
 
 namespace rovernet {
 
-/// Straight to one place, through whatever stands in between: for movements that were recorded.
+/// Straight movement to one position, through any obstacles: for recorded movements.
 struct Straight {
     static constexpr AtDoors at_doors = AtDoors::passes;
 
-    Vec3 to;                                     ///< [m]
-    MetersPerSecond speed{1};                    ///< [m/s], > 0
-    std::optional<Time> arrival = std::nullopt;  ///< instead of a speed; > now
+    Vec3 to;                                     ///< goal [m]
+    MetersPerSecond speed{1};                    ///< speed [m/s], > 0
+    std::optional<Time> arrival = std::nullopt;  ///< time of arrival, after now, instead of a speed
 
     Step next_leg(Mover& mover) {
         if (mover.position == to && (!arrival || *arrival <= mover.now)) return AtRest{};

@@ -6,14 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <stdexcept>
 #include <vector>
 
 namespace rovernet {
 namespace {
 
-/// Way [m] that the body can go straight ahead, up to `most`.
+/// Free path [m] of the body straight ahead, up to `most`.
 double free_way(const Mover& mover, double most) {
     const Vec3 far = mover.position + most * direction_of(mover.heading);
     return distance(mover.position, straight_stop(mover, far));
@@ -39,7 +38,7 @@ double Wander::turn(const Mover& mover) {
     return wrapped(static_cast<double>(chosen) * LookRound::step);
 }
 
-/// Where it sees nothing within its range, any direction is as good as another.
+/// Beam with the most free space; if nothing is in range, all directions are equal.
 std::size_t Wander::farthest(const LookRound& look, const Mover& mover) {
     const double most = *std::max_element(look.ways().begin(), look.ways().end());
     std::vector<std::size_t> equal;
@@ -61,7 +60,7 @@ Step Wander::next_leg(Mover& mover) {
     if (has_turned) {
         has_turned = false;
         const double free = free_way(mover, run.value + keep.value);
-        // In a place too narrow for `keep` it feels its way: half of what is free.
+        // In a place too narrow for `keep` the robot moves half of the free length.
         const double way = free > keep.value + least_leg ? free - keep.value : free / 2;
         if (way > least_leg) {
             const Vec3 to = mover.position + way * direction_of(mover.heading);

@@ -12,22 +12,22 @@ namespace rovernet {
 
 class LookRound;
 
-/// A robot that avoids obstacles on its own, by what its range finder measures: it goes straight
-/// ahead until an obstacle is within `keep` of its body, or for `run`. Then it looks all round,
-/// turns into a direction drawn among those that are free for more than twice `keep`, the more
-/// likely the farther they are free, and goes on. If none is that free it turns into the one that
-/// is free the farthest; one is drawn if several are, as beyond the range.
+/// Obstacle avoidance by a range finder: the robot moves straight ahead until an obstacle is within
+/// `keep` of its body, or for the length `run`. Then it measures all around, and turns to a random
+/// direction with more than 2 `keep` of free space; directions with more free space are more
+/// likely. If there is none, it turns to the direction with the most free space, a random one among
+/// equals.
 ///
-/// It needs a map. Robots do not see one another.
+/// It needs a map. Robots do not detect each other.
 struct Wander {
     static constexpr std::string_view name = "wander";
     static constexpr AtDoors at_doors = AtDoors::looks;
 
-    MetersPerSecond speed{0.5};        ///< > 0
-    RadiansPerSecond turn_rate{1.57};  ///< in place, > 0
-    Meters keep{0.5};                  ///< free way that the body keeps ahead, > 0
-    Meters range{8};                   ///< farthest that the range finder measures, > 0
-    Meters run{10};                    ///< longest way straight ahead, > 0
+    MetersPerSecond speed{0.5};        ///< speed ahead, > 0
+    RadiansPerSecond turn_rate{1.57};  ///< turn rate of a turn in place, > 0
+    Meters keep{0.5};                  ///< free space kept ahead of the robot's body, > 0
+    Meters range{8};  ///< largest distance that the robot's range finder measures, > 0
+    Meters run{10};   ///< longest straight path, > 0
 
     static constexpr auto fields() {
         return describe(
@@ -41,17 +41,17 @@ struct Wander {
     /// @throws std::invalid_argument for a parameter out of its range, or without a map
     Step next_leg(Mover& mover);
 
-    /// Left to the model.
+    /// State of the robot in this movement, for the model only.
     struct Progress {
         bool begun = false;
-        bool has_turned = true;  // since the last way ahead: it may go
+        bool has_turned = true;  // has turned since the last straight path, and may move
         Draws draws = {};
     } progress = {};
 
   private:
-    /// Angle to the direction in which it goes on [rad], counter-clockwise.
+    /// Angle [rad] by which the robot turns in place to its next direction, counter-clockwise.
     double turn(const Mover& mover);
-    // Beam that measures most; one is drawn if several do.
+    // Beam with the largest distance; a random one among equals.
     std::size_t farthest(const LookRound& look, const Mover& mover);
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mobility/way.hpp"
 
+#include "mobility/planners.hpp"
 #include "sim/fields.hpp"
 
 #include <algorithm>

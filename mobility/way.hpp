@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// A planned way around the walls, walked corner by corner. Takes a pointer's size once its last
-/// corner is headed for.
+/// Planned path around walls, followed corner by corner. It has the size of a pointer while the
+/// robot moves to its last corner.
 class Way {
   public:
     Way() = default;
@@ -20,25 +20,25 @@ class Way {
         left_ = std::move(other.left_);
         return *this;
     }
-    /// Plans from where the mover is; nothing if there is no way.
+    /// Plans a path from the mover's position; empty if there is no path.
     /// @throws std::invalid_argument unless `to` is finite
     static std::optional<Way> plan(Mover& mover, Vec3 to);
 
-    /// The leg to the next corner, at `speed` > 0; nothing at the end of the way.
+    /// Leg to the next corner, at `speed` > 0; empty at the end of the path.
     std::optional<Leg> next_leg(const Mover& mover, MetersPerSecond speed);
-    /// The next leg of the way, at the speed of the leg before.
+    /// Next leg of the path, at the speed of the leg before.
     std::optional<Leg> next_leg(const Mover& mover) {
         return left_ ? next_leg(mover, left_->speed) : std::nullopt;
     }
-    /// Rest of the way from where the mover is [m].
+    /// Length of the rest of the path from the mover's position [m].
     double length_left(const Mover& mover) const;
 
   private:
     struct Left {
-        std::vector<Vec3> corners;   // the next one last; one at least
+        std::vector<Vec3> corners;   // remaining corners in reverse order; at least one
         MetersPerSecond speed = {};  // speed of the last leg
     };
-    std::unique_ptr<Left> left_;  // rest of the way; null: nothing
+    std::unique_ptr<Left> left_;  // rest of the path; null: none
 };
 
 }  // namespace rovernet

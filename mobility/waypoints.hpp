@@ -9,39 +9,40 @@
 
 namespace rovernet {
 
-/// A place and the time to be there.
+/// Position and the time of arrival at it.
 struct TimedPoint {
     Time time;
-    Vec3 position;  ///< [m]
+    Vec3 position;  ///< position [m]
 
     TimedPoint(Duration t, Vec3 p) : time(start_of_run + t), position(p) {}
 };
 
-/// Movement from place to place, around the walls where there are any: by timetable (`timed`), then
-/// along `path` at `speed`. Two places on different storeys are the ends of stairs: the way between
-/// them is straight. Speeds and lengths are those in space.
+/// Movement from place to place, around the walls if there are any: first by a timetable (`timed`),
+/// then along `path` at `speed`. Two consecutive places on different storeys are connected by
+/// stairs: a straight path. Speeds and lengths are three-dimensional.
 ///
-/// Between two timed places the speed is constant. A timed place whose time has passed when its
-/// turn comes is left out.
+/// Between two timed places the speed is constant. A timed place whose time has already passed is
+/// skipped.
+/// Example: examples/hello.cpp.
 struct Waypoints {
     std::vector<TimedPoint> timed = {};
-    std::vector<Vec3> path = {};  ///< [m]
-    MetersPerSecond speed{1};     ///< [m/s], > 0; for `path`
+    std::vector<Vec3> path = {};  ///< positions to visit in order [m]
+    MetersPerSecond speed{1};     ///< speed along `path` [m/s], > 0
 
-    /// @throws std::invalid_argument unless speed > 0 and the places are finite
+    /// @throws std::invalid_argument unless speed > 0 and all positions are finite
     Step next_leg(Mover& mover);
 
-    /// Progress of the robot in its lists; left to the model.
+    /// State of the movement: positions of `timed` and `path` started so far; for the model only.
     struct Progress {
-        std::size_t places = 0;  // places of both lists, taken up so far
-        Way way = {};            // way to the last of them
+        std::size_t places = 0;  // number of places of both lists started so far
+        Way way = {};            // path to the last started place
     } progress = {};
 };
 
-/// Movement to one place, around the walls.
+/// Movement to one position, around the walls.
 struct ToGoal {
-    Vec3 to;                   ///< [m]
-    MetersPerSecond speed{1};  ///< [m/s], > 0
+    Vec3 to;                   ///< goal [m]
+    MetersPerSecond speed{1};  ///< speed [m/s], > 0
 
     operator Movement() const { return Waypoints{.path = {to}, .speed = speed}; }
 };

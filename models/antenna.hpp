@@ -6,22 +6,23 @@
 #include <array>
 #include <string_view>
 
-// Antennas: how the gain of a radio depends on the direction. link_gain.hpp adds it to links.
+// Antennas: gain of a radio by direction. link_gain.hpp adds it to links.
 
 namespace rovernet {
 
-/// Shape of an antenna's pattern: its gain [dB] below that in its strongest direction, at the angle
-/// phi from there, in the horizontal plane. No height changes it.
+/// Shape of an antenna pattern: gain [dB] relative to the strongest direction, at the angle phi
+/// from that direction, in the horizontal plane. Height differences do not change it.
 ///
 /// - isotropic: 0 dB everywhere
-/// - cosine: 10 n log10((1 + cos phi) / 2), no lower than -front_to_back; n is chosen so that it
-///   is -3 dB at half the beamwidth
-/// - table: linear in dB between the points of a table, periodic
+/// - cosine: 10 n log10((1 + cos phi) / 2), limited to -front_to_back from below; n is chosen so
+///   that the gain is -3 dB at half the beamwidth
+/// - table: linear interpolation in dB between the points of a table, periodic
 ///
-/// The cosine is cos(phi / 2) to the power 2 n, the sector antenna of C. Li, Efficient Antenna
-/// Patterns for Three-Sector WCDMA Systems, Chalmers University of Technology, 2003.
+/// The cosine shape is cos(phi / 2) to the power 2 n, the sector antenna of C. Li, Efficient
+/// Antenna Patterns for Three-Sector WCDMA Systems, Chalmers University of Technology, 2003.
+/// Example: examples/antenna.cpp.
 enum class AntennaShape { isotropic, cosine, table };
-/// Words of `antenna` in files.
+/// Names of the values of `antenna` in scenario files.
 template <>
 struct EnumNames<AntennaShape> {
     static constexpr std::array<std::string_view, 3> values = {"isotropic", "cosine", "table"};
@@ -31,13 +32,13 @@ struct EnumNames<AntennaShape> {
 struct PatternPoint {
     /// Angle from the antenna's direction, counter-clockwise [degrees].
     double degrees = 0;
-    /// Gain below antenna_gain [dB], <= 0.
+    /// Gain relative to antenna_gain [dB], <= 0.
     double db = 0;
 
     friend bool operator==(const PatternPoint&, const PatternPoint&) = default;
 };
 
-/// Range of beamwidths, in radians.
+/// Valid range of beamwidths, in radians.
 inline constexpr Range beamwidths{
     .low = 0, .high = 6.28318, .low_included = false, .text = "> 0 deg and < 360 deg"};
 

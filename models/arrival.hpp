@@ -8,73 +8,76 @@
 #include <cstdint>
 #include <limits>
 
-// Frames between sender and receiver, for reception models: an Emission is what was sent, an
-// Arrival what comes of it at one node.
+// Frames between sender and receiver, for reception models: an Emission is a transmitted frame, an
+// Arrival is that frame at one node.
 
 namespace rovernet {
 
-/// Frame as it was sent. Interference keeps it for as long as it may overlap with others; a judge
-/// finds what it keeps beside it by `flight`.
+/// Frame as transmitted. Interference stores it while it may overlap with other frames. The judge
+/// of the reception model stores its own data about the frame at the index `flight`.
 struct Emission {
-    /// Begin and end at the sender.
+    /// Begin and end of the frame at its sender.
     Time begin, end;
     /// Position of the sender's antenna at `begin` [m].
     Vec3 origin = {};
-    /// Sender.
+    /// Node that transmits the frame.
     NodeId from;
-    /// Distance from the origin [m] within which all its receivers are.
+    /// Distance [m] from the sender's antenna within which all receivers of the frame are.
     double heard_within = 0;
-    /// Squared distance [m^2] beyond which it interferes with nobody; may be infinite.
+    /// Squared distance [m^2] beyond which the frame interferes at no node; may be infinite.
     double squared_reach = 0;
-    /// Number that the channel knows the frame by.
+    /// Index of the frame among the frames in flight of the Channel.
     std::uint32_t flight = 0;
-    /// Number in the order of sending.
+    /// Serial number of the frame, in the order of transmission.
     std::uint64_t serial = 0;
 };
 
-/// State of a receiver of the model "sinr" towards a frame that it could decode.
+/// State of a receiver of the model "sinr" for a frame that it could decode.
 enum class Lock : std::uint8_t {
-    /// It is not decided yet.
+    /// Not yet decided whether the receiver locks onto the frame.
     open,
-    /// The receiver locked on to it: it found the preamble, and was free.
+    /// The receiver locked onto the frame: it was free and detected the preamble.
     held,
-    /// The receiver did not.
+    /// The receiver did not lock onto the frame.
     missed,
 };
 
-/// Frame as a node will sense it, for access models: Channel makes one for each node that senses a
-/// frame as it goes on air.
+/// Frame at a node that senses it, for access models. Channel makes one for each such node when the
+/// frame starts.
 struct Sensing {
     NodeId node;
-    /// It is strong enough to be decoded. The access model is told what became of it.
+    /// True if the signal is strong enough to be decoded; the access model is then notified of the
+    /// result.
     bool decodable;
-    /// Begin and end at the node.
+    /// Begin and end of the frame at the node.
     Time begin, end;
 };
 
-/// Frame as it arrives at one node: the view of a judge. Times are those at the node, propagation
-/// delay included.
+/// Frame at one node, the input of a judge. Times are those at the node, including the propagation
+/// delay.
 struct Arrival {
-    /// Begin and end at the node.
+    /// Begin and end of the frame at this node.
     Time begin;
     Time end;
-    /// Received power [dBm]; NaN until somebody asked for it.
+    /// Received power [dBm]; NaN until it is computed.
     double level_dbm;
-    /// Squared distance [m^2] from where it was sent; NaN if nobody asked for it.
+    /// Squared distance [m^2] from the sender's antenna when the frame began; NaN unless it was
+    /// computed.
     double squared_distance;
-    /// Sender.
+    /// Node that transmits the frame.
     NodeId from;
-    /// The node sends it itself, and hears nothing else meanwhile.
+    /// True if the node itself transmits the frame; it cannot receive other frames at that time.
     bool own = false;
-    /// Lock of the model "sinr"; null if the node cannot decode the frame.
+    /// Lock state for the model "sinr"; null if the node cannot decode the frame.
     Lock* lock = nullptr;
 
-    /// Whether both are on air at a time here; frames that only touch do not overlap.
+    /// Whether both frames are on air at the same time at this node; adjacent frames do not
+    /// overlap.
     bool overlaps(const Arrival& other) const { return begin < other.end && other.begin < end; }
 };
 
-/// Frame of a node's own, as it arrives there: stronger than all others. Nothing is received
-/// meanwhile.
+/// Arrival of a node's own frame at the node itself: infinitely strong, because no frame can be
+/// received during it.
 constexpr Arrival own_frame(NodeId node, Time begin, Time end) {
     return {.begin = begin,
             .end = end,

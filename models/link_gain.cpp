@@ -16,7 +16,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// 10 log10((1 + cos phi) / 2): the pattern of exponent 1.
+/// Pattern of exponent 1: 10 log10((1 + cos phi) / 2).
 double half_angle_db(double cos_phi) { return 10 * math::log10(std::max(0.0, (1 + cos_phi) / 2)); }
 
 double cosine_db(const Radio& radio, double cos_phi) {
@@ -26,7 +26,7 @@ double cosine_db(const Radio& radio, double cos_phi) {
     return std::clamp(exponent * half_angle_db(cos_phi), floor, 0.0);
 }
 
-/// The table at an angle, between the last point not beyond it and the next, around the turn.
+/// Gain in the table at an angle, interpolated between neighbouring points, also around the turn.
 double table_db(std::span<const PatternPoint> points, double degrees) {
     while (degrees < points.front().degrees) degrees += 360;
     while (degrees >= points.front().degrees + 360) degrees -= 360;

@@ -6,14 +6,13 @@
 #include "sim/units.hpp"
 
 #include <algorithm>
-#include <utility>
 
-// Link budgets: levels from powers, gains and losses. Medium asks them; whoever adds a gain to a
-// link adds it in LinkGain.
+// Link budgets: received powers from transmit power, gains and losses. Used by Medium; all gains of
+// a link are added in LinkGain.
 
 namespace rovernet {
 
-/// Pose of an antenna, as a link sees it: where it is, and where its robot heads.
+/// Pose of an antenna: its position, and the heading of its robot.
 struct Pose {
     /// Position of the antenna [m].
     Vec3 antenna;
@@ -21,34 +20,34 @@ struct Pose {
     Radians heading{0};
 };
 
-/// Headings of both ends of a frame when it begins [rad], for directional antennas.
+/// Headings of sender and receiver when a frame begins [rad], for directional antennas.
 struct Headings {
     Radians from, to;
 };
 
-/// Gain of a directional antenna towards a place, below antenna_gain [dB], <= 0; its equations are
-/// those of AntennaShape. The place counts by its horizontal direction from the antenna; straight
-/// above and below the gain is 0 dB.
+/// Gain of a directional antenna towards a place, relative to antenna_gain [dB], <= 0; equations in
+/// AntennaShape. Only the horizontal direction of the place counts; the gain is 0 dB straight above
+/// and below.
 /// @param radio  checked by check_antenna()
 Db pattern_gain(const Radio& radio, const Pose& pose, Vec3 place);
 
-/// Checks what fields() cannot: a pattern's table has points if the shape is `table`, at angles
-/// that ascend within one turn, with gains of at most 0 dB.
-/// @throws std::invalid_argument saying what is wrong
+/// Checks the pattern table of an antenna, which fields() cannot check: for the shape `table` it
+/// needs points, at angles that ascend within one turn, with gains of at most 0 dB.
+/// @throws std::invalid_argument with the fault
 void check_antenna(const Radio& radio);
 
-/// Gain of antennas and cables on a link [dB], by its ends. Gains are added here and nowhere else.
+/// Gains of antennas and cables on a link [dB], by end. All gains of a link are computed here.
 struct LinkGain {
-    /// Gain less cable loss at each end.
+    /// Gain minus cable loss of the sender's and of the receiver's antenna.
     Db sender, receiver;
 
-    /// Largest gains, whatever the poses of the antennas: they bound the search for receivers.
+    /// Largest gains for any poses of the antennas: an upper bound in the search for receivers.
     static constexpr LinkGain most(const Radio& from, const Radio& to) {
         return {from.antenna_gain - from.cable_loss, to.antenna_gain - to.cable_loss};
     }
-    /// Gains of antennas in their poses, which cost nothing where both are isotropic.
-    /// @param poses  returns the Pose of the sender's antenna and that of the receiver's, as a
-    /// pair; called only if one of the antennas is directional
+    /// Gains for the antennas' poses; at no cost if both antennas are isotropic.
+    /// @param poses  returns the poses of the sender's and the receiver's antenna as a pair; called
+    ///               only if one of the antennas is directional
     template <class Poses>
     static LinkGain of(const Radio& from, const Radio& to, const Poses& poses) {
         LinkGain gain = most(from, to);
@@ -60,35 +59,35 @@ struct LinkGain {
     }
 };
 
-/// Largest path loss [dB] at which `to` still receives `from`: power + gain - cable loss of the
-/// transmitter, + gain - cable loss - sensitivity of the receiver. The link is up if its loss is no
-/// larger. Two radios with all defaults have 16.53 dBm - (-75 dBm) = 91.53 dB.
+/// Largest path loss [dB] at which `to` receives `from`: power + gain - cable loss of the
+/// transmitter, + gain - cable loss - sensitivity of the receiver. The link is up if its loss is
+/// not larger. Two radios with all defaults have 16.53 dBm - (-75 dBm) = 91.53 dB.
 ///
-/// Source: the 2007 thesis, table 3.1, with the sensitivity subtracted as it must be.
+/// Source: the 2007 thesis (docs/worlds.md), table 3.1, corrected: the sensitivity is subtracted.
 constexpr Db link_budget(const Radio& from, const Radio& to, LinkGain gain) {
     return (from.power - to.sensitivity) + gain.sender + gain.receiver;
 }
-/// Link budget with the largest gains [dB].
+/// Link budget [dB] for any poses of the antennas: with their largest gains.
 constexpr Db link_budget(const Radio& from, const Radio& to) {
     return link_budget(from, to, LinkGain::most(from, to));
 }
 
-/// Largest path loss [dB] at which `to` senses that `from` sends; no less than link_budget.
+/// Largest path loss [dB] at which `to` senses a transmission of `from`; not below link_budget.
 constexpr Db sensing_budget(const Radio& from, const Radio& to, LinkGain gain) {
     const Dbm threshold = to.carrier_sense_threshold.value_or(to.sensitivity);
     return link_budget(from, to, gain) + std::max(Db{0}, to.sensitivity - threshold);
 }
-/// Sensing budget with the largest gains [dB].
+/// Sensing budget [dB] for any poses of the antennas: with their largest gains.
 constexpr Db sensing_budget(const Radio& from, const Radio& to) {
     return sensing_budget(from, to, LinkGain::most(from, to));
 }
 
 /// Received power [dBm] after `path_loss` between the antennas: power + gains - losses. At 10 m in
-/// free space, with the defaults of radios, it is 16.53 - 60.23 = -43.70 dBm.
+/// free space, with default radios, it is 16.53 - 60.23 = -43.70 dBm.
 constexpr Dbm received_power(const Radio& from, Db path_loss, LinkGain gain) {
     return from.power + gain.sender - path_loss + gain.receiver;
 }
-/// Received power with the largest gains [dBm].
+/// Received power [dBm] for any poses of the antennas: with their largest gains.
 constexpr Dbm received_power(const Radio& from, const Radio& to, Db path_loss) {
     return received_power(from, path_loss, LinkGain::most(from, to));
 }

@@ -12,96 +12,97 @@
 #include <string_view>
 #include <vector>
 
-// Radios of robots. A scenario file has their parameters in [radio] and in a robot's own `radio`;
-// in code they are designated:
+// Radios of robots. Scenario files have their parameters in [radio] and in a robot's own `radio`;
+// in code they are designated initialisers:
 //
 //     network.add({.name = "A", .radio = {.power = 20_dBm, .rate = 11_Mbps}});
 
 namespace rovernet {
 
-/// Gate of a radio: whom it can have links with.
+/// Gate of a radio: restricts the radios with which it can have links.
 enum class Gate {
-    /// Radios of its network only: same essid ("any" joins all), channel and frequency.
+    /// Only radios of its own network: same essid ("any" matches all), channel and frequency.
     network,
-    /// Every radio that is near enough.
+    /// Radios of any network.
     none,
 };
-/// Words of `gate` in files.
+/// Names of the values of `gate` in scenario files.
 template <>
 struct EnumNames<Gate> {
     static constexpr std::array<std::string_view, 2> values = {"network", "none"};
 };
 
-/// Mode in which a wireless device takes part in its network (IEEE 802.11), for the robot's own
-/// tables; it changes no link.
+/// Mode of a wireless device in its network (IEEE 802.11), for the robot's own tables; it does not
+/// affect links.
 enum class WifiMode { automatic, adhoc, infrastructure, master, repeater, secondary };
-/// Words of `mode` in files.
+/// Names of the values of `mode` in scenario files.
 template <>
 struct EnumNames<WifiMode> {
     static constexpr std::array<std::string_view, 6> values = {
         "auto", "adhoc", "infrastructure", "master", "repeater", "secondary"};
 };
 
-/// Radio of a robot. The defaults are the 2007 device's where it had one (45 mW, 2450 MHz, -75 dBm)
-/// and IEEE 802.11b's otherwise (11 Mb/s, long preamble). In free space two of them hear one
-/// another up to 367 m.
+/// Radio of a robot. The defaults are those of a 2007 thesis (docs/worlds.md) if known (45 mW, 2450
+/// MHz, -75 dBm), otherwise those of IEEE 802.11b (11 Mb/s, long preamble). In free space two
+/// default radios hear each other up to 367 m.
 struct Radio {
-    /// Output of the transmitter [dBm]; the default is 45 mW.
+    /// Output power of the transmitter [dBm]; the default is 45 mW.
     Dbm power{16.532125137753436};
     /// Weakest signal that is received [dBm].
     Dbm sensitivity{-75};
-    /// Weakest signal that is sensed [dBm]; the sensitivity if not given. Weaker ones are as if
-    /// they were not there.
+    /// Weakest signal that is sensed [dBm]; equal to the sensitivity if not given. Weaker signals
+    /// have no effect on access.
     std::optional<Dbm> carrier_sense_threshold = std::nullopt;
-    /// Carrier frequency [Hz], of path losses, and for the gate.
+    /// Carrier frequency [Hz], for path losses and for the gate.
     Hertz frequency{2450e6};
-    /// Bit rate of what it sends [bit/s].
+    /// Bit rate of the radio's transmissions [bit/s].
     BitRate rate{11e6};
-    /// Time [ns] sent before the first bit.
+    /// Duration of the preamble [ns], before the first bit.
     Duration preamble{192'000};
-    /// Gain of the antenna [dBi], both ways; of a directional one in its strongest direction.
+    /// Gain of the antenna [dBi], for sending and receiving; for a directional antenna in its
+    /// strongest direction.
     Db antenna_gain{0};
     /// Shape of the antenna's pattern; isotropic if not given.
     std::optional<AntennaShape> antenna = std::nullopt;
-    /// Direction of a directional antenna [rad], from the robot's heading counter-clockwise; 0 if
+    /// Direction of a directional antenna [rad], counter-clockwise from the robot's heading; 0 if
     /// not given.
     std::optional<Radians> antenna_direction = std::nullopt;
-    /// Width of the shape `cosine` [rad] between its directions of -3 dB; 60 degrees if not given.
+    /// Beamwidth of the shape `cosine` [rad] between its -3 dB directions; 60 degrees if not given.
     std::optional<Radians> antenna_beamwidth = std::nullopt;
-    /// Ratio of the strongest to the weakest direction of the shape `cosine` [dB]; 20 dB if not
+    /// Front-to-back ratio of the shape `cosine` [dB]: strongest to weakest direction; 20 dB if not
     /// given.
     std::optional<Db> front_to_back = std::nullopt;
-    /// Points of the shape `table`.
+    /// Points of the antenna pattern, for the shape `table`.
     std::optional<std::vector<PatternPoint>> antenna_pattern = std::nullopt;
-    /// Loss between radio and antenna [dB].
+    /// Cable loss between radio and antenna [dB].
     Db cable_loss{0};
-    /// Height of the antenna above the robot's own z [m].
+    /// Height of the antenna above the robot's z [m].
     Meters antenna_height{1};
     /// Bandwidth of the receiver's filter [Hz], for its noise.
     Hertz bandwidth{22e6};
     /// Noise figure of the receiver [dB].
     Db noise_figure{7};
-    /// Share of its frames that get through where they reach [-], drawn for each receiver and
-    /// frame.
+    /// Fraction of its frames that are received without errors within range [-], drawn for each
+    /// receiver and frame.
     double success_rate = 1;
 
-    /// Name of its network; "any" joins all.
+    /// Name of the radio's network (essid); "any" matches all.
     std::string essid = "any";
-    /// Number that both ends must share; 0 if not used.
+    /// Channel number that both ends must share; 0 if not used.
     int channel = 0;
-    /// Gate: whom it may have links with.
+    /// Gate of the radio: which radios it may have links with.
     Gate gate = Gate::network;
-    /// Address, unique; tables make one if there is none.
+    /// IP address of the radio, unique; generated if not given.
     std::optional<std::string> ip = std::nullopt;
-    /// Netmask of its address; a label.
+    /// Netmask of the IP address; a label without effect.
     std::string netmask = "255.255.255.0";
-    /// Hardware address, unique; tables make one if there is none.
+    /// MAC address of the radio, unique; generated if not given.
     std::optional<std::string> mac = std::nullopt;
-    /// Mode in its network; a label.
+    /// Mode of the radio in its network (IEEE 802.11); a label without effect.
     WifiMode mode = WifiMode::adhoc;
-    /// Encryption; a label.
+    /// Whether the network is encrypted; a label without effect.
     bool encryption = false;
-    /// Level [dBm] that pictures draw as a contour.
+    /// Received power [dBm] at which pictures draw a contour line around the radio.
     std::optional<Dbm> range_db = std::nullopt;
 
     /// Whether the gain of its antenna depends on the direction.
@@ -111,8 +112,8 @@ struct Radio {
 
     friend bool operator==(const Radio&, const Radio&) = default;
 
-    /// Parameters of scenario files. Labels and addresses are among them: tables and pictures show
-    /// them, links do not depend on them.
+    /// Parameters in scenario files, including labels and addresses, which tables and pictures show
+    /// and links do not depend on.
     static constexpr auto fields() {
         return describe(
             field("power", &Radio::power, "transmitter output power"),
@@ -155,12 +156,12 @@ struct Radio {
     }
 };
 
-/// Thermal noise at 290 K in a bandwidth, plus the receiver's noise figure: -173.975 dBm + 10
-/// log10(B / 1 Hz) + NF. With the defaults of a radio it is -93.55 dBm.
+/// Noise floor of a receiver: thermal noise at 290 K in its bandwidth, plus its noise figure:
+/// -173.975 dBm + 10 log10(B / 1 Hz) + NF. With the defaults of a radio it is -93.55 dBm.
 ///
 /// Source: k T_0 with the CODATA 2018 value of k.
 Dbm noise_floor(Hertz bandwidth, Db noise_figure);
-/// Noise of a radio's receiver [dBm].
+/// Noise floor of a radio's receiver [dBm].
 Dbm noise_floor(const Radio& radio);
 
 }  // namespace rovernet

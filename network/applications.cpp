@@ -2,11 +2,8 @@
 #include "network/applications.hpp"
 
 #include "network/world.hpp"
-#include "sim/math.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -27,12 +24,12 @@ MessageId Applications::new_message(NodeId id, NodeId to, std::string payload, O
                                .is_routed = is_routed});
 }
 
-/// Number of robots that a message is for and that a chain of links joins to the sender now, if a
-/// sink asks for it. Sinks that want it only while it is cheap never get it again once it was not.
+/// Number of a message's destinations that a chain of links connects to the sender now, if a sink
+/// requests it. Once the search has become expensive, kind_cheap_reachable is stopped for the run.
 std::optional<std::uint32_t> Applications::reachable(NodeId from, NodeId to) {
     World& w = world_;
     if (reachability_.searches() > Reachability::cheap_searches + w.transmissions) {
-        w.records.give_up(kind_cheap_reachable);
+        w.records.stop(kind_cheap_reachable);
     }
     if (!w.records.wants(kind_reachable | kind_cheap_reachable)) return std::nullopt;
     if (to != everyone) return reachability_.reaches(w.medium, from, to, w.now, w.legs) ? 1 : 0;
@@ -40,7 +37,7 @@ std::optional<std::uint32_t> Applications::reachable(NodeId from, NodeId to) {
     return reachability_.count(w.medium, from, w.now, w.legs);
 }
 
-/// Checks the destination of a message. @throws std::invalid_argument if it is no other robot
+/// Checks the destination of a message. @throws std::invalid_argument unless it is another robot
 void Applications::check_destination(NodeId from, NodeId to) const {
     if (to != everyone && (to.index() >= world_.size() || to == from)) {
         throw std::invalid_argument("a unicast needs another robot to go to");
@@ -57,7 +54,8 @@ void Applications::send(NodeId id, NodeId to, std::string payload, Outgoing what
     if (!world_.medium.stations().is_on(id)) return;
     const MessageId message = new_message(id, to, std::move(payload), what, true);
     const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
-    world_.emit(Sent{world_.now, id, message, router->initial_ttl(), robots, reachable(id, to)});
+    world_.emit(Sent{world_.now, id, message, router->initial_ttl(world_.messages[message]), robots,
+                     reachable(id, to)});
     routing_.originate(id, message);
     world_.release(message);
 }
@@ -85,7 +83,7 @@ void Applications::saturate(NodeId id, NodeId to, Outgoing what) {
     for (int waiting = 0; waiting < 2; ++waiting) send_one_hop(id, to, {}, what);
 }
 
-/// Sends the next frame of a saturated node, 1 us after the last one.
+/// Sends the next frame of a node with saturated traffic, 1 us after the last one.
 void Applications::has_room(NodeId id) {
     if (saturated_.empty()) return;
     const auto found = saturated_.find(id);
@@ -124,7 +122,7 @@ void Applications::react(NodeId id, std::uint64_t handed_over) {
     const Message heard = world_.messages[message];  // a copy: reactions may send
     world_.release(message);
     if (!world_.medium.stations().is_on(id)) return;
-    // The list is looked up anew each time: a reaction may add callbacks.
+    // The list is read again in each step, because a reaction may add callbacks.
     for (std::size_t i = 0; i < on_receive_[id.index()].size(); ++i) {
         const auto reaction = on_receive_[id.index()][i];
         reaction(heard, how);
@@ -132,7 +130,7 @@ void Applications::react(NodeId id, std::uint64_t handed_over) {
     on_receive_[id.index()].erase_if([](const auto& each) { return each.has_ended(); });
 }
 
-/// Drops the messages that have arrived nowhere and are still under way, as the run is over.
+/// Drops the messages of which no frame has ended, at the end of the run.
 void Applications::cut_off() {
     world_.messages.for_each_at_its_origin([this](MessageId id) {
         const Message& m = world_.messages[id];

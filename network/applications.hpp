@@ -17,56 +17,56 @@ namespace rovernet {
 
 struct World;
 
-/// Part of a message that its sender chooses, beside its payload.
+/// Parameters of a message that its sender chooses, besides the payload.
 struct Outgoing {
-    /// Size on air [bytes], without what the access model adds.
+    /// Size on air [bytes], without the bytes that the access model adds.
     std::uint32_t bytes;
-    /// Flow that it belongs to, from 1; 0: none.
+    /// Number of the message's flow, from 1; 0 for no flow.
     std::uint32_t flow = 0;
 };
 
-/// Applications of all robots: what robots say to one another, and what they do when they hear it.
+/// Applications of all robots: messages that robots send, and callbacks for received messages.
 ///
-/// Network calls it to send; it makes a Message, emits Sent and hands the message to Routing.
-/// Routing tells it, as its RoutingUser, of what was delivered: each robot with a callback then
-/// reacts 1 us later, by an event of its own.
+/// Network calls it to send; it creates a Message, emits Sent and passes the message to Routing.
+/// Routing calls it back, as its RoutingUser, for delivered messages: each robot with a callback
+/// then reacts 1 us later, by a separate event.
 class Applications final : public RoutingUser {
   public:
     /// @param routing  layer below, which may still be under construction
-    /// @param mac      asked whether frames can wait, for saturated traffic
+    /// @param mac      for saturated traffic, which needs a MAC that queues frames
     Applications(World& world, Routing& routing, const Mac& mac)
         : world_(world), routing_(routing), mac_(mac) {}
 
     /// Sends a message by the routing protocol, as Network::broadcast and Network::send. A node
-    /// that is off says nothing.
+    /// that is off does not send.
     /// @throws std::invalid_argument without a protocol, for a unicast that the protocol cannot
-    /// route, and for a destination that is no other robot
+    ///         route, and for an invalid destination
     void send(NodeId node, NodeId to, std::string payload, Outgoing what);
-    /// Sends a message over one hop, past the protocol, as Network::unicast.
-    /// @throws std::invalid_argument for a destination that is no other robot
+    /// Sends a message over one hop without the protocol, as Network::unicast.
+    /// @throws std::invalid_argument for an invalid destination
     void send_one_hop(NodeId node, NodeId to, std::string payload, Outgoing what);
-    /// Keeps a node sending over one hop, as Network::saturate: two messages wait from the start,
-    /// and each that is sent makes another.
-    /// @throws std::invalid_argument without an access model, as nothing would hold it back
+    /// Starts saturated traffic of a node over one hop, as Network::saturate: two messages are
+    /// queued at the start, and each message sent creates the next.
+    /// @throws std::invalid_argument without an access model, because sending would be unlimited
     void saturate(NodeId node, NodeId to, Outgoing what);
-    /// Whether somebody has sent a message; the advice of an error depends on it.
+    /// True once any message was sent; selects the hint in the event-limit error.
     bool has_sent() const { return has_sent_; }
-    /// Calls react(message, how) whenever `node` is handed a message.
+    /// Calls react(message, how) whenever a message is delivered to `node`.
     void on_receive(NodeId node, Callback<const Message&, const Heard&> react);
-    /// Serves the event of a message that a node was handed: its callbacks are called now, if it is
-    /// still on. Nodes that are handed a message at one time react in the order of their keys.
-    /// @param handed_over  the message's id, and above its 32 bits the hops
+    /// Serves the event of a delivered message: calls the node's callbacks, if it is still on.
+    /// Nodes with messages at the same time react in the order of their keys.
+    /// @param handed_over  id of the message in the lower 32 bits, hops above
     void react(NodeId node, std::uint64_t handed_over);
-    /// Drops the messages that have arrived nowhere and are still under way, as Network::finish.
+    /// Drops the messages of which no frame has ended yet, as Network::finish.
     void cut_off();
 
-    /// RoutingUser: receptions of which some are delivered.
+    /// Implements RoutingUser: handles receptions of which some are delivered to an application.
     void delivered(const Frame& frame, std::span<const Reception> receptions) override;
-    /// RoutingUser: a saturated node sends its next message.
+    /// Implements RoutingUser: sends the next message of a node with saturated traffic.
     void has_room(NodeId node) override;
 
   private:
-    /// Traffic of a node that always has something to send.
+    /// Saturated traffic of a node.
     struct Saturated {
         NodeId to;
         Outgoing what;
@@ -77,7 +77,7 @@ class Applications final : public RoutingUser {
         return node.index() < on_receive_.size() && !on_receive_[node.index()].empty();
     }
     void check_destination(NodeId from, NodeId to) const;
-    // Stores a message of the node's, held once by the caller.
+    // Stores a message of the node with one reference, the caller's.
     MessageId new_message(NodeId node, NodeId to, std::string payload, Outgoing what,
                           bool is_routed);
     std::optional<std::uint32_t> reachable(NodeId from, NodeId to);
@@ -85,16 +85,16 @@ class Applications final : public RoutingUser {
     World& world_;
     Routing& routing_;
     const Mac& mac_;
-    // By node, up to the last that there is something of: mostly nothing. Messages of each node so
-    // far, and its callbacks; up to the last node that has any.
+    // Number of messages sent by each node, and callbacks of each node. The lists end at the last
+    // node that has any.
     std::vector<std::uint32_t> messages_sent_;
     std::vector<Few<Callback<const Message&, const Heard&>>> on_receive_;
-    // Nodes that always have something to send, by id.
+    // Nodes with saturated traffic.
     std::map<NodeId, Saturated> saturated_;
-    // Search for Sent::reachable, which keeps its memory.
+    // Search for Sent::reachable; kept to reuse its memory.
     Reachability reachability_;
     bool has_sent_ = false;
-    // Receptions of one frame whose nodes react; kept for its memory.
+    // Receptions of one frame at nodes with callbacks; kept to reuse its memory.
     std::vector<Reception> reacting_;
 };
 

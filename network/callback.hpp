@@ -9,22 +9,22 @@
 
 namespace rovernet {
 
-/// Function of the user's that the network calls until its Subscription is ended.
+/// User function that the network calls until its Subscription is ended.
 ///
-/// Copies share the function and its state. So a callback that is ended while it runs, or while an
-/// event for it waits, is kept until then and is not called again:
+/// Copies share the function and its state. A callback may be ended while it runs, or while an
+/// event for it is queued: its state is kept until then, and it is not called again:
 ///
 ///   Callback<> callback(std::move(action));
 ///   world.schedule(time, callback);
 ///   return callback.subscription();
 ///
-/// @tparam Arguments  of the function
+/// @tparam Arguments  arguments of the function
 template <class... Arguments>
 class Callback {
   public:
-    /// Callback without a function, to be assigned to; calling it is an error.
+    /// Callback without a function, to be assigned later; calling it is an error.
     Callback() = default;
-    /// Callback of a function, which must not be empty.
+    /// Callback with a function, which must not be empty.
     explicit Callback(std::function<void(Arguments...)> call)
         : state_(std::make_shared<State>(State{std::move(call)})) {}
 
@@ -32,15 +32,15 @@ class Callback {
     void operator()(Arguments... arguments) const {
         if (!has_ended()) state_->call(arguments...);
     }
-    /// Whether it was ended: whoever keeps it may drop it.
+    /// Whether the callback was ended and may be removed.
     bool has_ended() const { return state_->ended; }
-    /// Right to end it, for the user.
+    /// Handle by which the user can end the callback.
     Subscription subscription() const {
         return Subscription(std::shared_ptr<bool>(state_, &state_->ended));
     }
 
   private:
-    // Function, and whether it was ended. The Subscription points to the flag and keeps both alive.
+    // Function and end flag. A Subscription points to the flag and keeps both alive.
     struct State {
         std::function<void(Arguments...)> call;
         bool ended = false;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t most_counted = 64;
 
-/// Sorts up to 64 receptions, which have time and node only, by counting for each how many come
-/// before it: more comparisons than other ways to sort take, but no branch to mispredict.
+/// Sorts up to 64 receptions, which only have time and node, by counting the earlier ones for each:
+/// more comparisons than other sorting algorithms, but without branches to mispredict.
 /// @param first  a time not after any of theirs, and less than 2^31 ns before all of them
 void sort_by_counting(std::span<Reception> all, Time first) {
     std::array<std::int64_t, most_counted + 1> order;
@@ -27,7 +27,7 @@ void sort_by_counting(std::span<Reception> all, Time first) {
         const Duration after{order[i] >> 32};
         return Reception{first + after, NodeId{static_cast<std::uint32_t>(order[i])}};
     };
-    // Two receptions are counted at a time: half the loads.
+    // Two receptions are counted at a time, which halves the loads.
     const std::size_t even = (all.size() + 1) / 2 * 2;
     for (std::size_t i = 0; i < even; i += 2) {
         std::size_t before = 0, before_next = 0;
@@ -40,7 +40,7 @@ void sort_by_counting(std::span<Reception> all, Time first) {
     }
 }
 
-/// Puts the receptions of a frame in order.
+/// Sorts the receptions of a frame.
 void sort(Medium::Receivers& receivers) {
     const std::span<Reception> all = receivers.all();
     if (all.empty()) return;
@@ -72,7 +72,7 @@ std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending&
     const std::size_t slot = flights_.take();
     Flight& flight = flights_[slot];
     flight.air = air;
-    flight.arrived = 0;
+    flight.served = 0;
     const Time end = world_.now + how.airtime;
     if (how.is_sensed) {
         find_sensors(flight, end);
@@ -97,7 +97,7 @@ std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending&
     return all;
 }
 
-/// Finds the receivers, and tells all that sense the frame.
+/// Finds the receivers, and reports all nodes that sense the frame to the user.
 void Channel::find_sensors(Flight& flight, Time end) {
     Medium& medium = world_.medium;
     const Time now = world_.now;
@@ -139,7 +139,7 @@ void Channel::find_levels(Flight& flight, Time end) {
     }
 }
 
-/// Adds a frame to the interference; it stays there for as long as it may overlap with others.
+/// Adds a frame to the interference, which keeps it while it may overlap with other frames.
 void Channel::put_on_air(std::size_t slot, const Sending& how) {
     Flight& flight = flights_[slot];
     forget_frames();
@@ -150,7 +150,7 @@ void Channel::put_on_air(std::size_t slot, const Sending& how) {
                                          how.rate, flight.receivers.all());
 }
 
-/// Forgets frames that matter to no other any more, and frees their flights.
+/// Removes frames that cannot affect receptions any more, and frees their flights.
 void Channel::forget_frames() {
     interference_->forget(world_.now,
                           [&](const Emission& frame) { flights_.release(frame.flight); });
@@ -177,12 +177,12 @@ void Channel::check(BitRate rate) const {
 
 std::optional<Db> Channel::interference_left_out() const {
     if (!interference_ || !interference_->rule().interference_cut()) return std::nullopt;
-    // One of the frames on air is the one that is received.
+    // One of the frames on air is the received one itself.
     const std::size_t most = interference_->rule().most_on_air();
     return world_.medium.stations().kinds().left_out(std::max<std::size_t>(most, 1) - 1);
 }
 
-/// Decides which receivers get the frame with errors, by its sender's success rate.
+/// Marks receptions as garbled by the sender's success rate.
 void Channel::garble(Flight& flight) const {
     if (flight.air.kind != AirFrame::data) return;
     const Frame& frame = flight.air.frame;
@@ -197,9 +197,8 @@ void Channel::garble(Flight& flight) const {
     }
 }
 
-/// Last time up to which receptions can be served in a row, the first of which is now, by `key`.
-/// What a reception sets off happens no sooner than least_reaction after it; events in the queue
-/// take their turn.
+/// Last time up to which receptions can be served together, the first of which is now, by `key`. A
+/// reaction to a reception is at least least_reaction later; other events in the queue come first.
 Time Channel::served_until(EventKey key) const {
     if (world_.settings.reference) return key.time();
     const Time most = std::min(key.time() + least_reaction, world_.end_of_run);
@@ -208,9 +207,9 @@ Time Channel::served_until(EventKey key) const {
     return key.at(next.time()) < next ? next.time() : next.time() - Duration{1};
 }
 
-/// Receptions that are served next, by `key`; sets World::now to the end of the last of them.
+/// Receptions to serve next, by `key`; sets World::now to the end of the last one.
 std::span<Reception> Channel::next_of(Flight& flight, EventKey key) const {
-    const auto rest = flight.receivers.all().subspan(flight.arrived);
+    const auto rest = flight.receivers.all().subspan(flight.served);
     const Time until = served_until(key);
     std::size_t count = 1;
     if (flight.receivers.last <= until) {
@@ -219,26 +218,26 @@ std::span<Reception> Channel::next_of(Flight& flight, EventKey key) const {
         while (rest[count].time <= until) ++count;
     }
     world_.now = rest[count - 1].time;
-    flight.arrived += count;
+    flight.served += count;
     return rest.first(count);
 }
 
-/// Serves receptions of a transmission: all, if nothing else can happen in between. Otherwise it
-/// serves as many as come before that, and queues the event again for the rest, in its old place
-/// among equal times.
+/// Serves receptions of a transmission: all of them, if no other event is between. Otherwise it
+/// serves those before the other event, and queues the event again for the rest, with its old
+/// position among equal times.
 void Channel::arrive(const Event& event) {
     Flight& flight = flights_[event.payload.data];
     for (auto key = event.key;;) {
         const std::span<Reception> ended = next_of(flight, key);
         if (interference_) interference_->judge(flight.emission, ended, world_.now);
-        if (flight.air.kind == AirFrame::data) world_.messages.arrived(flight.air.frame.message);
-        const std::size_t begin = flight.arrived - ended.size();
+        if (flight.air.kind == AirFrame::data) world_.messages.mark_ended(flight.air.frame.message);
+        const std::size_t begin = flight.served - ended.size();
         const std::span<const Dbm> levels =
             flight.levels.empty() ? std::span<const Dbm>{}
                                   : std::span(flight.levels).subspan(begin, ended.size());
-        user_.arrived(flight.air, {ended, levels, flight.error_free});
-        if (flight.arrived == flight.receivers.all().size()) break;
-        key = event.key.at(flight.receivers.all()[flight.arrived].time);
+        user_.frame_ended(flight.air, {ended, levels, flight.error_free});
+        if (flight.served == flight.receivers.all().size()) break;
+        key = event.key.at(flight.receivers.all()[flight.served].time);
         const bool is_next = key.time() <= world_.end_of_run && world_.events.runs_before_next(key);
         if (world_.settings.reference || !is_next) {
             world_.events.requeue(key, event.payload);

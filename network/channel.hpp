@@ -11,7 +11,6 @@
 #include "sim/units.hpp"
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,114 +19,116 @@ namespace rovernet {
 
 struct World;
 
-/// Part of a frame's receptions that is served at once, in order of time and then of node.
-/// World::now is when the last of them ends. All that it points to is good during the call only.
+/// Group of receptions of a frame that are served together, in order of time and then of node.
+/// World::now is the end of the last one. Pointers are valid only during the call.
 struct Arriving {
-    /// Receptions with the fate that channel and reception model gave them; the layers above change
-    /// it.
+    /// Receptions with the fate set by channel and reception model; higher layers may change it.
     std::span<Reception> receptions;
-    /// Received power of each [dBm]; empty unless somebody wants it.
+    /// Received power of each reception [dBm]; empty unless requested.
     std::span<const Dbm> levels;
-    /// No reception has errors: neither interference nor the sender's success rate takes any.
+    /// True if no reception can have errors, neither by interference nor by the sender's success
+    /// rate.
     bool error_free;
 };
 
-/// Layer above the channel, as the channel knows it. Mac is one.
+/// Interface of the layer above the channel. Mac implements it.
 class ChannelUser {
   public:
-    /// Tells that the frame ends at some of its receivers; there is one call for each part.
-    virtual void arrived(const AirFrame& frame, const Arriving& part) = 0;
-    /// Tells which nodes sense a frame that goes on air now, and from when until when. Called from
-    /// within transmit().
+    /// Called when the frame ends at some of its receivers, once for each group of receptions.
+    virtual void frame_ended(const AirFrame& frame, const Arriving& part) = 0;
+    /// Called from transmit() with the nodes that sense the new frame, and the times between which
+    /// they do.
     virtual void sensed(std::span<const Sensing> nodes) = 0;
 
   protected:
     ~ChannelUser() = default;
 };
 
-/// Channel: carries frames from those who send to those who can decode them, and decides what
-/// becomes of them there.
+/// Channel: carries frames from transmitters to the receivers that can decode them, and sets their
+/// fate there.
 ///
 ///   sender       |==== frame ====|
 ///   receiver 1     |==== frame ====|            delay by distance
 ///   receiver 2        |==== frame ====|
-///                                  ^  ^         ends: one event, if nothing is due between
+///                                  ^  ^         ends: one event, if no other event is between
 ///
-/// Who can decode a frame, and when it ends there, is fixed as it goes on air, whatever moves
-/// later. The frame is then a Flight with one event, which is due when it ends at its first
-/// receiver; the event serves as many receptions as nothing else comes between. Interference looks
-/// at the frames on air, if the reception model has a Judge.
+/// Receivers and times of arrival are fixed when a frame starts, whatever moves later. The frame is
+/// then a Flight with one event, due when the frame ends at its first receiver; the event serves
+/// all receptions until the next other event. If the reception model has a Judge, Interference uses
+/// the frames on air.
 class Channel {
   public:
     /// @param user  layer above, which may still be under construction
     Channel(World& world, ChannelUser& user);
 
-    /// Way in which a frame goes on air, as the access model wants it.
+    /// Parameters of a transmission, chosen by the access model.
     struct Sending {
         /// Time on air [ns], > 0.
         Duration airtime;
-        /// Rate of its bits [bit/s], for the reception model.
+        /// Bit rate [bit/s], for the reception model.
         BitRate rate;
-        /// The access model listens: all who sense the frame are told.
+        /// True if the access model uses carrier sensing: sensed() reports the nodes that sense the
+        /// frame.
         bool is_sensed;
     };
-    /// Puts a frame on air now. It holds the frame's message until the last reception.
-    /// @return receptions of those who can decode it, in order; good until the next call
+    /// Starts to transmit a frame now. The frame holds a reference to its message until the last
+    /// reception.
+    /// @return receptions at the nodes that can decode it, in order; valid until the next call
     std::span<const Reception> transmit(const AirFrame& frame, const Sending& how);
-    /// Serves the event of a frame: tells the user of the receptions that end now, and queues the
-    /// event again for the rest.
+    /// Serves the event of a frame: passes the receptions that end now to the layer above, and
+    /// queues the event again for the rest.
     void arrive(const Event& event);
 
-    /// Takes note of a node that has just been added, the last one, and stands on `leg`.
+    /// Adds the last node of the world, which starts on `leg`.
     void added(NodeId node, const Leg& leg);
-    /// Takes note that the node's leg or radio is about to change: frames on air are judged by what
-    /// it was. Called before the change is written to Legs or Medium.
-    /// @param on  whether it is on until now
+    /// Called before the node's leg or radio changes in Legs or Medium: frames on air are judged by
+    /// the old state.
+    /// @param on  whether the node is on until now
     void before_change(NodeId node, bool on);
-    /// Takes note that the node moves along `leg` from now on.
+    /// Sets a new leg of the node, which begins now.
     void goes(NodeId node, const Leg& leg);
 
-    /// Checks a bit rate that some robot or the access model may send at.
-    /// @throws std::invalid_argument for one whose receptions the reception model cannot judge
+    /// Checks a bit rate that a robot or the access model may use.
+    /// @throws std::invalid_argument if the reception model cannot judge receptions at this rate
     void check(BitRate rate) const;
-    /// Bound on what the interference left out would take off a ratio so far, see
+    /// Upper bound on the SINR reduction by neglected interference so far, see
     /// Network::interference_left_out.
     std::optional<Db> interference_left_out() const;
 
   private:
-    /// Frame on its way to its receivers, some of which it may have reached already.
+    /// Frame in flight; some receivers may already have received it.
     struct Flight {
         AirFrame air;
-        /// Serial of the frame in Interference, if there is one.
+        /// Serial number of the frame in Interference, if the network has one.
         std::uint64_t emission = 0;
-        /// Receptions, sorted; the first `arrived` of them have been served.
+        /// Receptions of the frame, in order of time; the first `served` of them have been served.
         Medium::Receivers receivers;
-        /// Received power of each reception [dBm], if somebody wants it.
+        /// Received power of each reception [dBm], if requested.
         std::vector<Dbm> levels;
-        std::size_t arrived = 0;
+        std::size_t served = 0;
         bool error_free = false;
     };
 
-    // Finds receivers, and tells all that sense the frame.
+    // Finds all nodes that sense the frame, with the receivers, and reports them.
     void find_sensors(Flight& flight, Time end);
-    // Adds the frame to those that may interfere with one another.
+    // Adds the frame to the frames that may interfere.
     void put_on_air(std::size_t slot, const Sending& how);
-    // Fills in the received power of each reception.
+    // Sets the received power of each reception.
     void find_levels(Flight& flight, Time end);
-    // Frees the flights of frames that matter to no other any more.
+    // Frees the flights of frames that cannot interfere any more.
     void forget_frames();
-    // Gives receptions errors by the sender's success rate.
+    // Marks receptions as garbled by the sender's success rate.
     void garble(Flight& flight) const;
-    // Time up to which receptions can be served in a row, without an event in between.
+    // Time up to which receptions can be served together, without another event between.
     Time served_until(EventKey key) const;
-    // Receptions that are served next; sets World::now to the end of the last.
+    // Next receptions to serve; sets World::now to the end of the last one.
     std::span<Reception> next_of(Flight& flight, EventKey key) const;
 
     World& world_;
     ChannelUser& user_;
-    // Frames in flight. With interference a slot is kept until the frame matters to no other.
+    // Frames in flight. With interference a slot is kept while the frame may affect other frames.
     Slots<Flight> flights_;
-    // Nodes that sense one frame; kept for its memory.
+    // Nodes that sense one frame; kept to reuse its memory.
     std::vector<Sensing> sensed_;
     // Frames on air and their judge, if the reception model has one.
     std::optional<Interference> interference_;

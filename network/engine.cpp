@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace rovernet {
 
-// Each part is made after those that it tells of what happens.
+// Each part is constructed after the parts that it notifies.
 Engine::Engine(NetworkSettings settings)
     : world(std::move(settings)),
       applications(world, routing, mac),
@@ -102,10 +101,10 @@ void Engine::serve(const Event& event) {
     }
 }
 
-/// Throws at the limits of events; otherwise computes after how many more events to check again.
+/// Throws at the event limits; otherwise computes the number of events until the next check.
 void Engine::count_events() {
     const auto& events = world.events;
-    // Margin below the size of the queue: one event may add several.
+    // Margin below the size of the queue, because one event may add several.
     constexpr std::uint64_t most_pending = SchedulerLimits{}.pending / 16 * 15;
     if (events.size() > most_pending) {
         throw RunError(

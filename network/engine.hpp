@@ -21,40 +21,41 @@
 
 namespace rovernet {
 
-/// Inside of a Network: its parts, and the loop that serves their events.
+/// Implementation of a Network: its parts, and the event loop.
 ///
-/// A message goes down from Applications through Routing and Mac to Channel, which finds who can
-/// decode it; from there receptions come up the same way. Motion and LinkMonitor stand beside them.
-/// Network is the face that users see: it checks little and passes calls on. docs/inside.md has a
-/// picture.
+/// A message goes down from Applications through Routing and Mac to Channel, which finds the
+/// receivers that can decode it; receptions go up in the reverse order. Motion and LinkMonitor work
+/// beside these layers. Network is the public interface: it passes calls on to the parts.
+/// docs/inside.md has a picture.
 class Engine {
   public:
-    /// Makes all parts, and Metrics if the settings want them.
+    /// Creates all parts, and Metrics if the settings enable them.
     /// @throws std::invalid_argument if a setting is out of its range
     explicit Engine(NetworkSettings settings);
 
-    /// As the functions of Network of these names; add_sink() also asks the parts for what the sink
-    /// wants.
+    /// Functions of Network with the same names; add_sink() also configures the parts for the
+    /// records that the sink wants.
     void reserve(std::size_t robots);
     NodeId add(Robot robot);
     SinkId add_sink(Sink sink);
     /// Switches a robot's radio, in the order that records and protocols rely on: channel, medium,
-    /// MAC, record, links, motion, routing. Nothing happens if it is as wanted.
+    /// MAC, record, links, motion, routing. Does nothing if the radio is already in that state.
     void switch_robot(NodeId node, bool on);
-    /// Serves events up to `end`, in order, at most so many. It begins what has not begun: the run
-    /// itself, movements, the watch of links. The clock stands at `end` when all are served.
-    /// @return whether `end` is reached; otherwise there are events left
-    /// @throws RunError   at the limits of events
-    /// @throws StalledRun if the events of a robot do not let time go on
+    /// Serves events up to `end`, in order, at most `most_events`. It first starts everything that
+    /// has not started: the run, movements, link monitoring. The clock is at `end` when all are
+    /// served.
+    /// @return whether `end` is reached; if not, events are left
+    /// @throws RunError   at an event limit
+    /// @throws StalledRun if the events of a robot stop the clock
     bool advance(Time end, std::uint64_t most_events);
-    /// Checks a robot's id that a user gave.
+    /// Checks a robot's id passed by the user.
     /// @throws std::out_of_range if there is no such robot
     NodeId known(NodeId node) const {
         if (node.index() >= world.size()) throw std::out_of_range("there is no such robot");
         return node;
     }
 
-    /// Parts, in the order in which they are made; each keeps references to those that it calls.
+    /// Parts in order of construction; each stores references to the parts that it calls.
     World world;
     Applications applications;
     Routing routing;
@@ -62,33 +63,33 @@ class Engine {
     Channel channel;
     LinkMonitor links;
     Motion motion;
-    /// Names of robots, by their number.
+    /// Names of robots, by id.
     NameTable names;
-    /// Robots that are not there, and why; all of them are off.
+    /// Robots that are absent (not departed or left), and the reason; all are off.
     std::map<NodeId, Presence> away;
-    /// Metrics of the run, a sink like others; null if the settings want none.
+    /// Metrics of the run, which are a sink; null if the settings disable them.
     std::shared_ptr<Metrics> metrics;
-    /// Events served so far.
+    /// Number of events served so far.
     std::uint64_t served = 0;
 
   private:
-    // Hands an event to the part that it is for.
+    // Passes an event to its part.
     void serve(const Event& event);
-    // Goes on to the next scene, whose time has come, and tells the parts. Inlined, it would cost
-    // serve() some registers with each event.
+    // Changes to the next scene, which is due, and notifies the parts. Not inlined, which would
+    // cost registers in serve().
     [[gnu::noinline]] void change_scene();
     // Facts for sinks that begin now.
     RunInfo run_info() const;
-    // Looks at the limits of events and at the growth of time, and when that is needed next.
+    // Checks the event limits and the growth of time, and sets when the next check is due.
     void count_events();
-    // Counts the next event, while time hardly grows. @throws StalledRun
+    // Counts the next event while time hardly grows. @throws StalledRun
     void count_next();
 
-    // Number of scheduled events up to which no limit can be reached.
+    // Number of scheduled events below which no limit can be reached.
     std::uint64_t check_at_ = 0;
-    // Number of scheduled events after which the clock is looked at.
+    // Number of scheduled events at which the clock is checked next.
     std::uint64_t look_at_ = Liveness::most_events;
-    // A leg lasts 10 ns at least, on average; other events of a robot may be many at a time.
+    // Stall detection for legs (at least 10 ns each on average) and for other events.
     Liveness legs_{std::chrono::milliseconds(1)}, others_{std::chrono::microseconds(1)};
 };
 

@@ -6,30 +6,30 @@
 #include <utility>
 #include <vector>
 
-// Lists for a table with an entry for each robot, of which few have something: a million empty
-// std::vectors would take 24 MB, as many of these take 8.
+// Lists for a table with an entry for each robot, most of them empty: a million empty std::vectors
+// take 24 MB, a million of these take 8 MB.
 
 namespace rovernet {
 
-/// List that is mostly empty: it takes a pointer's size until there is something in it.
-/// Applications keep the callbacks of each node in one.
+/// List that is usually empty: it has the size of a pointer while empty. Applications store the
+/// callbacks of each node in one.
 template <class T>
 class Few {
   public:
-    /// Whether there are no values; then there is no memory either.
+    /// Whether the list is empty; an empty list has no allocated memory.
     bool empty() const { return !values_; }
-    /// Number of values.
+    /// Number of values in the list.
     std::size_t size() const { return values_ ? values_->size() : 0; }
     /// Value number `i` < size().
     const T& operator[](std::size_t i) const { return (*values_)[i]; }
-    /// Adds a value behind the others; references to them become void.
+    /// Appends a value; references to the values become invalid.
     void push_back(T value) {
         if (!values_) values_ = std::make_unique<std::vector<T>>();
         values_->push_back(std::move(value));
     }
 
-    /// Removes the values for which gone(value) is true; the last one takes the memory with it. The
-    /// order of the others stays.
+    /// Removes the values for which gone(value) is true and keeps the order of the rest; an empty
+    /// list frees its memory.
     template <class Gone>
     void erase_if(Gone gone) {
         if (!values_) return;
@@ -38,7 +38,7 @@ class Few {
     }
 
   private:
-    // Null if there are no values.
+    // Null if the list is empty.
     std::unique_ptr<std::vector<T>> values_;
 };
 

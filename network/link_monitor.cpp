@@ -4,8 +4,6 @@
 #include "network/world.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <memory>
 #include <utility>
 
 namespace rovernet {
@@ -36,7 +34,7 @@ void LinkMonitor::scene_changed() {
     expect_change();
 }
 
-/// Queues an event for the next link change, unless there is one that comes no later.
+/// Queues an event for the next link change, unless an earlier or equal one is queued.
 void LinkMonitor::expect_change() {
     const Time next = std::max(watch_->next().value_or(never), world_.now);
     if (next >= expected_) return;
@@ -67,7 +65,7 @@ void LinkMonitor::on_link_lost(NodeId node, Callback<NodeId> react) {
     on_lost_[node].push_back(std::move(react));
 }
 
-/// Schedules the callbacks of a node that cannot hear `from` any more.
+/// Queues the callbacks of a node that cannot hear `from` any more.
 void LinkMonitor::tell_lost(NodeId node, NodeId from) {
     auto& reactions = on_lost_.at(node);
     std::erase_if(reactions, [](const auto& each) { return each.has_ended(); });

@@ -14,46 +14,46 @@ namespace rovernet {
 
 struct World;
 
-/// Monitor of links that come and go. It works only if somebody wants to know: a sink of LinkUp and
-/// LinkDown, or a callback of a lost link. Otherwise it costs the test of a bit.
+/// Monitor of links that go up and down. It works only if a sink wants LinkUp or LinkDown, or if a
+/// callback for lost links exists; otherwise it costs the test of a bit.
 ///
-/// It looks ahead for the next change (LinkWatch) and queues an event for it. Changes of legs and
-/// radios make it look again. Records come at the instant of a change, to the nanosecond where the
-/// loss goes by distance; callbacks 1 us later.
+/// It predicts the next change (LinkWatch) and queues an event for it. Changes of legs and radios
+/// cause a new prediction. Records are emitted at the instant of a change, to the nanosecond if the
+/// loss depends on distance; callbacks run 1 us later.
 class LinkMonitor {
   public:
     explicit LinkMonitor(World& world) : world_(world) {}
 
-    /// Asks for link changes, from now on or from the beginning of the run.
+    /// Requests link changes, from now on or from the start of the run.
     void want() { wanted_ = true; }
-    /// Looks at all links if they are wanted and that was not done yet; from then on it has to be
-    /// told of every change. Engine calls it whenever it goes on.
+    /// Searches all links, if link changes are requested and this was not done yet; after that
+    /// every change must be reported to the monitor. Engine calls it whenever the run continues.
     void begin();
-    /// Takes note of a node that was added.
+    /// Adds a node, whose links are monitored from now on.
     void added(NodeId node);
-    /// Takes note that the node's leg or radio has changed just now.
+    /// Updates the links of a node whose leg or radio has changed now.
     void look_at(NodeId node);
-    /// Takes note that the scene has changed just now.
+    /// Updates all links after a scene change now.
     void scene_changed();
-    /// Serves the event of link changes: emits the records, and lets robots react 1 us later, in
-    /// the order of their keys.
+    /// Handles the event of link changes: emits LinkUp and LinkDown, and queues the robots'
+    /// reactions for 1 us later, in the order of the keys of these events.
     void change_links();
     /// Calls react(from) whenever `node` cannot hear `from` any more.
     void on_link_lost(NodeId node, Callback<NodeId> react);
 
   private:
-    // Queues an event for the next change, unless one is due no later.
+    // Queues an event for the next change, unless an earlier or equal one is queued.
     void expect_change();
-    // Lets the node react to a link that it has lost.
+    // Queues the node's reaction to a lost link.
     void tell_lost(NodeId node, NodeId from);
 
     World& world_;
     bool wanted_ = false;
-    // All links, once they are wanted and the run has begun.
+    // State of all links, once they are requested and the run has begun.
     std::optional<LinkWatch> watch_;
-    // Time of the next event that is queued; earlier ones are void.
+    // Time of the next valid event; earlier events are void.
     Time expected_ = never;
-    // Callbacks by the node that hears.
+    // Callbacks, by the node that hears.
     std::map<NodeId, std::vector<Callback<NodeId>>> on_lost_;
 };
 

@@ -29,6 +29,7 @@ void LinkWatch::grow(std::size_t robots) {
 }
 
 void LinkWatch::start(Time now) {
+    begin_ = now;
     grow(settings_.legs->size());
     look_at_all(now);
 }
@@ -58,8 +59,8 @@ void LinkWatch::look_at(NodeId node, Time now) {
     drop_stale();
 }
 
-/// Looks anew at a pair: what is pending for it is void. A state that differs from what was told is
-/// a change now.
+/// Searches a pair again, and discards its pending time. If its state differs from the reported
+/// one, a change is due now.
 void LinkWatch::look_at(NodeId from, NodeId to, Time now) {
     if (from == to) return;
     if (settings_.medium->links().is_up(from, to, now, *settings_.legs) != is_up(from, to))
@@ -69,28 +70,25 @@ void LinkWatch::look_at(NodeId from, NodeId to, Time now) {
 }
 
 void LinkWatch::search(NodeId from, NodeId to, Time after) {
-    constexpr int most_looks = 65536;  // in one go, see next_link_change
+    // A run may end long before its legs do, so the search goes only as far ahead as the run has
+    // lasted, but at least 16 samples.
+    constexpr std::int64_t fewest_looks = 16, most_looks = 65536;
+    const std::int64_t so_far = (after - begin_) / settings_.search.min_dwell;
     const Legs& legs = *settings_.legs;
-    // What comes with another scene is looked for when that has come.
+    // Changes after a scene change are searched for when the scene has changed.
     const Time next_scene = next_change(settings_.medium->settings().scene_changes, after);
     const Time scene_ends = next_scene == never ? never : next_scene - Duration{1};
     const Time ends = std::min({legs.leg(from).end, legs.leg(to).end, scene_ends});
-    Time until = ends;
-    if (settings_.medium->links().shape(from, to, after, legs) == LossShape::unknown) {
-        const Duration most = never - after;
-        const Duration dwell = settings_.search.min_dwell;
-        if (dwell < most / most_looks) until = std::min(until, after + dwell * most_looks);
-    }
-    const auto change = next_link_change(*settings_.medium, legs, walls_for(from), from, to, after,
-                                         until, settings_.search);
-    const bool moving = settings_.medium->links().may_change(from, to, after, legs);
-    if (change)
-        expect(from, to, *change, true);
+    const LinkOutlook outlook =
+        look_ahead(*settings_.medium, legs, walls_for(from), from, to, after, ends,
+                   settings_.search, std::clamp(so_far, fewest_looks, most_looks));
+    if (outlook.change)
+        expect(from, to, *outlook.change, true);
     else
-        expect(from, to, until < ends && moving ? until : never, false);
+        expect(from, to, outlook.until + Duration{1} < ends ? outlook.until : never, false);
 }
 
-/// Sets what is pending for a pair; at `never` nothing is.
+/// Sets the pending time of a pair; `never` means that nothing is pending.
 void LinkWatch::expect(NodeId from, NodeId to, Time time, bool change) {
     const std::size_t i = pair(from, to);
     state_[i] = static_cast<std::uint8_t>((state_[i] & up) | (change ? 0 : look_again));
@@ -103,7 +101,7 @@ void LinkWatch::expect(NodeId from, NodeId to, Time time, bool change) {
     std::push_heap(heap_.begin(), heap_.end(), later);
 }
 
-/// Removes stale entries from the top of the heap, and all of them if most are stale.
+/// Removes stale entries from the top of the heap, and all stale entries if most are stale.
 void LinkWatch::drop_stale() {
     constexpr std::size_t few = 1024;
     while (!heap_.empty() && stale(heap_.front())) {

@@ -18,82 +18,85 @@ namespace rovernet {
 
 class Medium;
 
-/// Change of a link: from `time` on `to` can hear `from`, or cannot any more.
+/// Change of a link: node `to` can hear `from` from `time` on (up), or cannot any more.
 struct LinkChange {
     Time time;
     NodeId from;
     NodeId to;
-    /// State from then on.
+    /// True if the link is up after the change.
     bool up;
     friend bool operator==(const LinkChange&, const LinkChange&) = default;
 };
 
-/// Watch over all links of a network: the state of every ordered pair of robots, and when it
-/// changes next.
+/// Prediction of link changes in a network: state of every ordered pair of robots, and time of its
+/// next change.
 ///
-/// It must be told at once of every new leg, every switch and every new scene; it tells when to
-/// call `advance`, which tells every change once, in the order of (time, from, to). A leg that ends
-/// must be replaced at its end. Links count as down before `start`. A new leg costs a search for
-/// each pair with that robot, see next_link_change; robots at rest cost nothing.
+/// Every new leg, switch and scene must be reported at once. next() returns the time at which
+/// `advance` must be called; `advance` reports every change once, in the order of (time, from, to).
+/// A leg must be replaced at its end. Links count as down before `start`. A new leg costs a search
+/// for each pair with that robot, see next_link_change; robots at rest cost nothing. A model of
+/// unknown shape is sampled as far ahead as the watch has lasted so far (at least 16 samples),
+/// because legs may last far beyond the run.
 ///
-/// A pair takes 9 bytes and 16 more while a change is pending: 225 MB for 5000 robots, the most it
-/// watches.
+/// Memory: 9 bytes for each pair, and 16 more while a change is pending; 225 MB for 5000 robots,
+/// the largest number.
 class LinkWatch {
   public:
-    /// Number of robots beyond which it refuses.
+    /// Largest number of robots; with more robots RunError is thrown.
     static constexpr std::size_t most_robots = 5000;
 
-    /// What it looks at.
+    /// Inputs of the prediction.
     struct Settings {
-        /// Medium that decides on links; not null. All of these outlive the watch.
+        /// Medium that determines links; not null. All pointers must outlive the LinkWatch.
         const Medium* medium = nullptr;
-        /// Legs of the same nodes; not null.
+        /// Current leg (straight movement or rest) of each node of the medium; not null.
         const Legs* legs = nullptr;
-        /// Scene of the medium now; not null.
+        /// Current scene of the medium; not null.
         const Scene* scene = nullptr;
-        /// Precision of the search.
+        /// Precision of the search for link changes.
         LinkSearch search = {};
     };
-    /// Receiver of changes.
+    /// Callback that is called with each change of a link.
     using Tell = std::function<void(const LinkChange&)>;
 
     explicit LinkWatch(const Settings& settings) : settings_(settings) {}
 
-    /// Looks at all pairs; those that are up change at `now`.
+    /// Starts the prediction: searches all pairs of robots; links that are up count as changes at
+    /// `now`.
     /// @throws RunError if there are too many robots
     void start(Time now);
-    /// Takes note that the robot's leg was replaced at `now`, or its radio switched on or off.
+    /// Reports that the robot's leg was replaced at `now`, or its radio switched on or off.
     void changed(NodeId node, Time now) { look_at(node, now); }
-    /// Takes note that the scene of the medium is another one from `now` on: looks at all pairs.
+    /// Reports that the medium has a new scene from `now` on; searches all pairs.
     void scene_changed(const Scene& scene, Time now);
-    /// Takes note of one more robot, the last, in medium and legs.
+    /// Reports a new robot, the last one in medium and legs.
     /// @throws RunError if there are too many robots
     void added(NodeId node, Time now);
 
-    /// Time at which `advance` has to be called next; nothing if nothing is pending. There may be
-    /// no change to tell then, but a search to go on with.
+    /// Time at which `advance` must be called next; empty if nothing is pending. There may be no
+    /// change to report then, but a search to continue.
     std::optional<Time> next() const;
-    /// Tells the changes due at or before `now`. `tell` must not call back.
+    /// Reports the changes due at or before `now`. `tell` must not call this object.
     void advance(Time now, const Tell& tell);
 
-    /// State of a link, as told so far.
+    /// State of a link (true: up), as reported so far.
     bool is_up(NodeId from, NodeId to) const { return (state_[pair(from, to)] & up) != 0; }
 
   private:
-    /// Time at which something is pending for a pair. An entry whose time is no longer that of the
-    /// pair is stale, and passed over.
+    /// Entry of the heap: time of the next change of a pair's link, or of the next search for it.
+    /// An entry is stale, and skipped, if its time differs from that in next_.
     struct Entry {
         Time time;
         NodeId from;
         NodeId to;
     };
-    // Bits of a pair's state: the link is up; what is pending is no change, but a search to go on
-    // with.
+    // Bits of a pair's state: the link is up; the pending time is not a change, but the time to
+    // continue the search.
     static constexpr std::uint8_t up = 1;
     static constexpr std::uint8_t look_again = 2;
 
-    // Index of an ordered pair. Pairs with the last robot come last, so that one more robot moves
-    // none.
+    // Index of an ordered pair. Pairs with the last robot come last, so that adding a robot moves
+    // no entry.
     static std::size_t pair(NodeId from, NodeId to) {
         const std::size_t i = from.index(), j = to.index();
         return i < j ? j * j + i : i * i + i + j;
@@ -101,34 +104,37 @@ class LinkWatch {
     // Order of the heap, the earliest on top.
     static bool later(const Entry& p, const Entry& q);
 
-    // Makes room for the pairs of so many robots.
+    // Allocates memory for the pairs of this many robots.
     void grow(std::size_t robots);
-    // Looks anew at all pairs, at all of a robot, or at one of them.
+    // Searches again: all pairs, all pairs of a robot, or one pair.
     void look_at_all(Time now);
     void look_at(NodeId node, Time now);
     void look_at(NodeId from, NodeId to, Time now);
-    // Searches for the next change of a pair, and expects it.
+    // Searches the next change of a pair, and queues it.
     void search(NodeId from, NodeId to, Time after);
-    // Sets what is pending for a pair.
+    // Sets the pending time of a pair.
     void expect(NodeId from, NodeId to, Time time, bool change);
-    // Whether something else is pending for the pair by now.
+    // Whether the pair's pending time has changed since the entry was made.
     bool stale(const Entry& entry) const { return next_[pair(entry.from, entry.to)] != entry.time; }
-    // Removes stale entries from the top of the heap, and all if there are too many.
+    // Removes stale entries from the top of the heap, and all stale entries if there are too many.
     void drop_stale();
     // Walls that the search for this sender's links needs.
     const WallPassages& walls_for(NodeId from);
 
     Settings settings_;
+    // Time passed to `start`.
+    Time begin_ = {};
     std::size_t robots_ = 0;
-    // Time of what is pending, by pair; never: nothing is.
+    // Pending time, by pair; `never` if nothing is pending.
     std::vector<Time> next_;
-    // Bits of the state, by pair.
+    // State bits, by pair.
     std::vector<std::uint8_t> state_;
-    // What is pending, the earliest first; entries of before a new look are stale.
+    // Heap of pending times, earliest first; entries replaced by a later search are stale.
     std::vector<Entry> heap_;
-    // Pairs with something pending.
+    // Number of pairs with a pending time.
     std::size_t pending_ = 0;
-    // Corners of walls, collected when a sender's loss goes by walls; and none, for others.
+    // Corners of walls, collected when a sender's loss depends on walls; and an empty set for other
+    // senders.
     std::optional<WallPassages> walls_;
     const WallPassages no_walls_ = {};
 };

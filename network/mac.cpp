@@ -34,8 +34,8 @@ Time Mac::transmit(const AirFrame& air) {
     return world_.now + how.airtime;
 }
 
-/// Emits a record of a unicast whose destination cannot hear it, if no missing acknowledgement
-/// tells.
+/// Emits Dropped for a unicast whose destination is out of range, if the access model has no
+/// acknowledgements.
 void Mac::tell_if_unheard(const Frame& frame, std::span<const Reception> receptions) {
     const auto is_it = [&](const Reception& r) { return r.node == frame.next_hop; };
     if (listens_ || std::any_of(receptions.begin(), receptions.end(), is_it)) return;
@@ -73,12 +73,12 @@ double Mac::access_draw(NodeId node, std::uint64_t index) const {
     return world_.draw(Purpose::backoff, world_.key(node), 0, index);
 }
 
-void Mac::arrived(const AirFrame& frame, const Arriving& part) {
-    if (frame.kind == AirFrame::data) user_.arrived(frame, part);
+void Mac::frame_ended(const AirFrame& frame, const Arriving& part) {
+    if (frame.kind == AirFrame::data) user_.frame_ended(frame, part);
     if (listens_) tell_stations(frame, part.receptions);
 }
 
-/// Tells the access model at whose station the frame ends, received or missed.
+/// Reports to the access model at which stations the frame was received or missed.
 void Mac::tell_stations(const AirFrame& frame, std::span<const Reception> receptions) {
     const AirFrame air = frame;
     const Medium& medium = world_.medium;

@@ -12,69 +12,69 @@ namespace rovernet {
 
 struct World;
 
-/// Layer above the MAC, as the MAC knows it. Routing is one.
+/// Interface of the layer above the MAC. Routing implements it.
 class MacUser {
   public:
-    /// Tells that a frame of a message arrives at some of its receivers, see ChannelUser::arrived.
-    /// Control frames stay below.
-    virtual void arrived(const AirFrame& frame, const Arriving& part) = 0;
-    /// Tells of the end of a frame: it was sent, and acknowledged if the access model does that.
-    /// Each frame given to Mac::send ends by one call of this or of lost().
+    /// Called when a frame of a message ends at some of its receivers, see ChannelUser. Control
+    /// frames are not passed up.
+    virtual void frame_ended(const AirFrame& frame, const Arriving& part) = 0;
+    /// Called when a frame was transmitted, and acknowledged if the access model uses
+    /// acknowledgements. Each frame passed to Mac::send causes one call of sent() or lost().
     virtual void sent(const QueuedFrame& frame) = 0;
-    /// Tells that a frame was given up, and why.
+    /// Called when a frame was dropped, with the reason.
     virtual void lost(const QueuedFrame& frame, DropReason reason) = 0;
 
   protected:
     ~MacUser() = default;
 };
 
-/// MAC layer: gets frames to the channel when the access model lets them go, and tells that model
-/// what its stations hear.
+/// MAC layer: passes frames to the channel when the access model allows it, and reports to the
+/// access model what its stations receive and sense.
 ///
-/// It knows no access model by name: one Access, made by the settings, decides for all nodes, and
-/// calls back through Air. The MAC adds what all models share: records of what is on air, bit
-/// rates, airtimes, timers and draws.
+/// It depends on no particular access model: one Access, made from the settings, decides for all
+/// nodes, and calls back through Air. The MAC adds the common parts: records of frames on air, bit
+/// rates, airtimes, timers and random draws.
 class Mac final : public Air, public ChannelUser {
   public:
-    /// Makes the access model of the settings.
+    /// Creates the access model of the settings.
     /// @param user  layer above, which may still be under construction
     /// @throws std::invalid_argument for settings of the access model that are out of range
     Mac(World& world, Channel& channel, MacUser& user);
 
-    /// Adds the next node.
+    /// Adds the next node to the access model.
     void add() { access_->add(); }
-    /// Takes note that a node was switched off: its queue is lost.
+    /// Clears the queue of a node that was switched off.
     void switch_off(NodeId node) { access_->switch_off(*this, node); }
-    /// Takes waiting frames out of a node's queue, see LinkLayer::take_queued.
+    /// Removes waiting frames from a node's queue, see LinkLayer::take_queued.
     std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) {
         return access_->take(node, next_hop);
     }
-    /// Takes a frame that its sender, which is on, wants to send, and whose message is held for it;
-    /// sent() or lost() tells of its end.
+    /// Accepts a frame from its sender, which must be on; the frame holds a reference to its
+    /// message. Ends with a call of sent() or lost().
     void send(const QueuedFrame& frame) { access_->send(*this, frame); }
     /// Serves a timer of the access model.
     void on_timer(NodeId node, std::uint32_t tag) { access_->on_timer(*this, node, tag); }
 
-    /// Whether frames wait for access, so that a sender may hand over more than one.
+    /// Whether frames wait in a queue for access, so that a sender may pass several frames.
     bool queues() const { return access_->queues(); }
     /// Whether unicasts are acknowledged.
     bool acknowledges() const { return listens_; }
-    /// Bit rates [bit/s], beside those of the radios, at which frames may go.
+    /// Bit rates [bit/s] of the access model's frames, in addition to those of the radios.
     std::span<const BitRate> own_rates() const { return access_->own_rates(); }
-    /// Bytes that access adds to a message.
+    /// Bytes that the access model adds to a message.
     std::uint32_t header() const { return header_; }
-    /// Whether `frame` repeats one that `node` has already: its sender missed the acknowledgement.
-    /// It must be asked once for each frame received.
+    /// Whether `frame` repeats a frame that `node` already has, because its sender missed the
+    /// acknowledgement. It must be called exactly once for each received frame.
     bool is_repeated(NodeId node, const AirFrame& frame) {
         return listens_ && access_->is_repeated(node, frame);
     }
 
-    // Air, for the access model.
+    // Implementation of Air, for the access model.
     Time now() const override;
-    /// Puts a frame on air: emits Transmitted and AirSent, finds rate and airtime, and gives it to
-    /// the channel.
+    /// Transmits a frame: emits Transmitted and AirSent, computes rate and airtime, and passes the
+    /// frame to the channel.
     Time transmit(const AirFrame& frame) override;
-    /// Airtime [ns] and size [bytes] of a frame, as the access model counts them.
+    /// Airtime [ns] and size [bytes] of a frame, including the access model's additions.
     Duration airtime(const AirFrame& frame) const override;
     std::uint32_t bytes(const AirFrame& frame) const override;
     void access_timer(NodeId node, Time at, std::uint32_t tag) override;
@@ -82,17 +82,17 @@ class Mac final : public Air, public ChannelUser {
     void sent(const QueuedFrame& frame) override { user_.sent(frame); }
     void lost(const QueuedFrame& frame, DropReason reason) override { user_.lost(frame, reason); }
 
-    // ChannelUser, for the channel.
-    void arrived(const AirFrame& frame, const Arriving& part) override;
+    // Implementation of ChannelUser, for the channel.
+    void frame_ended(const AirFrame& frame, const Arriving& part) override;
     void sensed(std::span<const Sensing> nodes) override { access_->sensed(*this, nodes); }
 
   private:
-    // Bit rate at which a frame goes: the sender's, unless the access model has its own.
+    // Bit rate of a frame: the sender's, unless the access model sets its own.
     BitRate rate_of(const AirFrame& frame) const;
-    // Emits a record of a unicast whose destination cannot hear it, if no missing acknowledgement
-    // tells.
+    // Emits Dropped for a unicast whose destination is out of range, if the access model has no
+    // acknowledgements.
     void tell_if_unheard(const Frame& frame, std::span<const Reception> receptions);
-    // Tells the access model what each station has received or missed.
+    // Reports to the access model which stations have received or missed the frame.
     void tell_stations(const AirFrame& frame, std::span<const Reception> receptions);
 
     World& world_;
@@ -100,9 +100,9 @@ class Mac final : public Air, public ChannelUser {
     MacUser& user_;
     // Access model of all nodes.
     std::unique_ptr<Access> access_;
-    // Facts that the access model says of itself, and that never change.
+    // Constant properties of the access model.
     bool listens_, has_own_rates_;
-    // Bytes that access adds to a message.
+    // Bytes that the access model adds to a message.
     std::uint32_t header_;
 };
 

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <utility>
 
 namespace rovernet {
 namespace {
@@ -18,7 +16,7 @@ void check_place(Vec3 at) {
     }
 }
 
-/// Takes the leg that waits for the node, if one does.
+/// Removes and returns the leg that waits for the node, if there is one.
 std::optional<Leg> taken(std::map<NodeId, Leg>& waiting, NodeId id) {
     if (waiting.empty()) return std::nullopt;
     const auto found = waiting.extract(id);
@@ -75,8 +73,8 @@ Mover Motion::mover(NodeId id) {
             .scene_now = world_.scene};
 }
 
-/// Begins movements. Their events are scheduled in the order of the robots' keys: the order in
-/// which robots were added decides nothing.
+/// Begins movements. Their events are scheduled in the order of the robots' keys, so that the order
+/// of adding robots has no effect.
 void Motion::begin_all() {
     beginning_ = true;
     while (begun_ < nodes_.size()) {
@@ -101,7 +99,7 @@ void Motion::expect_leg_end(NodeId id) {
                            {Occurrence::Kind::leg_end, id, world_.legs.version(id)});
 }
 
-/// Schedules the callbacks of a robot that comes to rest.
+/// Schedules the callbacks for a robot that has come to rest.
 void Motion::tell_arrival(NodeId id) {
     const auto reactions = on_arrival_.find(id);
     if (reactions == on_arrival_.end()) return;
@@ -134,7 +132,7 @@ void Motion::next_leg(NodeId id) {
     tell_arrival(id);
 }
 
-/// Takes a leg of the movement model, after turning towards it if the robot turns in place.
+/// Begins a leg of the movement model, after turning towards it if the robot turns in place.
 void Motion::begin_leg(NodeId id, const Leg& leg) {
     const auto& rate = body(id).turn_rate;
     if (!rate || leg.velocity == Vec3{}) return go(id, leg);
@@ -171,7 +169,7 @@ void Motion::put(NodeId id, const Leg& leg) {
     links_.look_at(id);
 }
 
-/// Forgets what the robot was about to do.
+/// Removes all planned motion of the robot.
 void Motion::end_movement(NodeId id) {
     Moving& robot = nodes_.at(id.index());
     ++robot.movements;

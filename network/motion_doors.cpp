@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "scene/closed_doors.hpp"
 // Robots at doors that close and open.
 #include "network/motion.hpp"
 #include "network/world.hpp"
@@ -11,13 +12,13 @@
 namespace rovernet {
 namespace {
 
-/// End of a leg, for what a door may stop; one without end is as long as a map may be.
+/// End of a leg, for the check of doors; an endless leg counts as longer than any map.
 Vec3 end_of(const Leg& leg) {
     constexpr double longest = 1e6;  // [s]
     return leg.end == never ? leg.from + longest * leg.velocity : leg.to;
 }
 
-/// Leg after the same time as it was to take, from now on.
+/// Leg of the same duration that starts now.
 Leg begun_at(Leg leg, Time now) {
     if (leg.end != never) leg.end += now - leg.start;
     leg.start = now;
@@ -99,7 +100,8 @@ void Motion::go_on(NodeId id) {
 }
 
 void Motion::scene_changed() {
-    // Robots whose legs change, in the order of their keys: what was added first decides nothing.
+    // Robots whose legs change, in the order of their keys, so that the order of adding robots has
+    // no effect.
     std::vector<NodeId> changed;
     for (NodeId id{0}; id.index() < begun_; ++id.value) {
         const AtDoors at_doors = nodes_[id.index()].movement.at_doors();

@@ -10,7 +10,7 @@
 
 namespace rovernet {
 
-/// Place in the index where the name is, or where it belongs.
+/// Entry of the index that has the name, or where it has to be inserted.
 std::size_t NameTable::place(std::string_view name) const {
     const std::size_t last = index_.size() - 1;
     std::size_t place = static_cast<std::size_t>(name_key(name)) & last;
@@ -18,7 +18,7 @@ std::size_t NameTable::place(std::string_view name) const {
     return place;
 }
 
-/// Makes an index for so many names, with those that are there.
+/// Builds an index for this many names, with the existing ones.
 void NameTable::lay_index(std::size_t names) {
     index_.assign(std::bit_ceil(names + names / 4 + 1), none);
     for (std::uint32_t i = 0; i < size(); ++i) index_[place((*this)[i])] = i;

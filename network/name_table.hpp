@@ -10,43 +10,43 @@
 
 namespace rovernet {
 
-/// Names that all differ, numbered in the order in which they came, and found again: the names of
-/// robots, whose number is their NodeId.
+/// Table of distinct names, numbered in the order of insertion, with search by name. For the names
+/// of robots the number is the NodeId.
 ///
-/// The characters lie in one pool; the index is an open-addressed table of numbers (linear probing
-/// by XXH64), at most four fifths full. A name takes its characters and ten bytes or so.
+/// All characters are in one pool; the index is an open-addressed hash table of numbers (linear
+/// probing with XXH64), at most 4/5 full. A name needs its characters and about ten bytes.
 class NameTable {
   public:
-    /// Makes room for `names` names, apart from their characters.
+    /// Reserves memory for `names` names, without their characters.
     void reserve(std::size_t names);
-    /// Adds the next name, which must not be there yet.
-    /// @throws std::length_error if all names together are longer than 4 GB
+    /// Adds the next name, which must not be in the table.
+    /// @throws std::length_error if the total length of all names exceeds 4 GB
     void add(std::string_view name);
 
     /// Number of names.
     std::size_t size() const { return ends_.size(); }
-    /// Number of a name, if it is there.
+    /// Number of a name; empty if it is not in the table.
     std::optional<std::uint32_t> find(std::string_view name) const;
-    /// Name of that number, which must be there; good until the next add().
+    /// Name with that number, which must exist; valid until the next add().
     std::string_view operator[](std::uint32_t number) const {
         const std::size_t begin = number == 0 ? 0 : ends_[number - 1];
         return std::string_view(characters_).substr(begin, ends_[number] - begin);
     }
 
   private:
-    // Place of the index that is free.
+    // Free entry of the index.
     static constexpr std::uint32_t none = 0xffffffff;
 
-    // Place in the index where the name is, or where it belongs.
+    // Entry of the index that has the name, or where it has to be inserted.
     std::size_t place(std::string_view name) const;
-    // Makes an index for so many names, with those that are there.
+    // Builds an index for this many names, with the existing ones.
     void lay_index(std::size_t names);
 
-    // Names, one behind the other.
+    // Characters of all names.
     std::string characters_;
-    // End of each name in characters_, by its number.
+    // End of each name in characters_, by number.
     std::vector<std::uint32_t> ends_;
-    // Numbers by the hash of their names; its size is a power of two, and one place at least is
+    // Numbers by the hash of their names; the size is a power of two, and at least one entry is
     // free.
     std::vector<std::uint32_t> index_ = {none};
 };

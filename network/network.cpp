@@ -3,6 +3,9 @@
 
 #include "models/medium/medium.hpp"
 #include "network/engine.hpp"
+#include "sim/error.hpp"
+
+#include <fmt/format.h>
 
 #include <limits>
 #include <stdexcept>
@@ -147,6 +150,9 @@ RobotState Network::robot(NodeId node) const {
 }
 const NetworkSettings& Network::settings() const { return engine_->world.settings; }
 
+Db Network::path_loss(NodeId from, NodeId to) const {
+    return medium().links().path_loss(from, to, now(), legs());
+}
 std::vector<Neighbour> Network::links(NodeId node, Time t) const {
     return neighbours(engine_->world.medium, engine_->world.legs, node, t);
 }
@@ -164,6 +170,20 @@ Planners& Network::planners() { return *engine_->world.planners; }
 MetricValues Network::metrics() const {
     if (!engine_->metrics) throw std::invalid_argument("this network was made without metrics");
     return engine_->metrics->values();
+}
+
+NodeId robot_named(const Network& network, const std::string& name) {
+    if (const auto node = network.find(name)) return *node;
+    constexpr std::size_t most_listed = 20, most_compared = 1000;
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < network.size() && i < most_compared; ++i) {
+        names.push_back(network.name(NodeId{i}));
+    }
+    const std::string near = did_you_mean(name, names);
+    names.resize(std::min(names.size(), most_listed));
+    throw std::invalid_argument(fmt::format(
+        "there is no robot \"{}\"; expected one of {}{}{}{}", name, fmt::join(names, ", "),
+        network.size() > most_listed ? " ..." : "", near.empty() ? "" : "; ", near));
 }
 
 }  // namespace rovernet

@@ -7,7 +7,6 @@
 #include "network/settings.hpp"
 #include "network/subscription.hpp"
 #include "sim/ids.hpp"
-#include "sim/legs.hpp"
 #include "sim/message.hpp"
 #include "sim/router.hpp"
 #include "sim/sink.hpp"
@@ -24,20 +23,21 @@
 
 namespace rovernet {
 
-/// Way of a message to the node that is handed it.
+/// Path of a message to the node that receives it.
 struct Heard {
-    /// Hops that it crossed.
+    /// Number of hops that the message travelled.
     int hops;
 };
 
-/// Number of a sink of a Network, to remove it by.
+/// Number of a sink in a Network, for remove_sink().
 using SinkId = std::uint32_t;
 
 class Engine;
+class Legs;
 class Medium;
 
-/// Robots, their radios and what they say to each other, in one simulated world. It is the face of
-/// the library:
+/// Robots, their radios and their messages in one simulated world. Network is the main class of the
+/// library:
 ///
 ///   Network network({.seed = 1});
 ///   const NodeId a = network.add({.name = "A", .at = {0, 0}});
@@ -47,6 +47,7 @@ class Medium;
 ///   network.run_for(10s);
 ///
 /// Two Networks in one process never interact. Not thread-safe; each thread runs its own.
+/// Examples: examples/hello.cpp, examples/failures.cpp.
 class Network {
   public:
     /// @throws std::invalid_argument if a setting is out of its range
@@ -55,121 +56,124 @@ class Network {
     Network(const Network&) = delete;  // actions and reactions refer to it
     Network& operator=(const Network&) = delete;
 
-    /// Makes room for `robots` robots in all: spares the memory that growing step by step would
-    /// leave.
+    /// Reserves memory for `robots` robots in total, which avoids the overhead of gradual growth.
     void reserve(std::size_t robots);
     /// Adds a robot, switched on. Its movement begins now.
-    /// @throws std::invalid_argument for a name that is taken or a parameter out of its range
+    /// @throws std::invalid_argument for a name in use or a parameter out of its range
     NodeId add(Robot robot);
-    /// Gives all robots their routing protocol. @throws std::invalid_argument if there is one
+    /// Sets the routing protocol of all robots. @throws std::invalid_argument if one is already set
     void route(Router router);
-    /// Adds a sink: every record of the kinds that it asks for reaches it from now on. It begins
-    /// with the run, or now if that has begun.
+    /// Adds a sink: it gets every record of the kinds that it wants from now on. Its begin() is
+    /// called at the start of the run, or now if the run has begun.
     SinkId add_sink(Sink sink);
-    /// Adds a sink, under the name that says what it is for: net.trace_to(Ns2Trace{"run.tr"}).
-    SinkId trace_to(Sink sink) { return add_sink(std::move(sink)); }
-    /// Removes a sink: it gets no more records, and is not finished. Not from within a sink.
+    /// Removes a sink: it gets no more records, and its finish() is not called. Not allowed inside
+    /// a sink.
     void remove_sink(SinkId sink);
 
-    /// Sends a message from `node` to everyone. A node that is off says nothing.
-    /// @param size  on air [bytes]; the payload's length if not given
-    /// @param flow  flow that the message belongs to, from 1; 0: none
+    /// Sends a message from `node` to everyone. A node that is off does not send.
+    /// @param size  size on air [bytes]; the payload's length if not given
+    /// @param flow  flow of the message, from 1; 0 for no flow
     /// @throws std::invalid_argument if no protocol is set
     void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {},
                    std::uint32_t flow = 0);
     /// Sends a message from `node` to `to` by the routing protocol. Parameters as for broadcast().
-    /// @throws std::invalid_argument if no protocol is set, or it brings messages to everyone only
+    /// @throws std::invalid_argument if no protocol is set, or it only routes to everyone
     void send(NodeId node, NodeId to, std::string payload, std::optional<std::uint32_t> size = {},
               std::uint32_t flow = 0);
-    /// Sends a message from `node` to `to`, or to `everyone` that hears it, over one hop, without
+    /// Sends a message from `node` to `to`, or to `everyone` in range, over one hop, without
     /// routing: the access model "csma" repeats a message to one robot until it is acknowledged or
-    /// given up. Parameters as for broadcast().
+    /// the retry limit is reached. Parameters as for broadcast().
     void unicast(NodeId node, NodeId to, std::string payload,
                  std::optional<std::uint32_t> size = {}, std::uint32_t flow = 0);
-    /// Keeps `node` sending messages of `size` [bytes] to `to`, or to everyone, over one hop: from
-    /// now on there is always one more.
-    /// @throws std::invalid_argument without an access model: nothing would hold it back
+    /// Starts saturated traffic: from now on `node` always has another message of `size` [bytes] to
+    /// send to `to`, or to everyone, over one hop.
+    /// @throws std::invalid_argument without an access model, because sending would be unlimited
     void saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow = 0);
-    // Callbacks: each is called until its Subscription is ended.
+    // Callbacks: each one is called until its Subscription is ended.
 
-    /// Calls `react` whenever `node` is handed a message, 1 us after it was received.
+    /// Calls `react` whenever a message is delivered to `node`, 1 us after its reception.
+    /// Example: examples/reactions.cpp.
     Subscription on_receive(NodeId node, std::function<void(const Message&)> react);
     Subscription on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react);
-    /// Calls `react` whenever `node` comes to rest at the end of a movement, 1 us later.
+    /// Calls `react` whenever `node` ends a movement and rests, 1 us later.
     Subscription on_arrival(NodeId node, std::function<void()> react);
-    /// Calls `react(from)` whenever `node` cannot hear `from` any more, 1 us later. Watching links
+    /// Calls `react(from)` whenever `node` cannot hear `from` any more, 1 us later. Link monitoring
     /// costs a search whenever a robot begins a new leg.
     Subscription on_link_lost(NodeId node, std::function<void(NodeId from)> react);
-    /// Replaces the node's movement, now.
+    /// Replaces the node's movement by another one, which begins now.
     void move(NodeId node, Movement movement);
-    /// Puts a robot somewhere else at once, at rest; its movement is over.
-    /// @param heading  that it has there [rad]; as before if not given
+    /// Puts a robot at another position at once, at rest; its movement ends.
+    /// @param heading  heading there [rad]; unchanged if not given
     void place(NodeId node, Vec3 at, std::optional<Radians> heading = {});
-    /// Stops a robot where it is; its movement is over.
+    /// Stops a robot at its position; its movement ends.
     void stop(NodeId node);
-    /// Switches a robot off: it stops, its radio is silent and deaf.
+    /// Switches a robot off: it stops, and its radio neither transmits nor receives.
     void switch_off(NodeId node);
-    /// Switches a robot off that is not there.
-    /// @param why  not_departed or left; switch_on() brings it
+    /// Switches a robot off and marks it as absent.
+    /// @param why  not_departed or left; switch_on() makes the robot present
     void take_away(NodeId node, Presence why);
-    /// Switches a robot on again: it goes on. Nothing happens if it is on.
+    /// Switches a robot on again: it continues its movement. Does nothing if it is on.
     void switch_on(NodeId node);
 
     /// Calls `action` at `time`.
-    /// @throws std::invalid_argument if that is before now()
+    /// @throws std::invalid_argument if `time` is before now()
     Subscription at(Time time, std::function<void()> action);
     /// Calls `action` every `period` > 0 from now() + period on.
-    /// @throws std::invalid_argument for a period that is not > 0 s, or above 1e9 s
+    /// @throws std::invalid_argument unless 0 s < period <= 1e9 s
     Subscription every(Duration period, std::function<void()> action);
 
-    /// Runs until `end`, events at `end` included.
+    /// Runs until `end`, including events at `end`.
     /// @throws RunError at the event limit
     void run_until(Time end);
     void run_for(Duration d) { run_until(now() + d); }
-    /// Runs like run_until, but serves at most `most_events`: for callers that have to look up in
+    /// Runs like run_until(), but serves at most `most_events`, for callers that have other work in
     /// between.
     /// @return whether `end` is reached
     bool advance(Time end, std::uint64_t most_events);
 
-    /// Ends the run: messages that are still at their senders are told of as dropped ("END"), so
-    /// that metrics() can leave them out; then the sinks finish. Once, after the last run_until().
+    /// Ends the run: messages still at their senders are recorded as dropped ("END"), so that
+    /// metrics() can leave them out; then the sinks finish. Call once, after the last run_until().
     void finish();
 
-    /// Time of the simulation: that of the event that is served, or where the last run ended.
+    /// Simulated time: time of the current event, or the end of the last run.
     Time now() const;
-    /// Time of the event that is served next; `never` if there is none.
+    /// Time of the next event; `never` if there is none.
     Time next_event() const;
     /// Number of robots.
     std::size_t size() const;
-    /// Events served so far.
+    /// Number of events served so far.
     std::uint64_t events() const;
-    /// Frames put on air so far.
+    /// Number of frames transmitted so far.
     std::uint64_t transmissions() const;
-    /// Bound on what the frames that `sinr` left out (Sinr::interference_cut) would have taken off
-    /// a signal to interference ratio so far, if all on air anywhere came from just beyond the cut.
+    /// Upper bound on the reduction of a signal to interference ratio, so far, by frames that
+    /// `sinr` neglected (Sinr::interference_cut); it assumes that all frames on air anywhere came
+    /// from just beyond the cut.
     std::optional<Db> interference_left_out() const;
     /// Name of a robot. @throws std::out_of_range if there is no such robot
     std::string name(NodeId node) const;
-    /// Robot of that name, if there is one.
+    /// Robot with that name, if there is one.
     std::optional<NodeId> find(std::string_view name) const;
-    /// Position now [m].
+    /// Current position of a robot [m].
     Vec3 position(NodeId node) const;
-    /// Heading now [rad], -pi ... pi.
+    /// Current heading of a robot [rad], -pi ... pi.
     Radians heading(NodeId node) const;
-    /// Neighbours that `node` hears at `t` >= now(), everybody on the leg that they are on now; in
+    /// Neighbours that `node` hears at `t` >= now(), if all robots stay on their current legs; in
     /// order of id.
     std::vector<Neighbour> links(NodeId node, Time t) const;
-    /// Appends to `out` the nodes that would hear `node` if it sent now, in no order to rely on.
+    /// Path loss [dB] of the link now, with shadowing, without the antennas' gains.
+    /// Example: examples/walls.cpp.
+    Db path_loss(NodeId from, NodeId to) const;
+    /// Appends the nodes that would hear `node` if it transmitted now to `out`, in any order.
     void find_hearers(NodeId node, std::vector<NodeId>& out);
-    /// State of a robot now.
+    /// Current state of a robot.
     RobotState robot(NodeId node) const;
-    /// Settings as they were given, legs of all robots, the medium and the scene.
+    /// Settings as given, legs of all robots, the medium and the scene.
     const NetworkSettings& settings() const;
     const Legs& legs() const;
-    /// Medium, which knows radios and models.
+    /// Radio medium, which stores radios and propagation models.
     const Medium& medium() const;
     const Scene& scene() const;
-    /// Planners of ways around the scene's walls.
+    /// Planners of paths around the scene's walls.
     Planners& planners();
     /// Metrics so far. @throws std::invalid_argument if settings.metrics is off
     MetricValues metrics() const;
@@ -177,5 +181,8 @@ class Network {
   private:
     std::unique_ptr<Engine> engine_;
 };
+
+/// Robot with this name. @throws std::invalid_argument listing some existing names
+NodeId robot_named(const Network& network, const std::string& name);
 
 }  // namespace rovernet

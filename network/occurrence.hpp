@@ -6,42 +6,42 @@
 
 #include <cstdint>
 
-// Events of a running network. Whatever happens later is an Occurrence in the Scheduler of the
-// World; Engine::serve hands it to the part that it is for.
+// Events of a running network. Every future action is an Occurrence in the Scheduler of the World;
+// Engine::serve passes it to its part.
 
 namespace rovernet {
 
-/// Payload of an event: 16 bytes. `data` means what `kind` says. A part that is added to the
+/// Payload of an event: 16 bytes. The meaning of `data` depends on `kind`. A new part of the
 /// network needs a kind here and a case in Engine::serve.
 struct Occurrence {
     enum class Kind : std::uint32_t {
-        /// A frame of `node` ends at some of its receivers; data: its slot in Channel.
+        /// End of a frame of `node` at some of its receivers; data: slot of the frame in Channel.
         frame,
-        /// A timer of the routing protocol at `node`; data: the protocol's tag.
+        /// Timer of the routing protocol at `node`; data: the protocol's tag.
         router_timer,
-        /// A frame of `node` that waited for its time is sent; data: its SendHandle.
+        /// Transmission of a frame of `node` that waited for its send time; data: its SendHandle.
         send,
-        /// The leg of `node` ends; data: the leg's version, as another leg may have taken its
-        /// place.
+        /// End of the leg of `node`; data: the leg's version, because the leg may have been
+        /// replaced.
         leg_end,
-        /// An application at `node` reacts to a message; data: see Applications::react.
+        /// Reaction of an application at `node` to a message; data: see Applications::react.
         handed_over,
-        /// An action of the user's; data: its slot in World. `node` means nothing.
+        /// Action of the user; data: slot of the action in World. `node` is not used.
         action,
-        /// A link changes, or has to be looked at; see LinkMonitor. `node` means nothing.
+        /// Change of a link, or continued search for one; see LinkMonitor. `node` is not used.
         link_change,
-        /// A timer of the access model at `node`; data: the model's tag.
+        /// Timer of the access model at `node`; data: the model's tag.
         access_timer,
-        /// A door closes or opens: the scene is another one from now on. `node` means nothing.
+        /// Change of the scene: a door closes or opens. `node` is not used.
         scene_change
     };
     Kind kind;
-    /// Node that it concerns, if it concerns one.
+    /// Node of the event, if it concerns one.
     NodeId node;
     std::uint64_t data;
 };
 
-/// Event as the Scheduler gives it: its key and its payload.
+/// Event from the Scheduler: its key and its payload.
 using Event = Scheduler<Occurrence>::Event;
 
 }  // namespace rovernet

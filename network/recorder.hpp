@@ -9,55 +9,54 @@
 #include <utility>
 #include <vector>
 
-// Delivery of records. Sinks see them in the order in which they were added; a record is made once,
-// whoever wants it.
+// Delivery of records. Sinks get them in the order in which the sinks were added; a record is made
+// once for all sinks.
 
 namespace rovernet {
 
-/// Sinks of a network: each gets the kinds of records that it asks for, in the order of the run.
+/// Sinks of a network: each gets the kinds of records that it wants, in the order of the run.
 ///
-/// World::emit() calls it, with what a sink may look up. A kind that no sink wants costs the test
-/// of a bit, and a caller asks wants() before it makes something costly. Sinks come and go while
-/// the run goes on; Network::add_sink() says what a late one gets.
+/// World::emit() calls it, with the state that sinks may read. A kind that no sink wants costs the
+/// test of a bit; before a costly record is made, the caller checks wants(). Sinks may be added and
+/// removed during the run; see Network::add_sink() for sinks added late.
 class Recorder {
   public:
     /// Adds a sink, which gets the records from now on.
-    /// @return number to remove it by; no number is given twice
+    /// @return number for remove(); numbers are not reused
     std::uint32_t add(Sink sink) {
-        wanted_ |= sink.kinds() & ~given_up_;
+        wanted_ |= sink.kinds() & ~stopped_;
         sinks_.push_back({std::move(sink), next_});
         return next_++;
     }
-    /// Removes a sink: it gets no more records, and is not finished. Not from within a sink, whose
-    /// list is being gone through. Kinds that only it wanted are no longer made.
+    /// Removes a sink: it gets no more records, and its finish() is not called. Not allowed inside
+    /// a sink, while the list is being traversed. Kinds that only this sink wanted are no longer
+    /// made.
     void remove(std::uint32_t number) {
         std::erase_if(sinks_, [&](const Numbered& each) { return each.number == number; });
         wanted_ = 0;
-        for (const Numbered& each : sinks_) wanted_ |= each.sink.kinds() & ~given_up_;
+        for (const Numbered& each : sinks_) wanted_ |= each.sink.kinds() & ~stopped_;
     }
 
-    /// Whether some sink wants one of these kinds. Requests count as kinds here: kind_reachable,
-    /// say.
+    /// Whether any sink wants one of these kinds. Requests, such as kind_reachable, count as kinds.
     bool wants(KindMask kinds) const { return (wanted_ & kinds) != 0; }
-    /// Whether some sink wants this record.
+    /// Whether any sink wants this record.
     template <class R>
     bool wants() const {
         return wants(kind_of<R>());
     }
-    /// Gives up these kinds: from now on nobody gets them, later sinks neither. Applications give
-    /// up kind_cheap_reachable once it is no longer cheap, and the metric `reach` is null for the
-    /// run then.
-    void give_up(KindMask kinds) {
-        given_up_ |= kinds;
+    /// Stops these kinds for the rest of the run, for present and later sinks. Applications stop
+    /// kind_cheap_reachable when it becomes expensive; the metric `reach` is then null for the run.
+    void stop(KindMask kinds) {
+        stopped_ |= kinds;
         wanted_ &= ~kinds;
     }
 
-    /// Tells all sinks that the run begins, before the first record.
+    /// Calls begin() of all sinks, before the first record.
     void begin(const RunInfo& run) {
         for (const Numbered& each : sinks_) each.sink.begin(run);
     }
-    /// Gives a record to all sinks that want its kind, in the order in which they were added.
-    /// @param context  what they may look up
+    /// Passes a record to all sinks that want its kind, in the order in which they were added.
+    /// @param context  state that sinks may read
     template <class R>
     void emit(const R& record, const RecordContext& context) {
         if (!wants<R>()) return;
@@ -66,21 +65,21 @@ class Recorder {
             if (each.sink.kinds() & kind_of<R>()) each.sink.on(for_all, context);
         }
     }
-    /// Tells all sinks that the run is over, after the last record.
+    /// Calls finish() of all sinks, after the last record.
     void finish() {
         for (const Numbered& each : sinks_) each.sink.finish();
     }
 
   private:
-    // Sink with the number that removes it.
+    // Sink and its number.
     struct Numbered {
         Sink sink;
         std::uint32_t number;
     };
     // Sinks in the order in which they were added.
     std::vector<Numbered> sinks_;
-    // Kinds that some sink wants, and kinds that were given up.
-    KindMask wanted_ = 0, given_up_ = 0;
+    // Kinds that any sink wants, and kinds that were stopped.
+    KindMask wanted_ = 0, stopped_ = 0;
     // Number of the next sink.
     std::uint32_t next_ = 0;
 };

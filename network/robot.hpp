@@ -14,46 +14,46 @@
 #include <string>
 #include <string_view>
 
-// Robots, as they are given to a Network and as they are asked for:
+// Robots, as added to a Network and as returned by it:
 //
 //     const NodeId a = network.add({.name = "A", .at = {2, 3}, .move = RandomWaypoint{...}});
 //     network.robot(a).at;
 
 namespace rovernet {
 
-/// Robot as it joins a Network. All members have defaults but the place.
+/// Robot to be added to a Network. All members except the position have defaults.
 struct Robot {
-    /// Name, unique; its random draws depend on it. Empty: "r" and its number.
+    /// Name, unique; the robot's random draws depend on it. Empty: "r" and the robot's number.
     std::string name;
-    /// Place where it starts [m].
+    /// Start position [m].
     Vec3 at;
-    /// Radius of its body [m], for ways around walls.
+    /// Radius of the body [m], for paths around walls.
     Meters radius{0.2};
-    /// Radio, whose antenna is at its height above `at`.
+    /// Radio; its antenna is at the antenna height above `at`.
     Radio radio = {};
-    /// Model of what it transmits; none: the Network's.
+    /// Propagation model of the robot's transmissions; empty: the Network's model.
     std::optional<Propagation> propagation = std::nullopt;
-    /// Movement, which begins with the run, or now if that has begun.
+    /// Movement, which begins with the run, or now if the run has begun.
     Movement move = Fixed{};
     /// Heading at the start [rad].
     Radians heading{0};
-    /// Speed that no movement exceeds [m/s], > 0.
+    /// Speed limit of all movements [m/s], > 0.
     MetersPerSecond top_speed{std::numeric_limits<double>::infinity()};
-    /// Turn rate [rad/s], within turn_rates: it turns in place before it moves off; none: it turns
-    /// at once.
+    /// Turn rate [rad/s], within turn_rates: the robot turns in place before it moves; empty: it
+    /// turns instantly.
     std::optional<RadiansPerSecond> turn_rate = std::nullopt;
 };
 
-/// Presence of a robot: whether it takes part in what happens. Robots of movement files come and
-/// go; others are on or off.
+/// Presence of a robot: whether it takes part in the simulation. Robots of movement files appear
+/// and disappear; other robots are on or off.
 enum class Presence {
-    /// It is there, its radio is on.
+    /// Present, with its radio on.
     on,
-    /// It is there, switched off.
+    /// Present, switched off.
     off,
-    /// It is not there yet, and off: where it is means where it will appear.
+    /// Not yet present, and off; its position is where it will appear.
     not_departed,
-    /// It is not there any more, and off: where it is means where it was last.
+    /// No longer present, and off; its position is its last one.
     left,
 };
 
@@ -62,19 +62,19 @@ struct EnumNames<Presence> {
     static constexpr std::array<std::string_view, 4> values = {"on", "off", "not_departed", "left"};
 };
 
-/// State of a robot now, for tables and pictures. The references hold until the next robot is
-/// added; the rest is a copy.
+/// Current state of a robot, for tables and pictures. The references are valid until the next robot
+/// is added; the other members are copies.
 struct RobotState {
     std::string name;
-    /// Position [m].
+    /// Current position [m].
     Vec3 at;
     /// Heading [rad], -pi ... pi, counter-clockwise from the x axis.
     Radians heading;
-    /// Radius of its body [m].
+    /// Radius of the body [m].
     Meters radius;
     Presence presence;
     const Radio& radio;
-    /// Model that rules what it transmits.
+    /// Propagation model of the robot's transmissions.
     const Propagation& propagation;
 };
 

@@ -10,7 +10,7 @@
 namespace rovernet {
 namespace {
 
-/// Frame on its way, as its sender received it.
+/// Frame as its sender received it, before the changes of forwarding.
 Frame as_received(const QueuedFrame& sending) {
     Frame frame = sending.frame;
     if (!sending.heard_from) return frame;
@@ -37,8 +37,8 @@ void Routing::set(Router router) {
     if (router_->traits().wants_levels) world_.levels_wanted = true;
 }
 
-/// Calls the router; what it sends is sent once it has returned, so that it is told of nothing in
-/// the midst of its work.
+/// Calls the router, then transmits the frames that it queued meanwhile, so that it is not called
+/// back inside its own functions.
 template <class Call>
 void Routing::call_router(Call call) {
     const bool is_outermost = !std::exchange(calling_, true);
@@ -65,7 +65,7 @@ void Routing::on_timer(NodeId node, std::uint64_t tag) {
     call_router([&] { router_->on_timer(*this, node, tag); });
 }
 
-/// Starts the nodes in the order of their keys, so that their numbers decide nothing.
+/// Starts the nodes in the order of their keys, so that their ids have no effect.
 void Routing::start() {
     if (!router_ || !router_->hears_of_starts()) return;
     std::vector<NodeId> nodes;
@@ -178,7 +178,7 @@ double Routing::draw(Purpose purpose, NodeId node, std::uint64_t index) const {
     return world_.draw(purpose, world_.key(node), 0, index);
 }
 
-void Routing::arrived(const AirFrame& frame, const Arriving& part) {
+void Routing::frame_ended(const AirFrame& frame, const Arriving& part) {
     if (frame.frame.next_hop == everyone) {
         receive_broadcast(frame, part);
     } else {
@@ -196,7 +196,7 @@ void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
     user_.delivered(air.frame, part.receptions);
 }
 
-/// Hands a frame to the router; without one it is for everybody, and goes no further.
+/// Passes a frame to the router; without a router it is for everybody, and is not forwarded.
 void Routing::hand_up(const Frame& frame, std::span<Reception> receptions,
                       std::span<const Dbm> levels) {
     if (!router_) {
@@ -215,10 +215,10 @@ void Routing::hand_up(const Frame& frame, std::span<Reception> receptions,
     for (Reception& r : receptions) r.delivered = false;  // no application's message
 }
 
-/// Hands up those that got through to nodes that are on; says which are off.
+/// Passes up receptions that were decoded at nodes that are on; marks the others as off.
 void Routing::hand_up_heard(const Frame& frame, const Arriving& part) {
     const std::span<Reception> receptions = part.receptions;
-    // Receptions are picked without a branch, which would be mispredicted for many.
+    // Receptions are selected without a branch, which would often be mispredicted.
     heard_.resize(receptions.size());
     heard_levels_.resize(part.levels.size());
     places_.resize(receptions.size());
@@ -252,7 +252,7 @@ void Routing::receive_unicast(const AirFrame& air, const Arriving& part) {
     }
 }
 
-/// Hands a frame to the one that it is for.
+/// Passes a unicast frame to its destination.
 void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const Dbm> level) {
     if (!world_.medium.stations().is_on(r.node)) {
         r.fate = Fate::off;
@@ -285,7 +285,7 @@ void Routing::lost(const QueuedFrame& frame, DropReason reason) {
     if (reason == DropReason::retries) user_.has_room(frame.frame.sender);
 }
 
-/// Tells the router what became of its frame.
+/// Reports the result of a frame to the router.
 void Routing::tell(const Frame& frame, SendResult result) {
     if (!router_ || !router_->hears_of_results()) return;
     if (!world_.messages[frame.message].is_routed) return;

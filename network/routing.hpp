@@ -17,53 +17,54 @@ namespace rovernet {
 
 struct World;
 
-/// Layer above the routing layer, as that knows it. Applications is one; the layers know each other
-/// by such small interfaces only, so that each can be tested alone.
+/// Interface of the layer above routing. Applications implements it; layers are connected only by
+/// such small interfaces, so that each can be tested alone.
 class RoutingUser {
   public:
-    /// Tells of receptions of which some are delivered: their nodes have the message now.
+    /// Called for receptions of a frame; `delivered` marks those whose nodes pass the message to
+    /// their application.
     virtual void delivered(const Frame& frame, std::span<const Reception> receptions) = 0;
-    /// Tells that the node's queue has room for one frame more: a frame of it was sent, or given up
-    /// after all its attempts.
+    /// Called when the node's queue has space for one more frame: a frame was sent, or dropped
+    /// after its last attempt.
     virtual void has_room(NodeId node) = 0;
 
   protected:
     ~RoutingUser() = default;
 };
 
-/// Routing layer: gets messages over their hops. It holds the routing protocol, and is the link
-/// layer that the protocol works on.
+/// Routing layer: forwards messages hop by hop. It contains the routing protocol, and implements
+/// the link layer that the protocol calls.
 ///
-/// What the protocol sends now leaves once the protocol's function has returned, so that it is told
-/// of nothing in the midst of its work. Frames that are sent later wait here, with an event each. A
-/// message goes the protocol's way if it was sent by Network::broadcast or Network::send, and over
-/// one hop past it by Network::unicast.
+/// Frames that the protocol sends at once leave after the protocol's function has returned, so that
+/// it is not called back inside its own functions. Frames for a later time wait here, each with an
+/// event. Messages of Network::broadcast and Network::send go to the protocol; messages of
+/// Network::unicast go over one hop without it.
 class Routing final : public LinkLayer, public MacUser {
   public:
     /// @param user  layer above, which may still be under construction
     Routing(World& world, Mac& mac, RoutingUser& user) : world_(world), mac_(mac), user_(user) {}
 
-    /// Gives all nodes their protocol, and asks it for its traits.
-    /// @throws std::invalid_argument if there is one
+    /// Sets the protocol of all nodes, and reads its traits.
+    /// @throws std::invalid_argument if a protocol is already set
     void set(Router router);
-    /// Protocol, if there is one.
+    /// Routing protocol of all nodes, if one is set.
     const std::optional<Router>& router() const { return router_; }
-    /// Takes a message that a node's application sends, and hands it to the protocol; there must be
-    /// one.
+    /// Passes to the protocol a message that a node's application sends; a protocol must be set.
     void originate(NodeId node, MessageId message);
-    /// Sends a frame at once, past the protocol. It holds the frame's message.
+    /// Transmits a frame at once, without the protocol. The frame holds a reference to its message.
     void send_one_hop(const Frame& frame);
-    /// Serves the event of a timer that the protocol has set.
+    /// Serves the event of a timer of the protocol.
     void on_timer(NodeId node, std::uint64_t tag);
-    /// Serves the event of a frame that has waited for its time.
+    /// Serves the event of a frame whose send time has come.
     void on_send(SendHandle handle);
-    /// Lets the protocol's nodes begin to work, as the run begins: in the order of their keys.
+    /// Calls the protocol's on_start for all nodes at the start of the run, in the order of their
+    /// keys.
     void start();
-    /// Tells the protocol that a node was added after that, or switched.
+    /// Calls the protocol's on_start for a node added after the start of the run, or on_switched.
     void on_start(NodeId node);
     void on_switched(NodeId node, bool on);
 
-    // LinkLayer, for the protocol: see sim/router.hpp.
+    // Implementation of LinkLayer, for the protocol: see sim/router.hpp.
     Time now() const override;
     std::size_t size() const override;
     const Message& message(MessageId id) const override;
@@ -85,51 +86,53 @@ class Routing final : public LinkLayer, public MacUser {
     double draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t index) const override;
     double draw(Purpose purpose, NodeId node, std::uint64_t index) const override;
 
-    // MacUser, for the MAC.
-    void arrived(const AirFrame& frame, const Arriving& part) override;
+    // Implementation of MacUser, for the MAC.
+    void frame_ended(const AirFrame& frame, const Arriving& part) override;
     void sent(const QueuedFrame& frame) override;
     void lost(const QueuedFrame& frame, DropReason reason) override;
 
   private:
-    // Calls the protocol, and then sends what it has sent.
+    // Calls the protocol, then transmits the frames that it queued meanwhile.
     template <class Call>
     void call_router(Call call);
-    // Gives a frame to the MAC, or drops it if its sender is off.
+    // Passes a frame to the MAC, or drops it if its sender is off.
     void send_now(const QueuedFrame& frame);
-    // Tells the protocol what became of its frame, if it wants to know.
+    // Reports the result of a frame to the protocol, if it has on_sent.
     void tell(const Frame& frame, SendResult result);
-    // Hands receptions to the protocol, which fills in their fate; without one they go no further.
+    // Passes receptions to the protocol, which sets their fate; without a protocol they go no
+    // further.
     void hand_up(const Frame& frame, std::span<Reception> receptions, std::span<const Dbm> levels);
-    // Hands up those receptions of a part that got through to nodes that are on.
+    // Passes up the receptions of a group that were decoded at nodes that are on.
     void hand_up_heard(const Frame& frame, const Arriving& part);
-    // Receptions of a broadcast: handed up, recorded, and told to the applications.
+    // Handles receptions of a broadcast: passed to the protocol, recorded, and passed to the
+    // applications.
     void receive_broadcast(const AirFrame& air, const Arriving& part);
-    // Receptions of a unicast: by the node that it is for, and by those that overhear it.
+    // Handles receptions of a unicast: at its destination, and at nodes that overhear it.
     void receive_unicast(const AirFrame& air, const Arriving& part);
-    // Reception of a unicast by the node that it is for.
+    // Handles the reception of a unicast at its destination.
     void receive_unicast(const AirFrame& air, Reception& reception, std::span<const Dbm> level);
 
-    // World, and the layers below and above.
+    // World of the network.
     World& world_;
     // Layers below and above.
     Mac& mac_;
     RoutingUser& user_;
-    // Protocol of all nodes; none: messages go over one hop only.
+    // Protocol of all nodes; if there is none, messages go over one hop only.
     std::optional<Router> router_;
-    // The protocol is in its on_receive: it may not send at once.
+    // True during on_receive of the protocol: it may not send at once.
     bool receiving_ = false;
-    // The protocol is in one of its functions.
+    // True during any function of the protocol.
     bool calling_ = false;
-    // Frames that the function under way has sent.
+    // Frames sent by the current function of the protocol.
     std::vector<QueuedFrame> outbox_;
-    // Frames that wait for their time; one without a sender was sent or taken back.
+    // Frames that wait for their send time; an entry without a sender was sent or cancelled.
     Slots<QueuedFrame> waiting_;
-    // Receptions of a frame that are handed up, their levels, and their places among all; kept for
-    // their memory.
+    // Receptions of a frame that are passed up, their levels, and their indices among all
+    // receptions; kept to reuse their memory.
     std::vector<Reception> heard_;
     std::vector<Dbm> heard_levels_;
     std::vector<std::size_t> places_;
-    // Packets of the protocol's own that each node has made so far.
+    // Number of control packets that each node has made so far.
     std::vector<std::uint32_t> packets_;
     // First of the receptions in on_receive, and the levels of all, for level().
     const Reception* handed_up_ = nullptr;

@@ -25,8 +25,8 @@ namespace rovernet {
 class Planners;
 class Scene;
 
-/// Settings of a Network, all with defaults: an open field, free space, frames that do not
-/// interfere and go on air at once.
+/// Settings of a Network, all with defaults: an open field, free space, and frames that do not
+/// interfere and are transmitted at once.
 ///
 ///   Network network({.seed = 7, .propagation = LogDistance{}, .reception = Sinr{}, .access =
 ///   Csma{}});
@@ -34,43 +34,43 @@ struct NetworkSettings {
     /// Seed of all random draws, and number of the independent repetition.
     std::uint64_t seed = 1;
     std::uint32_t replication = 0;
-    /// Propagation model of robots that do not have their own.
+    /// Propagation model of robots without a model of their own.
     Propagation propagation = Friis{};
-    /// Shadowing over the propagation models of all robots; these are not random themselves then.
+    /// Shadowing, added to the propagation models of all robots; these models must not be random
+    /// themselves.
     Shadowing shadowing = {};
-    /// Fading of frames.
+    /// Fading of frames: random variation of the power of each frame.
     Fading fading = {};
-    /// Scene with walls; null: an open field.
+    /// Scene with walls; null for an open field.
     std::shared_ptr<const Scene> scene = nullptr;
-    /// Scenes that follow it, in ascending order of time, see scene_changes(). Robots plan their
-    /// ways in `scene`, where all doors are open.
+    /// Scenes that later replace `scene`, in ascending order of time, see scene_changes(). Robots
+    /// plan their paths in `scene`, where all doors are open.
     std::vector<SceneChange> scene_changes = {};
-    /// Planners of the scene, if some are kept from an earlier run in it; see KeptPlanners.
+    /// Planners of the scene, if reused from an earlier run in the same scene; see KeptPlanners.
     std::shared_ptr<Planners> planners = nullptr;
-    /// Height of one storey [m], for losses by floor; see LinkBatch.
+    /// Height of one storey [m], for losses per floor; see LinkBatch.
     Meters floor_height = no_storeys;
-    /// Precision with which link changes are looked for.
+    /// Precision of the search for link changes.
     LinkSearch links = {};
-    /// Reception model: what becomes of frames at a receiver.
+    /// Reception model: determines the fate of frames at a receiver.
     ReceptionModel reception = Threshold{};
-    /// Access model: how robots get access to the medium.
+    /// Access model: determines when robots may transmit.
     AccessModel access = NoAccess{};
-    /// Frames travel at the speed of light; otherwise they arrive at once.
+    /// True: frames travel at the speed of light; false: they arrive at once.
     bool propagation_delay = true;
-    /// Events that a run may need; one that needs more fails by a RunError. It catches what
-    /// schedules without end.
+    /// Largest number of events of a run; beyond it RunError is thrown. It catches endless
+    /// scheduling.
     std::uint64_t event_limit = 100'000'000;
-    /// Reference for tests: looks at every pair of robots, and serves receptions at different times
-    /// by separate events. Slow, and the same to the last record: what is fast has to agree with
-    /// it.
+    /// Reference mode for tests: checks every pair of robots, and serves receptions at different
+    /// times by separate events. Slow, with identical records: the fast methods must agree with it.
     bool reference = false;
-    /// The network keeps Metrics, for Network::metrics().
+    /// True: the network computes Metrics, for Network::metrics().
     bool metrics = true;
-    /// Parts of the traffic that they count one by one.
+    /// Parts of the traffic (flows, robots) for which Metrics are also computed separately.
     MetricParts metric_parts = {};
-    /// Scenario as TOML for sinks that ask for it, see RunInfo; empty: a network made in code.
+    /// Scenario as TOML for sinks, see RunInfo; empty if the network was built by a C++ program.
     std::function<std::string()> scenario = {};
-    /// Time [ns] whose messages Metrics leave out.
+    /// Warm-up time [ns]: Metrics leave out the messages of this time.
     Duration warmup{0};
 };
 

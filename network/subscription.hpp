@@ -4,29 +4,30 @@
 #include <memory>
 #include <utility>
 
-// Ends of callbacks. Network::on_receive and its kind return one each.
+// Handles that end callbacks, returned by Network::on_receive and similar functions.
 
 namespace rovernet {
 
-/// Right to end a callback of a Network. It may outlive the network, and letting it go ends
-/// nothing: who never wants to end a callback need not keep it.
+/// Handle that can end a callback of a Network. It may outlive the network. Destroying it does not
+/// end the callback, so it may be ignored.
 ///
 ///   Subscription heard = network.on_receive(node, [&](const Message&) { heard.end(); });
 class Subscription {
   public:
-    /// Subscription to nothing.
+    /// Subscription without a callback.
     Subscription() = default;
     /// @param ended  flag of a callback, not null
     explicit Subscription(std::shared_ptr<bool> ended) : ended_(std::move(ended)) {}
 
-    /// Ends the callback: it is called no more, not even if it is due. A second call does nothing.
+    /// Ends the callback: it is not called again, not even if it is due. A second call does
+    /// nothing.
     void end() {
         if (ended_) *ended_ = true;
         ended_.reset();
     }
 
   private:
-    // Flag of the callback's state, which it keeps alive; null once it was ended.
+    // Flag in the callback's state, which it keeps alive; null after end().
     std::shared_ptr<bool> ended_;
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
-#include <utility>
 
 namespace rovernet {
 namespace {
@@ -40,7 +39,7 @@ World::World(NetworkSettings given)
     for (const Duration d : {settings.links.tolerance, settings.links.min_dwell}) {
         if (d < Duration{1}) throw_out_of_range("network", "links", ">= 1 ns", seconds(d));
     }
-    // Scheduled before anything else: a change comes before all else that is due at its time.
+    // Scheduled first, so that a scene change precedes all other events of its time.
     for (Time last{start_of_run - Duration{1}};
          const SceneChange& change : settings.scene_changes) {
         if (change.time <= std::exchange(last, change.time) || !change.scene) {

@@ -22,101 +22,99 @@
 
 namespace rovernet {
 
-/// World of a running network: what all its parts share. Time, events, robots' legs and radios,
-/// messages and records are here; what only one part writes is in that part.
+/// State that all parts of a running network share: time, events, legs and radios of robots,
+/// messages and records. State that only one part changes is in that part.
 ///
-/// Parts keep a reference to it and to those that they call, and nothing else: two networks in one
+/// A part stores only references to the World and to the parts that it calls: two networks in one
 /// process share nothing.
 struct World {
-    /// Makes an empty world.
+    /// Creates an empty world.
     /// @throws std::invalid_argument if a setting is out of its range
     explicit World(NetworkSettings given);
-    /// Copies are forbidden: the parts refer to it.
+    /// Not copyable, because the parts refer to it.
     World(const World&) = delete;
     World& operator=(const World&) = delete;
 
-    /// Gives a record to all sinks that want its kind.
+    /// Passes a record to all sinks that want its kind.
     template <class R>
     void emit(const R& record) {
         records.emit(record, {legs, messages});
     }
     /// Number of robots.
     std::size_t size() const { return legs.size(); }
-    /// Stores a message that is made now, held once by the caller. Its uid and time of creation are
-    /// given here.
+    /// Stores a message created now, with one reference, the caller's; sets its uid and time of
+    /// creation.
     MessageId new_message(Message message) {
         message.uid = next_uid++;
         message.created = now;
         return messages.add(std::move(message));
     }
-    /// Key of a robot, XXH64 of its name: draws and orders depend on it, not on the robot's number.
+    /// Key of a robot, XXH64 of its name: draws and orderings depend on it, not on the robot's id.
     std::uint64_t key(NodeId node) const { return medium.stations().key(node); }
-    /// Uniform draw in (0, 1) of this run. The order of draws decides nothing: each is a function
-    /// of its key.
-    /// @param a, b   what it is about, see Purpose
-    /// @param index  number among several such draws
+    /// Uniform draw in (0, 1) of this run: a function of its key, independent of the order of
+    /// draws.
+    /// @param a, b   subjects of the draw, see Purpose
+    /// @param index  index among several draws with the same fields
     double draw(Purpose purpose, std::uint64_t a, std::uint64_t b, std::uint64_t index) const {
         return uniform({settings.seed, settings.replication, purpose, a, b, index});
     }
-    /// Counts one frame or waiting copy fewer of a message; the routing protocol is told when none
-    /// is left.
+    /// Removes a reference to a message; the routing protocol is notified after the last one.
     void release(MessageId id) {
         if (messages.release(id) && on_forgotten) on_forgotten(id);
     }
 
-    /// Calls `call` at `time`, and every `period` [ns] from then on unless that is 0. Actions of
-    /// one time are called in the order in which they were scheduled, after all else that is due
-    /// then.
-    /// @throws std::invalid_argument if that is before now
+    /// Calls `call` at `time`, and then every `period` [ns] unless that is 0. Actions of one time
+    /// are called in the order of scheduling, after all other events of that time.
+    /// @throws std::invalid_argument if `time` is before now
     void schedule(Time time, Callback<> call, Duration period = {});
-    /// Serves the event of an action: calls what waits in that slot, and queues it again if it has
-    /// a period.
+    /// Serves the event of a user's action: calls the action in that slot, and queues the event
+    /// again if the action has a period.
     void act(std::size_t slot);
 
-    /// Goes on to the next scene of the settings, whose time has come.
+    /// Changes to the next scene of the settings, which is due.
     void change_scene();
 
-    /// Settings as they were given.
+    /// Settings of the network, as given.
     NetworkSettings settings;
-    /// Scene now: that of the settings, or an open field, and later those that follow it; never
+    /// Current scene: that of the settings or an open field, later one of its scene_changes; never
     /// null.
     const Scene* scene;
-    /// Closed doors of the scene now; null: none.
+    /// Closed doors of the current scene; null if there are none.
     const ClosedDoors* doors = nullptr;
-    /// Ways around the walls of the settings' scene, whose doors are open; shared with other runs
-    /// if the settings say so.
+    /// Path planners for the settings' scene, in which all doors are open; shared with other runs
+    /// if the settings contain them.
     std::shared_ptr<Planners> planners;
-    /// Time of the event that is served, and end of the current run_until().
+    /// Time of the current event, and end of the current run_until().
     Time now = start_of_run, end_of_run = start_of_run;
-    /// The run has begun.
+    /// Whether the run has begun.
     bool running = false;
-    /// Events to come.
+    /// Future events of the run.
     Scheduler<Occurrence> events;
-    /// Motion of all robots.
+    /// Motion of all robots, as their current legs.
     Legs legs;
-    /// Radios, and who hears whom.
+    /// Radios and propagation, which determine links and receivers.
     Medium medium;
-    const Phy phy;  // that the access protocol's frames go by
-    /// Messages that somebody still refers to.
+    const Phy phy;  // modulation and coding of the access model's frames
+    /// Messages to which frames in flight or waiting copies refer.
     MessageTable messages;
-    /// Sinks, which get what emit() is given.
+    /// Sinks, which get the records of emit().
     Recorder records;
-    /// Called when nothing refers to a message any more; Routing sets it.
+    /// Called after the last reference to a message was removed; set by Routing.
     std::function<void(MessageId)> on_forgotten = {};
-    /// Messages made so far: the uid of the next.
+    /// Uid of the next message: number of messages made so far.
     std::uint64_t next_uid = 0;
-    /// Frames put on air so far.
+    /// Number of frames transmitted so far.
     std::uint64_t transmissions = 0;
-    /// Somebody asks for received powers: a sink, or the routing protocol.
+    /// True if a sink or the routing protocol requests received powers.
     bool levels_wanted = false;
 
   private:
-    // Action of the user's that is due, and its period [ns]; 0: once.
+    // Scheduled action of the user, and its period [ns]; 0: once.
     struct Action {
         Callback<> call = {};
         Duration period{0};
     };
-    // Actions by the slot that their event carries.
+    // Actions by slot, which their events store.
     Slots<Action> actions_;
 };
 

@@ -5,19 +5,19 @@
 
 #include <chrono>
 #include <exception>
-#include <functional>
 #include <utility>
 
 namespace rovernet::python {
 
 namespace py = pybind11;
 
-/// What ends a simulation from Python's side: Ctrl-C, and errors of callbacks. The simulation runs
-/// without Python's lock and asks now and then whether to go on; whoever called it then raises the
-/// error.
+/// Interruption of a simulation by Python: Ctrl-C, or an error in a callback. The simulation runs
+/// without Python's lock (GIL), and calls go_on() now and then. After an interruption the caller of
+/// the simulation raises the error in Python.
 class Interruption {
   public:
-    /// Whether to go on. Looks for Ctrl-C, and calls `look`, every 50 ms of real time.
+    /// Whether the simulation may continue. Checks for Ctrl-C, and calls `look`, every 50 ms of
+    /// real time.
     template <class Look>
     bool go_on(const Look& look) {
         constexpr std::chrono::milliseconds pause{50};
@@ -34,7 +34,7 @@ class Interruption {
     bool go_on() {
         return go_on([] {});
     }
-    /// Calls something of Python, with its lock; an error is kept.
+    /// Calls a Python function, holding Python's lock; stores the error of a failed call.
     template <class Callback>
     void call(const Callback& callback) {
         const py::gil_scoped_acquire lock;
@@ -46,10 +46,10 @@ class Interruption {
         }
         is_calling_ = false;
     }
-    /// Python is being called: the simulation stands still.
+    /// Whether a Python callback is running, during which the simulation stands still.
     bool is_calling() const { return is_calling_; }
     bool has_error() const { return error_ != nullptr; }
-    /// Raises the error that was kept, once.
+    /// Raises the error of a failed callback, once.
     void raise() {
         if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     }

@@ -3,8 +3,10 @@
 // types; python/rovernet/ has what is written in Python.
 #include "experiment/version.hpp"
 #include "python/run_object.hpp"
+#include "python/scan_functions.hpp"
 #include "python/session_functions.hpp"
 #include "python/session_object.hpp"
+#include "traces/fingerprint.hpp"
 
 namespace rovernet::python {
 namespace {
@@ -243,6 +245,9 @@ void add_robots(SessionClass& session) {
     const auto stalled = [](SessionObject& self) {
         return by_robot<bool>(self, [](Session& s, NodeId robot) { return s.is_stalled(robot); });
     };
+    const auto no_way = [](SessionObject& self) {
+        return by_robot<bool>(self, [](Session& s, NodeId robot) { return s.has_no_way(robot); });
+    };
     session.def_property_readonly("robots", &robots, "Names of those that are driven, by row.")
         .def_property_readonly(
             "names", [](SessionObject& self) { return self.names(); },
@@ -253,6 +258,18 @@ void add_robots(SessionClass& session) {
         .def_property_readonly("twist", &twist, "(n, 2): speed [m/s], turn rate [rad/s].")
         .def_property_readonly("on", on, "(n,): the radio is on.")
         .def_property_readonly("stalled", stalled, "(n,): the robot was told to drive and cannot.")
+        .def_property_readonly("no_way", no_way,
+                               "(n,): the robot was told to go to a place, and no way leads there.")
+        .def("scan", &scan, "robot"_a = py::none(), "scanner"_a = 0,
+             "Distances that a range finder measures now [m]: (beams,) of one robot; None:\n"
+             "(n, beams) of all that are driven, if they have as many beams.\n\n"
+             "scanner: number or name of the range finder")
+        .def("scanners", &scanners, "robot"_a,
+             "Range finders of a robot, as dicts: name, kind, range [m], and of each beam its\n"
+             "angle from the robot's heading [rad] and its begin (x ahead, y to the left) [m].")
+        .def("links", &links,
+             "(N, N): level [dBm] at which the robot of the row hears that of the column now, of\n"
+             "all robots by number; nan: it does not.")
         .def("neighbors", &neighbors, "robot"_a,
              "Structured array of whom a robot's radio hears now: name, rssi [dBm], noise [dBm],\n"
              "quality from 0 to 100.");

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-// Rows of records as numpy's structured arrays, and a single row as a dict.
+// Conversion of record rows to NumPy structured arrays, and of a single row to a dict.
 
 namespace rovernet::python {
 

@@ -3,6 +3,8 @@
 
 #include "experiment/run.hpp"
 #include "experiment/session.hpp"
+#include "experiment/summary.hpp"
+#include "experiment/timeline.hpp"
 #include "python/interruption.hpp"
 #include "python/record_arrays.hpp"
 #include "python/values.hpp"
@@ -15,7 +17,7 @@
 
 namespace rovernet::python {
 
-/// Sink of the kinds of that names, if there are some.
+/// Sink that stores records of the kinds named in `kinds`; null without names.
 inline std::shared_ptr<RowSink> rows_of(const std::vector<std::string>& kinds) {
     KindMask mask = 0;
     for (const std::string& kind : kinds) mask |= record_named(kind);
@@ -33,12 +35,12 @@ inline py::tuple names_of(const Network& network) {
     return names;
 }
 
-/// Result of a run: what `rovernet.Run` is.
+/// Result of a run: the Python class `rovernet.Run`.
 class RunObject {
   public:
-    /// @param rows       that were kept; may be null
-    /// @param is_driven  a program drove robots, so that the run cannot be made again for records
-    ///                   that were not kept
+    /// @param rows       records stored during the run; may be null
+    /// @param is_driven  true: a program drove the robots, so that the run cannot be repeated to
+    ///                   get further records
     RunObject(std::shared_ptr<const Scenario> scenario, RunResult result,
               std::shared_ptr<RowSink> rows, bool is_driven)
         : scenario_(std::move(scenario)),
@@ -78,7 +80,7 @@ class RunObject {
     const Scenario& scenario() const { return *scenario_; }
 
   private:
-    /// Records of a kind, from running the scenario once more.
+    /// Records of a kind that were not stored during the run, by running the scenario again.
     std::shared_ptr<RowSink> found_again(const std::string& kind) const {
         Interruption interruption;
         auto rows = rows_of({kind});
@@ -99,7 +101,7 @@ class RunObject {
     bool is_driven_;
 };
 
-/// Runs a scenario to its end: what `rovernet.run` is.
+/// Runs a scenario to its end: the Python function `rovernet.run`.
 inline RunObject run(const py::object& given, const py::object& set, const py::object& seed,
                      const py::object& out, const std::vector<std::string>& records,
                      const py::object& progress) {

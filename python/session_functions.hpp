@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/summary.hpp"
 #include "python/session_object.hpp"
 
 #include <pybind11/numpy.h>
@@ -14,8 +15,7 @@
 #include <utility>
 #include <vector>
 
-// Commands to a session, and what it tells of its robots, with Python's arguments and numpy's
-// arrays.
+// Commands to a session, and queries of its robots' states, with Python arguments and NumPy arrays.
 
 namespace rovernet::python {
 
@@ -81,7 +81,7 @@ inline void send(SessionObject& session, const std::string& robot, const py::byt
     session.run().command(row, std::move(send));
 }
 
-/// An array that a function of the robots fills.
+/// NumPy array with a value for each of the session's robots, computed by `value`.
 template <class T, class Value>
 py::array_t<T> by_robot(SessionObject& session, Value value) {
     const auto& robots = session.run().robots();
@@ -103,7 +103,7 @@ inline py::array_t<double> twist(SessionObject& session) {
     return all;
 }
 
-/// A view of the poses, which keeps the session.
+/// View of the array of the session's poses; the view keeps the session alive.
 inline py::array pose(const py::object& self) {
     auto& session = self.cast<SessionObject&>();
     const std::span<const double> poses = session.run().poses();
@@ -113,7 +113,7 @@ inline py::array pose(const py::object& self) {
     return view;
 }
 
-/// Row of an array of neighbours, as numpy sees it.
+/// Row of the NumPy array of neighbours, in NumPy's memory layout.
 struct NeighborRow {
     PyObject* name;
     double rssi, noise;
@@ -121,13 +121,14 @@ struct NeighborRow {
 };
 
 inline py::array neighbors(SessionObject& session, const std::string& robot) {
-    static const auto* type = new py::dtype(  // never freed: the interpreter may be gone by then
-        py::cast<py::list>(py::make_tuple("name", "rssi", "noise", "quality")),
-        py::cast<py::list>(py::make_tuple("O", "<f8", "<f8", "<i4")),
-        py::cast<py::list>(py::make_tuple(offsetof(NeighborRow, name), offsetof(NeighborRow, rssi),
-                                          offsetof(NeighborRow, noise),
-                                          offsetof(NeighborRow, quality))),
-        sizeof(NeighborRow));
+    static const auto* type =
+        new py::dtype(  // never freed, since the interpreter may have ended before
+            py::cast<py::list>(py::make_tuple("name", "rssi", "noise", "quality")),
+            py::cast<py::list>(py::make_tuple("O", "<f8", "<f8", "<i4")),
+            py::cast<py::list>(
+                py::make_tuple(offsetof(NeighborRow, name), offsetof(NeighborRow, rssi),
+                               offsetof(NeighborRow, noise), offsetof(NeighborRow, quality))),
+            sizeof(NeighborRow));
     const Network& network = session.network();
     const auto found = network.links(robot_named(network, robot), network.now());
     py::array all(*type, found.size());

@@ -11,18 +11,17 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace rovernet::python {
 
-/// Message that a robot heard: what `rovernet.Heard` is.
+/// Message that a robot received: the Python class `rovernet.Heard`.
 struct HeardObject {
     HeardMessage message;
     double noise;     // [dBm]
-    py::tuple names;  // of all robots
+    py::tuple names;  // names of all robots
 
     py::object name(NodeId robot) const { return names[robot.index()]; }
     bool operator==(const HeardObject& other) const {
@@ -30,7 +29,7 @@ struct HeardObject {
     }
 };
 
-/// Sink that tells a function of Python each record of a kind.
+/// Sink that calls a Python function with each record of a kind.
 class RecordCallback {
   public:
     RecordCallback(KindMask kind, py::object function, Interruption& interruption)
@@ -55,10 +54,10 @@ class RecordCallback {
     Interruption& interruption_;
 };
 
-/// Scenario that a program drives step by step: what `rovernet.Session` is.
+/// Scenario that a program drives step by step: the Python class `rovernet.Session`.
 ///
-/// A step runs without Python's lock. Meanwhile the session refuses everything that does not come
-/// from a callback, during which the simulation stands still.
+/// A step runs without Python's lock (GIL). Meanwhile the session rejects all calls except those
+/// from callbacks, during which the simulation stands still.
 class SessionObject {
   public:
     SessionObject(const py::object& scenario, double step, const py::object& seed,
@@ -87,7 +86,8 @@ class SessionObject {
         interruption_.raise();
     }
     py::list step() {
-        constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
+        // Small, since one event may reach thousands of robots.
+        constexpr std::uint64_t events_a_slice = 256;
         const Working working(*this);
         {
             const py::gil_scoped_release others_run;
@@ -110,7 +110,7 @@ class SessionObject {
         interruption_.raise();
         return {std::move(scenario), std::move(result), kept_, true};
     }
-    /// Calls `function` with each record of a kind from now on, or none if it is None.
+    /// Calls `function` with each record of a kind from now on; None stops these calls.
     void on_record(const std::string& name, const py::object& function) {
         const Working working(*this);
         Network& network = run_.session().network();
@@ -124,7 +124,7 @@ class SessionObject {
         callbacks_[kind] = {callback, network.add_sink(callback)};
     }
 
-    // What may be asked, or commanded, between steps and from callbacks.
+    // Queries and commands that are allowed between steps and from callbacks.
 
     SteppedRun& run() {
         check_idle();
@@ -144,12 +144,12 @@ class SessionObject {
         if (!kept_ || (kept_->kinds() & kind) == 0) throw not_kept(name);
         return to_array(kept_->table(kind));
     }
-    /// Calls visit(function) for each callback: Python's collector of garbage asks.
+    /// Calls visit(function) for each callback, for Python's garbage collector.
     template <class Visit>
     void for_each_callback(Visit visit) const {
         for (const auto& [kind, each] : callbacks_) visit(each.callback->function());
     }
-    /// Ends all callbacks: it breaks circles.
+    /// Removes all callbacks, to break reference cycles.
     void forget_callbacks() {
         for (const auto& [kind, each] : callbacks_) {
             if (!run_.is_over()) run_.session().network().remove_sink(each.sink);
@@ -162,7 +162,7 @@ class SessionObject {
         std::shared_ptr<RecordCallback> callback;
         SinkId sink;
     };
-    /// The session works: nobody else may use it.
+    /// Guard: the session is in use by one call, so that other calls are rejected.
     class Working {
       public:
         explicit Working(SessionObject& session) : session_(session) {
@@ -186,7 +186,7 @@ class SessionObject {
     }
 
     std::vector<std::string> kinds_;
-    std::shared_ptr<RowSink> kept_;  // records of these kinds
+    std::shared_ptr<RowSink> kept_;  // stored records
     Interruption interruption_;
     std::map<KindMask, Added> callbacks_;
     bool works_ = false;

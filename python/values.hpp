@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenario/scenario.hpp"
 #include "scenario/document/value.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
+#include "scenario/tables/read_value.hpp"
 
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 
-// Python's values as Values, and back: scenarios come as dictionaries, metrics leave as such.
+// Conversion between Python values and Values: scenarios as dicts, metrics as dicts.
 
 namespace rovernet::python {
 
@@ -49,7 +50,7 @@ inline std::int64_t whole_number(py::handle given, const std::string& place) {
     throw InputError({.source = place}, "expected a whole number below 2^63");
 }
 
-/// @param place  where it stands, as one would write it in Python: scenario["radio"]["power"].
+/// @param place  path of the value in Python notation, for errors: scenario["radio"]["power"].
 ///               Numbers without a unit are in SI units, as on the command line
 inline Value to_value(py::handle given, const std::string& place, int depth = 0) {
     constexpr int deepest = 32;
@@ -88,16 +89,16 @@ inline Value to_value(py::handle given, const std::string& place, int depth = 0)
                                         std::string(py::repr(given))));
 }
 
-/// A path as text: of a str or what has __fspath__.
+/// Path as text, from a str or an object with __fspath__.
 inline std::string path_in(const py::object& given) {
     const auto name = py::reinterpret_steal<py::object>(PyOS_FSPath(given.ptr()));
     if (!name) throw py::error_already_set();
     return py::cast<std::string>(name);
 }
 
-/// Scenario of a file, by its path, or of a dict; its notices become warnings.
+/// Scenario from the path of a file, or from a dict; notices become Python warnings.
 /// @param set   dict of values by path, as for --set; or None
-/// @param seed  of the run; or None
+/// @param seed  seed of the run; or None
 inline Scenario to_scenario(const py::object& given, const py::object& set,
                             const py::object& seed) {
     Table settings;

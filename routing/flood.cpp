@@ -11,7 +11,7 @@ FloodRouter::FloodRouter(const Flood& flood) : flood_(flood) { check_fields(floo
 
 namespace {
 
-/// A frame as a node that received it sends it on.
+/// Frame as forwarded by a node that received it.
 QueuedFrame passed_on(const LinkLayer& link, const Frame& frame, NodeId node) {
     return {{.message = frame.message,
              .sender = node,
@@ -23,10 +23,16 @@ QueuedFrame passed_on(const LinkLayer& link, const Frame& frame, NodeId node) {
 
 }  // namespace
 
-/// Makes room for what every node knows of a message.
+/// Allocates the states of a message at all nodes.
 void FloodRouter::make_room(std::size_t message, std::size_t nodes) {
     if (known_.size() <= message) known_.resize(message + 1);
     known_[message].resize(nodes, later_copies_matter());
+}
+
+/// TTL of a message; without a payload there is no first byte, and it starts with `ttl`.
+Hops FloodRouter::initial_ttl(const Message& message) const {
+    if (!flood_.ttl_in_payload || message.payload.empty()) return initial_ttl();
+    return std::max<Hops>(static_cast<unsigned char>(message.payload.front()), 1);
 }
 
 void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
@@ -39,7 +45,7 @@ void FloodRouter::send(LinkLayer& link, NodeId node, MessageId message) {
     link.send({.message = message,
                .sender = node,
                .path = link.key(node),
-               .ttl = initial_ttl(),
+               .ttl = flood_.ttl_in_payload ? initial_ttl(link.message(message)) : initial_ttl(),
                .hops = 1},
               std::nullopt, link.now());
 }
@@ -62,8 +68,8 @@ void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Rece
             return is_duplicate(link, frame, r->node, known);
         });
     }
-    // Frames of one time are sent in the order in which they were handed over: in that of the
-    // nodes' keys, so that their numbers decide nothing.
+    // Frames of one time are sent in the order in which they were passed on: sort by the nodes'
+    // keys, so that ids have no effect.
     if (end - news.begin() > 1) {
         std::sort(news.begin(), end, [&](const auto* a, const auto* b) {
             return a->time != b->time ? a->time < b->time : link.key(a->node) < link.key(b->node);
@@ -73,8 +79,8 @@ void FloodRouter::on_receive(LinkLayer& link, const Frame& frame, std::span<Rece
 }
 
 /// Whether a copy at a node that is not settled is a duplicate, under "suppress" with `upgrade`:
-/// then the node forwards no copy of its own for it. It may lift the one that the node has not
-/// sent.
+/// the node then does not forward it. The copy may raise the TTL of a copy that the node has not
+/// sent yet.
 bool FloodRouter::is_duplicate(LinkLayer& link, const Frame& frame, NodeId node, Known& known) {
     const Knowledge mine = known[node];
     if (mine.is(Knowledge::unheard)) return false;
@@ -103,9 +109,10 @@ void FloodRouter::take(LinkLayer& link, const Frame& frame, Known& known, Recept
     mine = forwards ? Knowledge{Knowledge::waiting, copy} : Knowledge::ended;
 }
 
-/// Sends a copy on after its delay.
+/// Schedules the forwarding of a copy, after its delay.
 SendHandle FloodRouter::forward(LinkLayer& link, const Frame& frame, const Reception& reception) {
-    // A node sends one message once under "suppress"; copies of one message differ by their path.
+    // Under "suppress" a node sends a message once; otherwise copies of a message differ by their
+    // path.
     const std::uint64_t which = forwards_all() ? frame.path : 0;
     const double u = link.draw(Purpose::flood_jitter, reception.node, frame.message, which);
     const Duration jitter = from_seconds(u * seconds(flood_.jitter));

@@ -7,7 +7,7 @@
 
 namespace rovernet {
 
-/// The routing protocols that scenario files know by name.
+/// Routing protocols that scenario files can name.
 using RoutingProtocols = std::tuple<Flood>;
 
 }  // namespace rovernet

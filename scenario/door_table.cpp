@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/door_table.hpp"
 
-#include "scenario/names.hpp"
 #include "scenario/tables/reader.hpp"
 
 #include <fmt/format.h>

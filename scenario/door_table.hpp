@@ -24,18 +24,18 @@
 
 namespace rovernet {
 
-/// [[scene.door]]: a piece of wall that is there at times only. See Door.
+/// [[scene.door]]: a piece of wall that is present only while the door is closed. See Door.
 struct DoorTable {
-    /// Name in messages; none: its number.
+    /// Name of the door in messages; none: messages use its number.
     std::optional<std::string> name = {};
-    /// Ends of its middle line [m].
+    /// End points of the door's centre line [m].
     Vec3 from, to;
     Meters thickness{0.05};
-    /// Name of a material of [scene.materials]; none: it follows the propagation model.
+    /// Name of a material of [scene.materials]; none: the propagation model decides the loss.
     std::optional<std::string> material = {};
-    /// Times at which it closes and opens [ns]; it is open at first.
+    /// Times at which the door closes and opens [ns]; it is open at the start.
     std::vector<Duration> closes = {}, opens = {};
-    /// Places of the table and of its material.
+    /// File positions of the [[scene.door]] table and of its key `material`, for error messages.
     Location where = {}, material_where = {};
 
     static constexpr auto fields() {
@@ -49,10 +49,10 @@ struct DoorTable {
     }
 };
 
-/// Reads [[scene.door]]; the map is not looked at.
+/// Reads [[scene.door]]; does not check doors against the map.
 /// @throws InputError at the first mistake
 std::vector<DoorTable> read_doors(const Value& value);
-/// Tables that read back as the same doors.
+/// Tables [[scene.door]] from which read_doors() reads the same doors.
 Array doors_document(const std::vector<DoorTable>& doors);
 
 }  // namespace rovernet

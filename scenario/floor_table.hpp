@@ -26,12 +26,13 @@
 
 namespace rovernet {
 
-/// ceiling = { ... } of a floor: what stands between its storey and the one above. Its loss is
-/// given by `per_crossing`, or by `itu` and `thickness`; if not, it follows the propagation model.
+/// ceiling = { ... } of a floor: the slab between its storey and the storey above. The loss is
+/// given by `per_crossing`, or by `itu` and `thickness`; without these the propagation model
+/// decides it.
 struct CeilingTable {
     /// Loss of the ceiling [dB].
     std::optional<Db> per_crossing;
-    /// Material of ITU-R P.2040 of which it is a slab, of `thickness` [m].
+    /// Material of the ceiling, a slab of `thickness` [m], by ITU-R P.2040.
     std::optional<ItuMaterial> itu;
     std::optional<Meters> thickness;
 
@@ -51,23 +52,23 @@ struct FloorTable {
     std::string map;
     /// Width and height of a picture [m]: two lengths > 0.
     std::optional<std::vector<Meters>> size;
-    /// Ceiling of its storey; none: it follows the propagation model.
+    /// Ceiling of the storey on this floor; none: the propagation model decides its loss.
     std::optional<CeilingTable> ceiling = {};
-    /// Place of the key `map`.
+    /// File position of the key `map`, for error messages.
     Location map_where = {};
 
     static constexpr auto fields() {
         return describe(field("height", &FloorTable::height, "of the floor: z of robots on it"),
                         field("map", &FloorTable::map,
-                              "ROS map.yaml, or a PNG or PGM with a size; relative to the file"),
+                              "ROS map.yaml, or a picture with a size; relative to the file"),
                         field("size", &FloorTable::size, "width and height of a picture"));
     }
 };
 
-/// Reads [[scene.floor]]; the maps themselves are not looked at.
+/// Reads [[scene.floor]]; does not load the maps.
 /// @throws InputError at the first mistake
 std::vector<FloorTable> read_floors(const Value& value);
-/// Tables that read back as the same floors.
+/// Tables [[scene.floor]] from which read_floors() reads the same floors.
 Array floors_document(const std::vector<FloorTable>& floors);
 
 /// Checks the size of a picture used as a map. @throws InputError at `where`

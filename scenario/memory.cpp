@@ -11,8 +11,8 @@
 namespace rovernet {
 namespace {
 
-// Bytes per robot, measured with a Release build on x86-64: peak of `run`, less that of an empty
-// scenario.
+// Bytes per robot, measured with a Release build on x86-64: peak memory of `run` minus that of an
+// empty scenario.
 constexpr std::uint64_t of_standing = 280;
 constexpr std::uint64_t of_moving = 1000;
 

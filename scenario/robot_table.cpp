@@ -4,8 +4,9 @@
 #include "mobility/movement.hpp"
 #include "models/link_gain.hpp"
 #include "scenario/document/located.hpp"
-#include "scenario/tables/scan_table.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/tables/reader.hpp"
+#include "scenario/tables/scan_table.hpp"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,7 @@ PlaceTable read_place(const Value& value) {
     return place;
 }
 
-/// Checks the receiver of a message: it needs a message to send, and "sender" one that came.
+/// Checks the destination of a message: `to` needs `send`, and "sender" needs on_receive.
 void check_receiver(const ReactionTable& reaction, TableReader& table) {
     if (!reaction.to) return;
     if (!reaction.send) table.missing("send", "send = \"F\": to needs it");
@@ -122,7 +123,7 @@ void read_air(TableReader& table, RobotTable& robot, const Scenario& scenario) {
     }
     if (const Value* propagation = table.take("propagation")) {
         robot.own_model = propagation->table() && propagation->table()->find("model");
-        // A model of its own comes with its own parameters: none are inherited.
+        // A robot with its own model inherits no parameters of [propagation].
         robot.propagation = robot.own_model ? PropagationTable{} : scenario.propagation;
         robot.propagation_where = propagation->where;
         read_propagation(*propagation, *robot.propagation);

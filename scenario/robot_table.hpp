@@ -4,20 +4,18 @@
 #include "models/radio.hpp"
 #include "scenario/tables/move_table.hpp"
 #include "scenario/tables/propagation_table.hpp"
-#include "scenario/tables/reader.hpp"
 #include "scene/scanner.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-// Robots as a scenario file gives them:
+// Robots in a scenario file:
 //
 //     [[robot]]
 //     name = "A"
@@ -28,15 +26,16 @@
 
 namespace rovernet {
 
-/// place = { ... }: a start that is drawn anew in each replication, from the robot's name.
+/// place = { ... }: a random start position, drawn for each replication; its random stream is keyed
+/// by the robot's name.
 struct PlaceTable {
-    /// Word of the model: uniform in an area, or a choice of points.
+    /// Distribution of the start: uniform in an area, or one of several points.
     enum class Model { uniform, choice };
 
     Model model = Model::uniform;
-    /// Lower-left and upper-right corner [m], for uniform.
+    /// Lower-left and upper-right corner of the area [m], for uniform.
     std::vector<Vec3> area;
-    /// Places of which one is drawn [m], for choice; at least one.
+    /// Possible start positions [m], for choice; at least one.
     std::vector<Vec3> points;
     Location where = {};
 
@@ -47,24 +46,25 @@ struct PlaceTable {
             field("points", &PlaceTable::points, "choice: one of these places"));
     }
 };
-/// Words of the model in files.
+/// Names of PlaceTable::Model in scenario files.
 template <>
 struct EnumNames<PlaceTable::Model> {
     static constexpr std::array<std::string_view, 2> values = {"uniform", "choice"};
 };
 
-/// Trigger of a reaction: what the robot reacts to. The names are those of the robot's keys.
+/// Trigger of a reaction: the event to which the robot reacts. Each trigger has the name of its
+/// key.
 enum class Trigger {
-    /// It is handed a message.
+    /// The robot receives a message.
     on_receive,
-    /// It comes to rest at the end of a movement.
+    /// The robot comes to rest at the end of a movement.
     on_arrival,
-    /// It cannot hear another robot any more.
+    /// The link from another robot to this robot is lost.
     on_link_lost,
-    /// A time of the run has come.
+    /// A given time of the run is reached.
     on_time
 };
-/// Keys of the robot, in the order in which they are printed.
+/// Keys of [[robot]] for each Trigger, in the order in which they are printed.
 template <>
 struct EnumNames<Trigger> {
     static constexpr std::array<std::string_view, 4> values = {"on_receive", "on_arrival",
@@ -75,91 +75,95 @@ struct EnumNames<Trigger> {
 /// several reactions. At least one of `move`, `send` and `stop` is given.
 struct ReactionTable {
     Trigger trigger{};
-    /// Text that the message begins with; empty: any. Of on_receive.
+    /// Start of the payload of the message; empty: any message. Used by on_receive.
     std::string payload = {};
-    /// Robot that sends the message, or whose link is lost; none: any. Of on_receive and
+    /// Robot that sent the message, or whose link is lost; none: any robot. Used by on_receive and
     /// on_link_lost.
     std::optional<std::string> from = {};
-    /// Hops that the message crossed at most; none: any number. Of on_receive.
+    /// Largest number of hops of the message; none: any number. Used by on_receive.
     std::optional<int> hops = {};
-    /// Time since the start of the run [ns]. Of on_time.
+    /// Time since the start of the run [ns]. Used by on_time.
     Duration time{0};
-    /// The robot reacts the first time only. Not of on_time, which is once.
+    /// True if the robot reacts the first time only. Not used by on_time, which happens once.
     bool once = true;
-    /// Movement that it begins.
+    /// Movement that the robot starts.
     std::optional<MoveTable> move = {};
-    /// Payload of the message that it sends.
+    /// Payload of the message that the robot sends.
     std::optional<std::string> send = {};
-    /// Robot that the message is for, or "sender"; none: everyone.
+    /// Destination of the message that the robot sends: a robot's name, or "sender"; none:
+    /// everyone.
     std::optional<std::string> to = {};
-    /// Size of the message; none: the length of its payload.
+    /// Size [bytes] of the message that the robot sends; none: the length of its payload.
     std::optional<Bytes> size = {};
-    /// The robot stops where it is; not with `move`.
+    /// True if the robot stops where it is; excludes `move`.
     bool stop = false;
-    /// Places of the table, and of its keys `from` and `to`.
+    /// File positions of the reaction's table, and of its keys `from` and `to`.
     Location where = {}, from_where = {}, to_where = {};
 
-    /// Word for the robot that sent the message first; it is no name.
+    /// Value of `to` that means the origin of the received message, even if a robot has this name.
     static constexpr std::string_view sender = "sender";
 };
 
-/// Places of a radio's keys in the file, for what is found wrong once everything is read. A robot
-/// has those of [radio] for the keys that it does not give.
+/// File positions of a radio's keys, for errors that are found after reading. A key that a robot
+/// does not give has its position in [radio].
 struct RadioPlaces {
     Location sensitivity = {}, frequency = {}, rate = {};
     Location ip = {}, netmask = {}, mac = {};
 };
-/// Reads [radio], or a robot's own table, over `out`; places of keys that are not there stay as
-/// they are.
-/// @param name  of the table, for errors
-/// @throws InputError for an unknown key, a wrong type and a value out of its range
+/// Reads [radio], or the `radio` table of a robot, into `out`. Missing keys change neither values
+/// nor file positions.
+/// @param name  name of the table, for error messages
+/// @throws InputError for an unknown key, a wrong type or a value out of range
 void read_radio(const Value& value, const std::string& name, Radio& out, RadioPlaces& places);
 
-/// [[robot]]: one robot, or `count` of a kind.
+/// [[robot]]: one robot, or `count` equal robots.
 struct RobotTable {
     std::string name;
-    /// Number of robots name0, name1, ...; none: one, with the name as it is.
+    /// Number of robots, which are called name0, name1, ...; none: one robot called `name`.
     std::optional<int> count;
-    /// Start [m]; either this or `place` is given, or the movement draws the start.
+    /// Start position [m]. Given by `at`, by `place`, or drawn by the movement model.
     std::optional<Vec3> at;
     std::optional<PlaceTable> place;
     /// Heading at the start [rad].
     Radians heading{0};
-    /// Radius of the body [m], for ways around walls.
+    /// Radius of the robot's body [m], for paths around walls.
     Meters radius{0.2};
-    /// Speed that no movement exceeds [m/s]; none: any.
+    /// Speed that no movement of the robot exceeds [m/s]; none: no limit.
     std::optional<MetersPerSecond> top_speed;
-    /// Rate at which it turns in place before it moves off [rad/s]; none: it turns at once.
+    /// Rate at which the robot turns in place before it drives [rad/s]; none: it turns at once.
     std::optional<RadiansPerSecond> turn_rate;
-    /// Radio: [radio] with the robot's own keys over it.
+    /// Radio of the robot: [radio], overridden by the keys of the robot's `radio` table.
     Radio radio;
     RadioPlaces radio_places;
-    /// Propagation of what it sends: its own keys over [propagation]; none: [propagation].
+    /// Propagation model of the frames that this robot sends: [propagation], overridden by the
+    /// robot's keys; none: [propagation] unchanged.
     std::optional<PropagationTable> propagation;
-    /// The robot's `propagation` chooses a model, and then nothing of [propagation] counts.
+    /// True if the robot's `propagation` names a model; then [propagation] is ignored.
     bool own_model = false;
-    /// Movement; by default it stays where it is.
+    /// Movement of the robot; by default it stays where it is.
     MoveTable move;
-    /// Range finders, for programs outside.
+    /// Range finders, for external programs (`rovernet live`).
     std::vector<Scanner> scan;
     std::vector<ReactionTable> reactions;
-    /// Times at which the robot is switched off and on [ns]; it starts switched on.
+    /// Times at which the robot is switched off and on [ns]; it is on at the start.
     std::vector<Duration> off, on;
-    /// Places of the table and of its keys; of the table for keys that are not there.
+    /// File positions of the [[robot]] table and of its keys; a missing key has that of the table.
     Location where, at_where, radio_where, propagation_where, on_where, off_where;
 
-    /// Name of the i-th robot, i from 0.
+    /// Name of the i-th of `count` robots, i from 0.
     std::string name_of(int i) const { return count ? name + std::to_string(i) : name; }
 };
 
 struct Scenario;
 
-/// Reads a [[robot]], over the defaults of the scenario's other tables, which are read before it.
-/// @param needs_place  false for a robot that a movement file places
+/// Reads a [[robot]]. Defaults come from the scenario's other tables, which must have been read
+/// before.
+/// @param needs_place  false for a robot whose position comes from a movement file
 /// @throws InputError at the first mistake
 RobotTable read_robot(const Value& value, const Scenario& scenario, bool needs_place);
 
-/// Table that reads back as the same robot: what differs from the scenario's defaults.
+/// Table from which read_robot() reads the same robot; values equal to the scenario's defaults are
+/// omitted.
 Table robot_document(const RobotTable& robot, const Scenario& scenario);
 
 }  // namespace rovernet

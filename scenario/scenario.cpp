@@ -3,10 +3,12 @@
 
 #include "models/phy/phy.hpp"
 #include "models/propagation/disc.hpp"
-#include "scenario/tables/flow_names.hpp"
+#include "scenario/document/choice.hpp"
 #include "scenario/document/located.hpp"
 #include "scenario/memory.hpp"
 #include "scenario/names.hpp"
+#include "scenario/tables/flow_names.hpp"
+#include "scenario/tables/reader.hpp"
 #include "scenario/traffic_file.hpp"
 #include "scenario/unlikely.hpp"
 #include "sim/math.hpp"
@@ -62,7 +64,7 @@ void check_coding(const Phy& phy, std::string_view key, BitRate rate, Location w
                                         key, rate.value / 1e6, megabits_text(phy.rates())));
 }
 
-/// Checks what reception model "sinr" needs: levels, and rates whose errors it knows.
+/// Checks the requirements of reception model "sinr": levels, and bit rates with known error rates.
 void check_sinr(const Scenario& scenario) {
     if (scenario.reception.model != ReceptionChoice::sinr) return;
     const AccessTable& access = scenario.access;
@@ -126,7 +128,7 @@ void read_section(TableReader& document, std::string_view key, T& out) {
     table.reject_unknown();
 }
 
-/// Checks values that suit other access models, but not csma.
+/// Checks values that are valid for other access models, but not for csma.
 void check_csma(const AccessTable& access, const Table& table) {
     constexpr double longest = 1e9;  // [s] of a backoff; see read_value of a time
     const WifiTiming timing = access.csma().timing;
@@ -160,7 +162,7 @@ void read_variation(TableReader& document, std::string_view key, std::string_vie
         fmt::format("[{}]: the key \"model\" is missing; expected model = \"{}\"", key, example));
 }
 
-/// Checks that no model with a shadowing of its own gets another.
+/// Checks that a model with its own shadowing is not combined with [shadowing].
 void check_shadowing(TableReader& document, const Scenario& scenario) {
     if (scenario.shadowing.model == ShadowingModel::none) return;
     const Location where = document.take("shadowing")->where;
@@ -182,8 +184,8 @@ void check_shadowing(TableReader& document, const Scenario& scenario) {
     }
 }
 
-/// Reads [access]. Radios of OFDM have its preamble and its highest rate, unless [radio] says
-/// otherwise.
+/// Reads [access]. With an OFDM standard, radios get its preamble and highest rate, unless [radio]
+/// gives them.
 void read_access(TableReader& document, Scenario& out) {
     const Value* access = document.take("access");
     if (access) out.access_where = access->where;
@@ -226,8 +228,8 @@ void read_movement(TableReader& document, Scenario& out) {
     out.notices.insert(out.notices.end(), notices.begin(), notices.end());
 }
 
-/// Notices random waypoint models that do not start in their stationary state: they slow down for a
-/// while.
+/// Adds notices about random waypoint models that do not start in the stationary state: their mean
+/// speed falls for a while.
 void note_decay(Scenario& out) {
     for (const RobotTable& robot : out.robots) {
         const auto* model = std::get_if<RandomWaypoint>(&robot.move.model);
@@ -249,7 +251,7 @@ void check_robots(TableReader& document, const Scenario& scenario) {
     if (!scenario.scene.world) document.missing("robot", "[[robot]] with a name and a place");
     throw InputError(
         scenario.scene.map_where.line > 0 ? scenario.scene.map_where : Location{scenario.file},
-        "no robot in this world; expected a position that has a wifi, or a scenario "
+        "no robot in this world; expected a position, or a scenario "
         "with [[robot]] that names the world: [scene] world = \"...\"");
 }
 
@@ -280,7 +282,13 @@ void read_value(const Value& value, std::string_view key, EifsRule& out) {
         return;
     }
     const auto& words = EnumNames<EifsRule>::values;
-    out = static_cast<EifsRule>(read_choice(value, key, {words.begin(), words.end()}));
+    const ChoiceHelp help{.meanings = {"after a frame that was begun and lost, as 802.11 has it",
+                                       "after each frame that was sensed and not decoded, as "
+                                       "ns-2.35 has it",
+                                       "never"},
+                          .yes = name_of(EifsRule::standard),
+                          .no = name_of(EifsRule::none)};
+    out = static_cast<EifsRule>(read_choice(value, key, {words.begin(), words.end()}, help));
 }
 
 AccessModel AccessTable::make() const {
@@ -305,6 +313,7 @@ Csma AccessTable::csma() const {
                 .timing = timing,
                 .basic_rates = basic_rates.value_or(mandatory_rates(standard)),
                 .eifs = eifs,
+                .immediate_access = immediate_access.value_or(eifs != EifsRule::ns2),
                 .short_retries = short_retries,
                 .long_retries = long_retries,
                 .rts_threshold = rts_threshold.value,
@@ -323,7 +332,7 @@ Router RoutingTable::make() const {
     return std::move(*made);
 }
 
-Scenario read_scenario(const Value& value, const std::string& file) {
+Scenario read_scenario(const Value& value, const std::string& file, bool needs_robots) {
     Scenario out;
     out.file = file;
     TableReader document(value, "the scenario");
@@ -362,7 +371,7 @@ Scenario read_scenario(const Value& value, const std::string& file) {
     const bool asks_reach = std::find(asked.begin(), asked.end(), "reach") != asked.end();
     if (asks_reach && !out.metrics.reach) out.metrics.reach = true;
     document.reject_unknown();
-    check_robots(document, out);
+    if (needs_robots) check_robots(document, out);
     check_memory(out, available_memory());
     check_names(out);
     check_traffic(out);

@@ -5,31 +5,28 @@
 #include "models/radio.hpp"
 #include "models/variation/fading.hpp"
 #include "models/variation/shadowing.hpp"
+#include "scenario/document/value.hpp"
+#include "scenario/robot_table.hpp"
+#include "scenario/scene_table.hpp"
 #include "scenario/tables/access_table.hpp"
 #include "scenario/tables/metrics_table.hpp"
 #include "scenario/tables/movement_table.hpp"
 #include "scenario/tables/propagation_table.hpp"
-#include "scenario/tables/reader.hpp"
 #include "scenario/tables/reception_table.hpp"
-#include "scenario/robot_table.hpp"
 #include "scenario/tables/routing_table.hpp"
-#include "scenario/scene_table.hpp"
 #include "scenario/tables/study_table.hpp"
 #include "scenario/tables/trace_table.hpp"
 #include "scenario/tables/traffic_table.hpp"
-#include "scenario/document/value.hpp"
 #include "sim/fields.hpp"
 #include "sim/geometry.hpp"
 
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-// A scenario file as plain structs: every table and key has one struct and field of the same name,
-// with every default. experiment/build.hpp makes a Network of it.
+// A scenario file as plain structs: each table is a struct and each key a field of the same name,
+// with its default. experiment/build.hpp makes a Network of a Scenario.
 //
 //     table and key of the file                         struct and field
 //     [scenario] seed     ---- read_scenario() --->     Scenario::scenario.seed
@@ -37,16 +34,16 @@
 
 namespace rovernet {
 
-/// [scenario]: what concerns the run as a whole.
+/// [scenario]: settings of the whole run.
 struct ScenarioTable {
     /// Name of the run and of its output folder.
     std::string name = "run";
-    /// Simulated time [ns], > 0.
+    /// Simulated time of a run [ns], > 0.
     Duration duration = std::chrono::seconds{60};
     /// Seed of every random draw, and number of the independent repetition.
     std::uint64_t seed = 1;
     std::uint64_t replication = 0;
-    /// Events that a run may need; one that needs more fails.
+    /// Largest number of events of a run; a run with more events fails.
     std::uint64_t event_limit = 100'000'000;
 
     static constexpr auto fields() {
@@ -62,9 +59,9 @@ struct ScenarioTable {
     }
 };
 
-/// [medium]: what holds for all radios.
+/// [medium]: settings of all radios.
 struct MediumTable {
-    /// Frames travel at the speed of light; otherwise they arrive at once.
+    /// True if frames travel at the speed of light; false: they arrive at once.
     bool propagation_delay = true;
 
     static constexpr auto fields() {
@@ -73,11 +70,12 @@ struct MediumTable {
     }
 };
 
-/// [links]: how link changes are looked for, see LinkSearch.
+/// [links]: accuracy of the search for link changes, see LinkSearch.
 struct LinksTable {
-    /// Error of the time of a change behind walls [ns].
+    /// Largest error [ns] of the time of a link change behind walls.
     Duration tolerance = LinkSearch{}.tolerance;
-    /// Duration [ns] below which a state of a link may be missed, for models of unknown shape.
+    /// Shortest link state [ns] that is surely found, for propagation models whose loss is not a
+    /// known function of distance.
     Duration min_dwell = LinkSearch{}.min_dwell;
 
     static constexpr auto fields() {
@@ -90,109 +88,59 @@ struct LinksTable {
     }
 };
 
-/// Whole scenario, with every default filled in and every name and value checked.
-/// network_settings() and populate() of experiment/build make a Network of it; a member has the
-/// name of its table.
+/// Complete scenario, with every default filled in and every name and value checked.
+/// network_settings() and populate() of experiment/build make a Network of it. Each member has the
+/// name of its table in the scenario file.
 struct Scenario {
     /// Scenario file as the user named it; the paths in it are relative to its folder.
     std::string file;
     ScenarioTable scenario;
     SceneTable scene;
-    /// Scene if it is loaded already; null: not yet, or an open field.
+    /// Scene with the walls; null: not yet loaded, or an open field.
     std::shared_ptr<const Scene> walls;
-    /// Changes of `walls` by doors if a Study has made them already; null: not yet.
+    /// Changes of `walls` by doors, if a Study has computed them already; null: not yet.
     std::shared_ptr<const std::vector<SceneChange>> changes;
-    /// Defaults of robots' radios, with the places of the keys that are given.
+    /// Radio of robots without own keys ([radio]), with the file positions of the given keys.
     Radio radio;
     RadioPlaces radio_places;
     MediumTable medium;
     PropagationTable propagation;
-    /// Places of tables, for what is found wrong once everything is read.
-    Location propagation_where;
+    Location propagation_where;  ///< file position of [propagation], for error messages
     /// [shadowing] and [fading]; printed only if a model is chosen.
     Shadowing shadowing;
     Fading fading;
     ReceptionTable reception;
     AccessTable access;
-    /// Place of [access] basic_rates if it is given, or else of the table.
+    /// File position of [access] basic_rates if this key is given, or else of the table [access].
     Location access_where;
     LinksTable links;
     MovementTable movement;
-    /// Robots in the order of the file, those of a world first; robots that only a movement file
-    /// names are in `movement`.
+    /// Robots in the order of the file; robots of a Stage world come first. Robots that only a
+    /// movement file names are in `movement`.
     std::vector<RobotTable> robots;
     RoutingTable routing;
     /// Flows, in the order of the file; each has a name.
     std::vector<TrafficTable> traffic;
     TraceTable trace;
     MetricsTable metrics;
-    /// Points of `rovernet sweep`; a plain run looks at `warmup` and `metrics` only.
+    /// Points of `rovernet sweep`; a single run uses `warmup` and `metrics` only.
     StudyTable study;
-    /// Notices: what a person should know of the files that were read.
+    /// Notices to the user about the files that were read.
     std::vector<std::string> notices;
 };
 
-/// Reads a scenario from its document, and checks it: names, addresses, memory, and values that do
-/// not go together. A key that no table knows is an error. Movement and traffic files that it names
-/// are read; its map is not.
-/// @param document  table of tables, as read_toml() gives it
-/// @param file      as the user named it, for paths in the document and for errors
+/// Reads a scenario from its document, and checks it: names, addresses, memory, and values that
+/// contradict each other. An unknown key is an error. Movement and traffic files are read; maps are
+/// not loaded.
+/// @param document  table of tables, as read_toml() returns it
+/// @param file      file name as the user wrote it, for paths in the document and for errors
+/// @param needs_robots  true: a scenario without robots is an error
 /// @throws InputError at the first mistake
-Scenario read_scenario(const Value& document, const std::string& file);
+Scenario read_scenario(const Value& document, const std::string& file, bool needs_robots = true);
 
-/// Table that reads back as the same propagation: the chosen model's parameters, and those of
-/// others that differ from their defaults.
+/// Table from which read_propagation() reads the same values: the parameters of the chosen model,
+/// and the parameters of other models that differ from their defaults.
 Table propagation_document(const PropagationTable& propagation);
-
-struct WorldFile;
-
-/// Options of the command line over a scenario file.
-struct ScenarioOptions {
-    /// Assignments "path=value", see set_option(): --set.
-    std::vector<std::string> set = {};
-    /// Folders where parts of a Stage world are looked for, relative to the current one:
-    /// --world-path.
-    std::vector<std::string> world_path = {};
-    /// Other names of its bitmaps, "OLD=NEW": --bitmap.
-    std::vector<std::string> bitmaps = {};
-    /// A missing part of a world is a notice: --lenient.
-    bool lenient = false;
-};
-
-/// Scenario file, or a Stage world (NAME.world) or movement file as a scenario of its own, with
-/// what the command line says over it. The file is read once; a study makes a scenario of it for
-/// each of its points.
-class ScenarioFile {
-  public:
-    /// @param path  file; "-": a scenario from standard input, relative to the current folder
-    /// @throws InputError for what is no scenario, with what it is and what to do
-    ScenarioFile(const std::string& path, const ScenarioOptions& options);
-    /// Scenario whose document was made in code.
-    /// @param path  file that it stands for: paths in it are relative to its folder, or to the
-    ///              current one if it is empty
-    /// @throws InputError if it is no table, or for the world that it names
-    ScenarioFile(Value document, const std::string& path, const ScenarioOptions& options);
-
-    /// Scenario with these values (by path, as for --set) over the file's.
-    /// @throws InputError at the first mistake, at the value's place if that is wrong
-    Scenario scenario(const Table& settings = {}) const;
-
-  private:
-    // The file as it was named, and its document with the command line's values over it.
-    std::string path_;
-    Value document_;
-    // Notices of reading the world, and the world if [scene] names one.
-    std::vector<std::string> notices_;
-    std::shared_ptr<const WorldFile> world_;  // if [scene] names one
-};
-
-/// Scenario of ScenarioFile(path, options), with its map loaded and its robots looked at there.
-/// Commands that need one scenario call it.
-/// @throws InputError as ScenarioFile, and for the map
-Scenario load_scenario(const std::string& path, const ScenarioOptions& options);
-/// Scenario of a file that was read before; else as above.
-/// @param settings  values by path, see ScenarioFile::scenario()
-Scenario load_scenario(const ScenarioFile& file, const Table& settings = {});
 
 /// Document of a scenario with every default; it reads back as the same scenario.
 Table to_document(const Scenario& scenario);

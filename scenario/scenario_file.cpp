@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
+#include "scenario/scenario_file.hpp"
+
 #include "files/input_file.hpp"
 #include "scenario/document/located.hpp"
+#include "scenario/document/toml.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/stage/stage_world.hpp"
-#include "scenario/document/toml.hpp"
+#include "scenario/tables/read_value.hpp"
 #include "scenario/unlikely.hpp"
+#include "scene/images/image.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 
 namespace rovernet {
 namespace {
@@ -20,7 +23,7 @@ namespace fs = std::filesystem;
 
 bool is_world(const std::string& path) { return fs::path(path).extension() == ".world"; }
 
-/// World that a configuration of Player names; "NAME.world" if it names none.
+/// World named in a Player configuration; "NAME.world" if it names none.
 std::string world_of(const std::string& player_file) {
     std::ifstream file(player_file);
     for (std::string line; std::getline(file, line);) {
@@ -33,15 +36,16 @@ std::string world_of(const std::string& player_file) {
     return "NAME.world";
 }
 
-/// Refuses files of other kinds by their endings, and says what to do with them.
+/// Rejects files of other kinds by their endings, with a hint on the right command.
 void refuse_others(const std::string& path) {
     struct Kind {
         std::string_view endings, what;
     };
+    constexpr Kind a_map = {".yaml .yml",
+                            "a map, not a scenario; expected a scenario (.toml) that names it: "
+                            "[scene] map = \"...\"; rovernet scene shows a map alone"};
     constexpr Kind kinds[] = {
-        {".yaml .yml .png .pgm",
-         "a map, not a scenario; expected a scenario (.toml) that names it: [scene] map = "
-         "\"...\"; rovernet scene shows a map alone"},
+        a_map,
         {".inc", "a part of a Stage world; expected the world that includes it (.world)"},
         {".db", "a study's store, not a scenario; rovernet results shows what is in it"},
         {".tr", "a trace, not a scenario; rovernet trace stats shows its metrics"},
@@ -54,6 +58,7 @@ void refuse_others(const std::string& path) {
                                      "Stage world that it names: {}",
                                      world_of(path)));
     }
+    if (is_image_name(path)) throw InputError(Location{path}, std::string(a_map.what));
     for (const Kind& kind : kinds) {
         for (auto at = kind.endings.find(ending); at != kind.endings.npos;
              at = kind.endings.find(ending, at + 1)) {
@@ -74,20 +79,56 @@ Value world_alone(const std::string& path) {
     return document;
 }
 
-/// A movement file tells itself by its first sign that is no comment: `$`, `<`, a digit or gzip's
-/// mark; a TOML file begins with a letter, a quote or a bracket.
-bool is_movement(const std::string& path) {
-    if (fs::path(path).extension() == ".toml" || input_kind(path) != InputKind::file) return false;
-    std::ifstream file(path, std::ios::binary);
+/// Whether a line that begins with a letter is one of Tcl: `set NAME VALUE`, not `set = VALUE`.
+bool is_tcl(std::istream& line) {
+    std::string first, second;
+    line >> first >> second;
+    return first == "set" && !second.starts_with('=');
+}
+
+/// Whether the file is compressed, or in an unsupported encoding; then the content decides, or the
+/// reader of movement files reports the error.
+bool is_packed(std::istream& file) {
+    constexpr std::string_view marks[] = {{"\x1f", 1}, "\x28\xb5\x2f\xfd", "\xfd\x37zXZ",
+                                          "BZh",       "7z\xbc\xaf",       "PK\x03\x04",
+                                          "\xff\xfe",  "\xfe\xff"};
+    std::string begin(6, '\0');
+    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    file.clear();
+    file.seekg(0);
+    return std::any_of(std::begin(marks), std::end(marks),
+                       [&](std::string_view mark) { return begin.starts_with(mark); });
+}
+
+/// Skips blanks and comments. @return the first other character; 0 at the end
+char first_sign(std::istream& file) {
     for (char c = 0; file.get(c);) {
         if (c == '#') {
             std::string comment;
             std::getline(file, comment);
         } else if (c != ' ' && c != '\t' && c != '\r' && c != '\n') {
-            return c == '$' || c == '<' || c == '-' || (c >= '0' && c <= '9') || c == '\x1f';
+            file.unget();
+            return c;
         }
     }
-    return false;
+    return 0;
+}
+
+/// Whether the file begins with a Tcl variable, like a script that contains movements.
+bool begins_as_tcl(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return first_sign(file) == 's' && is_tcl(file);
+}
+
+/// Whether a file is a movement file: by its name (.tcl), or by its first character outside
+/// comments: `$`, `<`, a digit, `set` or the magic number of a compressed file. A TOML file begins
+/// with a letter, a quote or a bracket.
+bool is_movement(const std::string& path) {
+    if (fs::path(path).extension() == ".toml" || input_kind(path) != InputKind::file) return false;
+    std::ifstream file(path, std::ios::binary);
+    if (is_packed(file) || fs::path(path).extension() == ".tcl") return true;
+    const char c = first_sign(file);
+    return c == '$' || c == '<' || c == '-' || (c >= '0' && c <= '9') || begins_as_tcl(path);
 }
 
 /// A movement file alone, as the document of a scenario that lasts as long.
@@ -103,6 +144,7 @@ Value movement_alone(const std::string& path) {
                         seconds(end - start_of_run)));
     }
     movement.set("file", fs::path(path).filename().string());
+    if (begins_as_tcl(path)) movement.set("syntax", "tolerant");
     scenario.set("name", fs::path(path).stem().string());
     scenario.set("duration", to_value(std::max(end - start_of_run, Duration{1'000'000'000})));
     document.set("scenario", std::move(scenario));
@@ -119,7 +161,7 @@ void append(Value& scene, std::string_view key, const std::vector<std::string>& 
     scene.table()->set(key, std::move(list));
 }
 
-/// Adds what the command line says about worlds, as keys of [scene].
+/// Adds the world options of the command line as keys of [scene].
 void apply_world_options(Table& document, const ScenarioOptions& options, const fs::path& folder) {
     Value* scene = document.find("scene");
     if (!scene || !scene->table() || !scene->table()->find("world")) return;
@@ -132,7 +174,7 @@ void apply_world_options(Table& document, const ScenarioOptions& options, const 
     if (options.lenient) scene->table()->set("lenient", true);
 }
 
-/// Lays a table over another: what both have is the upper's, tables within likewise.
+/// Merges a table into another one: its values win, recursively in nested tables.
 void lay_over(Table& lower, const Table& upper) {
     for (const Entry& entry : upper.entries) {
         Value* old = lower.find(entry.key);
@@ -149,8 +191,8 @@ const std::string* name_in(const Value& robot) {
     return name ? name->string() : nullptr;
 }
 
-/// The world's robots, each with the document's keys of the same name over its own, then the rest
-/// of the document's.
+/// Robots of the world, each overridden by the document's robot of the same name, then the other
+/// robots of the document.
 Array merged_robots(const Array& of_world, const Array& of_document) {
     Array all = of_world;
     for (const Value& robot : of_document) {
@@ -170,7 +212,7 @@ Array merged_robots(const Array& of_world, const Array& of_document) {
     return all;
 }
 
-/// Puts what the world says under what the document says.
+/// Merges the values of the world into the document; values of the document win.
 void add_world(Table& document, const Table& world) {
     Table all = world;
     const Value* below = world.find("robot");
@@ -198,7 +240,7 @@ ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& optio
     : ScenarioFile(document_of(path), path, options) {}
 
 ScenarioFile::ScenarioFile(Value document, const std::string& path, const ScenarioOptions& options)
-    : path_(path), document_(std::move(document)) {
+    : path_(path), document_(std::move(document)), needs_robots_(options.needs_robots) {
     if (!document_.table()) {
         throw InputError(document_.where, fmt::format("found {}; expected a table of tables",
                                                       document_.description()));
@@ -225,7 +267,7 @@ Scenario ScenarioFile::scenario(const Table& settings) const {
         set_value(document, entry.key, entry.value, entry.key_where);
     }
     std::vector<std::string> notices = notices_;
-    Scenario scenario = read_scenario(document, path_);
+    Scenario scenario = read_scenario(document, path_, needs_robots_);
     if (world_) scenario.walls = load_walls(scenario.scene, path_, *world_, notices);
     scenario.notices.insert(scenario.notices.begin(), notices.begin(), notices.end());
     return scenario;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/scenario.hpp"
-
-#include <fmt/format.h>
+#include "scenario/tables/reader.hpp"
 
 namespace rovernet {
 namespace {

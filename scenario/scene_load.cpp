@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "files/input_file.hpp"
-#include "scenario/scene_table.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scene_table.hpp"
 #include "scene/doors.hpp"
 #include "scene/occupancy.hpp"
 #include "scene/stage/stage_walls.hpp"
@@ -35,7 +35,8 @@ std::vector<MaterialTable> sidecar(const fs::path& map) {
     return read_scene(Value(std::move(scene))).materials;
 }
 
-OccupancyGrid load_grid(const FloorTable& floor, const fs::path& path) {
+OccupancyGrid load_grid(const FloorTable& floor, const fs::path& path,
+                        std::vector<std::string>& notices) {
     const auto extension = path.extension();
     const bool yaml = extension == ".yaml" || extension == ".yml";
     if (yaml && floor.size) {
@@ -48,7 +49,7 @@ OccupancyGrid load_grid(const FloorTable& floor, const fs::path& path) {
                                      "map.yaml, or also size = [\"40 m\", \"20 m\"]",
                                      floor.map));
     }
-    if (yaml) return read_ros_map(path.string());
+    if (yaml) return read_ros_map(path.string(), notices);
     const auto size = floor.size.value_or(std::vector<Meters>{{1}, {1}});
     return image_map(path.string(), size[0], size[1]);
 }
@@ -58,7 +59,8 @@ struct Pixels {
     std::size_t all = 0, walls = 0;
 };
 
-/// Notices a material that no wall is made of, or not all of its pixels: it was meant otherwise.
+/// Adds a notice about a material without walls, or with pixels that are no wall: probably a
+/// mistake.
 void note_pixels(const MaterialTable& material, Pixels pixels, std::string_view map,
                  std::vector<std::string>& notices) {
     if (pixels.walls == pixels.all && pixels.all > 0) return;
@@ -89,7 +91,7 @@ class Palette {
         append(of_scenario);
     }
 
-    /// Gives each wall of a map the first material that has its grey level; 0 is the usual one.
+    /// Gives each wall of a map the first material with its grey level; 0 is the default material.
     /// @param name  of the map, for notices
     void paint(OccupancyGrid& grid, const fs::path& map, const std::string& name);
     /// Materials by their numbers.
@@ -213,8 +215,14 @@ std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string
     std::vector<Material> ceilings;
     for (const FloorTable& floor : floors) {
         const fs::path path = fs::path(file).parent_path() / floor.map;
+        if (const auto beside = named_beside(fs::path(file).parent_path().string(), floor.map);
+            !beside.empty())
+            throw InputError(floor.map_where,
+                             fmt::format("map: no file \"{}\"; \"{}\" lies beside this file; write "
+                                         "map = \"{}\"",
+                                         floor.map, beside, beside));
         located_map(floor.map_where, [&] {
-            maps.push_back(load_grid(floor, path));
+            maps.push_back(load_grid(floor, path, notices));
             maps.back().origin.z = floor.height.value;
             palette.paint(maps.back(), path, floor.map);
         });

@@ -77,7 +77,7 @@ void check_size(const SceneTable& scene, TableReader& table) {
     check_map_size(*scene.size, where);
 }
 
-/// Checks that nothing else says what the floors say.
+/// Checks that no other key of [scene] contradicts the floors.
 void check_floors(const SceneTable& scene, TableReader& table) {
     if (scene.floors.empty()) return;
     for (const char* key : {"map", "size", "world", "floor_height"}) {

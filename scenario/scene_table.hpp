@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scenario/document/value.hpp"
 #include "scenario/door_table.hpp"
 #include "scenario/floor_table.hpp"
-#include "scenario/document/value.hpp"
 #include "scene/doors.hpp"
 #include "scene/materials/material.hpp"
 #include "scene/scene.hpp"
@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-// Maps, worlds and their materials as a scenario file gives them, and the scenes that they make:
+// Maps, Stage worlds and materials in a scenario file, and the scenes made of them:
 //
 //     [scene]
 //     map = "office.png"
@@ -29,25 +29,26 @@
 
 namespace rovernet {
 
-/// [scene.materials] NAME = { ... }: what walls of a grey level or a colour are made of. Its loss
-/// is given by `per_crossing` and `per_metre`, which add up, or by `itu` and `thickness`.
+/// [scene.materials] NAME = { ... }: the material of walls of a grey level or a colour. Its loss is
+/// the sum of `per_crossing` and `per_metre`, or follows from `itu` and `thickness`.
 struct MaterialTable {
-    /// Grey level of its walls in a map: mean of red, green and blue, 0 ... 255; or `greys`.
+    /// Grey level of walls of this material in a map: mean of red, green and blue, 0 ... 255; none:
+    /// `greys` or `color` is given, or only doors have this material.
     std::optional<int> grey;
-    /// Grey levels of its walls in a map, first and last.
+    /// First and last grey level of walls of this material in a map.
     std::optional<std::vector<int>> greys;
-    /// Colour of its walls in a Stage world.
+    /// Colour of walls of this material in a Stage world.
     std::optional<std::string> color;
-    /// Loss of a wall [dB], however thick.
+    /// Loss of a wall [dB], whatever its thickness.
     std::optional<Db> per_crossing;
-    /// Loss per length inside [dB/m].
+    /// Loss per length of path inside a wall [dB/m].
     std::optional<DbPerMeter> per_metre;
-    /// Material of ITU-R P.2040 of which each wall is a slab, of `thickness` [m].
+    /// ITU-R P.2040 material: each wall is a slab of it, `thickness` [m] thick.
     std::optional<ItuMaterial> itu;
     std::optional<Meters> thickness;
-    /// Height of its walls [m]; none: [scene] wall_height.
+    /// Height of walls of this material [m]; none: [scene] wall_height.
     std::optional<Meters> height;
-    /// Name, the table's key, and its place.
+    /// Name of the material (key of the table), and file position of the table.
     std::string name = {};
     Location where = {};
 
@@ -63,16 +64,16 @@ struct MaterialTable {
             field("thickness", &MaterialTable::thickness, positive, "of the slab"),
             field("height", &MaterialTable::height, positive, "of its walls"));
     }
-    /// Whether it says which walls are made of it; else it is for doors.
+    /// Whether walls of the map or world use this material; otherwise only doors do.
     bool has_walls() const { return grey || greys || color; }
-    /// Whether walls of this grey level are made of it.
+    /// Whether walls of this grey level have this material.
     bool has_grey(int level) const {
         return grey == level || (greys && (*greys)[0] <= level && level <= (*greys)[1]);
     }
 };
 
-/// [scene]: the map, the floors or the Stage world, and what their walls are made of. Without any
-/// it is an open field.
+/// [scene]: the map, the floors or the Stage world, and the materials of walls. Without these the
+/// scene is an open field.
 struct SceneTable {
     /// ROS map.yaml, or a picture with a `size`; relative to the scenario file.
     std::optional<std::string> map;
@@ -80,32 +81,32 @@ struct SceneTable {
     std::optional<std::vector<Meters>> size;
     /// Floors of a building of several storeys, from the lowest up; instead of a map.
     std::vector<FloorTable> floors = {};
-    /// Stage world, instead of a map; its robots join those of the file.
+    /// Stage world, instead of a map; its robots are added to those of the scenario file.
     std::optional<std::string> world;
-    /// Folders where includes and bitmaps of the world are looked for, too; bitmaps by other names,
-    /// "OLD=NEW"; a missing one is a notice.
+    /// Further folders to search for includes and bitmaps of the Stage world; replacements of
+    /// bitmaps, "OLD=NEW"; true if a missing file is a notice.
     std::optional<std::vector<std::string>> world_path;
     std::optional<std::vector<std::string>> bitmaps;
     bool lenient = false;
-    /// Height of one storey [m], for losses by floor; none: there is one storey, or `floors`.
+    /// Height of one storey [m], for floor losses; none: one storey, or heights given by `floors`.
     std::optional<Meters> floor_height;
-    /// Height [m] of walls whose material has none, above their floor; none: endless, or up to the
-    /// ceiling.
+    /// Height [m] above the floor of walls whose material gives no height; none: infinite, or up to
+    /// the ceiling.
     std::optional<Meters> wall_height;
-    /// Materials in their order: the first that fits a wall counts.
+    /// Materials in the order of the file: the first match decides the material of a wall.
     std::vector<MaterialTable> materials = {};
     /// Doors, in the order of the file.
     std::vector<DoorTable> doors = {};
-    /// Place of the key `map` or `world`.
+    /// File position of the key `map` or `world`, for error messages.
     Location map_where = {};
 
-    /// Whether it has maps: one, or those of floors.
+    /// Whether the scene has a map, or floors with maps.
     bool has_maps() const { return map || !floors.empty(); }
 
     static constexpr auto fields() {
         return describe(
             field("map", &SceneTable::map,
-                  "ROS map.yaml, or a PNG or PGM with a size; relative to the scenario file"),
+                  "ROS map.yaml, or a picture with a size; relative to the scenario file"),
             field("size", &SceneTable::size, "width and height of a picture used as a map"),
             field("world", &SceneTable::world, "Stage world file, instead of a map"),
             field("world_path", &SceneTable::world_path,
@@ -121,42 +122,43 @@ struct SceneTable {
     }
 };
 
-/// Reads [scene]; the map itself is not looked at.
+/// Reads [scene]; does not load the map.
 /// @throws InputError at the first mistake
 SceneTable read_scene(const Value& value);
-/// Table that reads back as the same scene, with every default but `lenient`.
+/// Table from which read_scene() reads the same scene, with every default but `lenient`.
 Table scene_document(const SceneTable& scene);
 
-/// Options with which the scene's world is to be read.
-/// @param file  scenario file, whose folder theirs are relative to
+/// Options for reading the Stage world of the scene.
+/// @param file  scenario file; the folders are relative to its folder
 WorldOptions world_options(const SceneTable& scene, const std::string& file);
 
 /// Scene of the map or of the floors; null for an open field. A file NAME.materials.toml beside a
-/// map has materials of that map, too, which come after those of the scenario.
-/// @param file     scenario file, whose folder the maps are relative to
-/// @param notices  appended: materials that make no wall, though a map has their grey
-/// @throws InputError naming the scenario's line, then the map's own error
+/// map adds materials for that map, after the scenario's materials.
+/// @param file     scenario file; maps are relative to its folder
+/// @param notices  receives notices about materials that no wall has although a map has their grey
+/// level
+/// @throws InputError at the line of the scenario, followed by the error of the map
 std::shared_ptr<const Scene> load_map(const SceneTable& scene, const std::string& file,
                                       std::vector<std::string>& notices);
 
-/// Scene of the walls of the scene's world; null if it has none.
-/// @param world    the world, which is read already
-/// @param notices  appended
-/// @throws InputError with its place in the world
+/// Scene of the walls of a Stage world; null if the world has no walls.
+/// @param world    the Stage world, already read
+/// @param notices  receives notices about the world's walls
+/// @throws InputError with the position in the world file
 std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::string& file,
                                         const WorldFile& world, std::vector<std::string>& notices);
 
-/// Doors of a scene, with what they are made of.
+/// Doors of a scene, with their materials.
 std::vector<Door> doors_of(const SceneTable& scene);
-/// Changes of a scene by its doors; none if it has none.
-/// @param open  what load_map() or load_walls() gave
+/// Changes of a scene's walls when its doors open and close; empty without doors.
+/// @param open  scene with all doors open, from load_map() or load_walls()
 /// @throws InputError for a door that lies off the map, or on two storeys
 std::vector<SceneChange> load_doors(const SceneTable& scene,
                                     const std::shared_ptr<const Scene>& open);
 
-/// Refuses doors where links are looked at in one scene.
-/// @param who  command or method that does, for the message
-/// @throws InputError at the first door, if there is one
+/// Rejects a scene with doors, for commands that examine links in a fixed scene.
+/// @param who  command or method, for the message
+/// @throws InputError at the first door
 void refuse_doors(const SceneTable& scene, std::string_view who);
 
 }  // namespace rovernet

@@ -4,6 +4,7 @@
 #include "files/text_source.hpp"
 #include "files/word.hpp"
 #include "scenario/document/located.hpp"
+#include "scenario/tables/reader.hpp"
 
 #include <fmt/format.h>
 
@@ -226,8 +227,7 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     const auto from = agents_.find(app.agent);
     if (from == agents_.end()) fault("is on no agent, expected attach-agent");
     const auto to = agents_.find(from->second.peer);
-    if (!from->second.sends || to == agents_.end())
-        fault("has nobody to send to, expected connect");
+    if (!from->second.sends || to == agents_.end()) fault("has no destination; expected connect");
     if (!from->second.node || !to->second.node) fault("is on no node, expected $ns_ attach-agent");
     constexpr double most = std::numeric_limits<int>::max();
     TrafficTable flow;

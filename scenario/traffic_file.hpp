@@ -8,12 +8,12 @@
 
 namespace rovernet {
 
-/// Flows of an ns-2 traffic file, and what a person should know of them.
+/// Flows of an ns-2 traffic file, and notices about them.
 struct TrafficFile {
-    /// Unicasts between n0, n1, ... in the order in which the file makes their applications;
-    /// without names.
+    /// Unicast flows between robots n0, n1, ..., in the order in which the file creates their
+    /// applications; without names.
     std::vector<TrafficTable> flows;
-    /// Notices: that intervals are not drawn as ns-2 would.
+    /// Notices to the user: where intervals are random in ns-2 but not here.
     std::vector<std::string> notices;
 };
 
@@ -31,13 +31,13 @@ struct TrafficFile {
 ///   $ns_ connect $udp_(0) $null_(0)
 ///   $ns_ at 2.5 "$cbr_(0) start"
 ///
-/// Its packetSize_ (210 B), interval_ or rate_ (448 kb/s) and maxpkts_ count; defaults are those of
-/// ns-2.35. Flows that nothing starts are left out. The first packet goes out at the start, none at
-/// or after the stop.
-/// @throws InputError with file, line and column for what is none of that, such as TCP
+/// packetSize_ (default 210 B), interval_ or rate_ (448 kb/s) and maxpkts_ are read; the defaults
+/// are those of ns-2.35. Flows that are never started are omitted. The first packet is sent at the
+/// start, none at or after the stop.
+/// @throws InputError with file, line and column for any other statement, such as TCP
 TrafficFile read_traffic_file(const std::string& path);
 
-/// Adds the flows of the file that `value`, a table with the key `file`, names: [traffic] file =
+/// Adds the flows of a traffic file. `value` is a table with the key `file`: [traffic] file =
 /// "cbr.tcl". The path is relative to the scenario file.
 /// @throws InputError as read_traffic_file(), or at the key if the file cannot be read
 void read_flows(const Value& value, Scenario& out);

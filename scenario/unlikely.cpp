@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/unlikely.hpp"
 
+#include "models/propagation/disc.hpp"
 #include "models/propagation/ray_materials.hpp"
 #include "models/propagation/rays.hpp"
 #include "models/propagation/raytrace_2007.hpp"
+#include "scenario/affected.hpp"
 #include "scenario/document/quantity.hpp"
+#include "scenario/equal_starts.hpp"
 #include "scene/faces.hpp"
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"
@@ -27,7 +30,7 @@ void check_sensitivity(const Radio& radio, const RadioPlaces& places) {
     const double dbm = radio.sensitivity.value;
     if (dbm <= 0) return;
     throw InputError(places.sensitivity,
-                     fmt::format("sensitivity: found {0} dBm, with which a receiver hears nobody; "
+                     fmt::format("sensitivity: found {0} dBm, with which a receiver gets nothing; "
                                  "expected at most 0 dBm; did you mean \"-{0} dBm\"?",
                                  dbm));
 }
@@ -79,24 +82,6 @@ Vec3 on_map(const Scene& scene, Vec3 p) {
     return {std::clamp(p.x, low.x, high.x), std::clamp(p.y, low.y, high.y), p.z};
 }
 
-/// Robots that one notice is about: the first one in words, the others counted.
-struct Affected {
-    std::string first;
-    std::size_t others = 0;
-
-    void add(const auto& words) {
-        if (first.empty()) {
-            first = words();
-        } else {
-            ++others;
-        }
-    }
-    void note(std::vector<std::string>& notices) const {
-        if (first.empty()) return;
-        add_notice(notices, others == 0 ? first : fmt::format("{}; and {} more", first, others));
-    }
-};
-
 /// Every place where the robot may start, as far as the file says it.
 void for_each_start(const RobotTable& robot, const auto& visit) {
     if (robot.at) visit(*robot.at, robot.at_where);
@@ -138,6 +123,13 @@ void for_each_used_model(const Scenario& scenario, Look look) {
 
 }  // namespace
 
+void refuse_disc(const Propagation& model, const Location& where, std::string_view who) {
+    if (!model.as<Disc>()) return;
+    throw InputError(where, fmt::format("\"disc\" has no levels, which {} looks at; expected "
+                                        "another propagation model",
+                                        who));
+}
+
 void add_notice(std::vector<std::string>& notices, std::string notice) {
     if (std::find(notices.begin(), notices.end(), notice) != notices.end()) return;
     notices.push_back(std::move(notice));
@@ -160,6 +152,7 @@ void note_unlikely(Scenario& scenario) {
         }
     }
     note_payloads(scenario);
+    note_equal_starts(scenario);
 }
 
 void note_own_models(Scenario& scenario) {
@@ -198,7 +191,7 @@ void note_places(Scenario& scenario, const Scene* scene) {
                     shown(storey.upper_right()));
             });
         });
-        if (!scenario.scene.lenient || !robot.at) continue;
+        if (!scenario.scene.world || !robot.at) continue;  // a map refuses it
         if (scene->clearance(*robot.at) >= robot.radius.value) continue;
         in_walls.add([&] {
             return fmt::format(

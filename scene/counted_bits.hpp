@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Set of whole numbers that tells at once how many of its members are below a number: a bit for
-/// each number, and a count for every 64 of them.
+/// Set of non-negative integers that counts its members below a number in constant time: a bit for
+/// each integer, and a count for every 64 of them.
 class CountedBits {
   public:
     CountedBits() = default;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "scene/doors.hpp"
 
+#include "scene/closed_doors.hpp"
 #include "scene/map_frame.hpp"
 #include "scene/occupancy.hpp"
+#include "scene/scene.hpp"
 #include "scene/wall_index.hpp"
 #include "sim/math.hpp"
 
@@ -17,7 +19,7 @@
 namespace rovernet {
 namespace {
 
-/// Last of the times by `t`; before all of them: -1 ns.
+/// Last of the times at or before `t`; -1 ns if there is none.
 Duration last_of(const std::vector<Duration>& times, Duration t) {
     Duration last{-1};
     for (const Duration each : times) {
@@ -26,7 +28,8 @@ Duration last_of(const std::vector<Duration>& times, Duration t) {
     return last;
 }
 
-/// Map of one cell, the closed door. One along an axis is not turned: its corners are exact.
+/// Map of one cell, the closed door. For an axis-parallel door yaw is 0, so that its corners are
+/// exact.
 OccupancyGrid map_of(const Door& door, const Storeys& storeys) {
     Vec3 along = door.to - door.from, begin = door.from;
     if (along.x < 0 || (along.x == 0 && along.y < 0)) {
@@ -51,7 +54,7 @@ OccupancyGrid map_of(const Door& door, const Storeys& storeys) {
     return map;
 }
 
-/// Number of the material among `all`, which it is added to if it is not there.
+/// Index of the material in `all`; the material is appended if it is missing.
 std::uint8_t number_of(const Material& material, std::vector<Material>& all) {
     const auto found = std::find(all.begin(), all.end(), material);
     const auto number = static_cast<std::size_t>(found - all.begin());
@@ -102,7 +105,7 @@ std::optional<Vec3> ClosedDoors::stop(Vec3 a, Vec3 b, Meters radius) const {
         const double middle = 0.5 * (good + bad);
         (passable(a, a + middle * way, radius) ? good : bad) = middle;
     }
-    // A way of less than that is none: a robot that has stopped so stays.
+    // A shorter path counts as none, so that a robot that has stopped here stays.
     const double least = before / distance(a, b);
     return good > 2 * least ? a + (good - least) * way : a;
 }

@@ -23,7 +23,7 @@ bool near(Point p, Point q, double within) {
     return dx * dx + dy * dy <= within * within;
 }
 
-/// Where the lines of two sides meet; nothing if they are parallel.
+/// Intersection of the lines of two sides; empty if they are parallel.
 std::optional<Point> meeting(const OutlineSide& a, const OutlineSide& b) {
     const double cross = a.direction[0] * b.direction[1] - a.direction[1] * b.direction[0];
     if (std::abs(cross) < 1e-6) return std::nullopt;
@@ -33,7 +33,7 @@ std::optional<Point> meeting(const OutlineSide& a, const OutlineSide& b) {
     return Point{a.point[0] + t * a.direction[0], a.point[1] + t * a.direction[1]};
 }
 
-/// Where one side ends and the next begins, both near the corner of the outline between them.
+/// End of one side and start of the next, both near the corner of the outline between them.
 std::pair<Point, Point> joint(const OutlineSide& a, const OutlineSide& b, Point corner,
                               double cell) {
     if (a.deviation == 0 && b.deviation == 0) return {corner, corner};
@@ -43,7 +43,7 @@ std::pair<Point, Point> joint(const OutlineSide& a, const OutlineSide& b, Point 
     return {on_line_of(a, corner), on_line_of(b, corner)};
 }
 
-/// A map's cells by material; -1 where no wall is.
+/// Materials of a map's cells; -1 for cells that are not walls.
 class CellMaterials {
   public:
     explicit CellMaterials(std::span<const WallsOfMap> walls)
@@ -97,11 +97,11 @@ void Faces::measure(Face& face) const {
     face.thickness = ways[1];
 }
 
-/// The way through the wall behind one point of the face [m].
+/// Length of the path through the wall behind one point of the face [m].
 double Faces::thickness(const Face& face, double along) const {
     constexpr double farthest = 5;  // [m]
     const Vec3 on_face = face.from + along * (face.to - face.from);
-    // From in front of the drawn outline, which the line leaves on both sides.
+    // From a point in front of the drawn outline, which may lie on both sides of the line.
     const Vec3 begin = on_face + (face.deviation + 1e-6) * face.normal;
     const Vec3 end = on_face - farthest * face.normal;
     const double length = distance(begin, end);
@@ -191,7 +191,7 @@ std::optional<std::size_t> Faces::on_line(const Lines& map, bool upright, int li
     const double last = (upright ? map.rows : map.columns) - 1;
     const int edge = static_cast<int>(std::min(along + tolerance, last));
     const std::size_t first = map.begins.below(map.number(upright, line, 0));
-    // From the last run that begins before the point: it, or the one before, if they touch there.
+    // Start with the last run that begins before the point, or the one before, if they touch there.
     std::size_t i = map.begins.below(map.number(upright, line, edge) + 1);
     for (int tries = 0; tries < 2 && i != first; ++tries) {
         const Run& run = map.runs[--i];
@@ -212,7 +212,8 @@ std::optional<std::size_t> Faces::find(Vec3 p, std::size_t material) const {
         const CellPoint c = map.frame.to_cells(p);
         const double u = std::floor(c.u + 0.5), v = std::floor(c.v + 0.5);
         const double off_u = std::abs(c.u - u), off_v = std::abs(c.v - v);
-        // By direction, level and upright, without branches that would be mispredicted.
+        // Indexed by direction, horizontal and vertical, without branches, which would be
+        // mispredicted.
         const std::array<double, 2> line{v, u}, off{off_v, off_u}, along{c.u, c.v};
         const std::array<int, 2> last{map.rows, map.columns};
         const auto on = [&](bool upright) -> std::optional<std::size_t> {

@@ -17,81 +17,85 @@
 
 namespace rovernet {
 
-/// Straight side of a wall: a mirror for radio, upright, from the floor to a height.
+/// Straight vertical side of a wall that reflects radio waves, from the floor to a height.
 struct Face {
-    /// Ends in plan [m], z = 0; the wall is on the left of the way from `from` to `to`.
+    /// Ends of the face in plan [m], z = 0; the wall is on the left side when going from `from` to
+    /// `to`.
     Vec3 from, to;
-    /// Unit vector in plan that points out of the wall.
+    /// Unit vector in plan, pointing out of the wall.
     Vec3 normal;
-    /// Distance between the ends [m]; 0 for what is left of a side between two that cut it off.
+    /// Distance between the ends [m]; 0 if nothing of the side is left between its two neighbours.
     double length = 0;
-    /// Farthest distance from the drawn outline to the face's line [m]; 0 if it runs along cells.
+    /// Largest distance between the drawn outline and the face's line [m]; 0 if the outline follows
+    /// the grid.
     double deviation = 0;
-    /// The drawn outline climbs by two cells and more along it; if not, what deviates is a bump.
+    /// True if the drawn outline climbs by two cells or more along the face; otherwise a deviation
+    /// is only a bump.
     bool slants = false;
-    /// Thickness of the wall behind the face [m]: the median of three ways through its material,
-    /// square to the face, each to the line of the face on the other side if that is nearly
-    /// parallel; at most 5 m.
+    /// Thickness of the wall behind the face [m]: the median of three measurements perpendicular to
+    /// the face, each to the line of the opposite face if that is nearly parallel; at most 5 m.
     double thickness = 0;
-    /// Material of the wall, an index into the scene's.
+    /// Material of the wall: index into Scene::materials().
     std::size_t material = 0;
-    /// Height of the wall [m].
+    /// Height of the wall at the face [m].
     double height = std::numeric_limits<double>::infinity();
-    /// Number of the outline. Its faces stand together, in its order; after the last comes the
-    /// first.
+    /// Number of the wall outline to which the face belongs. The faces of an outline are
+    /// consecutive, in its order; the first follows the last.
     std::size_t outline = 0;
 
     /// Distance of a point in front of the face's line [m]; negative behind it.
     double in_front(Vec3 p) const { return (p.x - from.x) * normal.x + (p.y - from.y) * normal.y; }
-    /// Both are sides of one straight wall: they face away from each other within 25 degrees.
+    /// Whether both faces are sides of one straight wall: they face away from each other within 25
+    /// degrees.
     bool opposite(const Face& other) const { return dot(normal, other.normal) < -0.9; }
 };
 
-/// Walls of one material on one map, of which faces are made.
+/// Walls of one material on one map, the input for making faces.
 struct WallsOfMap {
     MapFrame frame;
-    std::shared_ptr<const WallIndex> walls;  ///< not null
-    std::size_t material;                    ///< index into the scene's materials
-    double height;                           ///< [m]
-    std::size_t map;                         ///< number of the map
+    std::shared_ptr<const WallIndex> walls;  ///< spatial index of the walls; not null
+    std::size_t material;                    ///< index into Scene::materials()
+    double height;                           ///< height of the walls [m]
+    std::size_t map;                         ///< index of the map in the scene
 };
 
-/// The walls of a scene as straight faces, each as it was drawn and not as its cells are.
+/// Walls of a scene as straight faces, which follow the drawn walls and not the cell edges.
 ///
-/// A map has a slanting wall as a stair of cells, which would reflect along its rows and columns
-/// only. A face is the straight line through a stair: see straight_sides(). Faces that follow one
-/// another meet where their lines do, if that is within 1.5 cells of the outline's corner. Walls of
-/// one map that touch have a common outline, whatever their materials; a face has one material.
-/// Floors and ceilings are no faces.
+/// A slanting wall on a map is a staircase of cells, which would reflect only along rows and
+/// columns. A face is the straight line fitted to a staircase, see straight_sides(). Consecutive
+/// faces meet where their lines intersect, if that is within 1.5 cells of the outline's corner.
+/// Touching walls of one map have one common outline, whatever their materials; a face has one
+/// material. Floors and ceilings are not faces.
 ///
-/// They are made at the first question; questions may come from several threads.
+/// Faces are computed on first use; several threads may call at once.
 class Faces {
   public:
-    /// @param walls  those of one map stand together
+    /// @param walls  walls of all maps; those of one map are consecutive
     explicit Faces(std::vector<WallsOfMap> walls) : walls_(std::move(walls)) {}
 
-    /// All faces: map by map, outline by outline.
+    /// All faces, ordered by map and outline.
     std::span<const Face> all() const { return made().faces; }
-    /// One at least stands for a stair of cells, which its line does not follow.
+    /// Whether any face replaces a staircase of cells that deviates from its line.
     bool any_stair() const { return made().any_stair; }
-    /// The face on whose drawn outline a point lies, in plan, within a millionth of a cell.
-    /// @param material  the face's
+    /// Index of the face on whose drawn outline a point lies, in plan, within a millionth of a
+    /// cell.
+    /// @param material  material of the face
     std::optional<std::size_t> at(Vec3 p, std::size_t material) const;
 
   private:
-    /// Edges of an outline in a row on one grid line.
+    /// Consecutive edges of an outline on one grid line.
     struct Run {
-        std::size_t edge;  // the first one's number
-        int end;           // behind the last one along the line [cells]
+        std::size_t edge;  // index of the first edge
+        int end;           // end behind the last edge, along the line [cells]
         std::size_t face;
     };
-    /// Edges of one map's grid between two points side by side. They are numbered, line by line: on
-    /// u = 0 ... columns, then on v = 0 ... rows.
+    /// Edges of one map's grid between neighbouring grid points, numbered line by line: first on
+    /// the columns' lines u = 0 ... columns, then on the rows' lines v = 0 ... rows.
     struct Lines {
         MapFrame frame;
         int columns, rows;
-        std::vector<Run> runs = {};  // in the order of their numbers
-        CountedBits begins = {};     // numbers of edges with which runs begin
+        std::vector<Run> runs = {};  // in ascending order of edge number
+        CountedBits begins = {};     // numbers of the first edges of runs
 
         std::size_t number(bool upright, int line, int along) const;
     };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/free_space.hpp"
 
+#include "scene/rectangles.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -9,19 +11,19 @@
 namespace rovernet {
 namespace {
 
-/// Half of what Scene::passable allows [m], so that every step found here is passable there.
+/// Half of the tolerance of Scene::passable [m], so that every step found here is passable there.
 constexpr double slack = 0.5e-9;
 
-/// Squared distance along one axis from the centre of the cell that lies `beyond` cells beyond a
-/// rectangle's side [m^2]; 0: within the rectangle's rows or columns.
+/// Squared distance along one axis [m^2] between a rectangle's side and the centre of the cell
+/// `beyond` cells outside it; 0 within the rectangle's rows or columns.
 double squared_gap(int beyond, double side) {
     const double gap = std::max(0.0, beyond - 0.5) * side;
     return gap * gap;
 }
 
-/// Cells beside a rectangle whose centres lie nearer to it than `reach` [m], row by row.
+/// Cells near a rectangle whose centres are nearer to it than `reach` [m], row by row.
 ///
-/// They depend on the row's distance from the rectangle only, so all rectangles share them.
+/// They depend only on the row's distance from the rectangle, so all rectangles share them.
 class Margin {
   public:
     Margin(const OccupancyGrid& grid, double reach) {
@@ -41,16 +43,16 @@ class Margin {
         }
     }
 
-    /// Rows above the rectangle, and below it, that have such cells.
+    /// Number of rows above and below the rectangle that have such cells.
     int rows() const { return static_cast<int>(columns_.size()) - 1; }
-    /// Columns on each side that have such cells, in the row `beyond` rows beyond the rectangle.
+    /// Number of columns on each side with such cells, in the row `beyond` rows from the rectangle.
     int columns(int beyond) const { return columns_[static_cast<std::size_t>(beyond)]; }
 
   private:
     std::vector<int> columns_;  // by `beyond`; never none: a rectangle's own cells are too near
 };
 
-/// Marks the cells whose centre is inside a rectangle or in the margin around it.
+/// Marks as not free the cells whose centre is inside a rectangle or in the margin around it.
 void take_away(std::vector<std::uint8_t>& free, const OccupancyGrid& grid, const CellRectangle& r,
                const Margin& margin) {
     const int top = std::min(r.row1 + margin.rows(), grid.rows);
@@ -63,7 +65,7 @@ void take_away(std::vector<std::uint8_t>& free, const OccupancyGrid& grid, const
     }
 }
 
-/// The steps from each cell, where `free` tells the free cells.
+/// Steps from each cell to its free neighbours.
 std::vector<std::uint8_t> steps_between(const std::vector<std::uint8_t>& free,
                                         const OccupancyGrid& grid) {
     const auto columns = static_cast<std::size_t>(grid.columns);
@@ -79,8 +81,8 @@ std::vector<std::uint8_t> steps_between(const std::vector<std::uint8_t>& free,
         const std::uint8_t* const here = bits.data() + (row + 1) * stride + 1;
         const std::uint8_t *const above = here + stride, *const below = here - stride;
         std::uint8_t* const out = steps.data() + row * columns;
-        // Seen from a rectangle of whole cells, the nearest point of the square between four
-        // centres is one of the centres. So where they are free, every way inside the square is
+        // As seen from a rectangle of whole cells, the nearest point of the square between four
+        // centres is one of the centres. So if the four are free, every path inside the square is
         // passable.
         for (std::size_t i = 0; i < columns; ++i) {
             const int east = here[i + 1], north = above[i], west = here[i - 1], south = below[i];
@@ -94,15 +96,15 @@ std::vector<std::uint8_t> steps_between(const std::vector<std::uint8_t>& free,
     return steps;
 }
 
-/// Free cells side by side in one row.
+/// Run of consecutive free cells in one row.
 struct FreeRun {
     std::size_t begin, end;  // cells
     std::size_t first;       // the run of the same part that was found first, as far as known
 };
 
-/// The free cells as runs, in order; those of each row, that of below, are joined where they touch.
+/// Free cells as runs, in order; touching runs of neighbouring rows are joined to components.
 ///
-/// Diagonal steps join nothing that straight steps do not.
+/// Diagonal steps join no components that straight steps do not.
 class FreeRuns {
   public:
     FreeRuns(const std::vector<std::uint8_t>& free, std::size_t columns) {
@@ -114,7 +116,7 @@ class FreeRuns {
         }
     }
 
-    /// Numbers the parts in the order of their first cells.
+    /// Numbers the components in the order of their first cells.
     void number_parts(std::vector<std::int32_t>& part) const {
         std::vector<std::int32_t> numbers(runs_.size());
         std::int32_t next = 0;
@@ -142,7 +144,7 @@ class FreeRuns {
         }
     }
 
-    /// Joins the runs from `row` on with those of the row below, which are from `below` on.
+    /// Joins the runs from `row` on with the runs of the row below, which start at `below`.
     void join_rows(std::size_t below, std::size_t row, std::size_t columns) {
         for (std::size_t low = below, high = row; low < row && high < runs_.size();) {
             const std::size_t begin = runs_[low].begin + columns, end = runs_[low].end + columns;

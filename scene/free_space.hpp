@@ -10,28 +10,30 @@
 
 namespace rovernet {
 
-/// A step from a cell to one of its 8 neighbours.
+/// Step from a cell to one of its 8 neighbours.
 struct CellStep {
     int column;
     int row;
 };
-/// The neighbours counter-clockwise from the right; opposite steps differ by 4.
+/// Steps to the neighbours, counter-clockwise from the right; the indices of opposite steps differ
+/// by 4.
 inline constexpr std::array<CellStep, 8> cell_steps{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-/// The cells of a map where a round robot may stand, and the steps that it may take between them.
+/// Cells of a map where a round robot may stand, and allowed steps between them.
 struct FreeSpace {
-    /// @param radius  [m], >= 0
+    /// @param radius  radius of the robot [m], >= 0
     FreeSpace(const Scene& scene, Meters radius);
 
-    /// Flag of each cell, rows from the bottom: 1 if the centre keeps the radius from every
-    /// obstacle.
+    /// Flag of each cell, rows from the bottom: 1 if the distance of the cell's centre to every
+    /// obstacle is at least the radius.
     std::vector<std::uint8_t> free;
-    /// Bits of each cell: bit d is set if the robot may go straight to the centre of neighbour
-    /// cell_steps[d]. A diagonal step needs both cells beside it: no corner is cut.
+    /// Step bits of each cell: bit d is set if the robot may move straight to the centre of
+    /// neighbour cell_steps[d]. A diagonal step needs both adjacent cells to be free, so no corner
+    /// is cut.
     std::vector<std::uint8_t> steps;
-    /// Number of each cell: that of the part of the map that steps join it to; -1 if it is not
-    /// free.
+    /// Component number of each cell: cells connected by steps share a number; -1 if the cell is
+    /// not free.
     std::vector<std::int32_t> part;
 };
 

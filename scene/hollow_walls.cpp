@@ -2,7 +2,6 @@
 #include "scene/hollow_walls.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,8 +11,8 @@ namespace {
 constexpr Meters thickest_wall{0.5};
 constexpr int widest_stroke = 2;  // [cells]
 
-/// Calls visit(column, row) for the cells on the rim of a square around a cell that lie on the map,
-/// until it answers true. @return whether it did
+/// Calls visit(column, row) for the cells on the border of a square around a cell, within the map,
+/// until it returns true. @return whether it did
 template <class Visit>
 bool any_on_rim(const CellMap& map, int column, int row, int steps, Visit visit) {
     const auto ask = [&](int i, int j) {
@@ -26,7 +25,7 @@ bool any_on_rim(const CellMap& map, int column, int row, int steps, Visit visit)
     return false;
 }
 
-/// Walks through the areas of a map that are not solid.
+/// Enumerates the areas of a map that are not solid.
 class Areas {
   public:
     Areas(const CellMap& map, Meters widest)
@@ -34,12 +33,12 @@ class Areas {
           most_steps_(static_cast<int>((widest.value / map.cell + 1) / 2 + 1e-9)),
           seen_(map.solid) {}
 
-    /// The next cell of which no area was made; false if there is none.
+    /// Finds the next cell without an area; false if there is none.
     bool next() {
         while (first_ < seen_.size() && seen_[first_]) ++first_;
         return first_ < seen_.size();
     }
-    /// Area of that cell; whether walls enclose it, and it is narrow.
+    /// Determines the area of that cell, and whether it is enclosed and narrow.
     bool is_hollow() {
         cells_.assign(1, first_);
         seen_[first_] = true;
@@ -87,8 +86,8 @@ class Areas {
     std::vector<std::size_t> cells_;
 };
 
-/// Whether most of the solid cells around an area are no farther than a stroke from what lies
-/// beyond. @param area  by cell; others are not of the area
+/// Whether for most of the solid cells around an area the far side of the wall is at most a stroke
+/// away. @param area  by cell; others are not of the area
 bool is_outlined(const CellMap& map, std::span<const std::size_t> cells,
                  const std::vector<bool>& area) {
     const auto columns = static_cast<std::size_t>(map.columns);

@@ -14,11 +14,11 @@
 
 namespace rovernet {
 
-/// Cells of a map, row by row.
+/// Solid and free cells of a map, row by row.
 struct CellMap {
     int columns, rows;
-    double cell;              ///< side of a cell, the longer one [m]
-    std::vector<bool> solid;  ///< columns * rows
+    double cell;              ///< longer side of a cell [m]
+    std::vector<bool> solid;  ///< true for solid cells; columns * rows
 
     bool is_solid(int column, int row) const {
         return solid[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -26,24 +26,25 @@ struct CellMap {
     }
 };
 
-/// Calls visit(cells) for each area that walls enclose and that is nowhere wider than `widest`, to
-/// a cell. Cells of an area touch by their sides; walls that touch at a corner enclose.
+/// Calls visit(cells) for each free area that is enclosed by walls and nowhere wider than `widest`,
+/// to within a cell. Cells of an area are connected by their sides; walls that touch only at a
+/// corner also enclose.
 void for_each_hollow(const CellMap& map, Meters widest,
                      const std::function<void(std::span<const std::size_t> cells)>& visit);
 
-/// Insides of the walls that a map has as outlines: areas that walls enclose, so narrow that the
-/// wall is at most half a metre thick, most of whose border is a stroke of one or two cells.
+/// Interiors of walls that a map draws as outlines: enclosed areas so narrow that the wall is at
+/// most half a metre thick, and whose border is mostly a line one or two cells wide.
 ///
-/// A cavity between two walls of three cells and more is none, and neither is a slot that is open
-/// at an end. They are looked for at the first question; questions may come from several threads.
+/// A cavity between two walls of three or more cells is not an interior, and neither is a slot open
+/// at one end. The interiors are found on first use; several threads may call at once.
 class HollowWalls {
   public:
-    /// @param walls  of all materials on the map; none is null
+    /// @param walls  walls of all materials on the map; none is null
     HollowWalls(const MapFrame& frame, std::vector<std::shared_ptr<const WallIndex>> walls);
 
-    /// There is one at least.
+    /// Whether the map has any hollow wall.
     bool any() const { return !cells().empty(); }
-    /// The cell is the inside of a wall.
+    /// Whether the cell is in the interior of a wall.
     bool holds(int column, int row) const;
     bool holds(CellPoint p) const;
 
@@ -51,7 +52,7 @@ class HollowWalls {
     const std::vector<bool>& cells() const;
     void find() const;
 
-    double cell_;  // side, the longer one [m]
+    double cell_;  // longer side of a cell [m]
     std::vector<std::shared_ptr<const WallIndex>> walls_;
     mutable Once found_;
     mutable std::vector<bool> cells_;  // by row and column; empty if there are none

@@ -9,18 +9,18 @@
 
 namespace rovernet {
 
-/// A point of the map in cells: u along the rows, v along the columns; cell (0, 0) is [0,1) x
-/// [0,1).
+/// Point on the map in units of cells: u along the rows, v along the columns; cell (0, 0) is [0,1)
+/// x [0,1).
 struct CellPoint {
     double u = 0;
     double v = 0;
     friend constexpr bool operator==(CellPoint, CellPoint) = default;
 };
 
-/// Coordinates nearer to a grid line than this [cells] lie on it; lengths below it are none.
+/// Tolerance [cells]: coordinates nearer to a grid line lie on it, shorter lengths count as 0.
 inline constexpr double cell_tolerance = 1e-9;
 
-/// The map's place in the world: turns metres into cells and back.
+/// Placement of a map in the world: converts metres to cells and back.
 class MapFrame {
   public:
     MapFrame() = default;
@@ -34,25 +34,25 @@ class MapFrame {
         cosine_ = cosine;
     }
 
-    /// Point in cells. A coordinate within cell_tolerance of a grid line is put on it, so that
-    /// decimals such as 0.15 m in cells of 0.05 m mean what they say.
+    /// Point in units of cells. A coordinate within cell_tolerance of a grid line is moved onto it,
+    /// so that decimals such as 0.15 m in cells of 0.05 m are exact.
     CellPoint to_cells(Vec3 p) const {
         const double x = p.x - origin_.x;
         const double y = p.y - origin_.y;
         return {snap((cosine_ * x + sine_ * y) / cell_width_),
                 snap((cosine_ * y - sine_ * x) / cell_height_)};
     }
-    /// Point in metres, at height z [m].
+    /// Point in the world [m], at height z [m].
     Vec3 to_world(CellPoint p, double z = 0) const {
         const double x = p.u * cell_width_;
         const double y = p.v * cell_height_;
         return {origin_.x + (cosine_ * x - sine_ * y), origin_.y + (sine_ * x + cosine_ * y), z};
     }
-    double floor() const { return origin_.z; }  ///< height on which the map lies [m]
-    double yaw() const { return yaw_; }         ///< direction of its rows [rad], counter-clockwise
-    double cell_width() const { return cell_width_; }    ///< [m]
-    double cell_height() const { return cell_height_; }  ///< [m]
-    /// A map in this place, all of whose cells are free.
+    double floor() const { return origin_.z; }  ///< height of the map's floor [m]
+    double yaw() const { return yaw_; }  ///< direction of the map's rows [rad], counter-clockwise
+    double cell_width() const { return cell_width_; }    ///< width of a cell [m]
+    double cell_height() const { return cell_height_; }  ///< height of a cell [m]
+    /// Map with this placement, with all cells free.
     OccupancyGrid map(int columns, int rows) const;
 
   private:

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <utility>
 
 namespace rovernet {
 namespace {
 
-/// Distances are compared with a radius this generously [m]: touching is allowed.
+/// Tolerance for comparing distances with a radius [m]: touching is allowed.
 constexpr double touching = 1e-9;
 
 /// A rectangle in the map's own axes [m].
@@ -36,7 +35,7 @@ double squared_distance(Vec3 p, const Box& box) {
     return dx * dx + dy * dy;
 }
 
-/// From the point to the segment a-b.
+/// Squared distance from the point to the segment a-b.
 double squared_distance(Vec3 p, Vec3 a, Vec3 b) {
     const Vec3 along = b - a;
     const double squared_length = dot(along, along);
@@ -44,7 +43,8 @@ double squared_distance(Vec3 p, Vec3 a, Vec3 b) {
     return squared_distance(p, a + std::clamp(t, 0.0, 1.0) * along);
 }
 
-/// From the segment a-b to a box that it does not enter: the nearest pair has a corner of one.
+/// Squared distance from the segment a-b to a box that it does not enter: the nearest pair of
+/// points includes a corner of one.
 double squared_distance(Vec3 a, Vec3 b, const Box& box) {
     double nearest = std::min(squared_distance(a, box), squared_distance(b, box));
     for (const Vec3 corner :
@@ -60,12 +60,12 @@ double nearest_in_tile(Vec3 p, std::span<const CellRectangle> tile, const MapFra
     return nearest;
 }
 
-/// The tile of a coordinate [m], or the nearest one.
+/// Tile of a coordinate [m]; the nearest tile for a coordinate outside.
 int tile_of(double x, double tile_side, int tiles) {
     return static_cast<int>(std::clamp(std::floor(x / tile_side), 0.0, tiles - 1.0));
 }
 
-/// The part of a-b with low <= y <= high, as the range of its x; a.y <= b.y.
+/// Part of a-b with low <= y <= high, as a range of x; a.y <= b.y.
 std::pair<double, double> x_range(Vec3 a, Vec3 b, double low, double high) {
     const double slope = b.y > a.y ? (b.x - a.x) / (b.y - a.y) : 0;
     const double from = low > a.y && b.y > a.y ? a.x + (low - a.y) * slope : a.x;

@@ -24,7 +24,7 @@ namespace {
 enum class Mode { trinary, scale, raw };
 
 struct RosMap {
-    std::string image;
+    std::string image;  // its path
     double resolution = 1;
     std::array<double, 3> origin{};
     double occupied_thresh = 0.65;  // the defaults of nav2's map_saver
@@ -33,10 +33,11 @@ struct RosMap {
     Mode mode = Mode::trinary;
 };
 
-/// The keys of one YAML file, with errors that say where.
+/// Keys of one YAML file; errors report the place in the file.
 class MapFile {
   public:
-    explicit MapFile(const std::string& path) : path_(path) {
+    MapFile(const std::string& path, std::vector<std::string>& notices)
+        : path_(path), notices_(notices) {
         try {
             root_ = YAML::Load(text());
         } catch (const YAML::Exception& error) {
@@ -53,9 +54,7 @@ class MapFile {
 
     RosMap read() const {
         RosMap map;
-        map.image = need<std::string>("image", "the picture's file name");
-        if (map.image.empty())
-            fail_at("image", "image \"\"; expected the picture's file name; such as \"map.png\"");
+        map.image = picture();
         map.resolution = number(need_node("resolution"), "resolution", "metres per pixel");
         if (!(map.resolution > 0))
             fail_at("resolution", fmt::format("resolution {}; expected metres per pixel > 0; "
@@ -69,6 +68,22 @@ class MapFile {
     }
 
   private:
+    /// Path of the image. The error distinguishes a wrong folder (of another machine, or `~`) from
+    /// a missing file.
+    std::string picture() const {
+        const auto name = need<std::string>("image", "the picture's file name");
+        if (name.empty())
+            fail_at("image", "image \"\"; expected the picture's file name; such as \"map.png\"");
+        const auto folder = std::filesystem::path(path_).parent_path();
+        const std::string beside = named_beside(folder.string(), name);
+        if (!beside.empty())
+            fail_at("image",
+                    fmt::format("image \"{}\"; no such file; \"{}\" lies beside this file; "
+                                "write image: {}",
+                                name, beside, beside));
+        return (folder / name).string();
+    }
+
     [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const {
         if (mark.is_null()) throw InputError(Location{path_}, message);
         throw InputError(Location{path_, mark.line + 1, mark.column + 1}, message);
@@ -97,35 +112,60 @@ class MapFile {
         return {std::istreambuf_iterator<char>(file), {}};
     }
 
-    void check_keys() const {
-        static const std::vector<std::string> keys{
-            "image", "resolution", "origin", "negate", "free_thresh", "occupied_thresh", "mode"};
+    void check_keys() {
         std::set<std::string> seen;
         for (const auto& entry : root_) {
             const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
-            if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-                std::string known;
-                for (const auto& word : keys) known += (known.empty() ? "" : ", ") + word;
-                const std::string near = did_you_mean(key, keys);
-                fail(entry.first.Mark(),
-                     fmt::format("unknown key \"{}\"; expected one of {}; {}", key, known,
-                                 near.empty() ? "remove it" : near));
-            }
             if (!seen.insert(key).second)
                 fail(entry.first.Mark(), fmt::format("key \"{}\" a second time; expected it once; "
                                                      "remove one",
                                                      key));
+            if (std::find(keys().begin(), keys().end(), key) == keys().end())
+                strangers_.emplace_back(key, entry.first.Mark());
+        }
+        for (const auto& [key, mark] : strangers_) {
+            const std::string missing = meant(key);
+            if (missing.empty())
+                note(mark, fmt::format("key \"{}\" is not one of a map, and left out", key));
+            else
+                fail(mark, fmt::format("unknown key \"{}\"; expected a key of a map; did you mean "
+                                       "\"{}\"?",
+                                       key, missing));
         }
     }
+    static const std::vector<std::string>& keys() {
+        static const std::vector<std::string> all{
+            "image", "resolution", "origin", "negate", "free_thresh", "occupied_thresh", "mode"};
+        return all;
+    }
+    /// Correct key for a misspelt one, "" if there is none: a key missing in the file that differs
+    /// from `stranger` at one place, by at most two letters.
+    std::string meant(const std::string& stranger) const {
+        constexpr std::size_t short_word = 5;  // letters: another word is as near as a slip
+        constexpr std::ptrdiff_t slip = 2;     // letters
+        for (const std::string& key : keys()) {
+            if (root_[key] || stranger.size() <= short_word) continue;
+            const auto [a, b] =
+                std::mismatch(stranger.begin(), stranger.end(), key.begin(), key.end());
+            const auto [c, d] = std::mismatch(stranger.rbegin(), std::make_reverse_iterator(a),
+                                              key.rbegin(), std::make_reverse_iterator(b));
+            if (c.base() - a <= slip && d.base() - b <= slip) return key;
+        }
+        return "";
+    }
 
-    YAML::Node need_node(const char* key) const {
+    void note(const YAML::Mark& mark, const std::string& text) const {
+        std::string notice = Location{path_, mark.line + 1, mark.column + 1}.text() + ": " + text;
+        if (std::find(notices_.begin(), notices_.end(), notice) == notices_.end())
+            notices_.push_back(std::move(notice));
+    }
+
+    YAML::Node need_node(const std::string& key) const {
         const YAML::Node node = root_[key];
-        if (!node)
-            fail(YAML::Mark::null_mark(),
-                 fmt::format(
-                     "no key \"{0}\"; expected image, resolution and origin; add \"{0}: ...\"",
-                     key));
-        return node;
+        if (node) return node;
+        fail(YAML::Mark::null_mark(),
+             fmt::format("no key \"{0}\"; expected image, resolution and origin; add \"{0}: ...\"",
+                         key));
     }
 
     template <class T>
@@ -173,11 +213,25 @@ class MapFile {
                 fail_at(key, fmt::format("{} {}; expected a number from 0 to 1; such as 0.65", key,
                                          *value));
         }
-        if (map.occupied_thresh <= map.free_thresh)
-            fail_at(root_["occupied_thresh"] ? "occupied_thresh" : "free_thresh",
-                    fmt::format("occupied_thresh {} and free_thresh {}; expected occupied_thresh > "
-                                "free_thresh; swap them?",
-                                map.occupied_thresh, map.free_thresh));
+        const YAML::Node occupied = root_["occupied_thresh"], free = root_["free_thresh"];
+        if (map.occupied_thresh > map.free_thresh || !(occupied || free)) return;
+        if (occupied && free)
+            fail(occupied.Mark(),
+                 fmt::format("occupied_thresh {} and free_thresh {}; expected occupied_thresh > "
+                             "free_thresh; swap them?",
+                             map.occupied_thresh, map.free_thresh));
+        if (occupied)
+            give_way("free_thresh", map.free_thresh, "occupied_thresh", map.occupied_thresh);
+        else
+            give_way("occupied_thresh", map.occupied_thresh, "free_thresh", map.free_thresh);
+    }
+
+    /// Adapts the default of a missing threshold to the one in the file.
+    void give_way(const char* missing, double& usual, const char* key, double given) const {
+        note(root_[key].Mark(),
+             fmt::format("no key {}, whose default {} does not go with {} {}: {} taken, too",
+                         missing, usual, key, given, given));
+        usual = given;
     }
 
     bool read_negate() const {
@@ -199,7 +253,9 @@ class MapFile {
 
     static constexpr std::uintmax_t max_bytes = 1 << 20;
     const std::string& path_;
+    std::vector<std::string>& notices_;
     YAML::Node root_;
+    std::vector<std::pair<std::string, YAML::Mark>> strangers_;  // keys that a map does not have
 };
 
 Cell by_thresholds(double occupancy, double free_thresh, double occupied_thresh) {
@@ -224,7 +280,7 @@ Cell cell_of(const Image& image, int column, int row, const RosMap& map) {
     return by_thresholds(map.negate ? shade : 1 - shade, map.free_thresh, map.occupied_thresh);
 }
 
-/// Fills the cells from the picture, bottom row first.
+/// Fills the cells from the image, bottom row first.
 template <class CellOf>
 void fill(OccupancyGrid& grid, const Image& image, CellOf cell_of_pixel) {
     grid.columns = image.width;
@@ -243,9 +299,13 @@ void fill(OccupancyGrid& grid, const Image& image, CellOf cell_of_pixel) {
 }  // namespace
 
 OccupancyGrid read_ros_map(const std::string& yaml_path) {
-    const RosMap map = MapFile(yaml_path).read();
-    const auto folder = std::filesystem::path(yaml_path).parent_path();
-    const Image image = read_image((folder / map.image).string());
+    std::vector<std::string> ignored;
+    return read_ros_map(yaml_path, ignored);
+}
+
+OccupancyGrid read_ros_map(const std::string& yaml_path, std::vector<std::string>& notices) {
+    const RosMap map = MapFile(yaml_path, notices).read();
+    const Image image = read_image(map.image);
     OccupancyGrid grid;
     grid.cell_width = grid.cell_height = map.resolution;
     grid.origin = {map.origin[0], map.origin[1], 0};

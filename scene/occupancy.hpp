@@ -11,36 +11,38 @@
 
 namespace rovernet {
 
-/// State of a cell of a map. A wall stops radio and robots; the unknown stops robots only.
+/// State of a cell of a map. An occupied cell blocks radio and robots; an unknown cell blocks only
+/// robots.
 enum class Cell : std::uint8_t { free, occupied, unknown };
 
-/// A map of equal rectangular cells, placed in the world.
+/// Map of equal rectangular cells, placed in the world.
+/// Example: examples/walls.cpp.
 struct OccupancyGrid {
     int columns = 0;
     int rows = 0;
-    double cell_width = 1;    ///< [m], > 0, along the rows
-    double cell_height = 1;   ///< [m], > 0, along the columns
+    double cell_width = 1;    ///< width of a cell, along the rows [m], > 0
+    double cell_height = 1;   ///< height of a cell, along the columns [m], > 0
     Vec3 origin{};            ///< lower-left corner of cell (0, 0) [m]
     double yaw = 0;           ///< rotation about the origin, counter-clockwise [rad]
-    std::vector<Cell> cells;  ///< columns * rows; row 0 is the bottom row
-    /// Mean of red, green and blue of each cell's pixel [0..255]; empty if there is no picture.
+    std::vector<Cell> cells;  ///< states of the cells: columns * rows; row 0 is the bottom row
+    /// Mean of red, green and blue of each cell's pixel [0..255]; empty without an image.
     std::vector<std::uint8_t> greys = {};
-    std::uint8_t material = 0;  ///< material of all walls, an index into the scene's
+    std::uint8_t material = 0;  ///< material of all walls: index into Scene::materials()
     std::vector<std::uint8_t> cell_materials =
-        {};  ///< material of each cell, instead; empty if all are one
+        {};  ///< material of each cell; empty if all have `material`
 
-    /// Material of the cell with that index; says something of walls only.
+    /// Material of the cell with that index; meaningful only for walls.
     std::uint8_t material_of(std::size_t cell) const {
         return cell_materials.empty() ? material : cell_materials[cell];
     }
-    /// The cell in that column and row; both must lie in the grid.
+    /// State of the cell in that column and row; both must lie in the grid.
     Cell at(int column, int row) const {
         return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                      static_cast<std::size_t>(column)];
     }
 };
 
-/// Reads a map of the ROS map_server: a YAML file that names a picture.
+/// Reads a map of the ROS map_server: a YAML file that names an image.
 ///
 /// Keys: image (relative to the YAML file), resolution [m per pixel], origin [x, y, yaw] of the
 /// lower-left corner [m, m, rad]; optional: occupied_thresh (0.65), free_thresh (0.25), negate (0),
@@ -49,15 +51,20 @@ struct OccupancyGrid {
 ///   trinary  an alpha channel is averaged into shade with the colours
 ///   scale    a pixel that is not opaque is unknown
 ///   raw      shade * 255, rounded, is occ in percent (negate has no effect); above 100: unknown
-/// Source: nav2_map_server, map_io.cpp (its intermediate percentages are unknown here).
-/// @throws InputError with file, line and column; an unknown key is an error
+/// Source: nav2_map_server, map_io.cpp (its intermediate percentages are unknown here). If the file
+/// gives only one threshold, the default of the other is adapted to it, so that free_thresh is at
+/// most occupied_thresh.
+/// @param notices  appended: keys that a map cannot have, "file:line:column: text"
+/// @throws InputError with file, line and column; a misspelt key is an error
+OccupancyGrid read_ros_map(const std::string& yaml_path, std::vector<std::string>& notices);
+/// Reads a ROS map and ignores its notices.
 OccupancyGrid read_ros_map(const std::string& yaml_path);
 
-/// A bare picture as a map of that size [m], both > 0, lower-left corner at (0, 0).
+/// Map from an image without a YAML file, of that size [m], both > 0, lower-left corner at (0, 0).
 ///
 /// A pixel is a wall if the mean of red, green and blue is below one half, free otherwise; a fully
 /// transparent pixel is free.
-/// @throws InputError as read_image; std::invalid_argument if a size is not positive and finite
+/// @throws InputError as read_image(); std::invalid_argument if a size is not positive and finite
 OccupancyGrid image_map(const std::string& path, Meters width, Meters height);
 
 }  // namespace rovernet

@@ -6,13 +6,13 @@
 
 namespace rovernet {
 
-/// Work that is done at the first question, by whichever thread asks it; others wait for it.
+/// Work done once, on first use, by the first thread that calls; other threads wait for it.
 ///
-/// Questions that come later cost the test of a flag; std::call_once would enter the C library.
+/// A later call costs only the test of a flag; std::call_once would call the C library.
 class Once {
   public:
-    /// Calls work(), unless that was done. What it throws goes to the caller, and the next question
-    /// tries again.
+    /// Calls work(), unless it was done. An exception of work() reaches the caller, and the next
+    /// call tries again.
     template <class Work>
     void operator()(Work work) {
         if (done_.load(std::memory_order_acquire)) return;

@@ -8,11 +8,11 @@ namespace rovernet {
 namespace {
 
 constexpr std::array<int, 4> step_u{1, 0, -1, 0}, step_v{0, 1, 0, -1};  // right, up, left, down
-// The cells ahead of a grid point, beside the way on in each direction.
+// Cells ahead of a grid point, on both sides of the path in each direction.
 constexpr std::array<int, 4> left_u{0, -1, -1, 0}, left_v{0, 0, -1, -1};
 constexpr std::array<int, 4> right_u{0, 0, -1, -1}, right_v{-1, 0, 0, -1};
 
-/// Walks along outlines; remembers the edges to the right that it went along.
+/// Traces outlines, and marks the horizontal edges to the right that were used.
 class Tracer {
   public:
     Tracer(int columns, int rows, const MaterialAt& material)
@@ -36,7 +36,7 @@ class Tracer {
                static_cast<std::size_t>(u);
     }
 
-    /// The outline that goes right from a grid point where it has a corner.
+    /// Outline that starts to the right from a grid point where it has a corner.
     Outline from(int start_u, int start_v) {
         Outline outline;
         int u = start_u, v = start_v;
@@ -67,7 +67,7 @@ class Tracer {
     std::vector<bool> seen_;
 };
 
-/// Orthogonal regression of edges, each with the weight of its length.
+/// Moments for the orthogonal regression of edges, weighted by their length.
 struct Moments {
     double length = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;  // about the first point
     double along_x = 0, along_y = 0;
@@ -97,7 +97,7 @@ class Straightener {
 
   private:
     const OutlineEdge& edge(std::size_t i) const { return outline_[i % outline_.size()]; }
-    /// +1 where the outline turns left before that edge, -1 right, 0 where the material changes.
+    /// Turn before that edge: +1 left, -1 right, 0 where the material changes.
     int turn(std::size_t i) const {
         const OutlineEdge &p = edge(i + outline_.size() - 1), &q = edge(i);
         const int cross = (p.u1 - p.u0) * (q.v1 - q.v0) - (p.v1 - p.v0) * (q.u1 - q.u0);
@@ -108,13 +108,14 @@ class Straightener {
         const OutlineEdge& e = edge(i);
         return std::abs(e.u1 - e.u0) + std::abs(e.v1 - e.v0) > 1;
     }
-    /// No stair goes on from the edge before to this one: of two edges of a stair one has one cell.
+    /// Whether no staircase continues from the previous edge to this one: of two consecutive edges
+    /// of a staircase one is one cell long.
     bool parted(std::size_t i) const {
         return edge(i).material != edge(i - 1).material || cap(i - 1) || cap(i) ||
                (is_long(i - 1) && is_long(i));
     }
 
-    /// Cuts a stair into sides, each as long as the tolerance allows.
+    /// Divides a staircase into sides, each as long as the tolerance allows.
     void stairs(std::size_t begin, std::size_t end, std::vector<OutlineSide>& out) const {
         while (begin < end) {
             std::size_t fits = 1, step = 1;
@@ -131,8 +132,8 @@ class Straightener {
         }
     }
 
-    /// Joins sides that fit one line, once around the outline: neighbours, and those with one side
-    /// between them, which is then a step of the stair.
+    /// Joins sides that fit one line, once around the outline: neighbours, and pairs with one side
+    /// between them, which is then a step of the staircase.
     bool join(std::vector<OutlineSide>& sides) const {
         bool joined = false;
         for (std::size_t i = 0; i < sides.size();) {

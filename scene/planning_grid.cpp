@@ -16,7 +16,7 @@ constexpr double most_cells = 4e6;
 constexpr double cell_without_maps = 0.05;  // [m], if there are lone walls only
 constexpr double shrink = 1e-9;             // [cells]: what only touches a cell does not enter it
 
-/// An upright box in cells of the grid that is being made.
+/// Axis-parallel box in cells of the new grid.
 struct Bounds {
     double left = std::numeric_limits<double>::infinity();
     double bottom = std::numeric_limits<double>::infinity();
@@ -45,12 +45,12 @@ Bounds bounds(const Corners& corners) {
     return box;
 }
 
-/// All of the cell lies beyond one side of the (counter-clockwise) rectangle.
+/// Whether the whole cell lies beyond one side of the (counter-clockwise) rectangle.
 bool apart(const Corners& rectangle, int column, int row) {
     for (std::size_t i = 0; i < 4; ++i) {
         const CellPoint p = rectangle[i], q = rectangle[(i + 1) % 4];
         const double du = q.u - p.u, dv = q.v - p.v;
-        // The cell's corner that lies farthest to the left of the side.
+        // Corner of the cell that is farthest to the left of the side.
         const double u = column + (dv < 0 ? 1 : 0), v = row + (du > 0 ? 1 : 0);
         if (du * (v - p.v) - dv * (u - p.u) <= shrink * std::sqrt(du * du + dv * dv)) return true;
     }
@@ -70,7 +70,7 @@ void mark(OccupancyGrid& grid, const Corners& rectangle) {
                            static_cast<std::size_t>(column)] = Cell::occupied;
 }
 
-/// A grid without cells yet: where its lines run.
+/// Grid without cells: only placement and size.
 OccupancyGrid lines(const std::vector<OccupancyGrid>& maps) {
     OccupancyGrid grid;
     grid.cell_width = grid.cell_height = cell_without_maps;

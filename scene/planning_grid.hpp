@@ -7,12 +7,12 @@
 
 namespace rovernet {
 
-/// Grid for planning ways among several maps: free where no obstacle of any map enters the cell.
+/// Grid for path planning on several maps: a cell is free if no obstacle of any map enters it.
 ///
-/// Its cells are as small as the finest map's with more than one cell, and lie as those of the
-/// first such map do; at most 4 million, then larger. A lone wall (a map of one cell) stays a wall,
-/// but takes up whole cells here; clearance and passability of the scene are exact.
-/// @param maps  at least one, each with cells
+/// The cell size is the smallest of all maps with more than one cell, enlarged if there would be
+/// more than 4 million cells; the placement is that of the first such map. A single wall (a map of
+/// one cell) blocks whole cells here; clearance and passability of the scene remain exact.
+/// @param maps  one or more, each with cells
 OccupancyGrid planning_grid(const std::vector<OccupancyGrid>& maps);
 
 }  // namespace rovernet

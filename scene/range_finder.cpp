@@ -11,7 +11,7 @@
 namespace rovernet {
 namespace {
 
-/// Way from `from` along a vector of length 1 to a body [m]; `farthest` if there is none nearer.
+/// Distance [m] from `from` along a unit vector to a body; `farthest` if the body is not nearer.
 double way_to(const RoundBody& body, Vec3 from, Vec3 along, double farthest) {
     const Vec3 to{body.at.x - from.x, body.at.y - from.y, 0};
     const double radius = body.radius.value;
@@ -23,7 +23,7 @@ double way_to(const RoundBody& body, Vec3 from, Vec3 along, double farthest) {
     return std::clamp(ahead - std::sqrt(half_chord), 0.0, farthest);
 }
 
-/// Bodies that are within reach.
+/// Bodies within range.
 std::vector<RoundBody> near(Vec3 at, double range, std::span<const RoundBody> bodies) {
     std::vector<RoundBody> found;
     for (const RoundBody& each : bodies) {

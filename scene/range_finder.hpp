@@ -13,41 +13,43 @@
 
 namespace rovernet {
 
-/// Device that a range finder is for the programs of its robot. What it measures is the same.
+/// Type of device that a range finder appears as to external programs. All types measure in the
+/// same way.
 enum class RangeFinderKind { laser, sonar, ranger };
 template <>
 struct EnumNames<RangeFinderKind> {
     static constexpr std::array<std::string_view, 3> values = {"laser", "sonar", "ranger"};
 };
 
-/// Body of a robot, as a range finder sees it.
+/// Round body of a robot, as an obstacle for range finders.
 struct RoundBody {
-    Vec3 at;        ///< [m]
-    Meters radius;  ///< > 0
+    Vec3 at;        ///< position of the robot [m]
+    Meters radius;  ///< radius of the body [m], > 0
 };
 
-/// Range finder of a robot: beams from its middle, evenly spread over an angle. Each measures
-/// exactly, without noise, the way to the nearest wall or body:
+/// Range finder of a robot: beams from the robot's centre, evenly spread over an angle. Each beam
+/// measures the exact distance, without noise, to the nearest wall or body:
 ///
 ///   scan = { kind = "laser", beams = 181, from = "-90 deg", to = "90 deg", range = "8 m" }
 struct RangeFinder {
     RangeFinderKind kind = RangeFinderKind::laser;
-    int beams = 181;                         ///< 1 ... 10,000
-    Radians from{-1.5707963267948966};       ///< first beam, from the heading [rad]
-    Radians to{1.5707963267948966};          ///< last beam [rad], not before the first
-    Meters range{8};                         ///< farthest that it measures [m]
+    int beams = 181;                    ///< number of beams, 1 ... 10,000
+    Radians from{-1.5707963267948966};  ///< direction of the first beam, from the heading [rad]
+    Radians to{1.5707963267948966};     ///< direction of the last beam [rad], not below the first
+    Meters range{8};                    ///< largest measured distance [m]
     Duration every = Duration{100'000'000};  ///< time between two measurements [ns]
 
     /// Angle between two beams [rad]; 0 for one beam.
     Radians step() const;
-    /// Angle of a beam from the heading [rad].
+    /// Angle of a beam from the robot's heading [rad].
     Radians angle(int beam) const { return from + beam * step(); }
 
-    /// Measures, level at the height of `at`. A beam that begins in a wall or in a body measures 0.
-    /// @param at, heading  of the robot
-    /// @param bodies       of others
-    /// @param out          [m], one for each beam, 0 ... range; range: nothing is nearer
-    /// @throws std::invalid_argument if there is not one for each beam
+    /// Measures in the horizontal plane at the height of `at`. A beam that starts in a wall or in a
+    /// body measures 0.
+    /// @param at, heading  pose of the robot
+    /// @param bodies       bodies of the other robots
+    /// @param out          distance of each beam [m], 0 ... range; `range` means nothing nearer
+    /// @throws std::invalid_argument if the size of `out` is not the number of beams
     void measure(const Scene& scene, Vec3 at, Radians heading, std::span<const RoundBody> bodies,
                  std::span<double> out) const;
 

@@ -2,7 +2,6 @@
 #include "scene/rectangles.hpp"
 
 #include <cstddef>
-#include <cstdint>
 
 namespace rovernet {
 namespace {

@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-/// A block of cells, half open: columns [column0, column1), rows [row0, row1).
+/// Block of cells, half open: columns [column0, column1), rows [row0, row1).
 struct CellRectangle {
     int column0 = 0;
     int row0 = 0;
@@ -17,21 +17,22 @@ struct CellRectangle {
     friend constexpr bool operator==(CellRectangle, CellRectangle) = default;
 };
 
-/// Cells that make up a set of rectangles.
+/// Kind of cells to cover with rectangles.
 enum class Solid {
-    walls,     ///< occupied cells: what radio sees
-    obstacles  ///< occupied and unknown cells: where robots must not go
+    walls,     ///< occupied cells: they attenuate radio
+    obstacles  ///< occupied and unknown cells: they block robots
 };
 
-/// Cuts the solid cells into disjoint rectangles that cover them exactly.
+/// Covers the solid cells exactly with disjoint rectangles.
 ///
-/// Greedy and deterministic: from the lowest, then leftmost, cell not covered yet, the larger of
-/// the rectangle grown right then up and the one grown up then right. None can grow right or up.
+/// Greedy and deterministic: from the lowest, then leftmost, uncovered cell, it takes the larger of
+/// two rectangles: one grown right then up, one grown up then right. No rectangle can grow further
+/// right or up.
 std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, Solid solid);
 
-/// Cells that are walls of one material.
+/// Selection of the wall cells of one material.
 struct WallsOf {
-    std::uint8_t material;  ///< index into the scene's materials
+    std::uint8_t material;  ///< index into Scene::materials()
 };
 std::vector<CellRectangle> solid_rectangles(const OccupancyGrid& grid, WallsOf walls);
 

@@ -17,7 +17,7 @@ std::size_t cell_number(const OccupancyGrid& map, int column, int row) {
            static_cast<std::size_t>(column);
 }
 
-/// The map's place and materials, with free cells of another size.
+/// Map with the same placement and materials, and free cells of another size.
 OccupancyGrid regridded(const OccupancyGrid& map, int columns, int rows, double scale) {
     OccupancyGrid out;
     out.columns = columns;
@@ -38,7 +38,7 @@ void copy_cell(const OccupancyGrid& from, std::size_t i, OccupancyGrid& to, std:
     if (!from.cell_materials.empty()) to.cell_materials[j] = from.cell_materials[i];
 }
 
-/// Calls visit(number) for the neighbours of a cell that lie on the map, the cell among them.
+/// Calls visit(number) for a cell and its neighbours within the map.
 template <class Visit>
 void around(const OccupancyGrid& map, std::size_t cell, Visit visit) {
     const int column = static_cast<int>(cell % static_cast<std::size_t>(map.columns));
@@ -56,7 +56,7 @@ bool all_around_occupied(const OccupancyGrid& map, std::size_t cell) {
     return occupied == 9;
 }
 
-/// Material of the wall that is nearest to each cell, in steps to one of 8 neighbours.
+/// Material of the nearest wall of each cell, in steps to one of 8 neighbours.
 std::vector<std::uint8_t> nearest_materials(const OccupancyGrid& map) {
     std::vector<std::uint8_t> materials(map.cells.size(), 0);
     std::vector<bool> reached(map.cells.size(), false);

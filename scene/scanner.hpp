@@ -10,47 +10,49 @@
 
 namespace rovernet {
 
-/// Place and direction in the plane, in the frame of a scanner, of its robot or of the world.
+/// Position and direction in the plane, in the frame of a scanner, of its robot or of the world.
 struct ScannerPose {
-    Vec3 at = {};          ///< [m] x ahead and y to the left, if the frame is a robot's
-    Radians heading = {};  ///< counter-clockwise from the x axis
+    Vec3 at = {};          ///< position [m]; x ahead and y to the left in the frame of a robot
+    Radians heading = {};  ///< direction [rad], counter-clockwise from the x axis
 };
 
-/// `inner`, given in the frame of `outer`, in the frame that `outer` is given in.
+/// Composition of poses: `inner` is given in the frame of `outer`; the result is in the parent
+/// frame of `outer`.
 ScannerPose operator*(const ScannerPose& outer, const ScannerPose& inner);
 
-/// Range finder as a robot carries it: a fan of beams from its place on the robot, or a ring of
-/// single beams, such as sonars, each with a direction and a place of its own:
+/// Range finder mounted on a robot: a fan of beams from one point of the robot, or a ring of single
+/// beams, such as sonars, each with a direction and a position:
 ///
 ///   scan = [{ kind = "laser", at = ["0.1 m", "0 m"], beams = 181 },
 ///           { kind = "sonar", angles = ["90 deg", "-90 deg"], places = [["0 m", "0.1 m"], ...] }]
 struct Scanner {
-    RangeFinder finder = {};           ///< kind, range, time; and beams, unless it is a ring
-    std::string name = {};             ///< empty: the word of its kind
-    Vec3 at = {};                      ///< place in the frame of the robot [m]
-    Radians heading = {};              ///< from the robot's heading [rad]
-    std::vector<Radians> angles = {};  ///< ring: directions of its beams, from the heading [rad]
-    std::vector<Vec3> places = {};  ///< ring: begins of its beams from `at` [m]; empty: all there
+    RangeFinder finder = {};  ///< kind, range and period; also the beams, unless it is a ring
+    std::string name = {};    ///< name of the scanner; empty: the name of its kind
+    Vec3 at = {};             ///< position in the frame of the robot [m]
+    Radians heading = {};     ///< direction from the robot's heading [rad]
+    std::vector<Radians> angles = {};  ///< ring: directions of the beams, from `heading` [rad]
+    /// Ring: starts of the beams, relative to `at` [m]; empty: all at `at`.
+    std::vector<Vec3> places = {};
 
     bool is_ring() const { return !angles.empty(); }
-    /// Name that programs find it by.
+    /// Name of the scanner for client programs.
     std::string label() const;
     /// Number of beams.
     std::size_t size() const;
-    /// Scanner in the frame of its robot.
+    /// Pose of the scanner in the frame of its robot.
     ScannerPose pose() const { return {at, heading}; }
-    /// Beam in the frame of the scanner.
+    /// Pose of a beam in the frame of the scanner.
     ScannerPose beam(std::size_t number) const;
 
-    /// Measures, as RangeFinder does.
-    /// @param robot   in the world
-    /// @param bodies  of other robots
-    /// @param out     [m], one for each beam
-    /// @throws std::invalid_argument if there is not one for each beam
+    /// Measures as RangeFinder::measure.
+    /// @param robot   pose of the robot in the world
+    /// @param bodies  bodies of the other robots
+    /// @param out     distance of each beam [m]
+    /// @throws std::invalid_argument if the size of `out` is not the number of beams
     void measure(const Scene& scene, const ScannerPose& robot, std::span<const RoundBody> bodies,
                  std::span<double> out) const;
 
-    /// Parameters beside those of `finder`.
+    /// Parameters in addition to those of `finder`.
     static constexpr auto fields() {
         return describe(field("name", &Scanner::name, "name that programs find it by"),
                         field("at", &Scanner::at, "place on the robot"),

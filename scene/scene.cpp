@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "scene/scene.hpp"
 
+#include "scene/faces.hpp"
+#include "scene/obstacles.hpp"
 #include "scene/planning_grid.hpp"
+#include "scene/rectangles.hpp"
+#include "scene/wall_layer.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +13,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -64,7 +67,7 @@ std::set<std::uint8_t> materials_of(const OccupancyGrid& grid) {
     return found;
 }
 
-/// Scene::passable() in several storeys: part by part.
+/// Scene::passable() for several storeys, checked part by part.
 bool passable_by_storeys(const Scene& scene, Vec3 a, Vec3 b, Meters radius) {
     if (b.z < a.z) std::swap(a, b);
     const Storeys& storeys = scene.storeys();
@@ -79,6 +82,13 @@ bool passable_by_storeys(const Scene& scene, Vec3 a, Vec3 b, Meters radius) {
 }
 
 }  // namespace
+
+Scene::Scene() = default;
+Scene::~Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
 
 Scene::Scene(OccupancyGrid grid, std::vector<Material> materials)
     : Scene(std::vector<OccupancyGrid>{std::move(grid)}, std::move(materials)) {}
@@ -102,7 +112,7 @@ Scene::Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials,
     }
 }
 
-/// Adds the storey above those that there are.
+/// Adds a storey above the present ones.
 void Scene::add_storey(std::vector<OccupancyGrid> maps) {
     const std::size_t number = plans_.size();
     const auto plan = std::make_shared<Scene>();
@@ -129,8 +139,8 @@ void Scene::add_storey(std::vector<OccupancyGrid> maps) {
     plans_.push_back(plan);
 }
 
-/// Makes a scene of one storey.
-/// @param maps  on one floor, at least one
+/// Builds a scene of one storey.
+/// @param maps  maps on one floor, at least one
 void Scene::build(std::vector<OccupancyGrid> maps, double bottom, double top) {
     std::vector<WallsOfMap> walls;
     for (std::size_t i = 0; i < maps.size(); ++i) {
@@ -184,7 +194,7 @@ void Scene::add_map(const OccupancyGrid& grid, double bottom, double top) {
     bound(grid, frame);
 }
 
-/// Makes the box around the maps take in one more.
+/// Extends the bounding box of the maps by one map.
 void Scene::bound(const OccupancyGrid& grid, const MapFrame& frame) {
     const double right = grid.columns, top = grid.rows;
     if (obstacles_.size() == 1) lower_left_ = upper_right_ = frame.to_world({0, 0});

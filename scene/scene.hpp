@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scene/faces.hpp"
+#include "scene/crossing.hpp"
 #include "scene/map_frame.hpp"
 #include "scene/materials/material.hpp"
-#include "scene/obstacles.hpp"
 #include "scene/occupancy.hpp"
-#include "scene/rectangles.hpp"
 #include "scene/storeys.hpp"
-#include "scene/wall_index.hpp"
-#include "scene/wall_layer.hpp"
 #include "sim/geometry.hpp"
 #include "sim/units.hpp"
 
@@ -22,145 +18,163 @@
 
 namespace rovernet {
 
-/// A rectangular piece of wall.
+class Faces;
+class Obstacles;
+struct CellRectangle;
+struct Contact;
+struct WallLayer;
+
+/// Rectangular part of a wall.
 struct WallRectangle {
-    std::array<Vec3, 4> corners;  ///< [m], counter-clockwise, on the floor of its map
-    std::size_t material;         ///< index into the scene's materials
-    double bottom, top;           ///< heights [m] between which it stands; infinite: endless
+    std::array<Vec3, 4> corners;  ///< [m], counter-clockwise, on the floor of the wall's map
+    std::size_t material;         ///< index into Scene::materials()
+    double bottom, top;  ///< heights of the wall's lower and upper end [m]; may be infinite
 };
 
-/// A wall that a segment a-b passes.
+/// Wall that a segment a-b passes through.
 struct Wall {
-    double entry;   ///< from a [m]
-    double exit;    ///< from a [m]
-    double length;  ///< inside its material [m]; gaps at steps and insides of outlines do not count
-    std::size_t material;  ///< index into the scene's materials
-    Meters thickness;      ///< as drawn, under the middle of the segment's way through it [m]
+    double entry;   ///< distance of the entry from a [m]
+    double exit;    ///< distance of the exit from a [m]
+    double length;  ///< length inside its material [m]; gaps at steps and interiors of outlines do
+                    ///< not count
+    std::size_t material;  ///< index into Scene::materials()
+    Meters thickness;      ///< drawn thickness at the middle of the passage [m]
 };
 
-/// The world's walls: what radio, motion and pictures read. Never changes once built.
+/// Walls of the world, for radio, motion and pictures. Immutable once built.
 ///
-/// A default Scene is an open field: no walls, no end. Walls are the union of the occupied cells of
-/// its maps (usually one), of one material or several, from the floor to their material's height. A
-/// segment along the common edge of two occupied cells is inside the wall, along an outer edge it
-/// is outside; touching a corner or an edge counts nothing; wall against wall of one material is
-/// one crossing. Where walls of two materials overlap, both count. Unknown cells are no walls for
-/// radio, but obstacles for robots; beyond the maps there is nothing. Coordinates and lengths
-/// within 1e-9 of a cell are equal: a point that near to a grid line lies on it, a gap that short
-/// is closed, a crossing that short is none.
+/// A default Scene is an open field without walls and bounds. The walls are the union of the
+/// occupied cells of its maps (usually one), from the floor to their material's height; maps may
+/// have several materials. A segment along the common edge of two occupied cells is inside the
+/// wall; a segment along an outer edge is outside. Touching a corner or an edge does not count;
+/// adjacent walls of one material are one crossing. Where walls of two materials overlap, both
+/// count. Unknown cells are no walls for radio, but obstacles for robots; outside the maps there
+/// are no walls. Coordinates and lengths that differ by less than 1e-9 of a cell are equal: a point
+/// so near to a grid line lies on it, a gap so short is closed, a crossing so short is none.
 ///
-/// Maps whose origins have different heights are those of storeys, one above the other.
-/// The walls of a storey stand in it alone, from its floor to its ceiling or to their material's
-/// height above its floor. A wall that goes on in the storey above is one wall.
+/// Maps whose origins have different heights are storeys. A wall stands only in its storey, from
+/// the storey's floor to its ceiling or to the material's height above the floor. A wall that
+/// continues in the storey above is one wall.
 class Scene {
   public:
-    Scene() = default;
-    /// @throws std::invalid_argument if the grid's sizes, cells or placement make no sense, or a
-    ///         material that it names is not there
+    Scene();
+    ~Scene();
+    Scene(const Scene&);
+    Scene(Scene&&) noexcept;
+    Scene& operator=(const Scene&);
+    Scene& operator=(Scene&&) noexcept;
+    /// @throws std::invalid_argument if the grid's size, cells or placement are invalid, or if it
+    ///         uses a material that is not in the list
     explicit Scene(OccupancyGrid grid, std::vector<Material> materials = {Material{}});
-    /// Several maps, each in its place; they may overlap.
+    /// Scene of several maps, each with its own placement; maps may overlap.
     /// @param ceilings  see Storeys
     Scene(std::vector<OccupancyGrid> maps, std::vector<Material> materials,
           std::vector<Material> ceilings = {});
 
-    /// There is no map.
+    /// Whether the scene has no map.
     bool open_field() const { return grid_.columns == 0; }
 
-    /// One for each height at which there are maps, or one.
+    /// Storeys: one for each height at which there are maps, at least one.
     const Storeys& storeys() const { return storeys_; }
-    /// Storey as a scene of its own: its maps and walls; this scene if it has one only.
+    /// Storey as a scene of its own, with its maps and walls; this scene if it has only one storey.
     const Scene& storey(std::size_t number) const {
         return plans_.empty() ? *this : *plans_[number];
     }
-    /// Storey at a height z [m].
+    /// Storey at the height z [m].
     const Scene& storey_at(double z) const { return storey(storeys_.number_at(z)); }
 
-    /// Walls between two points; lengths [m] are along the 3-D segment from a.
+    /// Wall crossings between two points; lengths [m] are along the 3-D segment from a.
     ///
-    /// From b to a the crossings come in the opposite order with the same `length`, to the last
-    /// bit. A segment straight up inside a wall is one crossing.
-    /// @param out  emptied first
+    /// Crossings from b to a are in the opposite order with exactly the same `length`. A vertical
+    /// segment inside a wall is one crossing.
+    /// @param out  replaced by the crossings
     void crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
     std::vector<Crossing> crossings(Vec3 a, Vec3 b) const;
 
-    /// Walls that a segment passes, in order from a; each is there once.
+    /// Walls that a segment passes through, in order from a, each wall once.
     ///
-    /// A wall that stands askew to the cells is drawn in steps, and a segment may leave it at each:
-    /// crossings between which the segment leaves and comes back by one face (see Faces) are of one
-    /// wall, and a segment that comes and leaves by the same face only touches it and passes
-    /// nothing. Crossings on both sides of the inside of a wall that is drawn as an outline (see
-    /// HollowWalls) are of one wall, too. Any other gap, however narrow, parts two walls.
+    /// A slanting wall is drawn in steps, and a segment may leave and enter it at each step.
+    /// Crossings between which the segment leaves and re-enters by one face (see Faces) belong to
+    /// one wall. A segment that enters and leaves by the same face only touches the wall and does
+    /// not pass through it. Crossings on both sides of the interior of a wall drawn as an outline
+    /// (see HollowWalls) belong to one wall, too. Any other gap, however narrow, separates two
+    /// walls.
     std::vector<Wall> walls(Vec3 a, Vec3 b) const;
-    /// Whether a segment passes any of walls().
+    /// Whether a segment passes through any of walls().
     bool passes_wall(Vec3 a, Vec3 b) const;
 
-    /// Total length inside walls [m]; the same bits from a to b as from b to a.
+    /// Total length of the segment a-b inside walls [m]; the same bits from a to b as from b to a.
     double wall_length(Vec3 a, Vec3 b) const {
         return wall_length(a, b, std::numeric_limits<double>::infinity());
     }
-    /// As above, but may stop counting once the total exceeds `enough` [m]: a result above `enough`
-    /// says only that, any other is exact.
+    /// Total length of a-b inside walls [m]; counting may stop once the total exceeds `enough` [m]:
+    /// a result above `enough` is only a lower bound, any other result is exact.
     double wall_length(Vec3 a, Vec3 b, double enough) const;
 
-    /// Loss through the walls of walls() [dB], by the rate of each wall's material; may stop
-    /// counting once the total exceeds `enough` [dB]. A wall that is only touched takes its loss
-    /// per metre. The same bits from a to b as from b to a.
-    /// @param rates    one per material
-    /// @param scratch  any vector, for its memory
+    /// Loss [dB] of the walls that a-b passes through, at the rate of each wall's material;
+    /// counting may stop once the total exceeds `enough` [dB]. A wall that is only touched has its
+    /// loss per metre. The same bits from a to b as from b to a.
+    /// @param rates    one for each material
+    /// @param scratch  vector whose memory is reused
     double wall_loss(Vec3 a, Vec3 b, std::span<const WallRate> rates, double enough,
                      std::vector<Crossing>& scratch) const;
-    /// Loss as above, by the rate of each wall's material and drawn thickness.
+    /// Loss [dB] of the walls that a-b passes through, at rates by material and drawn thickness.
     double wall_loss(Vec3 a, Vec3 b, const WallRates& rates, double enough,
                      std::vector<Crossing>& scratch) const;
-    /// Drawn thickness of the walls of its storey at a point, whatever their height [m]; 0 outside
-    /// of walls. See WallThickness.
+    /// Drawn thickness [m] of the walls of the storey at a point, whatever their height; 0 outside
+    /// walls. See WallThickness.
     Meters wall_thickness(Vec3 p) const;
-    /// The walls as straight faces; null on an open field; of several storeys, those of the lowest.
+    /// Walls as straight faces; null on an open field; with several storeys, faces of the lowest
+    /// storey.
     const Faces* faces() const { return faces_.get(); }
-    /// What its walls are made of; at least one.
+    /// Materials of the walls; at least one.
     const std::vector<Material>& materials() const { return materials_; }
-    /// All walls follow the propagation model and are infinitely high: their length tells all.
+    /// Whether all walls follow the propagation model and are infinitely high, so that the loss
+    /// depends only on the length inside.
     bool plain_walls() const { return plain_; }
 
-    /// The point lies in an occupied cell; left and lower edges belong to a cell, others do not.
+    /// Whether the point lies in an occupied cell; a cell includes its left and lower edges only.
     bool occupied(Vec3 p) const;
-    /// The point lies within the maps, edges included; everywhere on an open field.
+    /// Whether the point lies within the maps, edges included; true everywhere on an open field.
     bool inside_map(Vec3 p) const;
-    /// Distance to the nearest obstacle [m]: 0 inside or touching, infinity if there is none.
+    /// Distance to the nearest obstacle [m]: 0 inside or touching, infinity without obstacles.
     double clearance(Vec3 p) const;
-    /// A disc of that radius [m] can move straight from a to b; touching an obstacle is allowed.
+    /// Whether a disc of that radius [m] can move straight from a to b; touching an obstacle is
+    /// allowed.
     ///
-    /// Exact: the distance from the segment to each obstacle, less 1e-9 m, against the radius. From
-    /// one storey to another, each part of the way is held against the obstacles of its storey.
+    /// Exact: the distance of the segment to each obstacle, less 1e-9 m, is compared with the
+    /// radius. Between storeys each part of the path is checked against the obstacles of its
+    /// storey.
     bool passable(Vec3 a, Vec3 b, Meters radius) const;
-    /// What a disc of that radius [m] at p touches: obstacles of its storey, and the map's border,
-    /// which its middle must not cross.
+    /// Contacts of a disc of that radius [m] at p: with obstacles of its storey, and with the map's
+    /// border, which its centre must not cross.
     std::vector<Contact> contacts(Vec3 p, Meters radius) const;
 
-    /// Corners of the smallest upright box around the maps [m]; both (0, 0) on an open field.
+    /// Corners of the smallest axis-parallel box around the maps [m]; both (0, 0) on an open field.
     Vec3 lower_left() const { return lower_left_; }
     Vec3 upper_right() const { return upper_right_; }
-    /// The walls as rectangles, disjoint on each map.
+    /// Walls as rectangles, disjoint on each map.
     std::vector<WallRectangle> wall_rectangles() const;
-    /// Maps that make these walls again: the map; of several, one for each map and material, with
-    /// its walls only.
+    /// Maps from which the same walls can be built: the map itself; for several maps, one for each
+    /// map and material, with the walls only.
     std::vector<OccupancyGrid> maps() const;
-    /// This scene with the walls of another for radio; robots keep to the obstacles of this one.
+    /// Scene with the walls of `other` for radio and the obstacles of this scene for robots.
     Scene with_walls_of(const Scene& other) const;
-    /// The map; of several, a grid around them all where a cell is free if no obstacle enters it;
-    /// of several storeys, that of the lowest.
+    /// Map of the scene; for several maps, a grid around all maps in which a cell is free if no
+    /// obstacle enters it; for several storeys, the map of the lowest.
     const OccupancyGrid& grid() const { return grid_; }
     const MapFrame& frame() const { return frame_; }
-    /// Where robots must not go, in cells of grid().
+    /// Obstacles for robots, in cells of grid().
     const std::vector<CellRectangle>& obstacles() const { return obstacle_cells_; }
-    std::size_t occupied_cells() const { return occupied_cells_; }  ///< of all maps
+    /// Number of occupied cells of all maps.
+    std::size_t occupied_cells() const { return occupied_cells_; }
 
   private:
     void build(std::vector<OccupancyGrid> maps, double bottom, double top);
     void add_storey(std::vector<OccupancyGrid> maps);
     void add_map(const OccupancyGrid& grid, double bottom, double top);
     void bound(const OccupancyGrid& grid, const MapFrame& frame);
-    // The walls, if they are of one material, on one map and endless; null if not.
+    // Returns the walls, if they are of one material, on one map and endless; otherwise null.
     const WallLayer* only_layer() const;
     void merged_crossings(Vec3 a, Vec3 b, std::vector<Crossing>& out) const;
     template <class RateOf>
@@ -172,7 +186,7 @@ class Scene {
     std::vector<CellRectangle> obstacle_cells_;
     std::vector<Material> materials_ = {Material{}};
     Storeys storeys_;
-    std::vector<std::shared_ptr<const Scene>> plans_;  // of the storeys, if there are several
+    std::vector<std::shared_ptr<const Scene>> plans_;  // scenes of the storeys, if several
     std::vector<WallLayer> layers_;
     std::vector<Obstacles> obstacles_;
     std::shared_ptr<const Faces> faces_;

@@ -12,17 +12,17 @@ namespace rovernet {
 class ClosedDoors;
 class Scene;
 
-/// Change of the scene during a run: from `time` on it is another one. Each scene itself never
-/// changes, so that the scene is a function of time.
+/// Change of the scene during a run: from `time` on another Scene is used. A Scene itself never
+/// changes, so the scene is a function of time.
 struct SceneChange {
     Time time;
-    /// Scene from then on; not null.
+    /// Scene from `time` on; not null.
     std::shared_ptr<const Scene> scene;
-    /// Its closed doors, which robots stop at; null: none.
+    /// Closed doors of the scene, at which robots stop; null if there are none.
     std::shared_ptr<const ClosedDoors> doors;
 };
 
-/// Last of the changes that came by `t`; null if none did.
+/// Last change at or before `t`; null if there is none.
 /// @param changes  in ascending order of time
 inline const SceneChange* last_change(std::span<const SceneChange> changes, Time t) {
     const auto next =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Walls in the way of a signal: crossings, lengths and losses.
+// Walls along a segment: crossings, lengths and losses.
 #include "scene/scene.hpp"
+#include "scene/wall_layer.hpp"
 
 #include <algorithm>
 #include <span>
@@ -11,12 +12,12 @@
 namespace rovernet {
 namespace {
 
-/// Gaps and pieces of wall up to this length [m] are none.
+/// Length [m] up to which gaps and pieces of wall are ignored.
 constexpr double shortest = 1e-9;
 
 bool comes_before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
-/// Joins crossings of one material that overlap or touch; leaves them in order of entry.
+/// Joins crossings of one material that overlap or touch; the result is in order of entry.
 void join(std::vector<Crossing>& crossings) {
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& p, const Crossing& q) {
         return std::tie(p.material, p.entry, p.exit) < std::tie(q.material, q.entry, q.exit);
@@ -38,7 +39,7 @@ void join(std::vector<Crossing>& crossings) {
     });
 }
 
-/// Place of a segment among walls: what tells one wall from the next.
+/// Segment among walls, with the data for grouping its crossings into walls.
 class SegmentInWalls {
   public:
     SegmentInWalls(std::span<const WallLayer> layers, const Storeys& storeys, Vec3 a, Vec3 b)
@@ -55,9 +56,9 @@ class SegmentInWalls {
         }
     }
 
-    /// The walls, if they are of one material, on one map and endless; null if not.
+    /// Returns the walls, if they are of one material, on one map and endless; otherwise null.
     const WallLayer* one_map() const { return only_; }
-    /// Writes the crossings with those.
+    /// Writes the crossings for one_map().
     void cross_one_map(std::vector<Crossing>& out) const {
         only_->crossings(from_, to_, length_, out);
     }
@@ -74,17 +75,19 @@ class SegmentInWalls {
         return most;
     }
 
-    /// Each crossing is a wall: there are no stairs and no outlines.
+    /// Whether each crossing is a separate wall: there are no staircases and no outlines.
     bool each_is_wall() const { return !any_stair_ && !any_hollow_; }
-    /// A crossing and the next one are of one wall: the segment has left it at a step of a stair,
-    /// and comes back by the same face; or it is inside a wall that is drawn as an outline.
+    /// Whether a crossing and the next one belong to one wall: the segment has left it at a step of
+    /// a staircase and re-enters by the same face, or it is in the interior of a wall drawn as an
+    /// outline.
     bool is_one_wall(const Crossing& p, const Crossing& q) const {
         if (p.material != q.material) return false;
         return (any_hollow_ && is_hollow((p.exit + q.entry) / 2)) ||
                (any_stair_ && common_face(p.exit, q.entry, p.material));
     }
 
-    /// The segment comes by the face by which it leaves, and only touches steps of its stair.
+    /// Whether the segment enters by the face by which it leaves, so that it only touches the steps
+    /// of a staircase.
     bool is_touch(const Crossing& first, const Crossing& last) const {
         if (!any_stair_) return false;
         const Face* face = common_face(first.entry, last.exit, first.material);
@@ -92,7 +95,7 @@ class SegmentInWalls {
     }
 
   private:
-    /// Calls ask(layer, point) for the layers on the storey, until it answers false.
+    /// Calls ask(layer, point) for the layers on the storey, until it returns false.
     template <class Ask>
     void on_maps(double along, Ask ask) const {
         if (only_) {
@@ -116,7 +119,8 @@ class SegmentInWalls {
         });
         return found;
     }
-    /// Face on which the points that far along the segment lie; null if there is no such.
+    /// Face that contains the two points at these distances along the segment; null if there is
+    /// none.
     const Face* common_face(double along, double further, std::size_t material) const {
         const Faces* faces = faces_at(along);
         if (!faces || faces != faces_at(further)) return nullptr;
@@ -140,8 +144,9 @@ class SegmentInWalls {
     bool any_stair_ = false, any_hollow_ = false;
 };
 
-/// Calls visit(pieces, touched) for each wall that a segment passes, until it answers false:
-/// crossings of one wall in a row, and whether they only touch steps of one of its faces.
+/// Calls visit(pieces, touched) for each wall that a segment passes, until it returns false: with
+/// the consecutive crossings of one wall, and whether they only touch the steps of one of its
+/// faces.
 /// @param crossings  in order along the segment
 template <class Visit>
 void visit_walls(std::span<const Crossing> crossings, const SegmentInWalls& segment, Visit visit) {
@@ -248,8 +253,8 @@ bool Scene::passes_wall(Vec3 a, Vec3 b) const {
     return passes;
 }
 
-/// Sum of what the walls take that a segment passes [dB].
-/// @param rate_of  rate of a wall by its pieces in the segment
+/// Sum of the losses of the walls that a segment passes [dB].
+/// @param rate_of  loss rate of a wall, by its pieces in the segment
 template <class RateOf>
 double Scene::sum_of_walls(Vec3 a, Vec3 b, double enough, std::vector<Crossing>& scratch,
                            RateOf rate_of) const {

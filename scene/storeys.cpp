@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -32,7 +31,7 @@ double Storeys::top(std::size_t number) const {
     return number + 1 == floors_.size() ? infinite : floors_[number + 1];
 }
 
-/// Number of the highest storey that does not begin above z [m].
+/// Number of the highest storey whose floor is not above z [m].
 std::size_t Storeys::highest_below(double z) const {
     const auto above = std::upper_bound(floors_.begin() + 1, floors_.end(), z);
     return static_cast<std::size_t>(above - floors_.begin()) - 1;

@@ -2,7 +2,6 @@
 #include "scene/wall_index.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,7 +9,7 @@
 namespace rovernet {
 namespace {
 
-/// Part of a segment, in fractions of it; uninitialised on purpose, see walk_tiles.
+/// Part of a segment, as fractions of it; uninitialised on purpose, see walk_tiles.
 struct Piece {
     double from;
     double to;
@@ -23,9 +22,9 @@ struct Axis {
     double inverse;  ///< infinite for a segment across this axis: at() is then -inf or +inf
 
     Axis(double from, double to) : start(from), step(to - from), inverse(1 / step) {}
-    /// The fraction at which the segment meets a grid line. Monotone in `line`, rounding included.
+    /// Fraction at which the segment crosses a grid line. Monotone in `line`, also with rounding.
     double at(double line) const { return (line - start) * inverse; }
-    /// The same of several at once.
+    /// Fractions of several grid lines at once.
     template <class Lines>
     Lines at_all(Lines lines) const {
         return (lines - start) * inverse;
@@ -37,13 +36,13 @@ struct Axis {
 
 bool whole(double x) { return std::floor(x) == x; }
 
-/// Joins pieces that come in order, closes gaps and drops pieces within the tolerance.
+/// Joins pieces in order, closes gaps and drops pieces within the tolerance.
 template <class Visit>
 class Merge {
   public:
     Merge(double tolerance, Visit& visit) : tolerance_(tolerance), visit_(visit) {}
 
-    /// False: the visitor has seen enough.
+    /// Adds a piece; false if the visitor needs no more.
     bool add(Piece piece) {
         if (piece.from - open_.to <= tolerance_) {
             open_.to = std::max(open_.to, piece.to);
@@ -62,8 +61,8 @@ class Merge {
     Piece open_{before, before};
 };
 
-/// The tile that the segment is in at the fraction t, or one before it. A position is rounded and
-/// may lie in the next tile already; the fraction at which that tile begins tells.
+/// Tile of the segment at the fraction t, or the one before it. A rounded position may lie in the
+/// next tile already; the fraction at which that tile begins decides.
 int tile_at(const Axis& axis, double t, int tiles) {
     constexpr int size = WallIndex::tile_size;
     const double position = (axis.start + t * axis.step) / size;
@@ -178,7 +177,7 @@ double WallIndex::solid_length(CellPoint a, CellPoint b, double length, double e
     return sum;
 }
 
-/// Visits the pieces of a segment in solid cells, in order and merged, until the visitor declines.
+/// Visits the merged pieces of a segment in solid cells, in order, until the visitor returns false.
 template <class Visit>
 void WallIndex::walk(CellPoint a, CellPoint b, Visit visit) const {
     const double du = b.u - a.u;
@@ -195,7 +194,7 @@ void WallIndex::walk(CellPoint a, CellPoint b, Visit visit) const {
         walk_tiles(a, b, merge);
 }
 
-/// The pieces of a segment in one tile, in order.
+/// Pieces of a segment in one tile, in order.
 class WallIndex::TilePieces {
   public:
     TilePieces(const Axis& x, const Axis& y)
@@ -213,7 +212,7 @@ class WallIndex::TilePieces {
                                      larger(x_.at_all(two.sides[enter_x_]), Pair{0, 0}));
             const Pair to = smaller(y_.at_all(two.sides[leave_y_]),
                                     smaller(x_.at_all(two.sides[leave_x_]), Pair{1, 1}));
-            // Without a branch that would be mispredicted.
+            // Without a branch, which would be mispredicted.
             for (std::size_t k = 0; k < 2; ++k) {
                 pieces_[count] = {from[k], to[k]};
                 count += from[k] < to[k];
@@ -224,7 +223,7 @@ class WallIndex::TilePieces {
     }
 
   private:
-    // The second if they are equal, as the processor has them: so 0 takes the place of -0.
+    // If both are equal, the second, like the processor's instruction: 0 replaces -0.
     static Pair larger(Pair a, Pair b) { return a > b ? a : b; }
     static Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
 
@@ -269,7 +268,7 @@ void WallIndex::walk_tiles(CellPoint a, CellPoint b, Merge& merge) const {
     merge.finish();
 }
 
-/// Along a grid line: inside where the cells on both sides are solid.
+/// Handles a segment along a grid line: it is inside if the cells on both sides are solid.
 template <class Merge>
 void WallIndex::walk_line(CellPoint a, CellPoint b, Merge& merge) const {
     const bool upright = a.u == b.u;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scene/crossing.hpp"
 #include "scene/map_frame.hpp"
 #include "scene/rectangles.hpp"
 
@@ -11,24 +12,16 @@
 
 namespace rovernet {
 
-/// One passage of a segment a-b through walls, measured along the segment from a.
-struct Crossing {
-    double entry;              ///< [m]
-    double exit;               ///< [m]
-    double length;             ///< exit - entry [m]; the same bits from a to b as from b to a
-    std::size_t material = 0;  ///< index into the scene's materials
-    friend constexpr bool operator==(Crossing, Crossing) = default;
-};
-
-/// Solid cells of a map as rectangles in square tiles, for walking a segment through them.
+/// Spatial index of a map's solid cells: rectangles in square tiles, for tracing a segment.
 ///
-/// Works in cells. A grid line x = k is met at the fraction (k - ax) * (1 / (bx - ax)) of the
-/// segment, for whichever rectangle asks; so rectangles side by side share their fractions exactly,
-/// and the union of the pieces is the same, to the last bit, however the cells were cut. Rectangles
-/// are cut at tile borders: each lies in one tile, and tiles along the segment come in order.
+/// All calculations are in cells. A grid line x = k is crossed at the fraction (k - ax) * (1 / (bx
+/// - ax)) of the segment, the same for every rectangle. So adjacent rectangles share their
+/// fractions exactly, and the union of the pieces is the same to the last bit for any division into
+/// rectangles. Rectangles are cut at tile borders: each lies in one tile, and tiles along the
+/// segment are visited in order.
 class WallIndex {
   public:
-    static constexpr int tile_size = 64;  ///< [cells]
+    static constexpr int tile_size = 64;  ///< side of a tile [cells]
 
     WallIndex() = default;
     /// @param rectangles  disjoint, inside columns x rows; may touch
@@ -37,33 +30,34 @@ class WallIndex {
     bool empty() const { return rectangles_.empty(); }
     int columns() const { return columns_; }
     int rows() const { return rows_; }
-    /// The cell is solid; none outside of the map is.
+    /// Whether the cell is solid; false outside the map.
     bool solid(int column, int row) const;
     int tile_columns() const { return tile_columns_; }
     int tile_rows() const { return tile_rows_; }
-    /// The rectangles inside one tile.
+    /// Rectangles in one tile.
     std::span<const CellRectangle> tile(int column, int row) const {
         const std::size_t i = tile_number(column, row);
         return std::span(rectangles_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
 
-    /// Writes the crossings of a segment that is `length` [m] long, in order from a.
-    /// @param out  emptied first
+    /// Writes the passages of a segment of `length` [m] through solid cells, in order from a.
+    /// @param out  replaced by the crossings
     void crossings(CellPoint a, CellPoint b, double length, std::vector<Crossing>& out) const;
-    /// Sum of the crossings' lengths [m]; stops counting once the sum exceeds `enough` [m].
+    /// Length of a segment of `length` [m] inside solid cells [m]; counting stops once it exceeds
+    /// `enough` [m].
     double solid_length(CellPoint a, CellPoint b, double length, double enough) const;
-    /// The point lies in a solid cell; left and lower edges belong to a cell, others do not.
+    /// Whether the point lies in a solid cell; a cell includes its left and lower edges only.
     bool holds(CellPoint p) const;
-    /// Every cell that holds or touches the point is solid.
+    /// Whether every cell that contains or touches the point is solid.
     bool surrounds(CellPoint p) const;
 
   private:
-    /// Two numbers on which the processor works at once.
+    /// Two numbers, for a SIMD instruction.
     using Pair [[gnu::vector_size(16)]] = double;
     /// Two rectangles of a tile.
     struct Two {
         enum Side { left, right, bottom, top };
-        std::array<Pair, 4> sides;  // by side [cells]
+        std::array<Pair, 4> sides;  // coordinates by side [cells]
     };
     class TilePieces;
 
@@ -87,11 +81,11 @@ class WallIndex {
     int rows_ = 0;
     int tile_columns_ = 0;
     int tile_rows_ = 0;
-    std::vector<std::size_t> first_;         ///< of each tile's rectangles; one more than tiles
-    std::vector<CellRectangle> rectangles_;  ///< by tile, row by row
-    std::vector<std::size_t> first_two_;     ///< of each tile's twos; one more than tiles
-    std::vector<Two> twos_;    ///< the rectangles again; of an odd number the last is alone
-    std::vector<bool> solid_;  ///< columns * rows
+    std::vector<std::size_t> first_;  ///< index of each tile's first rectangle; size: tiles + 1
+    std::vector<CellRectangle> rectangles_;  ///< rectangles of all tiles, row by row of tiles
+    std::vector<std::size_t> first_two_;  ///< index in twos_ of each tile's first; size: tiles + 1
+    std::vector<Two> twos_;  ///< rectangles of a tile in pairs; the last of an odd number is alone
+    std::vector<bool> solid_;  ///< true for solid cells; columns * rows
 };
 
 }  // namespace rovernet

@@ -12,8 +12,8 @@ struct Part {
     double to;
 };
 
-/// The part of a segment of that length that runs between two heights, the upper one left out;
-/// empty if from >= to.
+/// Part of a segment of that length between two heights, without the upper one; empty if from >=
+/// to.
 Part between(double bottom, double top, Vec3 a, Vec3 b, double length) {
     if (a.z == b.z) return {0, a.z >= bottom && a.z < top ? length : 0};
     const auto way_to = [&](double z) { return (z - a.z) / (b.z - a.z) * length; };

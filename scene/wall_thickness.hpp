@@ -12,21 +12,21 @@
 
 namespace rovernet {
 
-/// Thickness of the walls of one layer, as they are drawn.
+/// Thickness of the walls of one layer; the interior of a wall drawn as an outline is included.
 ///
-/// The thickness at a cell is its shortest chord through solid cells along the rows, the columns
-/// and the two diagonals of the map. It exceeds that of a straight wall at any angle by at most 8 %
-/// (1 / cos 22.5 degrees, square cells) and the steps of its outline. The inside of a wall drawn as
-/// an outline counts. A table with 4 bytes for each cell is made at the first question; questions
-/// may come from several threads.
+/// The thickness at a cell is the shortest chord along rows, columns or diagonals of the map. For a
+/// slanting wall it is the mean of neighbouring chords whose lengths differ by at most one cell,
+/// times the sine of their angle to the wall, so that the steps of the outline do not count. A
+/// table with 4 bytes per cell is made on first use (temporarily 12 more); several threads may call
+/// at once.
 class WallThickness {
   public:
     /// @param walls    not null
-    /// @param hollows  of the map; not null
+    /// @param hollows  hollow walls of the map; not null
     WallThickness(const MapFrame& frame, std::shared_ptr<const WallIndex> walls,
                   std::shared_ptr<const HollowWalls> hollows);
 
-    /// [m] At the cell that holds the point; 0 where there is no wall.
+    /// Thickness [m] at the cell that contains the point; 0 outside walls.
     double at(CellPoint p) const {
         const int columns = walls_->columns();
         if (!(p.u >= 0 && p.v >= 0 && p.u < columns && p.v < walls_->rows())) return 0;

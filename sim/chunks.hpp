@@ -8,18 +8,18 @@
 #include <utility>
 #include <vector>
 
-// Long lists that grow while references to their values are kept.
+// List that grows without moving its values: references to them stay valid.
 
 namespace rovernet {
 
-/// A list that only grows, whose values never move: references stay valid while others are added.
+/// List that only grows. References to its values stay valid while values are added.
 ///
-/// The values lie in chunks of 64. Growing moves no value and frees none, so that a list of a
-/// million values takes hardly more memory than they do; a std::vector takes up to twice as much,
-/// and thrice while it grows. The price is one more load for each access, and a whole chunk for the
-/// first value.
+/// The values lie in chunks of 64. Growing copies nothing, so a list of a million values needs
+/// little more memory than the values; a std::vector needs up to twice as much, and three times as
+/// much while it grows. The costs are one more load per access, and a whole chunk for the first
+/// value.
 ///
-/// Timeline keeps its entries in one, Motion what it knows of each node; Slots is made of it.
+/// Used by Timeline (entries), Motion (state of each node) and Slots.
 ///
 /// @tparam T  default-constructible and movable; copyable if the list is copied
 template <class T>
@@ -31,16 +31,16 @@ class Chunks {
     Chunks(const Chunks& other) : size_(other.size_) {
         for (const auto& chunk : other.chunks_) chunks_.push_back(std::make_unique<Chunk>(*chunk));
     }
-    /// Assignment of a copy, or of a list that is moved from.
+    /// Assignment by copy and swap; also moves.
     Chunks& operator=(Chunks other) {
         std::swap(chunks_, other.chunks_);
         std::swap(size_, other.size_);
         return *this;
     }
 
-    /// Number of values.
+    /// Number of values in the list.
     std::size_t size() const { return size_; }
-    /// Adds a value behind the others. Every 64th call allocates.
+    /// Appends a value. Every 64th call allocates memory.
     void push_back(T value) {
         if (size_ == chunks_.size() * chunk_size) chunks_.push_back(std::make_unique<Chunk>());
         (*this)[size_] = std::move(value);
@@ -50,7 +50,7 @@ class Chunks {
     /// Value number `i` < size(); not checked.
     T& operator[](std::size_t i) { return (*chunks_[i / chunk_size])[i % chunk_size]; }
     const T& operator[](std::size_t i) const { return (*chunks_[i / chunk_size])[i % chunk_size]; }
-    /// Value number `i`, checked: for numbers that come from a caller.
+    /// Value number `i`, checked: for an index that a caller passes.
     /// @throws std::out_of_range unless i < size()
     T& at(std::size_t i) {
         if (i >= size_) throw std::out_of_range("no such value in a list");
@@ -58,14 +58,14 @@ class Chunks {
     }
 
   private:
-    // A power of two, so that [] divides by shifting.
+    // Chunk size: a power of two, so that [] divides by shifting.
     static constexpr std::size_t chunk_size = 64;
     // Chunk of values, all default-constructed at first.
     using Chunk = std::array<T, chunk_size>;
 
-    // Every chunk but the last is full.
+    // Chunks of values; every chunk but the last is full.
     std::vector<std::unique_ptr<Chunk>> chunks_;
-    // Values so far; the last chunk has room for more.
+    // Number of values; the last chunk may have room for more.
     std::size_t size_ = 0;
 };
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <complex>
 
-// Complex numbers for results. Sums and products of std::complex are the same bits everywhere; its
-// quotient, its square root, std::abs, std::exp and std::polar are not: each compiler and C library
-// has its own.
+// Complex functions with the same bits on every machine. Sums and products of std::complex are the
+// same bits everywhere. Its quotient, square root, std::abs, std::exp and std::polar depend on the
+// compiler and the C library; the functions below replace them.
 
 namespace rovernet::math {
 
@@ -23,13 +23,13 @@ inline Complex phasor(double angle) {
     return {cosine, sine};
 }
 
-/// e^z; exactly 0 where e^Re(z) is, whatever the imaginary part. |Im z| <= 1e9 [rad] elsewhere.
+/// Exponential e^z, for |Im z| <= 1e9 [rad]; exactly 0 for every imaginary part if e^Re(z) is 0.
 inline Complex exp(Complex z) {
     const double size = exp(z.real());
     return size == 0 ? Complex{} : size * phasor(z.imag());
 }
 
-/// Square root in the right half plane, with the sign of z's imaginary part; 0 for 0. |z|^2 must be
+/// Square root with a real part >= 0 and the sign of z's imaginary part; 0 for 0. |z|^2 must be
 /// within the range of a double.
 inline Complex square_root(Complex z) {
     const double large = std::sqrt((std::sqrt(std::norm(z)) + std::abs(z.real())) / 2);

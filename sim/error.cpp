@@ -9,8 +9,8 @@
 namespace rovernet {
 namespace {
 
-/// Number of letters to insert, remove or replace, and of neighbours to swap, so that one word
-/// becomes the other.
+/// Edit distance of two words: number of letters to insert, remove or replace, and of neighbouring
+/// letters to swap.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -49,7 +49,7 @@ InputError::InputError(Location where, const std::string& message)
     : std::runtime_error(at(where, message)), where_(std::move(where)), message_(message) {}
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
-    constexpr std::size_t longest_word = 64;  // a word this long is no slip of the finger
+    constexpr std::size_t longest_word = 64;  // a longer word is no typing error
     if (word.empty() || word.size() > longest_word) return "";
     const std::string* best = nullptr;
     std::size_t best_distance = std::max<std::size_t>(word.size() / 2, 1) + 1;
@@ -59,7 +59,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
         const std::size_t d = same_but_for_case(word, candidate) ? 0
                               : contained                        ? 1
                                                                  : edit_distance(word, candidate);
-        if (d < best_distance && d < word.size()) {  // not every letter may differ
+        if (d < best_distance && d < word.size()) {  // at least one letter must be equal
             best = &candidate;
             best_distance = d;
         }

@@ -4,7 +4,7 @@
 namespace rovernet {
 namespace {
 
-/// Number of the least of four keys, by arithmetic, not ?:, which gcc turns into jumps that a
+/// Index of the least of four keys, computed arithmetically; gcc compiles ?: to jumps, which a
 /// random heap mispredicts.
 std::size_t least_of_four(const EventKey* keys) {
     const std::size_t low = keys[1] < keys[0];
@@ -30,8 +30,8 @@ void EventHeap::sift_up(std::size_t hole, EventKey key) {
     keys[hole] = key;
 }
 
-// The hole goes down to a leaf and the last key up from there: it came from the bottom and seldom
-// rises, so that the loop's length is the only branch to predict.
+// The hole moves down to a leaf, then the last key up from there: that key came from the bottom and
+// seldom rises, so the loop's length is the only branch to predict.
 void EventHeap::pop() {
     EventKey* const keys = keys_.data();
     const EventKey last = std::exchange(keys[--end_], EventKey{});

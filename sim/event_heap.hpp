@@ -10,59 +10,59 @@
 #include <utility>
 #include <vector>
 
-// The key of an event, and a heap of keys. EventQueue is made of such heaps and of lines; the
-// Scheduler keeps what the events are about.
+// Key of an event, and a heap of keys. EventQueue consists of such heaps and of lines; the
+// Scheduler stores the payloads of the events.
 
 namespace rovernet {
 
 /// Order of service among events at one time.
 ///
-/// A frame that ends at t is received before any timer of t runs, and what a user scheduled for t
-/// sees all that the simulator did at t before. Keys pack the value into 4 bits.
+/// A frame that ends at t is received before any timer of t runs; an action that a user scheduled
+/// for t runs after all simulator events of t. Keys pack the value into 4 bits.
 enum class Priority : std::uint8_t {
-    /// A frame ends at its receivers.
+    /// End of a frame at its receivers.
     frame_end,
-    /// Timer of a protocol or an access model, end of a leg, change of links, end of a frame's
-    /// wait.
+    /// Timer of a protocol or an access model, end of a leg, link change, or time to send a waiting
+    /// frame.
     timer,
-    /// Start of a frame; no part schedules it today.
+    /// Start of a frame; not used today.
     frame_start,
     /// Action of a user, or a reaction to a message, an arrival or a lost link.
     user
 };
 
-/// Place of an event in the order of service: time, then priority, then sequence (first scheduled,
-/// first served). This order is total, so that a run does not depend on how a queue is built.
+/// Position of an event in the order of service: by time, then priority, then sequence (first
+/// scheduled, first served). No two events are equal, so a run does not depend on the queue's
+/// structure.
 ///
 /// A key has 16 bytes: the time [ns], and 4 bits priority | 36 bits sequence | 24 bits slot. The
-/// slot is where the Scheduler keeps the event's payload; it takes no part in the order.
+/// slot is the index of the event's payload in the Scheduler; it does not affect the order.
 class EventKey {
   public:
-    /// Key after every event: what a queue answers that has none.
+    /// Default key, later than the key of every event; the top of an empty queue.
     constexpr EventKey() = default;
-    /// @param t         when the event is served
+    /// @param t         time at which the event is served
     /// @param priority  order among events at `t`
     /// @param sequence  number of the event, < 2^36; no two events of a run share one
-    /// @param slot      where its payload is, < 2^24
+    /// @param slot      index of its payload, < 2^24
     constexpr EventKey(Time t, Priority priority, std::uint64_t sequence, std::uint32_t slot)
         : time_(t.time_since_epoch().count()),
           word_(std::uint64_t{static_cast<std::uint8_t>(priority)} << 60 | sequence << 24 | slot) {}
 
-    /// Parts of the key, as they were given.
+    /// Parts of the key, as passed to the constructor: time, priority, sequence and slot.
     constexpr Time time() const { return Time{Duration{time_}}; }
     constexpr Priority priority() const { return static_cast<Priority>(word_ >> 60); }
     constexpr std::uint64_t sequence() const { return word_ << 4 >> 28; }
     constexpr std::uint32_t slot() const { return word_ & 0xffffff; }
 
-    /// Key of the same priority, sequence and slot at another time.
+    /// Key with the same priority, sequence and slot at another time.
     constexpr EventKey at(Time t) const { return {t, priority(), sequence(), slot()}; }
 
-    /// Order of service, as one comparison of 128 bits without a branch: which of two keys is
-    /// earlier can seldom be predicted. Sequences differ, so that the slot never decides.
+    /// Order of service, as one comparison of 128 bits without a branch, because a branch on two
+    /// keys is hard to predict. Sequences differ, so the slot never decides.
     friend constexpr bool operator<(EventKey a, EventKey b) { return a.rank() < b.rank(); }
     friend constexpr bool operator==(EventKey, EventKey) = default;
-    /// Earlier of two keys. Unlike std::min, whose references gcc turns into jumps, it takes no
-    /// branch.
+    /// Earlier of two keys, without a branch (gcc compiles the references of std::min to jumps).
     friend constexpr EventKey earlier(EventKey a, EventKey b) { return b < a ? b : a; }
 
     /// Order as a number: the time in the upper 64 bits, priority, sequence and slot below.
@@ -70,16 +70,16 @@ class EventKey {
     constexpr Int128 rank() const { return (Int128{time_} << 64) | word_; }
 
   private:
-    // Time [ns], and priority, sequence and slot in one word.
+    // Time [ns]; the word below packs priority, sequence and slot.
     std::int64_t time_ = std::numeric_limits<std::int64_t>::max();
     std::uint64_t word_ = ~std::uint64_t{0};
 };
 
-/// Allocator whose memory begins with a cache line (64 bytes), which four keys fill.
+/// Allocator whose memory is aligned to cache lines (64 bytes); a line contains four keys.
 template <class T>
 struct LineAllocator {
     using value_type = T;
-    /// Alignment [bytes].
+    /// Alignment of the memory [bytes].
     static constexpr std::align_val_t line{64};
 
     LineAllocator() = default;
@@ -90,24 +90,25 @@ struct LineAllocator {
     friend bool operator==(LineAllocator, LineAllocator) { return true; }
 };
 
-/// Priority queue of keys: a heap with four children to a node (4-ary). A push compares the key
-/// with log4(n) others at most, a pop with about 3 log4(n).
+/// Priority queue of keys: a 4-ary heap, in which every node has up to four children. A push
+/// compares the key with at most log4(n) keys, a pop with about 3 log4(n).
 ///
 /// The four children of a node lie in one cache line, and the least of them is found without a
-/// branch: half the levels of a binary heap. EventQueue uses it for the few keys that come too late
-/// for its lines, and for all but the ends of frames while few events are pending.
+/// branch; there are half as many levels as in a binary heap. EventQueue uses it for the few keys
+/// that are too late for its sorted lines, and for all keys but ends of frames while few events are
+/// pending.
 ///
 /// Keys must differ.
 class EventHeap {
   public:
-    /// Whether there is no key.
+    /// Whether the heap has no key.
     bool empty() const { return end_ == root; }
-    /// Number of keys.
+    /// Number of keys in the heap.
     std::size_t size() const { return end_ - root; }
     /// Least key; the default key if the heap is empty.
     EventKey top() const { return keys_[root]; }
 
-    /// Adds a key. Amortised allocation, as of a std::vector.
+    /// Adds a key. Memory grows by doubling, as in a std::vector.
     void push(EventKey key);
     /// Removes top(); the heap must not be empty.
     void pop();
@@ -122,19 +123,19 @@ class EventHeap {
     }
 
   private:
-    // The root is 3, so that the children of i fill the line of four that begins at 4 (i - 2).
-    // Places from end_ on hold the default key, so that a line can always be searched whole.
+    // Index of the root: 3, so that the children of i fill the four-key line from 4 (i - 2) on.
+    // Entries from end_ on contain the default key, so that a whole line can always be searched.
     static constexpr std::size_t root = 3;
     // Keys in a cache line.
     static constexpr std::size_t line = 4;
     using Keys = std::vector<EventKey, LineAllocator<EventKey>>;
 
-    // Moves the hole towards the root until `key` fits in.
+    // Moves the hole towards the root until `key` can be stored there.
     void sift_up(std::size_t hole, EventKey key);
 
-    // Keys by place; the first places are never used.
+    // Keys by index; the entries before the root are not used.
     Keys keys_ = Keys(line);
-    // Place behind the last key.
+    // Index behind the last key.
     std::size_t end_ = root;
 };
 

@@ -8,8 +8,8 @@
 namespace rovernet {
 namespace {
 
-// Times are first compared by their upper bits, in 32-bit numbers, so that the compiler compares
-// several at once. The place in the group stands below these bits: no two numbers are equal.
+// Times are first compared by their upper bits, as 32-bit numbers, so that the compiler compares
+// several at once. The index in the group is in the lower bits: no two numbers are equal.
 constexpr int place_bits = 6;
 constexpr int time_bits = 31 - place_bits;
 static_assert(EventLine::most_at_once <= 1U << place_bits);
@@ -28,8 +28,8 @@ void insertion_sort(std::span<EventKey> keys) {
 
 }  // namespace
 
-// A key's place is the number of earlier keys, counted without a branch. Keys that the compared
-// bits do not tell apart may still lie the wrong way round: an insertion sort ends the work.
+// The position of a key is the number of earlier keys, counted without a branch. Keys with equal
+// upper bits may still be in the wrong order; a final insertion sort corrects it.
 void EventLine::append(std::span<const EventKey> group, Time first, int bits) {
     const std::size_t n = group.size();
     const int dropped = std::max(bits - time_bits, 0);

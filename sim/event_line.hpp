@@ -7,31 +7,30 @@
 #include <span>
 #include <vector>
 
-// Half of the event queue: keys that come nearly in order need no heap.
+// Sorted list of the event queue, for keys that arrive nearly in order.
 
 namespace rovernet {
 
-/// Sorted run of event keys, for keys that come nearly in order. A key is inserted at most 8 places
-/// from the end; a group of up to 48 keys that are later than all others is appended at once.
-/// Removing the first costs an addition.
+/// Sorted list of event keys, for keys that arrive nearly in order. A key is inserted at most 8
+/// places from the end; a group of up to 48 keys that are later than all stored keys is appended at
+/// once. Removing the first key costs one addition.
 ///
-/// EventQueue has two: one for the ends of frames, which come nearly in the order in which the
-/// frames began because frames last about equally long, and one for the nearest of the other
-/// events.
+/// EventQueue has two lines: one for the ends of frames, whose order is nearly that of the starts
+/// because frames last about equally long; and one for the earliest of the other events.
 class EventLine {
   public:
-    /// Keys in a group at most; append() counts with 6 bits.
+    /// Largest number of keys in a group; append() counts with 6 bits.
     static constexpr std::size_t most_at_once = 48;
 
-    /// Whether there is no key: the default key stands in front.
+    /// Whether the line has no key; front() is then the default key.
     bool empty() const { return front() == EventKey{}; }
-    /// Number of keys, those that were removed left out.
+    /// Number of keys, without the removed ones.
     std::size_t size() const { return keys_.size() - 1 - front_; }
     /// Least key; the default key if the line is empty.
     EventKey front() const { return keys_[front_]; }
 
-    /// Inserts a key, unless it belongs before more than 8 others.
-    /// @return whether it was inserted; if not, the caller has to keep it elsewhere
+    /// Inserts a key, unless more than 8 stored keys come after it.
+    /// @return whether the key was inserted; if not, the caller has to store it elsewhere
     bool push(EventKey key) {
         std::size_t place = keys_.size() - 1;
         const std::size_t first = size() > few ? place - few : front_;
@@ -44,13 +43,13 @@ class EventLine {
             forget_gone();
         return true;
     }
-    /// Appends keys, in any order among themselves, that are later than all in the line.
+    /// Appends a group of keys, in any order, that are all later than the keys in the line.
     /// @param group  1 to most_at_once keys
-    /// @param first  a time not after any of theirs
-    /// @param bits   their times differ from `first` by less than 2^bits ns
+    /// @param first  a time not after any key of the group
+    /// @param bits   times of the group differ from `first` by less than 2^bits ns
     void append(std::span<const EventKey> group, Time first, int bits);
-    /// Removes front(), if `remove` is true; there must be a key then. It takes no branch, for
-    /// callers that do not know from which of two lines the next event comes.
+    /// Removes front() if `remove` is true; the line must not be empty then. Without a branch, for
+    /// callers that cannot predict which of two lines has the next event.
     void pop_if(bool remove) { front_ += remove; }
     /// Removes every key for which keep(key) is false. It takes O(n).
     template <class Keep>
@@ -60,20 +59,20 @@ class EventLine {
     }
 
   private:
-    // Places from the end that push() looks at.
+    // Number of places from the end that push() compares with.
     static constexpr std::size_t few = 8;
-    // Places of removed keys that may always be left unused.
+    // Number of removed keys that are kept before memory is compacted.
     static constexpr std::size_t most_gone = 64;
 
-    // Gives back the places of the keys that were removed.
+    // Frees the places of removed keys.
     void forget_gone() {
         keys_.erase(keys_.begin(), keys_.begin() + static_cast<std::ptrdiff_t>(front_));
         front_ = 0;
     }
 
-    // Sorted from front_ on; the default key stands behind them.
+    // Keys, sorted from front_ on; the default key is the last entry.
     std::vector<EventKey> keys_ = std::vector<EventKey>(1);
-    // Place of the least key; the keys before it were removed.
+    // Index of the least key; the keys before it were removed.
     std::size_t front_ = 0;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sim/event_queue.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -34,9 +33,9 @@ void EventQueue::file(EventKey key) {
     ++filed_;
 }
 
-// Keys below the base can only be spilled if the base is lowered, which moves the keys in buckets
-// nearby. If these are many, the spill waits until as many keys have come in, and the heap may
-// grow.
+// Keys below the base can only be spilled if the base is lowered, which moves the keys in nearby
+// buckets. If these are many, the spill waits until as many keys were added; the heap may grow
+// meanwhile.
 void EventQueue::spill() {
     for (; !near_.empty(); near_.pop_if(true)) heap_.push(near_.front());
     const Rank least = rank(heap_.top());
@@ -63,8 +62,8 @@ std::size_t EventQueue::filed_below(std::size_t level) const {
     return keys;
 }
 
-// Keys of levels from `end` on stay in their buckets: they differ from both bases in the same
-// digit.
+// Keys of levels from `end` on stay in their buckets: their highest different digit is the same for
+// both bases.
 void EventQueue::lower_base(Rank base) {
     const std::size_t end = place(base, base_).level;
     base_ = base;
@@ -95,8 +94,8 @@ void EventQueue::refill() {
     near_end_ = ~Rank{0};
 }
 
-// The new base has all digits that the keys of the bucket share: they fall by that many levels at
-// once.
+// The new base has all digits that the keys of the bucket share: the keys move down by that many
+// levels at once.
 void EventQueue::deal_out(Place from) {
     const Bucket& bucket = buckets_[from.level][from.digit];
     const Rank any = rank(chunks_[bucket.chunk].keys[0]);

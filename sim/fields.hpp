@@ -4,16 +4,14 @@
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
-#include <array>
 #include <concepts>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
+#include <utility>
 
 // Descriptions of parameters. A struct with parameters lists them once:
 //
@@ -31,85 +29,101 @@
 
 namespace rovernet {
 
-/// Range of a number, and the words for it in an error ("must be > 0"). The limits are in the unit
-/// in which number_in() gives the parameter.
+/// Range of a number, and its text in an error ("must be > 0"). The limits are in the unit that
+/// number_in() returns for the parameter.
 struct Range {
-    /// Lower limit.
+    /// Lower limit of the number.
     double low = -std::numeric_limits<double>::infinity();
-    /// Upper limit, included.
+    /// Upper limit of the number, included.
     double high = std::numeric_limits<double>::infinity();
     /// Whether the lower limit is included.
     bool low_included = true;
-    /// Words that follow "must be" in an error.
+    /// Text that follows "must be" in an error.
     std::string_view text = "finite";
 
-    /// Whether `v` is finite and lies in the range. NaN does not.
+    /// Whether `v` is finite and lies in the range; false for NaN.
     constexpr bool contains(double v) const {
         constexpr double largest = std::numeric_limits<double>::max();
         return v >= -largest && v <= largest && (low_included ? v >= low : v > low) && v <= high;
     }
 };
 
-/// Value of a parameter that has no default: not a number, until the user gives one. check_fields()
-/// refuses it.
+/// Value of a parameter without a default: NaN until the user sets it. check_fields() reports it as
+/// an error.
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
-/// The usual ranges: any finite number; finite and > 0; finite and >= 0.
+/// Common ranges: any finite number; finite and > 0; finite and >= 0.
 inline constexpr Range any{};
 inline constexpr Range positive{.low = 0, .low_included = false, .text = "> 0"};
 inline constexpr Range non_negative{.low = 0, .text = ">= 0"};
 
-/// One public parameter of a struct, as fields() lists it.
+/// Description of one public parameter of a struct, as listed by fields().
 template <class Struct, class T>
 struct Field {
     /// Key in files and on the command line, in snake_case.
     std::string_view name;
-    /// Member that holds the value: a number, a quantity, a Duration, an enumeration with
-    /// EnumNames, a bool, a string, or a std::optional of one.
+    /// Member with the value: a number, a quantity, a Duration, an enumeration with EnumNames, a
+    /// bool, a string, or a std::optional of one of these.
     T Struct::*member;
-    /// Range of the number in it; `any` where it is none.
+    /// Range of the number; `any` if the value is not a number.
     Range range;
     /// Meaning, for help and documentation: a phrase without a full stop.
     std::string_view meaning;
 };
 
-/// Field with a range.
+/// Description of a parameter that is a number within a range.
 template <class Struct, class T>
 constexpr Field<Struct, T> field(std::string_view name, T Struct::*member, Range range,
                                  std::string_view meaning) {
     return {name, member, range, meaning};
 }
 
-/// Field of any finite number, or of what is no number.
+/// Description of a parameter that is any finite number, or not a number.
 template <class Struct, class T>
 constexpr Field<Struct, T> field(std::string_view name, T Struct::*member,
                                  std::string_view meaning) {
     return {name, member, any, meaning};
 }
 
-/// List of fields, for a struct's fields().
+/// Fields of a struct, in order. Not a std::tuple, which takes several times as long to compile.
+template <class Numbers, class... Fields>
+struct FieldList;
+template <std::size_t number, class Field>
+struct FieldAt {
+    Field field;
+};
+template <std::size_t... number, class... Fields>
+struct FieldList<std::index_sequence<number...>, Fields...> : FieldAt<number, Fields>... {
+    template <class Visitor>
+    constexpr void for_each(Visitor&& visit) const {
+        (visit(FieldAt<number, Fields>::field), ...);
+    }
+};
+
+/// List of the descriptions of parameters, for a struct's fields().
 template <class... Fields>
-constexpr std::tuple<Fields...> describe(Fields... fields) {
-    return {fields...};
+constexpr FieldList<std::index_sequence_for<Fields...>, Fields...> describe(Fields... fields) {
+    return {{fields}...};
 }
 
-/// Struct that lists its parameters.
+/// Struct that lists its parameters by fields().
 template <class T>
 concept Described = requires {
     T::fields();
 };
 
-/// Calls visit(field) for each parameter of `T`, in the order of its list. The fields have
-/// different types: `visit` is generic.
+/// Calls visit(field) for each parameter of `T`, in the order of fields(). The fields have
+/// different types, so `visit` is generic.
 ///
 ///   for_each_field<Friis>([&](const auto& f) { print(f.name, f.meaning); });
 template <Described T, class Visitor>
 constexpr void for_each_field(Visitor&& visit) {
-    std::apply([&](const auto&... each) { (visit(each), ...); }, T::fields());
+    T::fields().for_each(visit);
 }
 
 /// Number inside a parameter, for the range check and for printing: [s] of a Duration, the value of
-/// a quantity in its own unit; nothing for what is no number, and for an optional without a value.
+/// a quantity in its unit; empty for a value that is not a number, and for an optional without a
+/// value.
 template <class T>
 constexpr std::optional<double> number_in(const T& v) {
     if constexpr (requires { v.has_value(); }) {
@@ -125,8 +139,8 @@ constexpr std::optional<double> number_in(const T& v) {
     }
 }
 
-/// Words that stand for the values 0, 1, 2 ... of an enumeration in files. An enumeration that a
-/// file may name specialises it:
+/// Words in files for the values 0, 1, 2 ... of an enumeration. An enumeration that occurs in files
+/// specialises it:
 ///
 ///   template <>
 ///   struct EnumNames<Duplicates> {
@@ -135,27 +149,28 @@ constexpr std::optional<double> number_in(const T& v) {
 template <class E>
 struct EnumNames;
 
-/// Word for a value of an enumeration, which must be one of those listed.
+/// Word in files for a value of an enumeration, which must be a listed one.
 template <class E>
 constexpr std::string_view name_of(E e) {
     return EnumNames<E>::values[static_cast<std::size_t>(e)];
 }
 
-/// Throws the error for a parameter out of its range, or for one that is unset.
-/// @param owner  whose parameter it is: a model's name
-/// @param name   the parameter's key
+/// Throws the error for a parameter that is out of its range or not set.
+/// @param owner  name of the model that has the parameter
+/// @param name   key of the parameter
 /// @param range  Range::text
-/// @param got    the value that was given; not a number: none was
+/// @param got    value that was given; NaN if no value was given
 /// @throws std::invalid_argument "OWNER: NAME must be RANGE, got VALUE"
 [[noreturn]] void throw_out_of_range(std::string_view owner, std::string_view name,
                                      std::string_view range, double got);
 
-/// Checks every numeric parameter of a struct against its range. Models do it when they are made or
-/// used first; scenario files have the same ranges checked earlier, with the place in the file.
-/// @param value  struct whose fields() are looked at
+/// Checks every numeric parameter of a struct against its range. A model calls it when it is
+/// constructed or first used; the scenario reader checks the same ranges earlier and reports the
+/// place in the file.
+/// @param value  struct with fields()
 /// @param owner  name for the error
-/// @throws std::invalid_argument naming the first parameter that is outside, its range and the
-/// value
+/// @throws std::invalid_argument with the first parameter that is out of range, its range and its
+///         value
 template <Described T>
 void check_fields(const T& value, std::string_view owner) {
     for_each_field<T>([&](const auto& f) {

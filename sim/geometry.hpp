@@ -3,15 +3,15 @@
 
 #include <cmath>
 
-// Geometry of places. A link has the same length in both directions to the last bit, so that both
-// directions are up or down together where radios are alike.
+// Vectors and distances. A link has exactly the same length in both directions, so between equal
+// radios both directions go up and down together.
 
 namespace rovernet {
 
-/// Point or vector in metres [m], or a velocity [m/s]. The scene's axes: x to the right and y up on
-/// a map, z up from the ground.
+/// Point or vector in metres [m], or a velocity [m/s]. Axes of the scene: x to the right and y up
+/// on a map, z up from the ground.
 struct Vec3 {
-    /// Coordinates [m]: to the right, up on the map, and above the ground.
+    /// Coordinates [m]: x to the right, y up on the map, z above the ground.
     double x = 0;
     double y = 0;
     double z = 0;
@@ -25,11 +25,11 @@ constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b
 constexpr Vec3 operator*(double s, Vec3 v) { return {s * v.x, s * v.y, s * v.z}; }
 constexpr double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Squared distance [m^2]; the same bits from a to b as from b to a, so that a link has one length
-/// in both directions. It overflows for distances beyond 1e154 m only.
+/// Squared distance [m^2]; the same bits from a to b as from b to a. It overflows only for
+/// distances beyond 1e154 m.
 constexpr double squared_distance(Vec3 a, Vec3 b) { return dot(a - b, a - b); }
-/// Distance [m]; the same bits from a to b as from b to a. std::sqrt is exact to the last bit, by
-/// IEEE 754. Comparisons of distances are cheaper by squared_distance().
+/// Distance [m]; the same bits from a to b as from b to a, because IEEE 754 defines std::sqrt
+/// exactly. squared_distance() is faster for comparisons.
 inline double distance(Vec3 a, Vec3 b) { return std::sqrt(squared_distance(a, b)); }
 
 }  // namespace rovernet

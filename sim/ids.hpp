@@ -5,16 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 
-// Numbers that stand for what a Network owns. They are values: copied, compared and kept in
-// records, where a pointer would dangle or tell addresses.
+// Ids of objects that a Network owns. They are values that can be copied, compared and stored in
+// records; a pointer could dangle, and its address differs from run to run.
 
 namespace rovernet {
 
-/// Number of a robot, which has one radio: its index in the order in which Network::add() made
-/// them, from 0. Robots are never removed, so that an id stays good for the whole run.
+/// Id of a robot, which has one radio: its index in the order of Network::add(), from 0. Robots are
+/// never removed, so an id is valid for the whole run.
 ///
 /// No random draw depends on an id: keys of draws use the robot's name instead, see World::key().
-/// So a robot that is added changes no draw of another.
+/// So adding a robot does not change the draws of the other robots.
 struct NodeId {
     std::uint32_t value = 0;
     /// Index into a table with an entry for each node.
@@ -22,11 +22,11 @@ struct NodeId {
     friend constexpr auto operator<=>(NodeId, NodeId) = default;
 };
 
-/// Address of all nodes: the destination of a broadcast. No robot has it.
+/// Address of all nodes: the destination of a broadcast. No robot has this id.
 inline constexpr NodeId everyone{0xffffffff};
 
-/// Slot of a message in its MessageTable. It is used again once no frame refers to the message:
-/// Message::uid tells messages of a run apart, this does not.
+/// Slot of a message in its MessageTable. The slot is reused once no frame refers to the message;
+/// Message::uid is unique in a run, a MessageId is not.
 struct MessageId {
     std::uint32_t value = 0;
     /// Index into a table with an entry for each slot, see MessageTable::capacity().

@@ -6,7 +6,8 @@
 namespace rovernet {
 namespace {
 
-/// Equality of bits. Unlike ==, it tells -0 from 0: a leg must come back as it was given.
+/// Equality of bits. Unlike ==, it distinguishes -0 from 0: a leg must be returned exactly as
+/// given.
 bool same_bits(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -41,7 +42,7 @@ void Legs::put(Place& place, const Leg& leg) {
     place.start = leg.start;
     place.from = leg.from;
     place.heading = leg.heading;
-    // The old part is released first, so that its place serves again.
+    // The old part is released first, so that its place can be reused.
     if (place.motion != at_rest) release_motion(place.motion);
     place.motion = rests(leg) ? at_rest : take_motion(leg);
 }

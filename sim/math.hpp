@@ -1,43 +1,44 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Functions for results. The C library's log, exp, sin and their kind differ in the last bit
-// between versions and machines, and a last bit may decide whether a frame is received.
+// Elementary functions with reproducible results. The C library's log, exp, sin and others differ
+// in the last bit between versions and machines, and a last bit may decide whether a frame is
+// received.
 
-/// Elementary functions with the same bits from every compiler and C library, for whatever decides
-/// or prints. They are built from + - * / and bit operations, which IEEE 754 rounds in one way
-/// only; compile with -ffp-contract=off and in the default rounding mode. The square root needs no
-/// function here: IEEE 754 defines it. Called as math::log10(x).
+/// Elementary functions with the same bits from every compiler and C library, for decisions and
+/// printed results. They are built from + - * / and bit operations, which IEEE 754 rounds in one
+/// way only; compile with -ffp-contract=off and in the default rounding mode. The square root needs
+/// no function here: IEEE 754 defines it. Usage: math::log10(x).
 namespace rovernet::math {
 
-/// Natural logarithm; error below 1 ulp. The logarithms to base 2 and 10 are as accurate, and exact
-/// wherever the result is an integer (log2(8), log10(1000)).
+/// Natural logarithm; error below 1 ulp. log2 and log10 are as accurate, and exact if the result is
+/// an integer (log2(8), log10(1000)).
 ///
 /// 0 gives -infinity, negative arguments and NaN give NaN, infinity gives infinity; subnormal
 /// arguments are as accurate as others.
 double log(double x);
-/// Logarithm to base 2, as log().
+/// Logarithm to base 2; see log() for accuracy and special values.
 double log2(double x);
-/// Logarithm to base 10, as log().
+/// Logarithm to base 10; see log() for accuracy and special values.
 double log10(double x);
-/// log(1 + x) without the rounding of the sum; error below 1 ulp, +-0 for +-0. -1 gives -infinity,
-/// less than that and NaN give NaN, infinity gives infinity.
+/// log(1 + x), accurate for small x; error below 1 ulp, +-0 for +-0. -1 gives -infinity,
+/// less than -1 and NaN give NaN, infinity gives infinity.
 double log1p(double x);
 
-/// 2^x; error below 1 ulp, exact for integers. Overflow gives infinity, underflow 0 by way of the
-/// subnormal numbers, NaN gives NaN.
+/// 2^x; error below 1 ulp, exact for integers. Overflow gives infinity; underflow gives subnormal
+/// numbers, then 0; NaN gives NaN.
 double exp2(double x);
-/// e^x; error below 1 ulp, exact for 0. Overflow, underflow and NaN as exp2.
+/// e^x; error below 1 ulp, exact for 0. Overflow, underflow and NaN as for exp2.
 double exp(double x);
-/// 10^x; error below 1.1 ulp, exact for 0 ... 22. Overflow, underflow and NaN as exp2.
+/// 10^x; error below 1.1 ulp, exact for 0 ... 22. Overflow, underflow and NaN as for exp2.
 double exp10(double x);
-/// e^x - 1 without the rounding of the difference; error below 1.3 ulp, +-0 for +-0. Overflow gives
+/// e^x - 1, accurate for small x; error below 1.3 ulp, +-0 for +-0. Overflow gives
 /// infinity, NaN gives NaN.
 double expm1(double x);
 
-/// Complementary error function, 2 / sqrt(pi) times the integral of e^(-t^2) from x to infinity;
-/// error below 6 ulp, of subnormal results (x > 26.5) below 6 times the smallest number. NaN gives
-/// NaN.
+/// Complementary error function, 2 / sqrt(pi) times the integral of e^(-t^2) from x to infinity.
+/// Error below 6 ulp; for subnormal results (x > 26.5) below 6 times the smallest positive double.
+/// NaN gives NaN.
 double erfc(double x);
 
 /// Sine and cosine of an angle, each with an error below 1 ulp.
@@ -45,9 +46,8 @@ struct SinCos {
     double sin;
     double cos;
 };
-/// Sine and cosine of x [rad], |x| <= 1e9; sin(-x) = -sin(x) and cos(-x) = cos(x) to the last bit.
-/// For larger |x| (a step from one double to the next is 1e-7 rad there), for infinity and for NaN
-/// both are NaN.
+/// Sine and cosine of x [rad], |x| <= 1e9; exactly sin(-x) = -sin(x) and cos(-x) = cos(x). Both are
+/// NaN for larger |x| (where neighbouring doubles are 1e-7 rad apart), for infinity and for NaN.
 SinCos sincos(double x);
 
 /// Angle of the vector (x, y) [rad], -pi ... pi with the sign of y, counter-clockwise from the x

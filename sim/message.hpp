@@ -11,106 +11,105 @@
 #include <string_view>
 #include <vector>
 
-// From what an application says to what is on air: a Message is stored once, a Frame refers to it
-// and is copied at every hop, an AirFrame is what the radio sends.
+// Data of a packet at three layers: a Message (application) is stored once; a Frame refers to it
+// and is copied at every hop; an AirFrame is transmitted by the radio.
 
 namespace rovernet {
 
-/// Message of an application, or packet of a routing protocol. It does not change once it is in the
-/// table.
+/// Message of an application, or control packet of a routing protocol. It does not change once it
+/// is in the table.
 struct Message {
-    /// Node that made it.
+    /// Node that created the message.
     NodeId origin;
-    /// Number that is unique in the run, from 0 in the order of sending; World::new_message gives
+    /// Number that is unique in the run, from 0 in the order of sending; World::new_message assigns
     /// it.
     std::uint64_t uid = 0;
-    /// Number among the messages of its origin, from 0; packets of protocols have their own count.
+    /// Number among the messages of its origin, from 0; control packets of protocols are counted
+    /// separately.
     std::uint32_t number = 0;
-    /// Destination; `everyone` for a broadcast.
+    /// Destination of the message; `everyone` for a broadcast.
     NodeId to = everyone;
-    /// Key for random draws that concern it, made of its origin's key and `number`: messages of
-    /// others change no draw of this one.
+    /// Key for random draws about this message, made of its origin's key and `number`: messages of
+    /// other nodes do not change its draws.
     std::uint64_t key = 0;
-    /// Size [bytes] on air, without what the access model adds.
+    /// Size [bytes] on air, without the bytes that the access model adds.
     std::uint32_t size = 0;
-    /// Time at which it was made.
+    /// Time at which the message was created.
     Time created = start_of_run;
-    /// Content, for whoever receives it. Its length may differ from `size`.
+    /// Content, for the receiver. Its length may differ from `size`.
     std::string payload;
-    /// Flow of the application that it belongs to, from 1; 0: none. Metrics are told by flow.
+    /// Number of the application's flow, from 1; 0 for no flow. Metrics are computed for each flow.
     std::uint32_t flow = 0;
-    /// Kind of a routing protocol's own packet, as a trace names it, a literal; empty: a message of
-    /// an application.
+    /// Kind of a routing protocol's control packet, as in a trace (a literal); empty for a message
+    /// of an application.
     std::string_view kind = {};
-    /// The routing protocol brings it to its destination; otherwise it goes over one hop, past the
-    /// protocol.
+    /// True if the routing protocol forwards it to its destination; false if it is sent over one
+    /// hop without the protocol.
     bool is_routed = false;
 };
 
 /// Number of hops, such as a time-to-live.
 using Hops = std::uint16_t;
 
-/// Copy of a message on its way: what one transmission carries. It is a value: a router passes on a
-/// changed copy.
+/// Copy of a message on its way: the content of one transmission. A router forwards a changed copy.
 ///
 ///   sender A --ttl 3, hops 1--> B --ttl 2, hops 2--> C --ttl 1, hops 3--> D
 struct Frame {
-    /// Message that it carries.
+    /// Id of the message in the frame.
     MessageId message;
-    /// Node that puts this frame on air.
+    /// Node that transmits this frame.
     NodeId sender;
-    /// Key of the walk that the copy took so far, for draws that concern this copy. Each forwarder
+    /// Key of the path that the copy has taken so far, for draws about this copy. Each forwarder
     /// combines its own key into it.
     std::uint64_t path = 0;
-    /// Hops that this copy may still cross, this one included.
+    /// Hops that this copy may still travel, including this one.
     Hops ttl = 0;
-    /// Hops that it has crossed once it is received.
+    /// Hops that the copy has travelled when it is received.
     Hops hops = 0;
     /// Receiver of this hop; `everyone` for a broadcast.
     NodeId next_hop = everyone;
 };
 
-/// Frame that waits to be sent: for its time in Routing, for access in a station's queue.
+/// Frame that waits to be sent: for its send time in Routing, or for channel access in a station's
+/// queue.
 struct QueuedFrame {
     Frame frame;
-    /// Node that the sender received it from; nothing if the sender is its origin.
+    /// Node from which the sender received the frame; empty if the sender is the message's origin.
     std::optional<NodeId> heard_from;
 };
 
-/// Frame as it is on air: that of a message, or a control frame of the access model (IEEE 802.11:
+/// Frame on air: a frame of a message (data), or a control frame of the access model (IEEE 802.11:
 /// RTS, CTS, ACK).
 struct AirFrame {
-    /// Kind of a frame: of a message, or request to send, clear to send, acknowledgement.
+    /// Kind of frame: data, request to send, clear to send, acknowledgement.
     enum Kind : std::uint8_t { data, rts, cts, ack };
 
-    /// Frame of the message. Of a control frame `sender` and `next_hop` mean something, nothing
-    /// else.
+    /// Frame of the message. In a control frame only `sender` and `next_hop` are valid.
     Frame frame = {};
-    /// Node that the sender received it from, as in QueuedFrame.
+    /// Node from which the sender received the frame; empty if the sender is the message's origin.
     std::optional<NodeId> heard_from = std::nullopt;
     Kind kind = data;
-    /// Number of times that a data frame was sent before; 0 for control frames.
+    /// Number of earlier transmissions of a data frame; 0 for control frames.
     std::uint8_t attempt = 0;
-    /// Number of a data frame, the same for all attempts at it: a receiver knows a repetition by
-    /// it.
+    /// Sequence number of a data frame, the same for all its retransmissions: a receiver detects a
+    /// repetition by it.
     std::uint32_t number = 0;
-    /// Time [ns] after its end that it reserves for the answers to it: the Duration field of IEEE
+    /// Time [ns] after its end that the frame reserves for the response: the Duration field of IEEE
     /// 802.11.
     Duration reserved{0};
 };
 
-/// Messages that a frame in flight or a waiting copy still refers to, counted by reference.
-///
-/// Whoever keeps a MessageId holds the message: hold() when it is copied, release() when it is
-/// dropped. The slot is used again after the last release; World::release tells the routing
-/// protocol of that.
+/// Table of the messages that a frame in flight or a waiting copy refers to, with reference counts.
+/// Every stored MessageId counts as a reference: hold() when it is copied, release() when it is
+/// dropped. The slot is reused after the last release; World::release then notifies the routing
+/// protocol.
 class MessageTable {
   public:
-    /// Stores a message, held once by the caller.
+    /// Stores a message with one reference, the caller's.
     MessageId add(Message message);
-    /// Counts one more frame or waiting copy of the message.
+    /// Adds a reference to the message.
     void hold(MessageId id) { ++slots_[id.index()].holders; }
-    /// Counts one fewer; the last one frees the slot. @return whether the message is gone
+    /// Removes a reference; the last one frees the slot. @return whether the slot was freed
     bool release(MessageId id) {
         assert(slots_[id.index()].holders > 0);
         if (--slots_[id.index()].holders > 0) return false;
@@ -118,34 +117,34 @@ class MessageTable {
         return true;
     }
 
-    /// Message in that slot, which must be held; the reference is good until the next add().
+    /// Message in that slot, which must be in use; the reference is valid until the next add().
     const Message& operator[](MessageId id) const { return slots_[id.index()].message; }
-    /// Notes that a frame of the message has arrived somewhere.
-    void arrived(MessageId id) { slots_[id.index()].has_arrived = true; }
-    /// Calls visit(id) for every message that is held and has arrived nowhere, in order of id. At
-    /// the end of a run these are told of as cut off.
+    /// Marks the message: a frame of it has ended at a receiver.
+    void mark_ended(MessageId id) { slots_[id.index()].has_ended = true; }
+    /// Calls visit(id) for every message in use of which no frame has ended at any receiver, in
+    /// order of id. At the end of a run these messages are reported as cut off.
     template <class Visit>
     void for_each_at_its_origin(Visit visit) const {
         for (MessageId id{0}; id.index() < slots_.size(); ++id.value) {
             const Slot& slot = slots_[id.index()];
-            if (slot.holders > 0 && !slot.has_arrived) visit(id);
+            if (slot.holders > 0 && !slot.has_ended) visit(id);
         }
     }
-    /// Number of messages that are held.
+    /// Number of messages in use.
     std::size_t size() const { return slots_.size() - free_.size(); }
     /// Bound on ids: the index of every MessageId so far is below it.
     std::size_t capacity() const { return slots_.size(); }
 
   private:
-    // Message, how many hold it, and whether a frame of it has ended anywhere.
+    // Message, its number of references, and whether a frame of it has ended anywhere.
     struct Slot {
         Message message;
         std::uint32_t holders = 0;
-        bool has_arrived = false;
+        bool has_ended = false;
     };
     // Slots by MessageId.
     std::vector<Slot> slots_;
-    // Slots that are free, the last one first.
+    // Free slots; the last one is reused first.
     std::vector<MessageId> free_;
 };
 

@@ -4,20 +4,20 @@
 #include <array>
 #include <cstddef>
 
-// Polynomials of elementary functions: the approximations of sim/math.hpp end in one.
+// Evaluation of polynomials, used by the approximations of sim/math.hpp.
 
 namespace rovernet::math {
 
 /// Polynomial c[0] + c[1] x + c[2] x^2 + ... with an odd number of coefficients. Every compiler
-/// rounds it in the same way.
+/// gives the same rounding.
 ///
-/// Even and odd terms are summed apart, in x^2, and joined at the end: two short chains of
-/// multiplications instead of the long one of Horner's rule, so that it takes half the time until
-/// the result is there. math.cpp and the error rates of models/phy use it:
+/// Even and odd terms are summed separately, as polynomials in x^2: two short chains of
+/// multiplications instead of the long one of Horner's rule, so the latency is half. Used by
+/// math.cpp and by the error rates of models/phy.
 ///
 ///   polynomial(std::array{1.0, 2.0, 3.0}, x) == 1 + 2 x + 3 x^2
 ///
-/// @param c  coefficients, of the lowest power first
+/// @param c  coefficients, lowest power first
 template <std::size_t N>
 double polynomial(const std::array<double, N>& c, double x) {
     static_assert(N % 2 == 1);

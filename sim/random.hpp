@@ -5,69 +5,71 @@
 #include <cstdint>
 #include <string_view>
 
-// Random numbers without a generator: each draw is a function of a key that says what it is for. No
-// state is passed on, so that a draw more or less changes no other, in any order and thread.
+// Random numbers without a generator state: each draw is a function of a key that describes its
+// use. An additional draw changes no other draw, in any order and any thread.
 
 namespace rovernet {
 
-/// Purpose of a random number. The values are fixed for ever, as results depend on them: append,
-/// never renumber. Behind each: what the fields a and b of its keys are.
+/// Purpose of a random number. Results depend on the values: append enumerators, never renumber.
+/// Each comment ends with the fields a and b of the keys.
 enum class Purpose : std::uint16_t {
-    /// Delay before a flood forwards a copy. Robot, message.
+    /// Delay before a flood forwards a copy. a = robot key, b = message key.
     flood_jitter = 1,
-    /// Shadowing of a pair of robots [standard normal]. The smaller of their keys, the larger.
+    /// Shadowing of a pair of robots [standard normal]. a = smaller robot key, b = larger one.
     link_shadowing = 2,
-    /// Start of a robot in an area. Robot.
+    /// Start position of a robot in an area. a = robot key.
     placement = 3,
-    /// Order of a robot's waypoints that are shuffled. Robot, number of the plan.
+    /// Order of a robot's shuffled waypoints. a = robot key, b = number of its movement plan.
     order = 4,
-    /// Choice of a robot's goal among several. Robot, number of the plan.
+    /// Choice of a robot's goal among several. a = robot key, b = number of its movement plan.
     destination = 5,
-    /// Draws of movement models. Robot, number of its movement.
+    /// Draws of movement models. a = robot key, b = number of the robot's movement.
     movement = 6,
-    /// Loss of a frame by its sender's success rate. Pair of robots, message and path.
+    /// Loss of a frame by its sender's success rate. a = key of the robot pair, b = key of message
+    /// and path.
     link_success = 7,
-    /// Number of slots of a backoff of the DCF. Robot.
+    /// Number of backoff slots of the DCF. a = robot key.
     backoff = 8,
-    /// Loss of a frame by its error rate. Pair of robots, number of the frame.
+    /// Loss of a frame by its error rate. a = key of the robot pair, b = number of the frame.
     bit_errors = 9,
-    /// Sender of a message of a flow from any robot. Name of the flow.
+    /// Sender of a message in a flow from any robot. a = key of the flow's name.
     traffic_source = 10,
-    /// Delays and choices of other routing protocols. Robot, message.
+    /// Delays and choices of other routing protocols. a = robot key, b = message key.
     routing_jitter = 11,
-    /// Time at which links are sampled for a fit [share of the duration].
+    /// Time at which links are sampled for a fit [fraction of the duration].
     sample_time = 15,
-    /// Waves of the field of shadowing. Number of the wave.
+    /// Waves of the shadowing field. a = number of the wave.
     field_shadowing = 16,
-    /// Fade of a frame at a receiver. Frame and robot, see Fades.
+    /// Fading of a frame at a receiver. a = frame key, b = receiver key.
     frame_fading = 17,
-    /// Waves of the field of fading. Number of the wave.
+    /// Waves of the fading field. a = number of the wave.
     place_fading = 18,
 };
 
-/// Key of one draw, which alone decides it: equal keys give equal numbers, in any order and from
-/// any thread; keys that differ in any field give independent numbers.
+/// Key of one draw, which determines the number: equal keys give equal numbers, in any order and
+/// from any thread; keys that differ in any field give independent numbers.
 ///
 ///   uniform({.seed = 1, .purpose = Purpose::placement, .a = name_key("A"), .index = 0})
 struct Key {
-    /// Seed of the run.
+    /// Seed of the run's random draws.
     std::uint64_t seed = 0;
     /// Number of the independent repetition.
     std::uint32_t replication = 0;
-    /// Purpose of the number.
+    /// Purpose of the draw.
     Purpose purpose{};
-    /// Subject of the draw: a robot's name_key, say.
+    /// Subject of the draw, such as a robot's name_key.
     std::uint64_t a = 0;
-    /// Second subject: a packet, or the other robot. Exchanging a and b gives another number.
+    /// Second subject: a packet, or the second robot. Exchanging a and b gives a different number.
     std::uint64_t b = 0;
-    /// Number among several such draws, from 0.
+    /// Index among several draws whose other fields are equal, from 0.
     std::uint64_t index = 0;
 };
 
-/// 64 random bits: Philox4x32-10 over the counter (a, b), under a key mixed from the other fields.
+/// Random bits (64): Philox4x32-10 over the counter (a, b), under a key mixed from the other
+/// fields.
 ///
-/// Two keys that differ in a and b only, or in one field only, never share a Philox block; any
-/// other two do with probability 2^-64.
+/// Two keys that differ only in a and b, or in only one field, never share a Philox block; any
+/// other two keys share one with probability 2^-64.
 std::uint64_t bits(const Key& key);
 
 /// Uniform draw in the open interval (0, 1): a midpoint (i + 1/2) 2^-52, never 0 or 1; u and 1 - u
@@ -83,7 +85,7 @@ double exponential(const Key& key);
 
 /// Uniform draw in 0 ... n-1, n > 0: the high word of bits * n (D. Lemire, ACM TOMACS 29(1), 2019).
 ///
-/// There is no rejection, so that one key is one draw: each value's probability is within 2^-64 of
+/// There is no rejection: one key gives one draw. The probability of each value is within 2^-64 of
 /// 1/n, a relative bias below n 2^-64.
 std::uint64_t below(const Key& key, std::uint64_t n);
 
@@ -92,11 +94,12 @@ std::uint64_t below(const Key& key, std::uint64_t n);
 /// Source: M. J. Wichura, Algorithm AS 241 (PPND16), Applied Statistics 37(3), 1988.
 double normal_quantile(double p);
 
-/// Key of a name: XXH64 of its bytes, with seed 0. Robots and flows have their keys from it.
+/// Key of a name: XXH64 of its bytes, with seed 0. Keys of robots and flows are made of their
+/// names.
 std::uint64_t name_key(std::string_view name);
 
-/// Finaliser of splitmix64: one-to-one, and a change of one bit of x changes each bit of the result
-/// with probability near 1/2.
+/// Finaliser of splitmix64: a one-to-one function; a change of one bit of x changes each bit of the
+/// result with probability near 1/2.
 ///
 /// Source: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, OOPSLA
 /// 2014; constants of D. Stafford's variant 13.
@@ -106,44 +109,44 @@ constexpr std::uint64_t mix(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// Key made of two keys, whose order counts: mix(mix(first + 2^64 / golden ratio) + second), with
-/// the finaliser of splitmix64. One-to-one in either argument while the other stays.
+/// Key made of two keys, whose order matters: mix(mix(first + 2^64 / golden ratio) + second), with
+/// the finaliser of splitmix64. One-to-one in each argument for a fixed other argument.
 constexpr std::uint64_t combine(std::uint64_t first, std::uint64_t second) {
     return mix(mix(first + 0x9e3779b97f4a7c15) + second);
 }
 
-/// Draws for unordered pairs of keys, one for each, for when a run asks for more of them than
-/// Philox can give: mix(mix(s + a) + mix(s + b)), with s made of seed, replication and purpose.
+/// Draws for unordered pairs of keys, one for each pair; faster than Philox, for runs with very
+/// many pairs: mix(mix(s + a) + mix(s + b)), with s made of seed, replication and purpose.
 ///
-/// The draw from a to b is the one from b to a. Pairs that share a key draw independently, and so
-/// do all the pairs of three or four keys together. Two pairs share a draw with probability 2^-64.
-/// Shadowing of links uses it: one draw for each pair of robots.
+/// The draw is the same in both orders. Draws of pairs that share a key are independent, and so are
+/// the draws of all pairs among three or four keys. Two pairs have the same draw with probability
+/// 2^-64. Shadowing of links uses one draw for each pair of robots.
 class PairDraws {
   public:
-    /// Draws of a run for a purpose.
+    /// Draws of a run for one purpose.
     PairDraws(std::uint64_t seed, std::uint32_t replication, Purpose purpose);
 
-    /// Part that one key adds to each of its pairs, for a caller that keeps it.
+    /// Contribution of one key to the draw of each of its pairs, for a caller that stores it.
     std::uint64_t share(std::uint64_t key) const { return mix(stream_ + key); }
-    /// 64 random bits of the pair that these parts belong to.
+    /// Random bits (64) of a pair, from the contributions of its two keys.
     static std::uint64_t bits_of_shares(std::uint64_t a, std::uint64_t b) { return mix(a + b); }
-    /// 64 random bits of a pair of keys.
+    /// Random bits (64) of a pair of keys.
     std::uint64_t bits(std::uint64_t a, std::uint64_t b) const {
         return bits_of_shares(share(a), share(b));
     }
-    /// Uniform draw of a pair, as uniform() of these bits.
+    /// Uniform draw in (0, 1) of a pair of keys, from its random bits.
     double uniform(std::uint64_t a, std::uint64_t b) const;
-    /// Standard normal draw of a pair, as normal() of these bits.
+    /// Standard normal draw of a pair of keys, from its random bits.
     double normal(std::uint64_t a, std::uint64_t b) const { return normal_of(bits(a, b)); }
-    /// Standard normal draw for bits of a pair.
+    /// Standard normal draw for the random bits of a pair.
     static double normal_of(std::uint64_t bits);
 
   private:
-    // Part of the key that all pairs share: s.
+    // Part of the key shared by all pairs: s.
     std::uint64_t stream_;
 };
 
-/// Philox4x32 bijection of ten rounds: `counter` enciphered under `key`.
+/// Philox4x32 bijection of ten rounds: encrypts `counter` with `key`.
 ///
 /// Source: J. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC11, section 4.
 std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> counter,

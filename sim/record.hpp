@@ -3,7 +3,7 @@
 
 #include "sim/fate.hpp"
 #include "sim/ids.hpp"
-#include "sim/legs.hpp"
+#include "sim/leg.hpp"
 #include "sim/message.hpp"
 #include "sim/record_kind.hpp"
 #include "sim/time.hpp"
@@ -12,12 +12,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <variant>
 
-// Records: everything that can be observed of a run. The parts of a network give them to
-// World::emit; traces, metrics, the fingerprint and the user's own sinks see records and nothing
-// else. They come in order of time. A record and what it points to is good while a sink handles it.
+// Records: all observable events of a run. The parts of a network pass them to World::emit; traces,
+// metrics, the fingerprint and user-defined sinks receive only records. Records are in order of
+// time. A record, and data that it points to, is valid while a sink handles it.
 //
 //     void on(const Record& record, const RecordContext& context) {
 //         const auto* got = std::get_if<Received>(&record);
@@ -28,18 +27,21 @@
 
 namespace rovernet {
 
-/// Reception of one transmission at one receiver that could decode it if nothing interfered.
-/// Medium::find_receivers fixes node and time when the frame goes on air, whatever moves later;
-/// reception model and routing protocol fill in the rest when it ends.
+class Legs;
+
+/// Reception of one transmission at one receiver that could decode it without interference.
+/// Medium::find_receivers sets node and time when the frame starts, whatever moves later; reception
+/// model and routing protocol set the other fields when the frame ends.
 struct Reception {
-    /// End of the frame at this receiver.
+    /// Time at which the frame ends at this receiver.
     Time time;
     NodeId node;
-    /// Fate of the copy here.
+    /// Fate of the copy at this receiver.
     Fate fate = Fate::waiting;
-    /// The application gets the message: it is the node's first copy, and for this node.
+    /// True if the application gets the message: it is the node's first copy, and the node is a
+    /// destination.
     bool delivered = false;
-    /// The receiver began to receive the frame. Of a lost frame `sinr` says whether it did.
+    /// True if the receiver locked onto the frame. For a lost frame `sinr` sets whether it did.
     bool locked = true;
 
     /// Order in which the receptions of a transmission are served: by time, then by node.
@@ -48,41 +50,41 @@ struct Reception {
     }
 };
 
-/// An application hands a message to the routing protocol, or to the MAC if it goes over one hop.
-/// Packets of a protocol's own have no Sent. Applications emit it before anything comes of the
-/// message.
+/// An application passes a message to the routing protocol, or to the MAC if it is sent over one
+/// hop. Control packets of a protocol have no Sent. Applications emit it before any other record of
+/// the message.
 struct Sent {
     Time time;
     NodeId node;
     MessageId message;
-    /// Hops that the message may cross.
+    /// Largest number of hops that the message may travel.
     Hops ttl;
-    /// Robots that the message concerns, the sender included: all that are there now; 2 for a
+    /// Robots that the message concerns, including the sender: all robots that exist now; 2 for a
     /// unicast.
     std::uint32_t robots;
-    /// Robots of these that a chain of links joins to the sender now, the sender not included;
-    /// present only if a sink asks for it (see kind_reachable, kind_cheap_reachable). It bounds
-    /// what any protocol could reach if nothing moved.
+    /// Number of these robots that a chain of links connects to the sender now, without the sender;
+    /// set only if a sink requests it (see kind_reachable, kind_cheap_reachable). It is the largest
+    /// number that any protocol could reach if no robot moved.
     std::optional<std::uint32_t> reachable;
 };
 
-/// A node puts a frame of a message on air. A frame that csma repeats has one for each attempt. The
-/// MAC emits it as the frame begins; how long it lasts shows at its receivers.
+/// A node starts to transmit a frame of a message. A frame that csma repeats has one record for
+/// each attempt. The MAC emits it at the start of the frame; Received has the end.
 struct Transmitted {
     Time time;
     Frame frame;
-    /// Node that the frame came from, if the sender forwards it.
+    /// Node from which the sender received the frame, if the sender forwards it.
     std::optional<NodeId> heard_from;
 };
 
 /// A frame of a message ends at some of its receivers: a broadcast at all of them at once, or in
-/// several records if other events lie between; a unicast at the node that it is for. Routing emits
-/// it when the protocol has said what becomes of each copy, and before applications react.
+/// several records if other events lie between; a unicast at its destination. Routing emits it when
+/// the protocol has set the fate of each copy, and before applications react.
 struct Received {
     Frame frame;
-    /// Receptions in order of time, then of node, later than all earlier records.
+    /// Receptions in order of time, then of node; all later than those of earlier records.
     std::span<const Reception> receptions;
-    /// Time [ns] that a unicast at csma reserves after its end, for its acknowledgement.
+    /// Time [ns] that a unicast under csma reserves after its end, for the acknowledgement.
     Duration reserved{0};
     /// Bytes that the access model adds to the message.
     std::uint32_t header = 0;
@@ -90,21 +92,21 @@ struct Received {
     std::span<const Dbm> levels = {};
 };
 
-/// A node loses a copy other than in a reception: while it waits there, or before it is on its way.
-/// With the fates of Received it accounts for every copy that goes no further.
+/// A node loses a copy outside a reception: while the copy waits, or before it is transmitted.
+/// Dropped and the fates of Received together cover every copy that is lost or not forwarded.
 struct Dropped {
     Time time;
     NodeId node;
-    /// Frame as the node received it. A frame that the access model gives up is as it was to be
-    /// sent.
+    /// Frame as the node received it; or, if the access model drops it, as it would have been
+    /// transmitted.
     Frame frame;
-    /// Reason for which it is lost.
+    /// Reason for the loss.
     DropReason reason;
 };
 
-/// A node begins a new leg: where it is from `time` on. The first one is that of the begin of the
-/// run, or of the time at which the robot is added. A robot that is switched off or on, or put
-/// elsewhere, has one as well.
+/// A node starts a new leg, which gives its position from `time` on. The first leg starts with the
+/// run, or when the robot is added. A robot that is switched off or on, or put to another place,
+/// also starts a leg.
 struct Moved {
     Time time;
     NodeId node;
@@ -112,15 +114,15 @@ struct Moved {
     Leg leg;
 };
 
-/// A node has reached the end of its movement and rests until it is given another. Motion emits it
-/// when the movement model answers AtRest.
+/// A node has reached the end of its movement and rests until it gets a new one. Motion emits it
+/// when the movement model returns AtRest.
 struct Arrived {
     Time time;
     NodeId node;
 };
 
-/// A node found no way around the walls to its goal, and stays where it is. Motion emits it when
-/// the movement model answers Blocked.
+/// A node found no path around the walls to its goal, and stops. Motion emits it when the movement
+/// model returns Blocked.
 struct NoWay {
     Time time;
     NodeId node;
@@ -128,17 +130,17 @@ struct NoWay {
     Vec3 goal;
 };
 
-/// From now on `to` can hear `from`. Links are ordered: the way back is a link of its own.
-/// LinkMonitor emits both records of links, at the instant of the change, if a sink wants them.
+/// Node `to` can hear `from` from now on. Links are directed: the opposite direction is a second
+/// link. LinkMonitor emits LinkUp and LinkDown at the instant of the change, if a sink wants them.
 struct LinkUp {
     Time time;
-    /// Robot that is heard.
+    /// Robot that is heard (transmitter).
     NodeId from;
-    /// Robot that hears.
+    /// Robot that hears (receiver).
     NodeId to;
 };
 
-/// From now on `to` cannot hear `from` any more.
+/// Node `to` cannot hear `from` any more.
 struct LinkDown {
     Time time;
     NodeId from;
@@ -146,31 +148,32 @@ struct LinkDown {
 };
 
 /// A node's radio is switched on or off. Robots are on when they are added, without a record.
-/// Engine::switch_robot emits it, before anything that follows from it.
+/// Engine::switch_robot emits it, before the records of its consequences.
 struct Switched {
     Time time;
     NodeId node;
-    /// State from now on.
+    /// True if the radio is on from now on.
     bool on;
 };
 
-/// The MAC puts a frame on air: that of a message, for which Transmitted comes just before, or a
-/// control frame. It tells what a monitor of the channel would see.
+/// The MAC starts to transmit a frame: a data frame, directly after its Transmitted record, or a
+/// control frame. A monitor of the channel would capture the same frames.
 struct AirSent {
     Time time;
-    /// Frame as it is on air.
+    /// Frame on air: data or control frame.
     AirFrame air;
-    /// Size [bytes], what the access model adds included.
+    /// Size [bytes], including the bytes that the access model adds.
     std::uint32_t bytes;
 };
 
-/// A control frame ends at the station that it is for, if that is on. Others that overhear it have
-/// no record.
+/// A control frame ends at its destination, if that is on. Other stations that overhear it have no
+/// record.
 struct ControlReceived {
     AirFrame air;
-    /// Its end; its fate is `waiting` if the station has it, else why it was lost.
+    /// Reception at the destination; its fate is `waiting` if the frame was decoded, otherwise the
+    /// reason of the loss.
     Reception reception;
-    /// Size [bytes].
+    /// Size of the control frame [bytes].
     std::uint32_t bytes;
 };
 
@@ -178,11 +181,11 @@ struct ControlReceived {
 using Record = std::variant<Sent, Transmitted, Received, Dropped, Moved, Arrived, NoWay, Switched,
                             LinkUp, LinkDown, AirSent, ControlReceived>;
 
-/// State of the network that a sink may look up while it handles a record.
+/// State of the network that a sink may read while it handles a record.
 struct RecordContext {
-    /// Legs of all robots, as they are now.
+    /// Current legs of all robots.
     const Legs& legs;
-    /// Messages that a frame or a copy still refers to: those of the record are among them.
+    /// Messages in use, including those of the record.
     const MessageTable& messages;
 };
 

@@ -3,22 +3,23 @@
 
 #include <cstdint>
 
-// Kinds of records, one bit each. A sink says once which it wants; a kind that no sink wants is
-// never made: it costs the test of a bit.
+// Kinds of records, one bit each. A sink returns once which kinds it wants; if no sink wants a
+// kind, emitting it costs only the test of a bit.
 //
 //     KindMask kinds() const { return kind_of<Received>() | kind_levels; }
 //
-// Bits are fixed for ever, as fingerprints contain them: append, never renumber. A new kind needs
+// Bits are fixed for ever, because fingerprints contain them: append, never renumber. A new kind
+// needs
 //   - a struct in sim/record.hpp, at the end of the variant Record,
 //   - its name and the next bit here, below bit 29,
 //   - the bytes that it adds to a fingerprint, in traces/fingerprint.cpp,
-//   - somebody who emits it: World::emit.
-// Requests are bits from 29 on. They are no records: a sink that has one gets more in a record of
-// another kind, which costs every sink's run the work once.
+//   - code that emits it: World::emit.
+// Request bits, from 29 on, fill optional fields (reachable, levels) of other records; the work is
+// done once for all sinks.
 
 namespace rovernet {
 
-// Records, which sim/record.hpp defines; a mask needs their names only.
+// Record types, defined in sim/record.hpp; a mask needs only their names.
 struct Sent;
 struct Transmitted;
 struct Received;
@@ -32,11 +33,11 @@ struct LinkDown;
 struct AirSent;
 struct ControlReceived;
 
-/// Set of kinds of records, and of what a sink asks for beside them.
+/// Set of kinds of records and of requests.
 using KindMask = std::uint32_t;
 
-/// Kind of the records of type `T`: a mask of one bit, its place in the variant Record. A type that
-/// is no record does not link.
+/// Kind of the records of type `T`: a mask with one bit, whose number is the index in the variant
+/// Record. Other types do not link.
 ///
 ///   if (sink.kinds() & kind_of<Moved>()) ...
 template <class T>
@@ -91,20 +92,18 @@ constexpr KindMask kind_of<ControlReceived>() {
     return 1U << 11;
 }
 
-/// Both records of links. They cost a search for link changes, which runs only if a sink wants
-/// them.
+/// Both link records. They need a search for link changes, which runs only if a sink wants them.
 inline constexpr KindMask kind_links = kind_of<LinkUp>() | kind_of<LinkDown>();
 
-/// Request, not a record: Sent carries `reachable`, which costs a search of the network for each
-/// message.
+/// Request: fill Sent::reachable. It costs a search of the network for each message.
 inline constexpr KindMask kind_reachable = 1U << 31;
-/// Request as kind_reachable, but only as long as the searches are cheap beside the transmissions
-/// (Reachability::cheap_searches); then it is given up for the rest of the run.
+/// Request: fill Sent::reachable while the searches are cheap compared with the transmissions
+/// (Reachability::cheap_searches); after that it stays empty for the rest of the run.
 inline constexpr KindMask kind_cheap_reachable = 1U << 30;
-/// Request, not a record: Received carries `levels`, which costs a look at each receiver of each
-/// frame. A routing protocol asks for the same by its trait wants_levels.
+/// Request: fill Received::levels. It costs the level at each receiver of each frame. A routing
+/// protocol requests levels by its trait wants_levels.
 inline constexpr KindMask kind_levels = 1U << 29;
-/// All records, without the requests above.
+/// All records, without requests.
 inline constexpr KindMask kind_all = 0x1fffffff;
 
 }  // namespace rovernet

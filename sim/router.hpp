@@ -12,8 +12,8 @@
 #include <span>
 #include <utility>
 
-// The port of routing protocols. A protocol is a plain struct that satisfies RouterProtocol; the
-// handle Router holds it by value. examples/router.cpp has a whole one:
+// Interface of routing protocols. A protocol is a plain struct that satisfies RouterProtocol; the
+// handle Router stores it by value. A complete one is in examples/router.cpp:
 //
 //     struct Once {
 //         Hops initial_ttl() const { return 1; }
@@ -30,74 +30,80 @@ namespace rovernet {
 
 /// Routing protocol: one object for all its nodes, which calls the LinkLayer and is called by it.
 ///
-/// It is told of nothing in the midst of its own functions: what it sends leaves once the function
-/// has returned.
+/// Callbacks never occur inside the protocol's own functions: frames that a function sends leave
+/// after it has returned.
 template <class T>
 concept RouterProtocol = requires(T router, LinkLayer& link, NodeId node, MessageId message,
                                   const Frame& frame, std::span<Reception> receptions) {
-    /// Takes a message that the node's application sends, for message.to or for everyone.
+    /// Called for a message that the node's application sends, to message.to or to everyone.
     {router.send(link, node, message)};
-    /// Takes a frame that arrives at some of the nodes that it is for, in order of time and then of
-    /// node; fills in each reception's fate, and whether the message is delivered there.
+    /// Called for a frame at some of its destination nodes, in order of time and then of node; it
+    /// sets each reception's fate, and whether the message is delivered there.
     {router.on_receive(link, frame, receptions)};
-    /// TTL [hops] that a message of this router starts with, for records.
+    /// Initial TTL [hops] of messages of this router, for records.
     { std::as_const(router).initial_ttl() } -> std::convertible_to<Hops>;
 };
 
-// Functions that a protocol may have beside these.
+// Optional functions of a protocol.
 
-/// Protocol that sets timers by LinkLayer::timer. There is no way to take one back: on_timer looks
-/// whether it is still wanted. `tag` is what it gave there.
+/// Protocol with timers, set by LinkLayer::timer. A timer cannot be cancelled: on_timer checks
+/// whether it is still wanted. `tag` is the value passed to LinkLayer::timer.
 template <class T>
 concept HasTimers = requires(T router, LinkLayer& link, NodeId node, std::uint64_t tag) {
     {router.on_timer(link, node, tag)};
 };
-/// Protocol that keeps something of messages: of this one nothing is left, its slot of the table is
-/// free for another.
+/// Protocol that stores data of messages: forget() is called when a message is gone and its slot of
+/// the table is free.
 template <class T>
 concept ForgetsMessages = requires(T router, MessageId message) {
     {router.forget(message)};
 };
-/// Protocol that wants to know what became of its frames: each that was sent, and not taken back,
-/// ends by one call. It is never told inside a call of its own to the link layer.
+/// Protocol that is notified of the results of its frames: every frame that was sent and not
+/// cancelled causes one call. The call never occurs inside a call of the protocol to the link
+/// layer.
 template <class T>
 concept HearsOfResults = requires(T router, LinkLayer& link, const Frame& frame,
                                   SendResult result) {
     {router.on_sent(link, frame, result)};
 };
-/// Protocol whose nodes begin to work: each when the run begins, in the order of their keys, or
-/// when it is added later. HELLO messages begin here.
+/// Protocol that is notified of node starts: on_start is called for each node when the run begins,
+/// in the order of keys, or when the node is added later. HELLO messages start here.
 template <class T>
 concept HearsOfStarts = requires(T router, LinkLayer& link, NodeId node) {
     {router.on_start(link, node)};
 };
-/// Protocol that wants to know when a node is switched off or on. Frames that wait for their time,
-/// and timers, stay: what a node that is off sends is dropped.
+/// Protocol that is notified when a node is switched off or on. Frames that wait for their send
+/// time, and timers, remain; a frame from a node that is off is dropped.
 template <class T>
 concept HearsOfSwitches = requires(T router, LinkLayer& link, NodeId node, bool on) {
     {router.on_switched(link, node, on)};
 };
-/// Traits of a protocol: static members that it may have, all false if it has none. The network
-/// asks for them once, when the protocol is set.
+/// Protocol whose messages have different initial TTLs.
+template <class T>
+concept HasOwnTtls = requires(const T router, const Message& message) {
+    { router.initial_ttl(message) } -> std::convertible_to<Hops>;
+};
+/// Traits of a protocol: optional static members, false by default. The network reads them once,
+/// when the protocol is set.
 struct RouterTraits {
-    /// The protocol brings messages to one node, and not only to everyone: without it
-    /// Network::send() refuses.
+    /// The protocol routes messages to one node, not only to everyone; Network::send() throws
+    /// otherwise.
     bool routes_unicasts = false;
-    /// Unicasts for others are in the span of on_receive, too; what it says of them is not
+    /// on_receive also gets unicasts for other nodes; the fates that it sets for them are not
     /// recorded.
     bool overhears = false;
-    /// The protocol asks LinkLayer::level, which costs a path loss for each reception.
+    /// The protocol calls LinkLayer::level, which computes a path loss for each reception.
     bool wants_levels = false;
 };
 
-/// Any routing protocol, held by value. Network::route takes one; a function that the protocol does
-/// not have does nothing.
+/// Routing protocol of any type, stored by value. Network::route takes one; calls of optional
+/// functions that the protocol does not have do nothing.
 ///
-/// A Router is a handle with a table of functions, so that protocols need no base class; a call
-/// costs one jump for all receptions of a frame together.
+/// A Router has a table of functions, so protocols need no base class; one virtual call handles all
+/// receptions of a frame.
 class Router {
   public:
-    /// Moves the protocol in. Settings convert to their protocol: Router{Flood{.ttl = 3}}.
+    /// Stores the protocol. Settings convert to their protocol: Router{Flood{.ttl = 3}}.
     template <class T>
     requires(!std::same_as<T, Router> && RouterProtocol<T>) Router(T protocol)
         : traits_(traits_of<T>()),
@@ -105,12 +111,13 @@ class Router {
           hears_of_starts_(HearsOfStarts<T>),
           self_(std::make_unique<Holder<T>>(std::move(protocol))) {}
 
-    /// Facts about the protocol, asked before it is told of things that it may not want.
+    /// Traits of the protocol.
     const RouterTraits& traits() const { return traits_; }
-    /// Whether on_sent and on_start do anything: the network need not look for what to tell.
+    /// Whether the protocol has on_sent and on_start; the network skips the work for them
+    /// otherwise.
     bool hears_of_results() const { return hears_of_results_; }
     bool hears_of_starts() const { return hears_of_starts_; }
-    /// Calls of the protocol.
+    /// Calls the protocol's function of the same name.
     void send(LinkLayer& link, NodeId node, MessageId m) { self_->send(link, node, m); }
     void on_receive(LinkLayer& link, const Frame& f, std::span<Reception> r) {
         self_->on_receive(link, f, r);
@@ -124,11 +131,11 @@ class Router {
     void on_start(LinkLayer& link, NodeId node) { self_->on_start(link, node); }
     void on_switched(LinkLayer& link, NodeId node, bool on) { self_->on_switched(link, node, on); }
     void forget(MessageId m) { self_->forget(m); }
-    /// TTL that a message starts with [hops].
-    Hops initial_ttl() const { return self_->initial_ttl(); }
+    /// Initial TTL of a message [hops].
+    Hops initial_ttl(const Message& m) const { return self_->initial_ttl(m); }
 
   private:
-    // Traits by the members that the protocol has.
+    // Traits from the static members of the protocol.
     template <class T>
     static constexpr RouterTraits traits_of() {
         RouterTraits traits;
@@ -138,7 +145,7 @@ class Router {
         return traits;
     }
 
-    // Functions of a protocol, whatever its type.
+    // Functions of a protocol of any type.
     struct Concept {
         virtual ~Concept() = default;
         virtual void send(LinkLayer&, NodeId, MessageId) = 0;
@@ -148,9 +155,9 @@ class Router {
         virtual void on_start(LinkLayer&, NodeId) = 0;
         virtual void on_switched(LinkLayer&, NodeId, bool) = 0;
         virtual void forget(MessageId) = 0;
-        virtual Hops initial_ttl() const = 0;
+        virtual Hops initial_ttl(const Message&) const = 0;
     };
-    // Protocol of a type, with the functions that it lacks.
+    // Protocol of type T; functions that it lacks do nothing.
     template <class T>
     struct Holder final : Concept {
         explicit Holder(T p) : protocol(std::move(p)) {}
@@ -176,13 +183,17 @@ class Router {
         void forget([[maybe_unused]] MessageId m) override {
             if constexpr (ForgetsMessages<T>) protocol.forget(m);
         }
-        Hops initial_ttl() const override { return protocol.initial_ttl(); }
+        Hops initial_ttl([[maybe_unused]] const Message& m) const override {
+            if constexpr (HasOwnTtls<T>) return protocol.initial_ttl(m);
+            return protocol.initial_ttl();
+        }
         T protocol;
     };
-    // Facts about the protocol, and the protocol itself, on the heap: a Router moves without it.
+    // Facts about the protocol. The protocol itself is on the heap, so that moving a Router does
+    // not move it.
     RouterTraits traits_;
     bool hears_of_results_, hears_of_starts_;
-    // Never null, but in a Router that was moved from.
+    // Never null, except in a moved-from Router.
     std::unique_ptr<Concept> self_;
 };
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-// The port of those who observe a run: traces, metrics, fingerprints, pictures. A sink is a plain
+// Interface for observers of a run: traces, metrics, fingerprints, pictures. A sink is a plain
 // struct that satisfies RecordSink; the handle Sink shares it. examples/own_sink.cpp has one.
 //
 //     struct Losses {
@@ -24,49 +24,52 @@
 
 namespace rovernet {
 
-/// Facts about a run that a sink may want before its first record: for the head of a file, say.
+/// Facts about a run, for sinks that need them before the first record, such as the header of a
+/// file.
 struct RunInfo {
-    /// Scenario as TOML, every default filled in. The function may be empty: a network that was
-    /// made in code.
+    /// Scenario as TOML, with every default. Empty if the network was built by a C++ program,
+    /// without a scenario file.
     std::function<std::string()> scenario;
-    /// Number of robots so far; more may be added.
+    /// Number of robots at the start; more may be added.
     std::size_t robots;
-    /// Name of a robot, good until the next one is added. @throws std::out_of_range
+    /// Name of a robot, valid until the next robot is added. @throws std::out_of_range
     std::function<std::string_view(NodeId)> name;
-    /// Seed of the random draws.
+    /// Seed of the run's random draws.
     std::uint64_t seed;
     /// Number of the independent repetition.
     std::uint32_t replication;
 };
 
-/// Observer of records. kinds() says once, when it is added, which kinds it wants; on() then gets
-/// each of them, in the order of the run. What it may look up meanwhile is in the context.
+/// Observer of records. kinds() is called once, when the sink is added, and returns the kinds of
+/// records that it wants; on() then gets each of them, in the order of the run. `context` gives
+/// access to the state of the network.
 ///
-/// A sink only watches: it must not change the network, nor add or remove sinks. Metrics,
+/// A sink only observes: it must not change the network, nor add or remove sinks. Metrics,
 /// Fingerprint, Ns2Trace, Timeline and Trails are sinks.
 template <class T>
 concept RecordSink = requires(T sink, const Record& record, const RecordContext& context) {
     { std::as_const(sink).kinds() } -> std::convertible_to<KindMask>;
     {sink.on(record, context)};
 };
-/// Sink that is told when the run begins, before the first record; or when it is added, if that is
-/// later.
+/// Sink with begin(), which is called when the run begins, before the first record; or when the
+/// sink is added, if that is later.
 template <class T>
 concept BeginsWithRun = requires(T sink, const RunInfo& run) {
     {sink.begin(run)};
 };
-/// Sink that is told when the run is over, after the last record: Network::finish() says so. Files
-/// get their names then, sums are closed.
+/// Sink with finish(), which Network::finish() calls after the last record; the sink then names its
+/// files and completes its sums.
 template <class T>
 concept FinishesWithRun = requires(T sink) {
     {sink.finish()};
 };
 
-/// Handle of any sink, shared: the caller may keep a pointer to the sink and ask it for its result
-/// after the run. Copies of a handle are one sink.
+/// Handle of a sink of any type, shared: the caller may keep a pointer to the sink and read its
+/// result after the run. Copies of a handle share the sink.
+/// Example: examples/own_sink.cpp.
 class Sink {
   public:
-    /// @param sink  not null; it is asked for its kinds now
+    /// @param sink  not null; its kinds() is called now
     template <RecordSink T>
     Sink(std::shared_ptr<T> sink)
         : kinds_(sink->kinds()),
@@ -80,26 +83,27 @@ class Sink {
               if constexpr (FinishesWithRun<T>) static_cast<T*>(p)->finish();
           }),
           self_(std::move(sink)) {}
-    /// Moves the sink into the handle, for sinks that nobody asks for a result. Its type needs no
-    /// base class and no registration:
+    /// Moves the sink into the handle, for sinks whose result is not read. Its type needs no base
+    /// class and no registration:
     ///
     ///   network.add_sink(Sink{Losses{}});
     template <RecordSink T>
     Sink(T sink) : Sink(std::make_shared<T>(std::move(sink))) {}
 
-    /// Kinds of records that it wants.
+    /// Kinds of records that the sink wants, as a mask of bits.
     KindMask kinds() const { return kinds_; }
-    /// Calls of the sink; begin() and finish() do nothing if it has none.
+    /// Calls of the sink's functions; begin() and finish() do nothing if the sink does not have
+    /// them.
     void begin(const RunInfo& run) const { begin_(self_.get(), run); }
     void on(const Record& record, const RecordContext& context) const {
         on_(self_.get(), record, context);
     }
-    /// Tells the sink that the run is over.
+    /// Notifies the sink of the end of the run.
     void finish() const { finish_(self_.get()); }
 
   private:
-    // Functions of the sink, by its type, and the sink itself: a call is one jump, and a sink needs
-    // no base class.
+    // Functions of the sink's type, and the sink itself: a call is one jump, and a sink needs no
+    // base class.
     KindMask kinds_;
     void (*on_)(void*, const Record&, const RecordContext&);
     void (*begin_)(void*, const RunInfo&);

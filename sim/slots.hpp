@@ -6,14 +6,13 @@
 #include <cstddef>
 #include <vector>
 
-// Places that are given by number to what is on its way: frames in flight, actions, legs. An event
-// carries the number, where a pointer would not fit.
+// Numbered places for temporary objects: frames in flight, actions, legs. An event stores the
+// number, because a pointer would be too large.
 
 namespace rovernet {
 
-/// Numbered places for values that come and go, such as frames in flight. A place that was released
-/// is used again, and a value stays where it is while others come: references stay valid. Memory
-/// grows only beyond the most places that were ever taken at once.
+/// Numbered slots for temporary values, such as frames in flight. Released slots are reused. Values
+/// do not move: references stay valid. Memory follows the largest number of slots in use at once.
 ///
 ///   const std::size_t slot = flights.take();
 ///   flights[slot] = ...;
@@ -23,8 +22,9 @@ namespace rovernet {
 template <class T>
 class Slots {
   public:
-    /// Takes a place, the last that was released. It holds what its last user left there, so that
-    /// its memory (of a vector, say) may serve again; a new place holds T{}.
+    /// Takes an unused slot, the last one that was released. @return its number. The slot contains
+    /// the value of its last user, whose memory (of a vector, for example) can be reused; a new
+    /// slot contains T{}.
     std::size_t take() {
         if (free_.empty()) {
             values_.push_back({});
@@ -34,17 +34,17 @@ class Slots {
         free_.pop_back();
         return slot;
     }
-    /// Gives a place back, once. Its value stays, unused, until the place is taken again.
+    /// Releases a slot, once. Its value stays, unused, until the slot is taken again.
     void release(std::size_t slot) { free_.push_back(slot); }
 
-    /// Value in a place that is taken; not checked.
+    /// Value in a slot that is in use; not checked.
     T& operator[](std::size_t slot) { return values_[slot]; }
     const T& operator[](std::size_t slot) const { return values_[slot]; }
 
   private:
-    // Values of all places, taken or not.
+    // Values of all places, in use or free.
     Chunks<T> values_;
-    // Places that were released and not taken again.
+    // Free places.
     std::vector<std::size_t> free_;
 };
 

@@ -16,6 +16,4 @@ Dbm to_dbm(MilliWatts p) {
     return {10 * math::log10(p.value)};
 }
 
-MilliWatts to_milliwatts(Dbm level) { return {math::exp10(level.value / 10)}; }
-
 }  // namespace rovernet

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 
-// Quantities that the compiler tells apart: a gain is no level, a distance no frequency. Each holds
-// one double, `value`, in the unit that its name says, and costs nothing beside it.
+// Physical quantities as separate types: the compiler rejects a gain used as a level, or a distance
+// as a frequency. Each stores one double, `value`, in the unit of its name, at no extra cost.
 //
 //     const Dbm received = 16_dBm + 3_dB - 92_dB;   // a level and ratios: -73 dBm
 //     const Db margin = received - Dbm{-75};        // two levels: 2 dB
@@ -12,14 +13,14 @@
 
 namespace rovernet {
 
-/// Physical quantity that adds to its own kind only. A multiple is a quantity; the ratio of two is
-/// a number.
-/// @tparam Unit  a type that only names the unit
+/// Physical quantity. Only quantities of the same kind can be added; a number times a quantity is a
+/// quantity; the ratio of two quantities of one kind is a number.
+/// @tparam Unit  type that only names the unit
 template <class Unit>
 struct Quantity {
     double value = 0;
 
-    /// Comparisons, sums and differences within a kind; multiples; the ratio of two.
+    /// Comparison, sum and difference of quantities of one kind; multiple; ratio.
     friend constexpr auto operator<=>(Quantity, Quantity) = default;
     friend constexpr Quantity operator+(Quantity a, Quantity b) { return {a.value + b.value}; }
     friend constexpr Quantity operator-(Quantity a, Quantity b) { return {a.value - b.value}; }
@@ -28,7 +29,7 @@ struct Quantity {
     friend constexpr double operator/(Quantity a, Quantity b) { return a.value / b.value; }
 };
 
-/// Ratio of two powers [dB]: a gain, or a loss if it is subtracted.
+/// Ratio of two powers [dB]: a gain, or a loss if subtracted.
 using Db = Quantity<struct DecibelUnit>;
 /// Attenuation [dB/m].
 using DbPerMeter = Quantity<struct AttenuationUnit>;
@@ -47,12 +48,13 @@ using RadiansPerSecond = Quantity<struct TurnRateUnit>;
 /// Rate of data on air [bit/s].
 using BitRate = Quantity<struct BitsPerSecondUnit>;
 
-/// Level of a power [dBm]: 10 log10 of it in mW. Levels do not add, and `Dbm + Dbm` does not
-/// compile: the sum of two powers is that of their MilliWatts. `Dbm - Dbm` is a ratio [dB].
+/// Power level [dBm]: 10 log10 of the power in mW. `Dbm + Dbm` does not compile: to add two powers,
+/// add their MilliWatts. `Dbm - Dbm` is a ratio [dB].
 struct Dbm {
     double value = 0;
 
-    /// Comparisons of levels; a gain or a loss added to one; the ratio of two; the negative level.
+    /// Comparison of levels; level plus gain; level minus loss; ratio of two levels; negative
+    /// level.
     friend constexpr auto operator<=>(Dbm, Dbm) = default;
     friend constexpr Dbm operator+(Dbm level, Db gain) { return {level.value + gain.value}; }
     friend constexpr Dbm operator-(Dbm level, Db loss) { return {level.value - loss.value}; }
@@ -63,8 +65,6 @@ struct Dbm {
 /// Level of a power: 10 log10(p / 1 mW); 1 mW is 0 dBm, 45 mW are 16.53 dBm.
 /// @throws std::invalid_argument unless p > 0
 Dbm to_dbm(MilliWatts p);
-/// Power of a level: 10^(level / 10) mW.
-MilliWatts to_milliwatts(Dbm level);
 
 /// Speed of light in vacuum [m/s], exact by definition of the metre.
 inline constexpr double speed_of_light = 299'792'458;
@@ -80,12 +80,18 @@ constexpr Db operator""_dB(unsigned long long v) { return {static_cast<double>(v
 /// Length [m].
 constexpr Meters operator""_m(long double v) { return {static_cast<double>(v)}; }
 constexpr Meters operator""_m(unsigned long long v) { return {static_cast<double>(v)}; }
-/// Frequency, given in MHz, kept in Hz.
+/// Frequency, written in MHz, stored in Hz.
 constexpr Hertz operator""_MHz(long double v) { return {static_cast<double>(v) * 1e6}; }
 constexpr Hertz operator""_MHz(unsigned long long v) { return {static_cast<double>(v) * 1e6}; }
-/// Bit rate, given in Mbit/s, kept in bit/s.
+/// Bit rate, written in Mbit/s, stored in bit/s.
 constexpr BitRate operator""_Mbps(long double v) { return {static_cast<double>(v) * 1e6}; }
 constexpr BitRate operator""_Mbps(unsigned long long v) { return {static_cast<double>(v) * 1e6}; }
 }  // namespace literals
+
+/// Size of a message or a header [bytes], at most 1 MB in a file.
+struct Bytes {
+    std::uint32_t value = 0;
+    friend bool operator==(Bytes, Bytes) = default;
+};
 
 }  // namespace rovernet

@@ -2,8 +2,8 @@
 #include "study/cells.hpp"
 
 #include "scenario/document/toml.hpp"
-#include "study/study.hpp"
 #include "study/statistics/summary.hpp"
+#include "study/study.hpp"
 
 #include <fmt/format.h>
 

@@ -11,56 +11,57 @@
 
 namespace rovernet {
 
-/// A row of a table of results: the points that agree in the keys that it is grouped by.
+/// Row of the results table: the points of a study that have equal values of the group_by keys.
 struct Row {
-    Table settings;  ///< path -> value, of those keys
-    std::vector<std::optional<std::uint32_t>>
-        points;  ///< points by combination; none where excluded
+    Table settings;  ///< value of each group_by key, by the path of the key
+    /// Number of the study's point for each of Rows::combinations; none: excluded by the study.
+    std::vector<std::optional<std::uint32_t>> points;
 };
 
-/// The rows of a table, and what differs between the points of one row.
+/// Rows of the results table, and the keys that vary within a row.
 struct Rows {
-    std::vector<std::string> averaged;  ///< keys with several values in a row
-    std::vector<std::string> along;     ///< keys with one value in each row, not in all the same
-    std::vector<Table>
-        combinations;       ///< combinations of the averaged keys' values, in order of use
-    std::vector<Row> list;  ///< rows, in the order of their first points
+    std::vector<std::string> averaged;  ///< varied keys over whose values a row is averaged
+    /// Varied keys with one value in each row, but different values in different rows.
+    std::vector<std::string> along;
+    /// Combinations of values of the keys over which rows are averaged, in order of first use.
+    std::vector<Table> combinations;
+    std::vector<Row> list;  ///< rows, in the order of their first points in the study
 };
 
-/// @param group_by  paths that vary
+/// Groups the points of a study into result rows. @param group_by  paths of varied keys
 Rows rows_of(const std::vector<StoredPoint>& points, const std::vector<std::string>& group_by);
 
-/// Runs of a row that are missing from its value.
+/// Number of runs that have no value in a row of the results table, by reason.
 struct Gaps {
     std::uint64_t failed = 0;
-    std::uint64_t undefined = 0;  ///< finished, without a value of the metric
-    std::uint64_t missing = 0;    ///< asked for, and not made
-    /// "2 failed, 1 undefined, 3 missing", of those above 0.
+    std::uint64_t undefined = 0;  ///< number of finished runs in which the metric is undefined
+    std::uint64_t missing = 0;    ///< number of runs that were not made yet
+    /// Text of the numbers of runs above 0: "2 failed, 1 undefined, 3 missing".
     std::string text() const;
 };
 
-/// The values of one metric, by point and replication.
+/// Values of one metric, by point of the study and replication.
 using ValuesOfPoints = std::map<std::uint32_t, std::vector<std::optional<double>>>;
 
 ValuesOfPoints values_of_points(const Store& store, const std::string& metric);
 
-/// The cells of a table of one metric. A cell is a combination of the averaged keys' values in one
-/// replication: the same place, and the same random numbers, in every row.
+/// Cells of the results table for one metric. A cell is a combination of values of the averaged
+/// keys, in one replication. Corresponding cells of all rows use the same random numbers.
 class Cells {
   public:
     Cells(const Rows& rows, const Inventory& inventory, ValuesOfPoints values);
 
-    /// Mean of each replication over the cells of a row, each with the same weight; if `common`,
-    /// over those cells only that every row has.
+    /// Mean of one row of the results table in each replication, over the row's runs with equal
+    /// weights; if `common`, only over runs that have a value in every row.
     std::map<std::uint32_t, double> means(std::size_t row, bool common) const;
 
     Gaps gaps(std::size_t row) const;
 
-    std::uint64_t count() const;   ///< cells of one row
-    std::uint64_t common() const;  ///< cells that every row has
+    std::uint64_t count() const;   ///< number of cells of one row: combinations times replications
+    std::uint64_t common() const;  ///< number of cells for which every row has a value
 
-    /// Text that names the rows without some cell that another row has, a line each; empty if every
-    /// row has the same cells.
+    /// Text with one line for each row that lacks a value which some other row has; empty if all
+    /// rows have values in the same cells.
     std::string unbalanced() const;
 
   private:
@@ -72,8 +73,8 @@ class Cells {
     const Inventory& inventory_;
     ValuesOfPoints values_;
     std::size_t replications_ = 0;
-    std::vector<std::vector<bool>> in_every_row_;  // flags by combination and replication
-    std::vector<bool> in_any_row_;                 // flags by replication, in any combination
+    std::vector<std::vector<bool>> in_every_row_;  // flag for each combination and replication
+    std::vector<bool> in_any_row_;  // flag for each replication, over all combinations
 };
 
 }  // namespace rovernet

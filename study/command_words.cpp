@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/command_words.hpp"
 
+#include "scenario/scenario_file.hpp"
+
 #include <algorithm>
 #include <string_view>
 

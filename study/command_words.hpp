@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 
 #include <span>
 #include <string>
@@ -9,13 +10,13 @@
 
 namespace rovernet {
 
-/// A word as a POSIX shell reads it back, whatever is in it: in single quotes where it needs them.
+/// Word quoted for a POSIX shell: in single quotes if necessary.
 std::string shell_word(const std::string& word);
 
 /// Words as one command for a POSIX shell.
 std::string shell_command(std::span<const std::string> words);
 
-/// The options over a scenario's file as words of a command.
+/// Words of a command line that give the options of a scenario file.
 std::vector<std::string> option_words(const ScenarioOptions& options);
 
 }  // namespace rovernet

@@ -3,7 +3,6 @@
 
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
-#include "scenario/document/toml.hpp"
 #include "sim/error.hpp"
 #include "sim/random.hpp"
 #include "study/store.hpp"

@@ -9,27 +9,28 @@
 
 namespace rovernet {
 
-/// A day under one radio: a row of a replay.
+/// Row of the table of `rovernet replay`: a recorded run simulated with one set of radio settings.
 struct DayRow {
-    std::string radio;  ///< name of the row
+    std::string radio;  ///< name of the radio settings
     PlayedDay day;
-    std::optional<DeliveryChange> change;  ///< to the first row; none: it is that, or the trace's
+    std::optional<DeliveryChange> change;  ///< change of deliveries against the first row; none for
+                                           ///< the first row and the run as recorded
 };
 
-/// A replay whose rows a store keeps.
+/// Results of `rovernet replay` to store: one row for each set of radio settings.
 struct StoredReplay {
-    std::string command;              ///< that made them, without --with; for `explain`
-    std::string first;                ///< name of the row that others are compared with
-    std::vector<std::string> robots;  ///< names by NodeId
+    std::string command;              ///< command line of the replay, without --with; for `explain`
+    std::string first;                ///< name of the row with which the other rows are compared
+    std::vector<std::string> robots;  ///< names of the robots by NodeId
     std::vector<DayRow> rows;
 };
 
-/// Keeps rows of a replay in a store that `results` and `plot` read: a point for each radio, with
-/// the key "radio", and one run of it. Metrics are those of every run, and of a row with a change
-/// "gained", "lost", "gained.at.ROBOT" and "lost.at.ROBOT" [deliveries]. Rows of the same command
-/// may be there already; one of the same name stays as it is.
-/// @throws InputError if the store is of another command or version; RunError if it cannot be
-///         written
+/// Writes the rows of a replay into a study's store, which `results` and `plot` can read: a point
+/// with the key "radio" and one run for each row. Metrics are those of every run; rows with a
+/// change also have "gained", "lost", "gained.at.ROBOT" and "lost.at.ROBOT" [deliveries]. The store
+/// may already have rows of the same command; a row of the same name is not changed.
+/// @throws InputError if the store belongs to a different command or version; RunError if it cannot
+///         be written
 void store_replay(const std::string& path, const StoredReplay& replay);
 
 }  // namespace rovernet

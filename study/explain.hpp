@@ -7,17 +7,17 @@
 
 namespace rovernet {
 
-/// The command that makes one run of a store again, with its files.
+/// Shell command that repeats one run of a study's store and writes the run's files.
 std::string run_command(const Store& store, const StoredPoint& point, std::uint32_t replication);
 
-/// A run of a store with its point.
+/// Run of a study's store, with its point.
 struct FoundRun {
-    StoredRun run;  ///< run with its metrics
+    StoredRun run;  ///< run of the store, with its metrics
     StoredPoint point;
 };
 
-/// The run that `name` means: the beginning of its id, or POINT/REPLICATION.
-/// @throws std::invalid_argument if there is none, or more than one
+/// Finds a run by `name`: the first characters of its id, or POINT/REPLICATION.
+/// @throws std::invalid_argument if no run or several runs match
 FoundRun find_run(const Store& store, const std::string& name);
 
 }  // namespace rovernet

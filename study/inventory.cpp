@@ -15,8 +15,8 @@ std::uint32_t replications_asked_for(const Store& store, const StudyTable& study
                                      std::uint32_t point, const std::vector<RunState>& made) {
     const auto first = static_cast<std::uint32_t>(study.replications);
     const auto count = static_cast<std::uint32_t>(made.size());
-    const bool hopeless = std::find(made.begin(), made.end(), RunState::failed) != made.end();
-    if (!study.precision || count < first || hopeless) return first;
+    const bool has_failed = std::find(made.begin(), made.end(), RunState::failed) != made.end();
+    if (!study.precision || count < first || has_failed) return first;
     std::vector<double> values;
     for (const StoredValue& v : store.values(first_metric(study), point)) {
         if (v.value) values.push_back(*v.value);

@@ -3,7 +3,11 @@
 
 #include "experiment/build.hpp"
 #include "experiment/run.hpp"
+#include "experiment/summary.hpp"
+#include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
+#include "mobility/kept_planners.hpp"
+#include "scenario/scenario.hpp"
 #include "traces/fingerprint.hpp"
 
 #include <fmt/format.h>
@@ -16,11 +20,7 @@
 namespace rovernet {
 namespace {
 
-double cpu_seconds() {
-    std::timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::optional<double> number_of(const Value& value) {
     if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
@@ -122,6 +122,7 @@ Measurement measure(const Scenario& scenario, KeptPlanners& kept) {
     const double cpu = cpu_seconds();
     NetworkSettings settings = network_settings(scenario);
     settings.planners = kept.of(settings.scene);
+    const std::uint64_t searched = settings.planners ? settings.planners->searches() : 0;
     settings.warmup = warmup_of(scenario, settings);
     Network network(settings);
     populate(network, scenario);
@@ -137,6 +138,7 @@ Measurement measure(const Scenario& scenario, KeptPlanners& kept) {
     append_parts(parts, scenario, network, values, scenario.scenario.duration - settings.warmup,
                  topology.get());
     append_flat(result.metrics, parts);
+    if (settings.planners) result.searches = settings.planners->searches() - searched;
     result.cpu_s = cpu_seconds() - cpu;
     result.wall_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -144,8 +146,8 @@ Measurement measure(const Scenario& scenario, KeptPlanners& kept) {
 }
 
 std::string to_text(const Measurement& m) {
-    std::string text =
-        fmt::format("{}\n{}\n{}\n{}\n{}\n", m.fingerprint, m.cpu_s, m.wall_s, m.started, m.host);
+    std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", m.fingerprint, m.cpu_s, m.wall_s,
+                                   m.started, m.host, m.searches);
     for (const MetricValue& metric : m.metrics) {
         text += metric.name + ' ';
         if (metric.value) fmt::format_to(std::back_inserter(text), "{}", *metric.value);
@@ -161,6 +163,7 @@ Measurement measurement_of(std::string_view text) {
     m.wall_s = number_in(cut(text, '\n')).value_or(0);
     m.started = cut(text, '\n');
     m.host = cut(text, '\n');
+    m.searches = static_cast<std::uint64_t>(number_in(cut(text, '\n')).value_or(0));
     while (!text.empty()) {
         std::string_view line = cut(text, '\n');
         const std::size_t end = std::min(line.rfind(' '), line.size());  // names may have blanks

@@ -12,7 +12,7 @@
 
 namespace rovernet {
 
-void copy_runs(const Store& from, Store& to) {
+void copy_runs(const Store& from, Store& to, std::uint32_t below) {
     std::map<std::string, std::uint32_t> numbers;
     for (const StoredPoint& point : to.points()) numbers[point.id] = point.number;
     std::map<std::string, bool> known;  // run -> finished
@@ -26,7 +26,7 @@ void copy_runs(const Store& from, Store& to) {
     for (StoredRun run : from.runs()) {
         const auto number = numbers.find(ids[run.point]);
         const auto there = known.find(run.id);
-        if (number == numbers.end()) continue;
+        if (number == numbers.end() || run.replication >= below) continue;
         if (there != known.end() && (there->second || !run.error.empty())) continue;
         run.measurement.metrics = metrics[{run.point, run.replication}];
         run.point = number->second;
@@ -61,13 +61,14 @@ void check_shard(const std::string& path) {
 }
 
 void merge_and_remove(Store& store, const std::string& path) {
-    // The journal of a killed process comes into the file; a process that writes keeps us out.
+    // Opening for writing recovers the journal of a killed process, and fails if another process
+    // writes.
     if (input_kind(path) == InputKind::nothing) {
         throw InputError({path}, "there is no such shard");
     }
     check_shard(path);
     Store::open_to_write(path);
-    // A shard without runs may not say whose it is: its process ended too early for that.
+    // A shard without runs may lack the identity of its study, if its process was killed early.
     if (!Store::open(path).runs().empty()) merge(store, path);
     for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path + ending);
 }

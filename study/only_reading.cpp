@@ -10,7 +10,8 @@
 namespace rovernet {
 namespace {
 
-/// Rule of what a question may do. @param denied  a bool, set where it may not
+/// SQLite authorizer: decides which actions a query may perform. @param denied  a bool, set where
+/// it may not
 int allow(void* denied, int action, const char* first, const char* second, const char*,
           const char*) {
     const auto is = [](const char* name, std::string_view word) { return name && name == word; };

@@ -7,8 +7,8 @@ struct sqlite3;
 
 namespace rovernet {
 
-/// While it lives, statements of a connection may read, and nothing else: whatever is asked, no
-/// file is attached or written, no setting changed, no library loaded.
+/// Guard that makes an SQLite connection read-only during its lifetime: statements cannot attach or
+/// write files, change settings or load libraries.
 class OnlyReading {
   public:
     explicit OnlyReading(sqlite3* database);
@@ -16,14 +16,14 @@ class OnlyReading {
     OnlyReading(const OnlyReading&) = delete;
     OnlyReading& operator=(const OnlyReading&) = delete;
 
-    bool denied() const { return denied_; }  ///< something but reading was asked for
+    bool denied() const { return denied_; }  ///< whether a statement tried more than reading
 
   private:
     sqlite3* database_;
     bool denied_ = false;
 };
 
-/// Checks that a question is one statement. @throws std::invalid_argument
+/// Checks that an SQL text is a single statement. @throws std::invalid_argument
 void need_one_statement(sqlite3* database, const std::string& sql);
 
 }  // namespace rovernet

@@ -11,28 +11,28 @@
 
 namespace rovernet {
 
-/// The metric that a study is foremost about: the first of its `metrics`, or delivery_ratio.
+/// Main metric of a study: the first of its `metrics`, or delivery_ratio.
 std::string first_metric(const StudyTable& study);
 
-/// Precision of a point: how narrow the interval of its first metric is.
+/// Precision reached at a point of a study: half-width of the interval of the first metric.
 struct ReachedPrecision {
     std::size_t values = 0;
-    std::optional<double>
-        half_width;      ///< half-width, in the metric's unit; nothing where there is no interval
-    bool enough = true;  ///< enough for [study] precision; also if there is none
+    /// Half-width of the interval, in the metric's unit; none without an interval.
+    std::optional<double> half_width;
+    bool enough = true;  ///< true if [study] precision is reached or not given
 };
 
-/// Precision after these values, in the order of their replications.
+/// Precision reached by these values of the study's first metric, in the order of replications.
 ///
-/// Where the metric has two bounds the interval is valid at every n, so that one may stop as soon
-/// as it is narrow. Student's t is not: values that happen to lie close together would end a point
-/// too soon. So by t nothing is enough before 10 values, and never values that are all equal.
+/// If the metric has two bounds, the betting interval is valid at every n, so that a point may stop
+/// as soon as it is narrow. Student's t is not: values that are close by chance would stop a point
+/// too early. By t, at least 10 values are needed, and equal values never suffice.
 ReachedPrecision reached_precision(const StudyTable& study, std::span<const double> values);
 
-/// Number of replications that a point needs for [study] precision, when `made` >= 1 of them are
-/// over and gave these values: `made` if that is enough or there is nothing to ask for, else what
-/// replications_for_width() estimates, but at least a 16th more, at most twice as many (an estimate
-/// from few is rough) and never more than max_replications.
+/// Number of replications that a point needs for [study] precision, after `made` >= 1 replications
+/// with these values. The result is `made` if the precision is reached or not given. Otherwise it
+/// is the estimate of replications_for_width(), limited to between 17/16 and 2 times `made`
+/// (estimates from few values are rough) and to max_replications.
 std::uint32_t replications_for(const StudyTable& study, std::span<const double> values,
                                std::uint32_t made);
 

@@ -4,8 +4,8 @@
 #include "study/cells.hpp"
 #include "study/statistics/interval.hpp"
 #include "study/statistics/quantile.hpp"
-#include "study/store.hpp"
 #include "study/statistics/summary.hpp"
+#include "study/store.hpp"
 
 #include <cstdint>
 #include <map>
@@ -15,77 +15,75 @@
 
 namespace rovernet {
 
-/// A key that varies, and the value that it has to have, as results print it.
+/// Condition on a varied key: value that it must have, as printed in results.
 struct Condition {
     std::string path, value;
 };
 
-/// Question to a study.
+/// Query of a study's results.
 struct Question {
-    std::vector<std::string> metrics =
-        {};  ///< metrics; those of [study] metrics if empty, or the usual
-    /// Paths that vary; all of them if not given, none: everything in one row.
+    /// Names of metrics; empty: those of [study] metrics, or else the default metrics.
+    std::vector<std::string> metrics = {};
+    /// Paths of varied keys to group by; not given: all varied keys; empty: one row for everything.
     std::optional<std::vector<std::string>> group_by = {};
-    std::vector<Condition> where = {};      ///< conditions that all points meet
-    std::optional<double> confidence = {};  ///< confidence; as in [study] if not given
-    std::optional<double> quantile = {};    ///< quantile to answer with, in place of the mean
-    /// Method of intervals of means; as in [study] if not given, else see method_for().
+    std::vector<Condition> where = {};  ///< values that varied keys must have in all points used
+    std::optional<double> confidence = {};  ///< confidence level [-]; none: as in [study]
+    std::optional<double> quantile = {};    ///< quantile to compute instead of the mean [-]
+    /// Interval method for means; none: as in [study], or else by method_for().
     std::optional<IntervalMethod> interval = {};
-    bool common = false;  ///< average only over the cells that every row has
+    bool common = false;  ///< true: average only over runs for which every row has a value
 };
 
-/// Answer: one metric of the points that agree in what a question groups by.
+/// Value of one metric for one row of the results table (points with equal group_by values).
 struct Answer {
-    Table settings;      ///< path -> value, of the keys that it groups by
-    std::string metric;  ///< name of the metric
-    std::map<std::uint32_t, double>
-        values;                       ///< values by replication: the mean over the row's points
-    Gaps gaps;                        ///< the row's runs that are not in the values
-    std::uint64_t cells = 0;          ///< cells of each row of this metric: see Cells
-    std::uint64_t left_out = 0;       ///< cells left out by Question::common
-    std::optional<Summary> summary;   ///< summary of the values; nothing without any
-    std::optional<double> value;      ///< the mean or the quantile
-    std::optional<double> low, high;  ///< interval, if there are enough values for one
+    Table settings;                          ///< value of each group_by key, by the path of the key
+    std::string metric;                      ///< name of the metric
+    std::map<std::uint32_t, double> values;  ///< mean over the points of the row, by replication
+    Gaps gaps;                               ///< number of runs of the row that have no value
+    std::uint64_t cells = 0;                 ///< number of runs of each row, see Cells
+    std::uint64_t left_out = 0;              ///< number of runs skipped because of Question::common
+    std::optional<Summary> summary;          ///< summary of the values; none without values
+    std::optional<double> value;             ///< mean or quantile of `values`
+    std::optional<double> low, high;  ///< ends of the interval of `value`; none: too few values
     std::optional<IntervalMethod> method;  ///< method of the interval of a mean
-    bool skewed = false;                   ///< see MeanInterval
+    bool skewed = false;  ///< true: `values` are too skewed for the method t, see MeanInterval
 };
 
-/// Answers of a study.
+/// Table of results of a study.
 struct Answers {
-    std::vector<Answer> list;           ///< row by row, and in each metric by metric
-    std::vector<std::string> averaged;  ///< keys that a row has several values of
-    std::vector<std::string> along;     ///< keys that go with a row, such as those of a zip
-    RunCounts runs;                     ///< runs of the whole study, whatever the question
+    std::vector<Answer> list;           ///< answers, row by row, and within a row metric by metric
+    std::vector<std::string> averaged;  ///< varied keys over whose values a row is averaged
+    std::vector<std::string> along;     ///< keys with one value in each row, as in [study] zip
+    RunCounts runs;                     ///< runs of the whole study, independent of the query
 };
 
-/// Answers a question about a study.
+/// Computes the results of a study for a query.
 ///
-/// The replication is the unit: points that a row joins are averaged in each replication first,
-/// with equal weights. All rows that join points must have the same cells (a cell is a combination
-/// of the keys averaged over, in one replication): a row without some cell, as a run failed, is
-/// missing or has no value, would differ from the others by that alone.
-/// @throws std::invalid_argument for a metric or path that the study does not have, if no point
-///         meets the conditions, or if rows that join points are of different cells and the
-///         question does not say `common`
+/// The replication is the unit of statistics: points of a row are first averaged in each
+/// replication, with equal weights. All such rows must have the same cells (a cell is a combination
+/// of values of the averaged keys, in one replication). A row that lacks a cell, since a run
+/// failed, is missing or has no value, would differ from other rows for that reason alone.
+/// @throws std::invalid_argument for an unknown metric or path, if no point meets the conditions,
+///         or if rows have different cells and `common` is false
 Answers answers(const Store& store, const Question& question);
 
-/// Coverage of the numbers in words, what was averaged over and what is not in them: "averaged over
-/// routing.ttl". Empty if each row is one point and nothing failed, is undefined or missing.
+/// Note on the data behind the numbers: averaged keys and missing runs, as in "averaged over
+/// routing.ttl". Empty if each row is one point and every run has a value.
 std::string coverage_text(const Answers& answers);
 
-/// The paths that vary in the store's study.
+/// Paths of the varied keys of the store's study.
 std::vector<std::string> varied_paths(const Store& store);
 
-/// [study] confidence of the study.
+/// Confidence level of intervals [-], from the study's table [study].
 double confidence_of(const Store& store);
 
-/// Method of intervals that the study asks for, if any: StudyTable::interval_wish().
+/// Interval method of the study, if given: StudyTable::interval_wish().
 std::optional<IntervalMethod> interval_method_of(const Store& store);
 
-/// The points that meet all conditions. @throws std::invalid_argument if none does
+/// Points of the study that meet all conditions. @throws std::invalid_argument if no point does
 std::vector<StoredPoint> points_where(const Store& store, const std::vector<Condition>& where);
 
-/// The metrics that a question asks for. @throws std::invalid_argument for an unknown one
+/// Names of the metrics of a query. @throws std::invalid_argument for an unknown metric
 std::vector<std::string> metrics_of(const Store& store, const Question& question);
 
 }  // namespace rovernet

@@ -11,48 +11,50 @@
 
 namespace rovernet {
 
-/// Tasks of one job array, at most: Slurm's MaxArraySize, 1001 unless the cluster says otherwise,
-/// is above every task's number.
+/// Largest number of tasks of one job array. Task numbers must be below Slurm's MaxArraySize, which
+/// is 1001 by default.
 inline constexpr std::uint64_t longest_array = 1000;
 
-/// The size of chunk, no smaller than `wanted`, with which so many runs fit into one job array.
+/// Number of runs of a chunk (one task), at least `wanted`, so that all runs fit one job array.
 std::uint64_t chunk_for_array(std::uint64_t runs, std::uint64_t wanted);
 
-/// The chunks of so many runs each in which a run is not finished, ascending.
-/// @param size  > 0
+/// Numbers of the chunks (runs of one task) with unfinished runs, ascending.
+/// @param size  number of runs of a chunk, > 0
 std::vector<std::uint64_t> open_chunks(std::span<const RunState> runs, std::uint64_t size);
 
-/// "0-3,7,9-10": numbers in ascending order, as sbatch --array takes them.
+/// Text of ascending numbers for sbatch --array: "0-3,7,9-10".
 std::string array_ranges(std::span<const std::uint64_t> numbers);
 
-/// A sweep on a Slurm cluster: a job array, each task of which makes one chunk of the runs and
-/// keeps them in a store of its own, a shard; and a job behind it that merges the shards, whatever
-/// became of the tasks. Nothing is asked of Slurm but to run them: what is done is in the store.
+/// Sweep on a Slurm cluster. Each task of a job array makes one chunk of the runs and writes a
+/// separate store, a shard. A second job merges the shards after all tasks, even if tasks failed.
+/// The progress is taken from the store, not from Slurm.
 ///
-/// All that belongs to it but the store is in the folder STORE.slurm: job.sh, merge.sh, shards/
-/// and logs/. Its texts are right for any file name without a line break.
+/// Scripts and logs are in the folder STORE.slurm: job.sh, merge.sh, shards/ and logs/. File names
+/// may contain any character except a line break.
 struct SlurmSweep {
-    std::string command;      ///< absolute path of rovernet
-    std::string directory;    ///< folder where relative paths among the options begin: absolute
-    std::string file, store;  ///< files of the study: absolute
-    std::vector<std::string> options;   ///< words of the command behind FILE
-    std::uint64_t chunk;                ///< runs of a task, > 0
-    std::vector<std::uint64_t> chunks;  ///< chunks with runs to make; a task has its chunk's number
-    std::size_t workers = 0;            ///< tasks at once; 0: as many as Slurm gives
-    std::vector<std::string> sbatch = {};  ///< more words for sbatch, for both jobs
+    std::string command;  ///< absolute path of the program rovernet
+    /// Working directory, to which relative paths in the options refer: absolute.
+    std::string directory;
+    std::string file, store;           ///< scenario file and store of the study: absolute paths
+    std::vector<std::string> options;  ///< words of the command line after FILE
+    std::uint64_t chunk;               ///< number of runs of a task, > 0
+    /// Numbers of the chunks (parts of the runs) to make; a task has the number of its chunk.
+    std::vector<std::uint64_t> chunks;
+    std::size_t workers = 0;               ///< largest number of simultaneous tasks; 0: no limit
+    std::vector<std::string> sbatch = {};  ///< further options for sbatch, for both jobs
 
     std::string folder() const { return store + ".slurm"; }
     std::string job_file() const { return folder() + "/job.sh"; }
     std::string merge_file() const { return folder() + "/merge.sh"; }
 
-    /// Script of a task, for bash, with SLURM_ARRAY_TASK_ID set.
+    /// Bash script of a task, which needs SLURM_ARRAY_TASK_ID.
     std::string job_script() const;
-    /// Script of the job behind the tasks; a person may call it as well.
+    /// Script of the merge job; a user may run it by hand, too.
     std::string merge_script() const;
 
-    /// The command that submits the tasks and prints the job's number.
+    /// Command that submits the tasks and prints the number of the job.
     std::vector<std::string> submit_job() const;
-    /// The command that submits the merge of what the job has made.
+    /// Command that submits the merge job, to run after `job`.
     std::vector<std::string> submit_merge(const std::string& job) const;
 };
 

@@ -5,8 +5,8 @@
 #include "scenario/document/json.hpp"
 #include "sim/error.hpp"
 #include "study/only_reading.hpp"
+#include "study/store_connection.hpp"
 #include "study/stored_row.hpp"
-#include "study/write_lock.hpp"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ CREATE VIEW result AS
          JOIN metric_name ON metric_name.key = metric.name;
 )";
 
-/// Runs `act`; what SQLite throws becomes an error that a user can mend.
+/// Runs `act`, and converts exceptions of SQLite to errors with a remedy.
 auto told(const std::string& path, auto&& act) {
     try {
         return act();
@@ -104,13 +104,14 @@ StoredPoint point_in(const StoredRow& row, const std::vector<StoredPoint>& befor
 }  // namespace
 
 struct Store::Database {
-    Database(const std::string& path, int flags) : sqlite(path, flags, 5000) {}
+    explicit Database(StoreConnection made)
+        : connection(std::move(made)), sqlite(*connection.sqlite) {}
 
     void make_schema();
     std::int64_t metric_key(const std::string& name);
 
-    std::unique_ptr<WriteLock> lock;  // outlives the connection: see flock(2) and SQLite's locks
-    SQLite::Database sqlite;
+    StoreConnection connection;
+    SQLite::Database& sqlite;                          // of the connection
     std::map<std::uint32_t, std::int64_t> point_keys;  // by number
     std::map<std::string, std::int64_t> metric_keys;
     std::optional<SQLite::Statement> insert_run, insert_metric;
@@ -156,40 +157,34 @@ Store Store::open(const std::string& path) {
         throw InputError({path}, "no such store; rovernet sweep FILE makes one");
     }
     need_file(path);
-    return told(
-        path, [&] { return Store(path, std::make_unique<Database>(path, SQLite::OPEN_READONLY)); });
+    return told(path, [&] {
+        return Store(path, std::make_unique<Database>(StoreConnection::to_read(path)));
+    });
 }
 
 Store Store::open_to_write(const std::string& path) {
     const InputKind kind = input_kind(path);
     if (kind == InputKind::folder) throw InputError({path}, "a directory, not a store");
     if (kind != InputKind::nothing) need_file(path);
-    auto lock = std::make_unique<WriteLock>(path);
     return told(path, [&] {
-        auto database =
-            std::make_unique<Database>(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-        database->lock = std::move(lock);
-        // The tables tell, not the file's size: a process killed while it made them leaves some of
-        // them.
+        auto database = std::make_unique<Database>(StoreConnection::to_write(path));
+        // The tables are checked, not the file's size: a process killed during creation leaves only
+        // some of them.
         const int tables =
             database->sqlite.execAndGet("SELECT count(*) FROM sqlite_master").getInt();
         if (tables == 0) database->make_schema();
-        Store store(path, std::move(database));
-        // Against kill -9; a power cut may take the last runs, but never the file's order.
-        store.database_->sqlite.exec("PRAGMA journal_mode = WAL");
-        store.database_->sqlite.exec("PRAGMA synchronous = NORMAL");
-        return store;
+        return Store(path, std::move(database));
     });
 }
 
 Store::~Store() {
-    if (!database_ || !database_->lock) return;
+    if (!database_ || !database_->connection.lock) return;
     database_->insert_run.reset();
     database_->insert_metric.reset();
     try {  // one plain file, that can be read where nothing can be written
         database_->sqlite.exec("PRAGMA journal_mode = DELETE");
     } catch (const SQLite::Exception&) {
-        // A reader is there: the file stays as it is, and can be read as well.
+        // If there is a reader, the file stays unchanged, which is equally readable.
     }
 }
 Store::Store(Store&&) noexcept = default;

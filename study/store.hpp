@@ -13,43 +13,44 @@
 
 namespace rovernet {
 
-/// A point as a store keeps it.
+/// Point of a study (combination of values of the varied keys), as stored.
 struct StoredPoint {
-    std::uint32_t number;  ///< place in the study, from 0
-    std::string id;        ///< see Study
-    Table settings;        ///< path -> value
+    std::uint32_t number;  ///< index of the point in the study, from 0
+    std::string id;        ///< id of the point, see Study
+    Table settings;        ///< value of each varied key, by the path of the key
 };
 
-/// A run as a store keeps it, finished or failed.
+/// Run of a study, finished or failed, as stored.
 struct StoredRun {
-    std::string id;       ///< see run_id()
-    std::uint32_t point;  ///< number of the point
+    std::string id;       ///< id of the run, see run_id()
+    std::uint32_t point;  ///< number of the run's point
     std::uint32_t replication;
-    std::string error;        ///< empty: finished
-    Measurement measurement;  ///< measurement; without metrics for a failed run
+    std::string error;        ///< error message of a failed run; empty: finished
+    Measurement measurement;  ///< measurement; a failed run has no metrics
 };
 
-/// Value of a metric in a run.
+/// Value of a metric in a run of a study, as stored.
 struct StoredValue {
     std::uint32_t point, replication;
     std::optional<double> value;
 };
 
-/// The results of one study in one SQLite file.
+/// Store of a study: its results in one SQLite file.
 ///
 /// Tables: `study` (key, value: version, scenario, created), `point`, `run`, `metric_name`,
-/// `metric` (a value per run and metric); the view `result` joins them. A run enters in one
-/// transaction: it is there whole or not at all, whatever happens to this process. One process
-/// writes at a time; others may read meanwhile. Not for files shared between machines.
+/// `metric` (one value for each run and metric); the view `result` joins them. A run is written in
+/// one transaction, completely or not at all. One process may write at a time; other processes may
+/// read meanwhile if the file system supports locks, see StoreConnection.
 ///
-/// What is read is checked, column by column: a damaged store is an InputError that names table and
-/// row, from every function.
+/// Every value read is checked, column by column: for a damaged store every function throws an
+/// InputError that names table and row.
 class Store {
   public:
-    /// Opens a store for reading. @throws InputError if there is none, or of a newer format
+    /// Opens a store for reading. @throws InputError if the file does not exist or has a newer
+    /// format
     static Store open(const std::string& path);
-    /// Opens a store for writing, or makes one. @throws InputError as open(); RunError if somebody
-    /// else writes to it, or it cannot be written
+    /// Opens a store for writing, or creates it. @throws InputError as open(); RunError if another
+    /// process writes to it, or the file cannot be written
     static Store open_to_write(const std::string& path);
     ~Store();
     Store(Store&&) noexcept;
@@ -57,33 +58,35 @@ class Store {
 
     /// Property of the study: "version", "scenario", "created"; empty if there is none.
     std::string property(const std::string& key) const;
-    /// Property that is written in JSON; an empty Value if there is none.
+    /// Property that is stored as JSON; an empty Value if there is none.
     Value document(const std::string& key) const;
     void set_property(const std::string& key, const std::string& value);
 
-    /// Points in the order of their numbers.
+    /// Points of the study in the order of their numbers.
     std::vector<StoredPoint> points() const;
-    /// The study's points: new ones are added, known ones get their number. All that the store has
-    /// must be among them.
+    /// Sets the points of the study: adds new points, and renumbers known ones. Every point of the
+    /// store must be included.
     void set_points(const std::vector<StoredPoint>& points);
 
-    /// Runs in order of point and replication, without their metrics.
+    /// Runs of the study in order of point and replication, without their metrics.
     std::vector<StoredRun> runs() const;
-    /// Keeps a run, in place of one of the same id that failed.
+    /// Stores a run of the study; replaces a failed run of the same id.
     void record(const StoredRun& run);
 
-    /// The metrics of its runs, in the order in which they first came.
+    /// Names of the metrics of stored runs, in the order of first occurrence.
     std::vector<std::string> metric_names() const;
-    /// The values of one metric in the finished runs (of one point), in order of point and
+    /// Values of one metric in the finished runs (of one point, if given), in order of point and
     /// replication.
     std::vector<StoredValue> values(const std::string& metric,
                                     std::optional<std::uint32_t> point = {}) const;
-    /// Metrics of all finished runs, in order of point, replication and metric's name.
+    /// Visits the metrics of all finished runs, in order of point, replication and name of the
+    /// metric.
     void for_each_value(
         const std::function<void(const StoredValue&, const std::string& metric)>& visit) const;
 
-    /// Answers a question in SQL, row by row; NULL is an empty text. The first call has the names.
-    /// @throws std::invalid_argument with SQLite's words if the question is wrong or would write
+    /// Executes an SQL query; calls `row` with the column names, then with each row. NULL is an
+    /// empty text.
+    /// @throws std::invalid_argument with SQLite's message if the query is invalid or would write
     void query(const std::string& sql,
                const std::function<void(const std::vector<std::string>&)>& row) const;
 

@@ -14,26 +14,27 @@ class Statement;
 
 namespace rovernet {
 
-/// A row of a store as a statement answers it, its columns checked: anybody may have written it.
+/// Result row of an SQL statement on a store. Columns are checked when read, since any program may
+/// have written the store.
 ///
-/// The statement names each column "table.column". Its first columns are integers that tell which
-/// row of that table it is.
+/// The statement must name each column "table.column". Its first columns are integers that identify
+/// the row.
 class StoredRow {
   public:
-    /// @param path  of the store, for errors
-    /// @param keys  number of columns that tell which row it is, > 0
+    /// @param path  path of the store, for errors
+    /// @param keys  number of columns that identify the row, > 0
     StoredRow(const std::string& path, const SQLite::Statement& statement, int keys)
         : path_(path), statement_(statement), keys_(keys) {}
 
-    /// The value in a column.
-    /// @throws InputError, as refuse() does, if it is of another type or out of range
+    /// Value in a column of the row.
+    /// @throws InputError by refuse() if the value has a wrong type or is out of range
     std::string text(int column) const;
-    std::uint32_t number(int column) const;                 ///< whole, below a million
-    double real(int column) const;                          ///< finite
-    std::optional<double> optional_real(int column) const;  ///< number; none: NULL
-    Value document(int column) const;                       ///< value of a text in JSON
+    std::uint32_t number(int column) const;                 ///< whole number below a million
+    double real(int column) const;                          ///< finite number
+    std::optional<double> optional_real(int column) const;  ///< finite number; none: NULL
+    Value document(int column) const;                       ///< value parsed from a JSON text
 
-    /// Says that the store is damaged: table, row, column, what was found and what was expected.
+    /// Reports a damaged store, with table, row, column, found and expected value.
     /// @throws InputError
     [[noreturn]] void refuse(int column, const std::string& found,
                              const std::string& expected) const;
@@ -44,8 +45,8 @@ class StoredRow {
     int keys_;
 };
 
-/// The error of a damaged store, with what to do about it.
-/// @param what  what is wrong, and what was expected
+/// Error of a damaged store, with a remedy.
+/// @param what  found and expected content
 InputError damaged_store(const std::string& path, const std::string& what);
 
 }  // namespace rovernet

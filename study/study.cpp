@@ -2,6 +2,7 @@
 #include "study/study.hpp"
 
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 #include "scenario/unlikely.hpp"
 #include "study/measurement.hpp"
 
@@ -212,6 +213,11 @@ Scenario Study::at(const Table& settings) {
     scenario.walls = known.scene;
     scenario.changes = known.changes;
     return scenario;
+}
+
+bool Study::has_walls() const {
+    return std::ranges::any_of(walls_,
+                               [](const auto& each) { return each.second.scene != nullptr; });
 }
 
 const Study::Walls& Study::walls(const Scenario& scenario) {

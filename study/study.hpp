@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,51 +13,56 @@
 
 namespace rovernet {
 
-/// Point of a study: one combination of the values that it varies.
+/// Point of a study: one combination of values of the varied keys.
 struct StudyPoint {
-    Table settings;  ///< path -> value, in the order of [study] vary
-    std::string id;  ///< id of the scenario that it stands for: 16 hexadecimal digits
+    Table settings;  ///< value of each varied key, by path, in the order of [study] vary
+    std::string id;  ///< id of the point's scenario: 16 hexadecimal digits
 };
 
-/// The settings of every point: all combinations of the values that vary, those of the last key
-/// first, with keys in `zip` going together and without those in `exclude`.
-/// @throws InputError if that leaves none, makes more than a million, or a value is listed twice
+/// Settings of every point: all combinations of the varied values, where the last key varies
+/// fastest, keys of a `zip` group vary together, and combinations in `exclude` are skipped.
+/// @throws InputError if there is no point or more than a million, or if a value is listed twice
 std::vector<Table> study_points(const StudyTable& study, const Location& where);
 
-/// "radio.power=15 dBm, robot.r.count=20"; "the scenario as it is" if nothing varies.
+/// Text of settings: "radio.power=15 dBm, robot.r.count=20"; "the scenario as it is" if nothing
+/// varies.
 std::string settings_text(const Table& settings);
 
-/// A study: a scenario file, the points at which it is run, and how often.
+/// Study: a scenario file, the points at which it is run, and the number of replications.
 ///
-/// The id of a point is XXH64 over the resolved scenario (every default filled in; without [study]
-/// but its warm-up, without [trace], and without the name and the replication), its walls and its
-/// movement file: what changes a result changes the id. Replication r of every point has the same
-/// keyed draws: runs of different points are paired.
+/// The id of a point is XXH64 over everything that affects results: the resolved scenario (with all
+/// defaults; without [trace], name, replication, and [study] except its warm-up), its walls and its
+/// movement file. Replication r has the same keyed random draws at every point, so that runs of
+/// different points are paired.
 class Study {
   public:
-    /// Reads every point's scenario.
-    /// @param vary     what varies, if not what the file says; nothing is zipped then
-    /// @param exclude  points that are left out then
+    /// Reads the scenario of every point of the study.
+    /// @param vary     varied keys that replace those of the file and its `zip` groups
+    /// @param exclude  points to skip, if `vary` is given
     /// @throws InputError at the first mistake, naming the point
     Study(const std::string& path, const ScenarioOptions& options,
           const std::optional<std::vector<Vary>>& vary = {},
           const std::vector<Exclusion>& exclude = {});
 
-    const Scenario& base() const { return base_; }  ///< the file's own scenario
+    /// Whether the scene of some point has walls, so that paths must be searched.
+    bool has_walls() const;
+    const Scenario& base() const {
+        return base_;
+    }  ///< scenario of the file, without settings of a point
     const ScenarioOptions& options() const { return options_; }
     const StudyTable& table() const { return base_.study; }
     const std::vector<StudyPoint>& points() const { return points_; }
 
-    /// Scenario of one run.
+    /// Scenario of one run of the study.
     Scenario scenario(std::size_t point, std::uint32_t replication);
-    /// The resolved scenario that an id stands for.
+    /// Resolved scenario from which a point's id is computed.
     Table identity(const Scenario& scenario);
 
   private:
     struct Walls {
-        std::shared_ptr<const Scene> scene;  ///< null: an open field
+        std::shared_ptr<const Scene> scene;  ///< scene of the point; null: an open field
         std::string digest;
-        /// Scenes with its doors closed: making them may take longer than a run.
+        /// Scenes with doors closed, stored since computing them may take longer than a run.
         std::shared_ptr<const std::vector<SceneChange>> changes;
     };
 
@@ -68,10 +74,11 @@ class Study {
     ScenarioFile file_;
     Scenario base_;
     std::vector<StudyPoint> points_;
-    std::map<std::string, Walls> walls_;  // walls by the text of [scene]: a map is read once
+    // Walls by the text of [scene], so that a map is read only once.
+    std::map<std::string, Walls> walls_;
 };
 
-/// Id of one run: XXH64 over the point's id, the replication and the version.
+/// Id of a run: XXH64 over the point's id, the replication and the version.
 std::string run_id(const std::string& point_id, std::uint32_t replication,
                    const std::string& version);
 

@@ -3,8 +3,10 @@
 
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
+#include "mobility/kept_planners.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
 #include "study/command_words.hpp"
 #include "study/precision.hpp"
 
@@ -14,7 +16,6 @@
 #include <deque>
 #include <filesystem>
 #include <map>
-#include <set>
 
 namespace rovernet {
 namespace {
@@ -28,15 +29,15 @@ struct Task {
     static Task of(std::uint64_t number) {
         return {static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32)};
     }
-    /// First one replication of every point, then the next: a sweep that is stopped has as much of
-    /// each.
+    /// Order of runs: first one replication of every point, then the next one, so that a stopped
+    /// sweep has equally many for each point.
     static Task at(std::uint64_t place, std::size_t points) {
         return {static_cast<std::uint32_t>(place % points),
                 static_cast<std::uint32_t>(place / points)};
     }
 };
 
-/// Runs that every point is asked for, precision or not.
+/// Replications requested for every point, with or without `precision`.
 std::uint64_t planned_runs(const Study& study) {
     return study.points().size() * static_cast<std::uint64_t>(study.table().replications);
 }
@@ -73,7 +74,7 @@ std::string difference(const Value& then, const Table& now) {
     return "";
 }
 
-/// Reason for which a study no longer has a point that a store has runs of.
+/// Reason why a point with stored runs is no longer in the study.
 std::string why_gone(const StoredPoint& gone, const Study& study, const Value& then,
                      const Table& now) {
     std::vector<std::string> reasons;
@@ -103,11 +104,16 @@ class Sweep {
     SweepResult run();
 
   private:
+    /// Points of each replication that wait for a worker.
+    using Waiting = std::map<std::uint32_t, std::deque<std::uint32_t>>;
+
     void plan();
     void plan_replications();
     bool extends() const { return study_.table().precision && !options_.replications; }
     void add_run(Task task);
     void extend(std::uint32_t point);
+    Waiting::iterator replication_for(std::size_t worker);
+    void give_out();
     void end_run(Task task);
     void keep(const TaskEnd& end);
     void report();
@@ -124,12 +130,14 @@ class Sweep {
     KeptPlanners kept_;  // each worker has its own: it is a copy of this process
     Workers workers_;
     std::set<std::string> finished_;  // ids of runs here or elsewhere
-    std::deque<Task> waiting_;
-    std::map<std::uint64_t, int> attempts_;  // of tasks whose process died
-    std::vector<std::uint32_t> planned_;     // of each point: replications asked for
-    std::vector<std::uint32_t> open_;        // of each point: of those, runs that are not over
-    std::vector<char> hopeless_;             // of each point: a run of it failed
-    std::uint64_t next_ = 0;                 // place of the next run among all, for shards
+    Waiting waiting_;
+    const bool by_replication_;  // workers prefer replications that they have begun
+    std::map<std::uint32_t, std::size_t> owner_;  // worker that began a replication
+    std::map<std::uint64_t, int> attempts_;       // of tasks whose process died
+    std::vector<std::uint32_t> planned_;          // of each point: replications asked for
+    std::vector<std::uint32_t> open_;             // of each point: of those, runs that are not over
+    std::vector<char> has_failed_;                // of each point: a run of it failed
+    std::uint64_t next_ = 0;                      // place of the next run among all, for shards
     SweepResult result_;
 };
 
@@ -144,9 +152,10 @@ Sweep::Sweep(Study& study, Store& store, const SweepOptions& options)
               return to_text(measure(study_.scenario(task.point, task.replication), kept_));
           },
           options.limits),
+      by_replication_(study.has_walls()),
       planned_(study.points().size()),
       open_(study.points().size()),
-      hopeless_(study.points().size()) {}
+      has_failed_(study.points().size()) {}
 
 void Sweep::add_run(Task task) {
     const std::uint64_t place = next_++;
@@ -158,7 +167,7 @@ void Sweep::add_run(Task task) {
     }
     ++open_[task.point];
     ++result_.progress.left;
-    waiting_.push_back(task);
+    waiting_[task.replication].push_back(task.point);
 }
 
 void Sweep::plan() {
@@ -185,10 +194,10 @@ void Sweep::plan_replications() {
     }
 }
 
-/// Plans more replications of a point all of whose runs are over, if its precision wants them.
+/// Plans more replications of a point whose runs have all ended, if its precision is not reached.
 void Sweep::extend(std::uint32_t point) {
     if (!extends()) return;
-    while (open_[point] == 0 && hopeless_[point] == 0) {
+    while (open_[point] == 0 && has_failed_[point] == 0) {
         const auto wanted = replications_for(study_.table(), values_of(point), planned_[point]);
         if (wanted <= planned_[point]) return;
         for (std::uint32_t r = planned_[point]; r < wanted; ++r) add_run({point, r});
@@ -224,7 +233,7 @@ void Sweep::end_run(Task task) {
 void Sweep::keep(const TaskEnd& end) {
     const Task task = Task::of(end.task);
     if (end.kind == TaskEnd::died && ++attempts_[end.task] == 1) {
-        waiting_.push_front(task);
+        waiting_[task.replication].push_front(task.point);
         return;
     }
     StoredRun run{.id = id_of(task),
@@ -234,17 +243,41 @@ void Sweep::keep(const TaskEnd& end) {
                   .measurement = {}};
     if (end.kind == TaskEnd::done) {
         run.measurement = measurement_of(end.text);
+        result_.progress.searches += run.measurement.searches;
         ++result_.progress.finished;
     } else {
         run.error = end.text;
         run.measurement.started = utc_now();
         run.measurement.host = host_name();
         ++result_.progress.failed;
-        hopeless_[task.point] = 1;
+        has_failed_[task.point] = 1;
         if (!result_.failure) result_.failure = run;
     }
     store_.record(run);
     end_run(task);
+}
+
+/// Next replication for a worker: one that it has started, whose paths it has cached; else one that
+/// no worker has started; else, if workers may share replications, the first one.
+Sweep::Waiting::iterator Sweep::replication_for(std::size_t worker) {
+    if (!by_replication_) return waiting_.begin();
+    for (auto each = waiting_.begin(); each != waiting_.end(); ++each) {
+        const auto owner = owner_.find(each->first);
+        if (owner == owner_.end() || owner->second == worker) return each;
+    }
+    return options_.replication_on_one_worker ? waiting_.end() : waiting_.begin();
+}
+
+void Sweep::give_out() {
+    for (const std::size_t worker : workers_.idle()) {
+        const auto chosen = replication_for(worker);
+        if (chosen == waiting_.end()) continue;
+        const Task task{chosen->second.front(), chosen->first};
+        chosen->second.pop_front();
+        if (chosen->second.empty()) waiting_.erase(chosen);
+        owner_.try_emplace(task.replication, worker);
+        workers_.begin(worker, task.number());
+    }
 }
 
 void Sweep::report() { options_.progress(result_.progress); }
@@ -255,11 +288,7 @@ SweepResult Sweep::run() {
     for (;;) {
         const Stop stop = options_.stop();
         const bool enough = options_.fail_fast && result_.failure;
-        while (stop == Stop::no && !enough && !waiting_.empty() && workers_.has_idle()) {
-            const Task task = waiting_.front();
-            waiting_.pop_front();
-            workers_.begin(task.number());
-        }
+        if (stop == Stop::no && !enough) give_out();
         if (stop == Stop::at_once || workers_.busy() == 0) break;
         if (const auto end = workers_.wait(longest_wait_s)) keep(*end);
         report();

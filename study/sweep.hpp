@@ -15,69 +15,74 @@
 
 namespace rovernet {
 
-/// The runs of a study that one of several machines makes: of all of them in their order, those
-/// from number * size on, `size` of them.
+/// Share of a study's runs for one of several machines: `size` runs from run number * size on, in
+/// the order of the study.
 struct Shard {
     std::uint64_t number, size;
 };
 
 /// Progress of a sweep.
 struct SweepProgress {
-    std::uint64_t before = 0;    ///< finished by an earlier sweep
-    std::uint64_t finished = 0;  ///< now
-    std::uint64_t failed = 0;    ///< now
-    std::uint64_t left = 0;      ///< runs left as known now: precision may ask for more
+    std::uint64_t before = 0;    ///< runs finished by an earlier sweep
+    std::uint64_t finished = 0;  ///< runs finished in this sweep
+    std::uint64_t failed = 0;    ///< runs failed in this sweep
+    std::uint64_t left = 0;      ///< runs left so far; [study] precision may need more
+    std::uint64_t searches = 0;  ///< number of path searches made by workers
 };
 
-/// Whether a sweep goes on.
+/// Request to stop a sweep: no; when running tasks have ended; at once.
 enum class Stop { no, when_idle, at_once };
 
 struct SweepOptions {
-    std::size_t workers = 2;  ///< > 0
+    std::size_t workers = 2;  ///< number of worker processes, > 0
     WorkerLimits limits = {};
-    bool fail_fast = false;  ///< begin nothing new once a run has failed
+    bool fail_fast = false;  ///< start no new runs after a run has failed
+    /// True: in a scene with walls, one worker makes all runs of a replication, so that paths are
+    /// searched once for points with the same robots and positions. False: idle workers help with
+    /// any replication.
+    bool replication_on_one_worker = false;
     std::optional<Shard> shard = {};
-    /// Replications of each point, by its number, in place of [study] replications and precision.
+    /// Number of replications of each point, by point number, instead of [study] replications and
+    /// precision.
     std::optional<std::vector<std::uint32_t>> replications = {};
-    std::set<std::string> elsewhere = {};  ///< ids of runs that another store has: not made here
-    /// Asked all the time.
+    std::set<std::string> elsewhere = {};  ///< ids of runs to skip, since another store has them
+    /// Called continually; its result requests to stop the sweep.
     std::function<Stop()> stop = [] { return Stop::no; };
-    /// Told after every run, and at least every 0.2 s.
+    /// Called after every run, and at least every 0.2 s.
     std::function<void(const SweepProgress&)> progress = [](const SweepProgress&) {};
 };
 
-/// A point that is not as precise as its study asks, after max_replications.
+/// Point that did not reach the study's `precision` within max_replications.
 struct ImprecisePoint {
     std::uint32_t point = 0;
-    std::size_t values = 0;            ///< replications in which the metric has a value
-    std::optional<double> half_width;  ///< half-width reached; nothing where there is no interval
+    std::size_t values = 0;            ///< number of replications in which the metric has a value
+    std::optional<double> half_width;  ///< half-width of the interval; none without interval
 };
 
 struct SweepResult {
     SweepProgress progress;
-    bool stopped = false;              ///< true: it ended before everything was done
-    std::optional<StoredRun> failure;  ///< the first
-    std::vector<ImprecisePoint>
-        imprecise;  ///< points without the precision, of a sweep that was not stopped
+    bool stopped = false;                   ///< true: the sweep was stopped early
+    std::optional<StoredRun> failure;       ///< first run that failed; none: no run failed
+    std::vector<ImprecisePoint> imprecise;  ///< points that miss the precision; empty if stopped
 };
 
-/// Opens the store of a study, or makes it. @throws InputError if it has runs of another version or
-/// of points that the study does not have; RunError if it cannot be written
+/// Opens or creates the store of a study. @throws InputError if it has runs of a different version,
+/// or points outside the study; RunError if it cannot be written
 Store open_store(const std::string& path, Study& study);
 
-/// The ids of a store's finished runs.
+/// Ids of the finished runs in a store.
 std::set<std::string> finished_runs(const Store& store);
 
-/// Runs of a study and what a store has of each, in the order that shards divide. Of a study with a
-/// precision, only of the runs that every point is asked for.
+/// State of each run of a study in a store, in the order used by shards. With `precision`, only the
+/// first `replications` runs of each point are included.
 std::vector<RunState> run_states(const Study& study, const Store& store);
 
-/// Runs what the store does not have yet, and what failed, in worker processes; each run is in the
-/// store as soon as it is over. A run whose process dies is tried once more. In all, each point is
-/// repeated [study] replications times; with `precision` until the interval of the first metric is
-/// that narrow, see reached_precision(), up to max_replications. What is run depends on results
-/// alone, never on which run ended first.
-/// @throws RunError if the store cannot be written any more
+/// Makes the missing and failed runs of a study in worker processes, and stores each run as soon as
+/// it ends. A run whose process dies is tried once more. Each point gets [study] replications; with
+/// `precision` further replications until the interval of the first metric is narrow enough, see
+/// reached_precision(), up to max_replications. The set of runs depends on results only, never on
+/// the order in which runs end.
+/// @throws RunError if the store cannot be written
 SweepResult sweep(Study& study, Store& store, const SweepOptions& options);
 
 }  // namespace rovernet

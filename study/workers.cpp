@@ -61,7 +61,7 @@ bool read_all(int file, void* bytes, std::size_t size) {
     return true;
 }
 
-/// The end of what a worker said on standard error.
+/// Last output of a worker on standard error.
 std::string last_words(int file) {
     const off_t size = lseek(file, 0, SEEK_END);
     const off_t begin = std::max<off_t>(0, size - static_cast<off_t>(longest_words));
@@ -91,11 +91,16 @@ Workers::Workers(std::size_t count, Work work, WorkerLimits limits)
 
 Workers::~Workers() {
     for (Worker& worker : workers_) {
-        if (worker.pid != 0) bury(worker, "");
+        if (worker.pid != 0) reap(worker, "");
     }
 }
 
-bool Workers::has_idle() const { return busy() < workers_.size(); }
+std::vector<std::size_t> Workers::idle() const {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < workers_.size(); ++i)
+        if (!workers_[i].task) numbers.push_back(i);
+    return numbers;
+}
 
 std::size_t Workers::busy() const {
     return static_cast<std::size_t>(std::count_if(
@@ -125,14 +130,14 @@ void Workers::start(Worker& worker) {
     close_file(ends[1]);
     if (pid < 0) {
         for (int file : {ends[0], words}) close_file(file);
-        throw RunError(fmt::format("no process for a run can be made: {}", std::strerror(error)));
+        throw RunError(fmt::format("cannot start a worker process: {}", std::strerror(error)));
     }
     worker.pid = pid;
     worker.socket = ends[0];
     worker.words = words;
 }
 
-/// The life of a worker: tasks in, answers out, until the socket is closed.
+/// Main loop of a worker: reads tasks and writes results until the socket is closed.
 void Workers::serve(int socket) const {
     if (limits_.memory) {
         const rlimit limit{*limits_.memory, *limits_.memory};
@@ -144,8 +149,7 @@ void Workers::serve(int socket) const {
         try {
             text = work_(task);
         } catch (const std::bad_alloc&) {
-            constexpr std::string_view words =
-                "out of memory; --memory says how much a run may use\n";
+            constexpr std::string_view words = "out of memory; --memory sets the limit of a run\n";
             (void)!write(STDERR_FILENO, words.data(), words.size());
             _exit(1);
         } catch (const std::exception& error) {
@@ -160,10 +164,8 @@ void Workers::serve(int socket) const {
     _exit(0);
 }
 
-void Workers::begin(std::uint64_t task) {
-    const auto idle =
-        std::find_if(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.task; });
-    Worker& worker = *idle;
+void Workers::begin(std::size_t number, std::uint64_t task) {
+    Worker& worker = workers_.at(number);
     if (worker.pid == 0) start(worker);
     worker.task = task;
     worker.got.clear();
@@ -172,8 +174,8 @@ void Workers::begin(std::uint64_t task) {
     send_all(worker.socket, &task, sizeof task);  // one that has died is found by wait()
 }
 
-/// Ends a worker, and says how its task ended.
-TaskEnd Workers::bury(Worker& worker, const std::string& reason) {
+/// Kills and reaps a worker. @return the end of its task
+TaskEnd Workers::reap(Worker& worker, const std::string& reason) {
     kill(worker.pid, SIGKILL);
     int status = 0;
     while (waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
@@ -181,19 +183,20 @@ TaskEnd Workers::bury(Worker& worker, const std::string& reason) {
     TaskEnd end{worker.task.value_or(0), TaskEnd::died,
                 reason.empty() ? how_it_ended(status) : reason};
     const std::string words = last_words(worker.words);
-    if (!words.empty()) end.text += "; its last words: " + words;
+    if (!words.empty()) end.text += "; its last output: " + words;
     for (int* file : {&worker.socket, &worker.words}) close_file(*file);
     worker.pid = 0;
     worker.task.reset();
     return end;
 }
 
-/// Takes what has come; the task's end if the answer is whole or there will be none.
+/// Reads available bytes of a result. @return the task's end once the result is complete or the
+/// worker has died
 std::optional<TaskEnd> Workers::read_answer(Worker& worker) {
     std::array<char, 65536> piece;
     const ssize_t n = read(worker.socket, piece.data(), piece.size());
     if (n < 0 && errno == EINTR) return std::nullopt;
-    if (n <= 0) return bury(worker, "");
+    if (n <= 0) return reap(worker, "");
     worker.got.append(piece.data(), static_cast<std::size_t>(n));
     AnswerHead head{};
     if (worker.got.size() < sizeof head) return std::nullopt;
@@ -231,7 +234,7 @@ std::optional<TaskEnd> Workers::wait(double seconds) {
         }
         for (Worker* worker : owners) {
             if (worker->task && now_s() >= worker->deadline) {
-                return bury(*worker, fmt::format("took longer than {} s", *limits_.timeout_s));
+                return reap(*worker, fmt::format("took longer than {} s", *limits_.timeout_s));
             }
         }
     } while (now_s() < until);

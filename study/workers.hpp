@@ -6,70 +6,70 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <sys/types.h>
 #include <vector>
 
 namespace rovernet {
 
-/// Limits of a worker.
+/// Limits of a worker process.
 struct WorkerLimits {
-    std::optional<double> timeout_s;      ///< real time for one task [s]
-    std::optional<std::uint64_t> memory;  ///< [bytes] of address space
+    std::optional<double> timeout_s;      ///< limit of real time for one task [s]
+    std::optional<std::uint64_t> memory;  ///< limit of address space [bytes]
 };
 
-/// End of a task.
+/// End of a worker's task.
 struct TaskEnd {
     enum Kind {
-        done,    ///< `text` is the answer
-        failed,  ///< the task threw; `text` is what
-        died     ///< the process died or was ended; `text` says how, with its last words
+        done,    ///< task completed; `text` is the result
+        failed,  ///< the task threw an exception; `text` is its message
+        died     ///< the process died or was killed; `text` is the reason, with its last output
     };
     std::uint64_t task;
     Kind kind;
     std::string text;
 };
 
-/// Processes that take tasks over a socket, one at a time each, and answer.
+/// Worker processes. Each takes one task at a time over a socket and returns a result.
 ///
-/// A task that crashes, exceeds its time or runs out of memory costs only itself: its process is
-/// replaced. They are forked: whatever `work` refers to is as it was when the worker began, and
-/// nothing that it changes comes back but its answer. They die with this process, however it ends.
-/// Only for processes with one thread.
+/// A task that crashes, exceeds its time or runs out of memory affects no other task: its process
+/// is replaced. Workers are forked: `work` sees the state at the start of the worker, and only its
+/// result is returned. Workers are killed when this process ends for any reason. This process must
+/// have a single thread.
 class Workers {
   public:
     using Work = std::function<std::string(std::uint64_t task)>;
 
-    /// @param count  > 0; processes begin when they are first needed
+    /// @param count  number of workers, > 0; worker processes are started when first needed
     Workers(std::size_t count, Work work, WorkerLimits limits);
-    /// Ends every worker at once.
+    /// Kills all workers.
     ~Workers();
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
 
-    bool has_idle() const;
-    /// Tasks that are being worked on.
+    /// Numbers of idle workers, from 0.
+    std::vector<std::size_t> idle() const;
+    /// Number of tasks that are running.
     std::size_t busy() const;
-    /// Begins a task. @throws RunError if no process can be made; there must be an idle worker
-    void begin(std::uint64_t task);
-    /// The next task that ends within so many seconds, if one does; also returns early, without
-    /// one, when a signal came.
+    /// Gives a task to an idle worker. @throws RunError if the process cannot be started
+    void begin(std::size_t worker, std::uint64_t task);
+    /// Waits up to `seconds` for a task to end, and returns it; none after that time, or when a
+    /// signal interrupts.
     std::optional<TaskEnd> wait(double seconds);
 
   private:
     struct Worker {
         pid_t pid = 0;    // 0: not running
-        int socket = -1;  // tasks go out, answers come in
-        int words = -1;   // file with what it says on standard error
-        std::string got;  // part of its answer
+        int socket = -1;  // tasks are sent, results received
+        int words = -1;   // file that captures its standard error
+        std::string got;  // received part of its result
         std::optional<std::uint64_t> task;
-        double deadline = 0;  // [s] of the steady clock
+        double deadline = 0;  // time limit [s] of the steady clock
     };
 
     void start(Worker& worker);
     [[noreturn]] void serve(int socket) const;
     std::optional<TaskEnd> read_answer(Worker& worker);
-    TaskEnd bury(Worker& worker, const std::string& reason);
+    TaskEnd reap(Worker& worker, const std::string& reason);
     int wait_time(double until) const;
 
     Work work_;

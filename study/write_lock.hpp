@@ -5,18 +5,55 @@
 
 namespace rovernet {
 
-/// The right to write to a store's file, held as long as the object lives.
+/// File descriptor, closed by the destructor; below 0 if the file cannot be opened.
+class FileNumber {
+  public:
+    /// @param flags  flags of open(2)
+    FileNumber(const std::string& path, int flags);
+    ~FileNumber();
+    FileNumber(const FileNumber&) = delete;
+    FileNumber& operator=(const FileNumber&) = delete;
+
+    int number() const { return number_; }
+
+  private:
+    int number_;
+};
+
+/// Exclusive lock for writing to a store's file, released by the destructor.
+///
+/// The lock is a flock on the file if the file system supports it. Without flock, or if the file
+/// system implements flock by range locks (which SQLite uses), the lock is a file `PATH.lock` with
+/// process and host. A lock file of a dead process on this host is taken over.
 class WriteLock {
   public:
-    /// Makes the file if there is none. Waits a second for another writer.
-    /// @throws RunError if it cannot be written, or another process writes to it
+    /// Takes the lock; creates the store file if missing. Waits up to 1 s for another writer.
+    /// @throws RunError if the file cannot be written, or another process holds the lock
     explicit WriteLock(const std::string& path);
     ~WriteLock();
     WriteLock(const WriteLock&) = delete;
     WriteLock& operator=(const WriteLock&) = delete;
 
+    /// Whether the lock is a flock, not a lock file.
+    bool is_whole() const { return owner_ == 0; }
+
   private:
-    int file_;
+    std::string path_;
+    FileNumber file_;
+    // Process that created PATH.lock; 0: no lock file.
+    int owner_ = 0;
 };
+
+/// Whether the file system of an existing file supports range locks, which SQLite needs. Must not
+/// be called while this process has the file open in SQLite, since it would release SQLite's locks.
+bool has_range_locks(const std::string& path);
+
+/// Whether the file is on a known type of network or cluster file system, which several hosts may
+/// share.
+bool is_shared_by_hosts(const std::string& path);
+
+/// Checks that no process writes to a file, for readers that SQLite's locks do not protect.
+/// @throws RunError if a process writes, or if that cannot be determined
+void need_no_writer(const std::string& path);
 
 }  // namespace rovernet

@@ -9,8 +9,8 @@
 
 namespace rovernet {
 
-/// Deliveries of each message of a run, in the order in which they were sent: a series in time, to
-/// tell the beginning of a run from its steady state.
+/// Deliveries of each message of a run, in the order of sending: a time series, to separate the
+/// initial transient of a run from its steady state.
 class DeliverySeries {
   public:
     KindMask kinds() const { return kind_of<Sent>() | kind_of<Received>(); }
@@ -18,21 +18,22 @@ class DeliverySeries {
 
     /// Time at which each message was sent, ascending.
     const std::vector<Time>& sent() const { return sent_; }
-    /// Delivery ratio of each message: deliveries / (robots when it was sent - 1) [-]; 0 for a lone
-    /// robot's.
+    /// Delivery ratio of each message: deliveries / (robots when it was sent - 1) [-]; 0 if there
+    /// was only one robot.
     std::vector<double> delivered() const;
 
   private:
-    /// The message that a slot of the table had at its last Sent. Packets of a router have none.
+    /// Message of a slot of the MessageTable, at its last Sent. Control packets of a router have
+    /// none.
     struct Known {
         std::uint64_t uid = ~std::uint64_t{0};
-        std::size_t place = 0;  // its place in the series
+        std::size_t place = 0;  // index of the message in the series
     };
 
     std::vector<Known> known_;  // messages by MessageId
     std::vector<Time> sent_;
-    std::vector<std::uint32_t> others_;      // robots that might have got it
-    std::vector<std::uint32_t> deliveries_;  // and those that did
+    std::vector<std::uint32_t> others_;      // by message: number of possible receivers
+    std::vector<std::uint32_t> deliveries_;  // by message: number of deliveries
 };
 
 }  // namespace rovernet

@@ -26,7 +26,7 @@ std::int64_t micrometres(double x) {
                   : std::numeric_limits<std::int64_t>::max();
 }
 
-/// Appends integers to a text of bytes, little endian. There is room.
+/// Appends integers to a buffer, little endian. The buffer must have enough space.
 class Packed {
   public:
     explicit Packed(std::uint8_t* at) : at_(at) {}
@@ -69,8 +69,8 @@ class Packed {
 
 }  // namespace
 
-/// The hash of all bytes but the last few, which wait to be hashed in one go: the same as byte by
-/// byte.
+/// Hash state. The last few bytes wait in a buffer and are hashed together; the result is the same
+/// as byte by byte.
 struct Fingerprint::State {
     static constexpr std::size_t longest = 80;  // record [bytes]
 
@@ -78,11 +78,11 @@ struct Fingerprint::State {
     static std::uint8_t number(KindMask kind) {
         return static_cast<std::uint8_t>(std::countr_zero(kind));
     }
-    /// Whether there is no room behind `bytes` for one more record.
+    /// Whether `bytes` has no space for one more record.
     bool is_full(const Packed& bytes) const {
         return bytes.end() > waiting.data() + waiting.size() - longest;
     }
-    /// Room for one more record, behind those that wait.
+    /// Space for one more record, after those that wait.
     Packed room() {
         const Packed bytes(waiting.data() + used);
         if (!is_full(bytes)) return bytes;
@@ -116,7 +116,7 @@ struct Fingerprint::State {
                 .put(r.heard_from.value_or(everyone)));
     }
     void on(const Received& r, const RecordContext& context) {
-        // Kind and frame begin every reception's bytes: packed once, then copied.
+        // The bytes of every reception begin with kind and frame: packed once, then copied.
         std::array<std::uint8_t, 17> begin;
         Packed(begin.data()).put(number(kind_of<Received>())).put(r.frame, context);
         Packed bytes = room();

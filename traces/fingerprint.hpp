@@ -10,10 +10,10 @@
 
 namespace rovernet {
 
-/// Fingerprint of a run: one number for its behaviour. Any difference in what happened changes it.
+/// Fingerprint of a run: a hash of its behaviour. Any difference in the behaviour changes it.
 ///
-/// XXH64 (seed 0) over, per record, its kind (the bit number of kind_of, one byte) and its integers
-/// in little endian:
+/// XXH64 (seed 0) of all records: for each record its kind (the bit number of kind_of, one byte)
+/// and its integers in little endian:
 ///
 /// | record      | bytes                                                                      |
 /// |-------------|----------------------------------------------------------------------------|
@@ -24,8 +24,9 @@ namespace rovernet {
 /// | Moved       | time 8, node 4, start 8, end 8, from 3 x 8, to 3 x 8                       |
 ///
 /// where a frame is: uid 8, sender 4, ttl 2, hops 2. Times in [ns], positions in micrometres [um]
-/// rounded to nearest. What depends on who listens (`reachable`) or on how the receptions of a
-/// transmission are cut into records does not enter.
+/// rounded to nearest. Data that depends on the sinks (`reachable`), and the division of a
+/// transmission's receptions into records, are not included.
+/// Example: examples/fingerprint.cpp.
 class Fingerprint {
   public:
     Fingerprint();
@@ -41,7 +42,7 @@ class Fingerprint {
 
     /// Fingerprint of the records so far.
     std::uint64_t value() const;
-    /// value() as 16 hexadecimal digits.
+    /// Hash value() as 16 hexadecimal digits.
     std::string text() const;
 
   private:

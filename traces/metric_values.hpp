@@ -14,24 +14,23 @@ namespace rovernet {
 
 /// Number of copies that were lost for one reason.
 struct DropCount {
-    std::string_view reason;  ///< code as in an ns-2 trace
+    std::string_view reason;  ///< code of the reason, as in an ns-2 trace
     std::uint64_t count = 0;
     friend bool operator==(const DropCount&, const DropCount&) = default;
 };
 
-/// The delays of the deliveries: from the sending of the message to its first copy at a robot [s].
-/// Percentiles by nearest rank: the p-th is the ceil(p n / 100)-th smallest of the n delays.
+/// Latencies of deliveries: from the sending of the message to its first copy at a robot [s].
+/// Percentiles by nearest rank: the p-th is the ceil(p n / 100)-th smallest of the n latencies.
 struct LatencyValues {
-    double mean = 0;  ///< [s]
-    double p50 = 0;   ///< [s]
-    double p95 = 0;   ///< [s]
-    double max = 0;   ///< [s]
+    double mean = 0;  ///< mean latency [s]
+    double p50 = 0;   ///< median latency [s]
+    double p95 = 0;   ///< 95th percentile [s]
+    double max = 0;   ///< largest latency [s]
     friend bool operator==(const LatencyValues&, const LatencyValues&) = default;
 };
 
-/// Codes of all reasons for which a copy goes no further, each once: the order of
-/// MetricValues::drops. DUP comes first, then the others in the order of their table
-/// (sim/fate.hpp).
+/// Codes of all reasons for which a copy is lost or not forwarded, without repetition: the order of
+/// MetricValues::drops. DUP is first, the others follow in the order of sim/fate.hpp.
 inline constexpr auto loss_codes = [] {
     struct Codes {
         std::array<std::string_view, 16> of{};
@@ -50,72 +49,74 @@ inline constexpr auto loss_codes = [] {
     return codes;
 }();
 
-/// Values of a part of the traffic: the messages of one flow, or those for one robot.
+/// Values of a part of the traffic: the messages of one flow, or the messages for one robot.
+/// Example: examples/flows.cpp.
 struct PartValues {
-    std::uint64_t messages = 0;    ///< sent: of the flow, or for the robot
-    std::uint64_t expected = 0;    ///< deliveries, if every message reached whom it was for
-    std::uint64_t deliveries = 0;  ///< first copies
-    std::uint64_t bytes = 0;       ///< [bytes] of the messages delivered
-    std::uint64_t delay_ns = 0;    ///< [ns] sum of their latencies
-    std::optional<double> delivery_ratio() const;  ///< [-]; nothing if none is expected
-    std::optional<double> latency_mean() const;    ///< [s]; nothing without deliveries
+    std::uint64_t messages = 0;    ///< messages sent in the flow, or for the robot
+    std::uint64_t expected = 0;    ///< deliveries, if every message reached all its destinations
+    std::uint64_t deliveries = 0;  ///< first copies of a message at a robot
+    std::uint64_t bytes = 0;       ///< size of the delivered messages [bytes]
+    std::uint64_t delay_ns = 0;    ///< sum of the deliveries' latencies [ns]
+    std::optional<double> delivery_ratio() const;  ///< [-]; empty if no delivery is expected
+    std::optional<double> latency_mean() const;    ///< mean latency [s]; empty without deliveries
     friend bool operator==(const PartValues&, const PartValues&) = default;
 };
 
-/// Parts that Metrics measure beside the totals.
+/// Parts of the traffic that Metrics measure in addition to the totals.
 struct MetricParts {
-    /// Costs a search of the network for every message; nothing: only while that is cheap.
+    /// Whether `reach` is measured, by a search of the network for every message; empty: while that
+    /// is cheap.
     std::optional<bool> reach = {};
-    bool flows = false;   ///< messages by their flow, see Message
-    bool robots = false;  ///< messages by whom they are for
+    bool flows = false;   ///< true: measure the messages of each flow, see Message::flow
+    bool robots = false;  ///< true: measure the messages for each robot
 };
 
-/// Values of a run, or of a trace read back. The values are computed from integers, so that they
-/// are the same to the last digit in whatever portions the records arrive.
+/// Metrics of a run, or of a trace read back. They are computed from integers, so that the division
+/// of receptions into records does not change them.
 struct MetricValues {
-    std::uint64_t messages = 0;       ///< sent by applications
-    std::uint64_t transmissions = 0;  ///< frames put on air
-    std::uint64_t receptions = 0;     ///< decoded copies, duplicates included
-    std::uint64_t deliveries = 0;     ///< first copies, handed to an application
+    std::uint64_t messages = 0;       ///< messages sent by applications
+    std::uint64_t transmissions = 0;  ///< number of frames transmitted
+    std::uint64_t receptions = 0;     ///< number of decoded copies, including duplicates
+    std::uint64_t deliveries = 0;     ///< first copies of a message at a robot, for its application
 
-    /// Messages of which no frame had ended when the run did: nobody could have them yet. They
-    /// count in `messages` and in drops.END, and are left out of delivery_ratio and reach.
+    /// Number of messages of which no frame had ended when the run ended: no robot could have
+    /// received them. They count in `messages` and in drops.END, but not in delivery_ratio, reach.
     std::uint64_t cut_off = 0;
 
-    /// Copies not forwarded, by the codes of the reasons in sim/fate.hpp.
+    /// Copies lost or not forwarded, by the codes of the reasons in sim/fate.hpp.
     std::array<DropCount, loss_codes.count> drops = [] {
         std::array<DropCount, loss_codes.count> none;
         for (std::size_t i = 0; i < none.size(); ++i) none[i].reason = loss_codes.of[i];
         return none;
     }();
 
-    /// deliveries / sum over messages of (robots when it was sent - 1; of a unicast 1) [-], the
-    /// packet delivery ratio with every other robot as a destination and without duplicates;
-    /// nothing if that sum is 0. Messages that were cut off are left out. Source: for unicast, J.
-    /// Broch et al., MobiCom 1998.
+    /// Packet delivery ratio with all other robots as destinations, without duplicates: deliveries
+    /// / sum over messages of (robots when it was sent - 1; 1 for a unicast) [-]; empty if that sum
+    /// is 0. Messages that were cut off are not included. Source: for unicasts, J. Broch et al.,
+    /// MobiCom 1998.
     std::optional<double> delivery_ratio;
 
-    /// RE = r / e [-]: r the deliveries, e the sum over messages of the robots that a chain of
-    /// links joined to the sender when it was sent; of a unicast only its destination counts.
-    /// Robots that move or relay late may be reached beyond those: it can exceed 1. Nothing if e is
-    /// 0 or a message did not carry its part of it. Source: S.-Y. Ni et al., The broadcast storm
-    /// problem, MobiCom 1999.
+    /// Reachability RE = r / e [-]: r is the number of deliveries; e is the sum over messages of
+    /// the robots that a chain of links connected to the sender when it was sent (for a unicast
+    /// only its destination counts). It can exceed 1, because robots that move or forward late may
+    /// reach further robots. Empty if e is 0 or was not measured for every message. Source: S.-Y.
+    /// Ni et al., The broadcast storm problem, MobiCom 1999.
     std::optional<double> reach;
-    bool reach_known = true;  ///< every message carried its part of reach
+    bool reach_known = true;  ///< true if `reachable` was measured for every message
 
-    /// SRB = (r - t) / r [-]: r the deliveries, t the distinct (message, robot) pairs in which the
-    /// robot, not being the message's origin, put it on air. Nothing without deliveries.
-    /// Source: S.-Y. Ni et al., as above.
+    /// Saved rebroadcasts SRB = (r - t) / r [-]: r is the number of deliveries; t is the number of
+    /// different (message, robot) pairs in which the robot, other than the message's origin,
+    /// transmitted it. Empty without deliveries. Source: S.-Y. Ni et al., as above.
     std::optional<double> saved_rebroadcasts;
 
-    std::optional<LatencyValues> latency;  ///< latency of the deliveries; nothing without any
+    std::optional<LatencyValues> latency;  ///< latency of the deliveries; empty without deliveries
 
-    std::optional<double> mean_hops;  ///< hops of a delivery [-]; nothing without any
-    std::uint32_t max_hops = 0;       ///< most hops of a delivery [-]
-    std::vector<std::uint64_t> hops;  ///< deliveries that crossed h hops, h = 0 ... max_hops
+    std::optional<double> mean_hops;  ///< hops of a delivery [-]; empty without deliveries
+    std::uint32_t max_hops = 0;       ///< largest number of hops of a delivery [-]
+    std::vector<std::uint64_t> hops;  ///< number of deliveries after h hops, h = 0 ... max_hops
 
-    std::vector<PartValues> flows;   ///< values by flow - 1, if they are counted
-    std::vector<PartValues> robots;  ///< values by robot, if they are counted
+    std::vector<PartValues> flows;   ///< values of each flow, at index flow - 1, if measured
+    std::vector<PartValues> robots;  ///< values of each robot, by its id, if measured
 
     friend bool operator==(const MetricValues&, const MetricValues&) = default;
 };

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "traces/metrics.hpp"
 
+#include "sim/legs.hpp"
+
 #include <algorithm>
 
 namespace rovernet {
 namespace {
 
-/// The p-th percentile by nearest rank, of n > 0 sorted delays [s].
+/// Percentile p by nearest rank, of n > 0 sorted latencies [s].
 double percentile(const std::vector<Duration>& sorted, std::size_t p) {
     const std::size_t rank = (p * sorted.size() + 99) / 100;
     return seconds(sorted[rank - 1]);
@@ -37,14 +39,14 @@ std::optional<double> PartValues::latency_mean() const {
     return static_cast<double>(delay_ns) / static_cast<double>(deliveries) / 1e9;
 }
 
-Metrics::Flood& Metrics::begin_flood(MessageId id, std::uint64_t uid) {
-    if (id.index() >= floods_.size()) floods_.resize(id.index() + 1);
-    Flood& f = floods_[id.index()];
-    f.forwarders.clear();
-    f.uid = uid;
-    f.others = 0;
-    f.reachable.reset();
-    return f;
+Metrics::MessageState& Metrics::begin_state(MessageId id, std::uint64_t uid) {
+    if (id.index() >= states_.size()) states_.resize(id.index() + 1);
+    MessageState& state = states_[id.index()];
+    state.forwarders.clear();
+    state.uid = uid;
+    state.others = 0;
+    state.reachable.reset();
+    return state;
 }
 
 PartValues& Metrics::flow(const Message& message) {
@@ -69,7 +71,7 @@ void Metrics::on(const Record& record, const RecordContext& context) {
     }
 }
 
-/// Counts one message more for the robots that it is for, or one less that was cut off.
+/// Adds a message to the counts of its destinations, or removes one that was cut off.
 void Metrics::count_parts(const Message& message, std::uint64_t others, bool is_cut_off) {
     const std::uint64_t one = is_cut_off ? ~std::uint64_t{0} : 1;  // modulo 2^64
     if (parts_.flows && message.flow > 0) {
@@ -91,23 +93,23 @@ void Metrics::count(const Dropped& dropped, const RecordContext& context) {
     if (!counts(dropped.frame, context)) return;
     ++drops_[dropped.reason];
     if (dropped.reason != DropReason::cut_off) return;
-    const Flood& f = flood(dropped.frame.message, context);
+    const MessageState& state = state_of(dropped.frame.message, context);
     ++totals_.cut_off;
-    others_ -= f.others;
-    reachable_ -= f.reachable.value_or(0);
-    count_parts(context.messages[dropped.frame.message], f.others, true);
+    others_ -= state.others;
+    reachable_ -= state.reachable.value_or(0);
+    count_parts(context.messages[dropped.frame.message], state.others, true);
 }
 
 void Metrics::count(const Sent& sent, const RecordContext& context) {
     if (sent.time < begin_) return;
     ++totals_.messages;
-    Flood& f = flood(sent.message, context);
-    f.others = std::max(sent.robots, 1U) - 1;
-    f.reachable = sent.reachable;
+    MessageState& state = state_of(sent.message, context);
+    state.others = std::max(sent.robots, 1U) - 1;
+    state.reachable = sent.reachable;
     if (!sent.reachable) totals_.reach_known = false;
-    others_ += f.others;
+    others_ += state.others;
     reachable_ += sent.reachable.value_or(0);
-    count_parts(context.messages[sent.message], f.others, false);
+    count_parts(context.messages[sent.message], state.others, false);
 }
 
 void Metrics::count(const Transmitted& transmitted, const RecordContext& context) {
@@ -115,7 +117,7 @@ void Metrics::count(const Transmitted& transmitted, const RecordContext& context
     if (!counts(frame, context)) return;
     ++totals_.transmissions;
     if (frame.sender == context.messages[frame.message].origin) return;
-    auto& bits = flood(frame.message, context).forwarders;
+    auto& bits = state_of(frame.message, context).forwarders;
     const std::size_t word = frame.sender.index() / 64;
     const std::uint64_t bit = std::uint64_t{1} << (frame.sender.index() % 64);
     if (word >= bits.size()) bits.resize(std::max(word + 1, context.legs.size() / 64 + 1));
@@ -138,7 +140,7 @@ void Metrics::deliver(const Reception& rx, const Frame& frame, const RecordConte
     if (hops_.size() <= frame.hops) hops_.resize(frame.hops + std::size_t{1});
     ++hops_[frame.hops];
     delays_.push_back(delay);
-    if (flood(frame.message, context).reachable) ++reached_;
+    if (state_of(frame.message, context).reachable) ++reached_;
     const auto add_to = [&](PartValues& part) {
         ++part.deliveries;
         part.bytes += message.size;
@@ -176,7 +178,7 @@ MetricValues Metrics::values() const {
     if (parts_.robots) v.robots = robots();
     v.delivery_ratio = ratio(v.deliveries, others_);
     if (v.reach_known) v.reach = ratio(reached_, reachable_);
-    // Signed numbers, as t may exceed r: a robot relays from outside the count.
+    // Signed numbers, because t may exceed r: robots that are not counted in r may forward.
     const auto saved = static_cast<double>(v.deliveries) - static_cast<double>(forwarders_);
     if (v.deliveries > 0) v.saved_rebroadcasts = saved / static_cast<double>(v.deliveries);
     v.latency = latency_of(delays_);

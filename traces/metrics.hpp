@@ -13,12 +13,12 @@
 
 namespace rovernet {
 
-/// Counts records. Fed by a run, or by read_ns2_trace().
+/// Sink that computes metrics from the records of a run, or of read_ns2_trace().
 ///
-/// Messages sent before its begin are left out, with all that becomes of them.
+/// Messages sent before `begin` are not counted, and neither are their copies.
 ///
-/// Memory: one bit per (message still in the table, robot), once it has been forwarded, and 8
-/// bytes per delivery, for the percentiles; 40 per flow and robot that is counted.
+/// Memory: one bit per robot for each message that is still in use and was forwarded; 8 bytes per
+/// delivery, for the percentiles of latency; 40 bytes per measured flow, and per measured robot.
 class Metrics {
   public:
     explicit Metrics(Time begin = start_of_run, MetricParts parts = {})
@@ -33,19 +33,19 @@ class Metrics {
     }
     void on(const Record& record, const RecordContext& context);
 
-    /// The values so far. Sorts the delays: for the end of a run, not for every record.
+    /// Metrics so far. Sorts the latencies: for the end of a run, not for every record.
     MetricValues values() const;
 
   private:
-    /// State of a message in the table. A slot begins anew with every message, also with one
-    /// that has no Sent, such as a router's own.
-    struct Flood {
+    /// State of a message in the table. It is reset with every new message in a slot, including a
+    /// router's control packets, which have no Sent.
+    struct MessageState {
         std::uint64_t uid = ~std::uint64_t{0};
-        std::vector<std::uint64_t> forwarders;   ///< bit n: robot n has put it on air
-        std::uint32_t others = 0;                ///< robots that it is for
-        std::optional<std::uint32_t> reachable;  ///< see Sent
+        std::vector<std::uint64_t> forwarders;   ///< bit n: robot n has transmitted the message
+        std::uint32_t others = 0;                ///< number of the message's destinations
+        std::optional<std::uint32_t> reachable;  ///< Sent::reachable of the message
     };
-    /// Number of times that each fate and each reason of a drop was seen.
+    /// Number of occurrences of each fate or drop reason.
     template <class Reason, Reason last>
     struct Counts {
         std::array<std::uint64_t, static_cast<std::size_t>(last) + 1> of{};
@@ -63,32 +63,32 @@ class Metrics {
         const Message& message = context.messages[frame.message];
         return message.created >= begin_ && message.kind.empty();
     }
-    Flood& flood(MessageId id, const RecordContext& context) {
+    MessageState& state_of(MessageId id, const RecordContext& context) {
         const std::uint64_t uid = context.messages[id].uid;
-        const bool is_known = id.index() < floods_.size() && floods_[id.index()].uid == uid;
-        return is_known ? floods_[id.index()] : begin_flood(id, uid);
+        const bool is_known = id.index() < states_.size() && states_[id.index()].uid == uid;
+        return is_known ? states_[id.index()] : begin_state(id, uid);
     }
-    Flood& begin_flood(MessageId id, std::uint64_t uid);
+    MessageState& begin_state(MessageId id, std::uint64_t uid);
     PartValues& flow(const Message&);
     PartValues& robot(NodeId);
     std::vector<PartValues> robots() const;
 
     Time begin_;
     MetricParts parts_;
-    MetricValues totals_;  ///< only its counts
+    MetricValues totals_;  ///< totals of the run; only the counters are used
     Counts<Fate, last_fate> fates_;
     Counts<DropReason, last_drop_reason> drops_;
-    std::uint64_t others_ = 0;         ///< sum of (robots - 1)
-    std::uint64_t reachable_ = 0;      ///< sum of Flood::reachable
-    std::uint64_t reached_ = 0;        ///< deliveries of messages with a Flood::reachable
-    std::uint64_t forwarders_ = 0;     ///< distinct (message, robot other than the origin)
-    std::vector<Duration> delays_;     ///< delays of the deliveries, in no order
-    std::vector<std::uint64_t> hops_;  // deliveries by their hops
-    std::vector<Flood> floods_;        ///< floods by MessageId
-    std::vector<PartValues> flows_;    ///< values by flow - 1
-    std::vector<PartValues> robots_;   ///< values by robot, without the broadcasts
-    std::uint64_t broadcasts_ = 0;     ///< broadcasts of all robots, which are for everybody else
-    std::vector<std::uint64_t> own_broadcasts_;  ///< broadcasts by each robot itself
+    std::uint64_t others_ = 0;      ///< sum over messages of (robots - 1)
+    std::uint64_t reachable_ = 0;   ///< sum of the messages' `reachable`
+    std::uint64_t reached_ = 0;     ///< deliveries of messages with `reachable`
+    std::uint64_t forwarders_ = 0;  ///< number of pairs of a message and a robot that forwarded it
+    std::vector<Duration> delays_;  ///< latencies of the deliveries, unsorted
+    std::vector<std::uint64_t> hops_;   // deliveries by number of hops
+    std::vector<MessageState> states_;  ///< states of the messages, by index of the MessageId
+    std::vector<PartValues> flows_;     ///< values of each flow, at index flow - 1
+    std::vector<PartValues> robots_;    ///< values of each robot, by its id, without broadcasts
+    std::uint64_t broadcasts_ = 0;      ///< number of broadcasts, which are for all other robots
+    std::vector<std::uint64_t> own_broadcasts_;  ///< number of broadcasts by each robot
 };
 
 }  // namespace rovernet

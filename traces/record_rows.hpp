@@ -6,16 +6,16 @@
 #include <array>
 #include <cstdint>
 
-// Records as rows of tables, one kind of row for each kind of record: numbers and codes only.
-// Robots are numbers, too: the index of their name, -1 for nobody or everyone. Times are in
+// Records as rows of tables, one kind of row for each kind of record: only numbers and codes.
+// Robots are numbers, too: the index of their name, -1 for none or everyone. Times are in
 // nanoseconds.
 
 namespace rovernet {
 
-/// Code of up to four letters, such as that of a reason; zeros behind it.
+/// Code of up to four letters, such as a loss reason, padded with zeros.
 using CodeCell = std::array<char32_t, 4>;
 
-/// Message that an application sends.
+/// Row of the table of Sent records: message that an application sends.
 struct SentRow {
     std::int64_t t_ns, uid;
     std::int32_t robot, to, size, flow, ttl;
@@ -29,7 +29,7 @@ struct SentRow {
             field("ttl", &SentRow::ttl, "hops that it may cross"));
     }
 };
-/// Frame that is put on air.
+/// Row of the table of Transmitted records: frame at the start of its transmission.
 struct TransmittedRow {
     std::int64_t t_ns, uid;
     std::int32_t robot, origin, heard_from, next_hop, ttl, hops;
@@ -46,7 +46,8 @@ struct TransmittedRow {
             field("hops", &TransmittedRow::hops, "hops once it is received"));
     }
 };
-/// Reception: a transmission has a row for each robot that could have decoded it.
+/// Row of the table of Received records: one for each robot that could have decoded the
+/// transmission.
 struct ReceivedRow {
     std::int64_t t_ns, uid;
     std::int32_t robot, origin, sender, ttl, hops;
@@ -69,7 +70,7 @@ struct ReceivedRow {
             field("delivered", &ReceivedRow::delivered, "the application gets the message"));
     }
 };
-/// Copy that is lost other than in a reception.
+/// Row of the table of Dropped records: copy lost outside a reception.
 struct DroppedRow {
     std::int64_t t_ns, uid;
     std::int32_t robot, origin, sender, ttl, hops;
@@ -86,7 +87,7 @@ struct DroppedRow {
                         field("reason", &DroppedRow::reason, "for which it is lost"));
     }
 };
-/// Leg that begins.
+/// Row of the table of Moved records: leg that begins.
 struct MovedRow {
     std::int64_t t_ns, end_ns;
     std::int32_t robot;
@@ -106,7 +107,7 @@ struct MovedRow {
                         field("turning", &MovedRow::turning, "[rad/s]"));
     }
 };
-/// Robot that rests at the end of its movement.
+/// Row of the table of Arrived records: robot that rests at the end of its movement.
 struct ArrivedRow {
     std::int64_t t_ns;
     std::int32_t robot;
@@ -116,7 +117,7 @@ struct ArrivedRow {
                         field("robot", &ArrivedRow::robot, "that arrives"));
     }
 };
-/// Robot that finds no way to its goal.
+/// Row of the table of NoWay records: robot that finds no path to its goal.
 struct NoWayRow {
     std::int64_t t_ns;
     std::int32_t robot;
@@ -130,7 +131,7 @@ struct NoWayRow {
                         field("z", &NoWayRow::z, "of the goal [m]"));
     }
 };
-/// Radio that is switched on or off.
+/// Row of the table of Switched records: radio that is switched on or off.
 struct SwitchedRow {
     std::int64_t t_ns;
     std::int32_t robot;
@@ -142,7 +143,7 @@ struct SwitchedRow {
                         field("on", &SwitchedRow::on, "from now on"));
     }
 };
-/// Link that comes or goes.
+/// Row of the table of LinkUp or LinkDown records.
 struct LinkRow {
     std::int64_t t_ns;
     std::int32_t robot, sender;
@@ -155,7 +156,7 @@ struct LinkRow {
 };
 struct LinkUpRow : LinkRow {};
 struct LinkDownRow : LinkRow {};
-/// Frame on air, control frames included.
+/// Row of the table of AirSent records: frame on air, including control frames.
 struct AirSentRow {
     std::int64_t t_ns, reserved_ns;
     std::int32_t robot, next_hop, attempt, bytes;
@@ -172,7 +173,7 @@ struct AirSentRow {
             field("reserved_ns", &AirSentRow::reserved_ns, "time after its end that it reserves"));
     }
 };
-/// Control frame at the station that it is for.
+/// Row of the table of ControlReceived records: control frame at its destination.
 struct ControlReceivedRow {
     std::int64_t t_ns;
     std::int32_t robot, sender, bytes;

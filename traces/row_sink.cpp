@@ -15,7 +15,7 @@ namespace rovernet {
 namespace {
 
 std::int64_t ns(Time t) { return t.time_since_epoch().count(); }
-/// A robot's number; `everyone` and nobody are -1.
+/// Number of a robot; -1 for `everyone` and none.
 std::int32_t number(NodeId robot) { return static_cast<std::int32_t>(robot.value); }
 std::int32_t number(std::optional<NodeId> robot) { return number(robot.value_or(everyone)); }
 std::int32_t count(std::uint32_t n) { return static_cast<std::int32_t>(n); }

@@ -16,12 +16,11 @@ namespace rovernet {
 /// Column of a table.
 struct RowColumn {
     std::string_view name;
-    std::string_view format;  ///< of its cells, as numpy writes it: "<i8", "<f8", "?", "<U4"
-    std::size_t offset;       ///< place of its cell in a row [bytes]
+    std::string_view format;  ///< format of its cells in numpy's notation: "<i8", "<f8", "?", "<U4"
+    std::size_t offset;       ///< offset of the column's cell in a row [bytes]
 };
 
-/// Sink that keeps the records of some kinds as rows, for programs that look at all of a run at
-/// once.
+/// Sink that stores the records of some kinds as rows, for programs that analyse a complete run.
 ///
 ///   const auto rows = std::make_shared<RowSink>(kind_of<Received>());
 ///   network.add_sink(rows);
@@ -29,11 +28,11 @@ struct RowColumn {
 ///   for (const ReceivedRow& row : rows->of<ReceivedRow>()) add(row.level);
 class RowSink {
   public:
-    /// Table of one kind, good until the next record.
+    /// Table of the records of one kind, valid until the next record.
     struct Table {
         std::span<const RowColumn> columns;
         std::span<const std::byte> bytes;
-        std::size_t row_size;  ///< [bytes]
+        std::size_t row_size;  ///< size of a row [bytes]
         std::size_t size() const { return bytes.size() / row_size; }
     };
 
@@ -44,18 +43,18 @@ class RowSink {
     }
     void on(const Record& record, const RecordContext& context);
 
-    /// Rows of one kind.
+    /// Rows of the records of one kind, in the order of the run.
     template <class Row>
     const std::vector<Row>& of() const {
         return std::get<std::vector<Row>>(rows_);
     }
-    /// Rows of the kind whose bit is set in `kind`, one of the record kinds.
+    /// Table of the kind whose bit is set in `kind`, one of the record kinds.
     Table table(KindMask kind) const;
-    /// Forgets all rows.
+    /// Removes all rows of all tables.
     void clear();
 
   private:
-    // In the order of the variant Record.
+    // Tables in the order of the variant Record.
     using Rows =
         std::tuple<std::vector<SentRow>, std::vector<TransmittedRow>, std::vector<ReceivedRow>,
                    std::vector<DroppedRow>, std::vector<MovedRow>, std::vector<ArrivedRow>,
@@ -70,7 +69,7 @@ class RowSink {
 
 /// Names of the kinds of records, in the order of their bits: "sent", "link_up".
 extern const std::array<std::string_view, std::variant_size_v<Record>> record_names;
-/// The bit of the kind of that name. @throws std::invalid_argument, naming those that there are
+/// Bit of the kind with that name. @throws std::invalid_argument with the list of valid names
 KindMask record_named(std::string_view name);
 
 }  // namespace rovernet

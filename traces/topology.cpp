@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 #include <variant>
 
 namespace rovernet {
@@ -38,7 +37,7 @@ void Topology::on(const Record& record, const RecordContext&) {
         advance(down->time);
         const auto found = up_.find({down->from, down->to});
         if (found == up_.end()) return;
-        // A link that was there from the beginning began nobody knows when.
+        // The start of a link that existed from the beginning is unknown.
         if (found->second > begin_) {
             lifetime_ += seconds(down->time - found->second);
             ++ended_;
@@ -47,7 +46,7 @@ void Topology::on(const Record& record, const RecordContext&) {
     }
 }
 
-/// Adds up what has been since the record before.
+/// Adds the time since the previous record to the sums.
 void Topology::advance(Time t) {
     for (; next_sample_ < t; next_sample_ += std::chrono::seconds{1}) sample();
     if (t <= now_) return;
@@ -58,7 +57,8 @@ void Topology::advance(Time t) {
     now_ = t;
 }
 
-/// Counts the components: robots that are on, less a joint for every link that joins two parts.
+/// Counts the connected components: robots that are on, minus one for every link that joins two
+/// components.
 void Topology::sample() {
     std::vector<std::uint32_t> part(robots_.size());
     std::iota(part.begin(), part.end(), 0U);
@@ -76,7 +76,7 @@ void Topology::sample() {
     }
 }
 
-/// Adds the way on the robot's leg until `t`, as far as it is measured.
+/// Adds the robot's path on its leg until `t`, within the measured time.
 void Topology::end_leg(Robot& robot, Time t) {
     const Time from = std::max(robot.since, begin_), until = std::min(robot.until, t);
     if (until > from) way_ += robot.speed * seconds(until - from);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "study/explain.hpp"
 
-#include "cli/terminal/diagnostics.hpp"
 #include "cli/results/result_commands.hpp"
+#include "cli/terminal/diagnostics.hpp"
 #include "scenario/document/json.hpp"
 #include "study/inventory.hpp"
 #include "study/study.hpp"

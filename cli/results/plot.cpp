@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/picture_output.hpp"
 #include "cli/results/result_commands.hpp"
+#include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/stop.hpp"
 #include "pictures/draw/picture_file.hpp"
 #include "sim/error.hpp"
@@ -38,12 +38,9 @@ ChartLayout layout_of(const PlotArguments& a) {
 }  // namespace
 
 void plot(const PlotArguments& a) {
-    const auto writes = [&](const char* ending) { return a.out.ends_with(ending); };
-    if (!is_picture_name(a.out) && !writes(".gp") && !writes(".vl.json")) {
-        throw std::invalid_argument(
-            fmt::format("-o: \"{}\"; expected NAME.svg, NAME.png, NAME.pdf, "
-                        "NAME.gp (gnuplot) or NAME.vl.json (Vega-Lite)",
-                        a.out));
+    if (!is_picture_name(a.out) && !a.out.ends_with(".gp")) {
+        throw std::invalid_argument(fmt::format(
+            "-o: \"{}\"; expected NAME.svg, NAME.png, NAME.pdf or NAME.gp (gnuplot)", a.out));
     }
     const Store store = Store::open(a.store);
     const Chart chart = study_chart(store, {.kind = kind_of(a.kind),
@@ -60,7 +57,7 @@ void plot(const PlotArguments& a) {
     if (is_picture_name(a.out)) {
         write_picture(a.out, chart_svg(std::span(&chart, 1), layout_of(a)));
     } else {
-        write_whole({{a.out, writes(".gp") ? chart_gnuplot(chart) : chart_vega_lite(chart)}});
+        write_whole({{a.out, chart_gnuplot(chart)}});
     }
 }
 

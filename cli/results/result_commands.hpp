@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// The commands that look at stored results: results, plot, explain.
+/// Commands on stored results: results, plot, explain.
 namespace rovernet::cli {
 
 struct ResultsArguments {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/options.hpp"
 #include "cli/results/result_commands.hpp"
+#include "cli/terminal/options.hpp"
 
 namespace rovernet::cli {
 namespace {
@@ -88,8 +88,7 @@ void add_plot(Command app) {
         .range(4, 36)
         .shows_default();
     plot.add_option("-o,--output", p.out,
-                    "NAME.svg, NAME.png or NAME.pdf; to restyle it NAME.gp (gnuplot) or "
-                    "NAME.vl.json (Vega-Lite)")
+                    "NAME.svg, NAME.png or NAME.pdf; to restyle it NAME.gp (gnuplot)")
         .required();
 }
 

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "study/results.hpp"
 
-#include "cli/terminal/diagnostics.hpp"
 #include "cli/results/result_commands.hpp"
+#include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/text_table.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
+#include "study/advise/study_chart.hpp"
 #include "study/explain.hpp"
 #include "study/results_csv.hpp"
 #include "study/study.hpp"
-#include "study/advise/study_chart.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 namespace rovernet::cli {
@@ -133,7 +132,19 @@ void warn_of_skewness(const std::vector<Answer>& list) {
                     skewed, list.size()));
 }
 
-/// Says what the whole study lacks.
+/// Prints the metrics whose intervals do not use the requested method.
+void tell_other_methods(const std::vector<Answer>& list, std::optional<IntervalMethod> wish) {
+    std::map<std::string, std::vector<IntervalMethod>> methods;
+    for (const Answer& answer : list) {
+        if (answer.method) methods[answer.metric].push_back(*answer.method);
+    }
+    for (const auto& [metric, used] : methods) {
+        const std::string text = other_method_text(metric, wish, used);
+        if (!text.empty()) notice(text);
+    }
+}
+
+/// Prints the missing runs of the study.
 void warn_of_gaps(const RunCounts& runs, const std::string& store) {
     const std::string text = incompleteness(runs);
     if (!text.empty()) notice(fmt::format("{}: {}", store, text));
@@ -183,6 +194,7 @@ void print_answers(const ResultsArguments& a, const Store& store) {
         const std::string covered = coverage_text(all);
         if (!covered.empty()) fmt::print("\n{}\n", covered);
     }
+    tell_other_methods(all.list, method_named(a.interval));
     warn_of_few(all.list);
     warn_of_skewness(all.list);
     warn_of_gaps(all.runs, a.store);

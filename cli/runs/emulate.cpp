@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/diagnostics.hpp"
-#include "cli/terminal/options.hpp"
 #include "cli/runs/run_output.hpp"
 #include "cli/runs/serving.hpp"
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/options.hpp"
 #include "live/emulate/device_addresses.hpp"
-#include "live/emulate/listeners.hpp"
 #include "live/emulate/inside.hpp"
+#include "live/emulate/listeners.hpp"
 #include "live/emulate/robot_network.hpp"
 #include "live/player/listeners.hpp"
 #include "live/rosbridge/listener.hpp"
@@ -27,7 +27,7 @@ struct EmulateArguments : FileArguments {
     bool json = false;
 };
 
-FrontDoor udp_door(const EmulateArguments& a, const Scenario& scenario) {
+FrontListeners udp_listeners(const EmulateArguments& a, const Scenario& scenario) {
     const Address first = a.reach.without_token(*a.udp);
     check_udp_ports(first, robot_names(scenario).size());
     return udp_relay(first);
@@ -39,13 +39,13 @@ PacedOptions emulation_options(const EmulateArguments& a, const Scenario& scenar
     options.stop = stop;
     options.folder = results_folder(a.out, scenario, a.options);
     options.speed = a.speed;
-    options.fronts.push_back(a.udp ? udp_door(a, scenario)
+    options.fronts.push_back(a.udp ? udp_listeners(a, scenario)
                                    : tap_devices(options.folder, stop.go_on));
     if (a.player) {
         options.fronts.push_back(
             player_ports(a.reach.without_token(*a.player), robot_names(scenario), {}));
     }
-    if (a.rosbridge) options.fronts.push_back(rosbridge_door(a.reach.with_token(*a.rosbridge)));
+    if (a.rosbridge) options.fronts.push_back(rosbridge_listener(a.reach.with_token(*a.rosbridge)));
     options.say = announcer(a.json ? Announced::by_notice : Announced::by_output);
     options.most_late = time_of("--late", a.late);
     options.late_ends = a.on_late == "fail";

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/diagnostics.hpp"
-#include "cli/terminal/options.hpp"
 #include "cli/runs/run_output.hpp"
 #include "cli/runs/serving.hpp"
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/options.hpp"
 #include "live/lockstep/live_run.hpp"
 #include "live/player/listeners.hpp"
 #include "live/rosbridge/listener.hpp"
 #include "scenario/document/quantity.hpp"
-
-#include <fmt/format.h>
+#include "scenario/scenario_file.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace rovernet::cli {
 namespace {
@@ -49,8 +47,8 @@ LiveOptions lockstep_options(const LiveArguments& a, const Scenario& scenario) {
     return options;
 }
 
-FrontDoor player_door(const LiveArguments& a, const std::optional<PlayerConfig>& config,
-                      const Scenario& scenario) {
+FrontListeners player_listeners(const LiveArguments& a, const std::optional<PlayerConfig>& config,
+                                const Scenario& scenario) {
     const PlayerSettings settings{.is_lockstep = a.lockstep, .wait_for = a.wait_for.value_or(1)};
     const Address at = a.reach.without_token(*a.player);
     const std::vector<std::string> robots = robot_names(scenario);
@@ -58,20 +56,45 @@ FrontDoor player_door(const LiveArguments& a, const std::optional<PlayerConfig>&
     return (a.one_port ? player_one_port : player_ports)(at, robots, settings);
 }
 
-/// Runs FILE by the clock, or the world that it names if it is a configuration of Player.
+/// Has the comdrivers of a configuration, if it has any, do the routing: the first byte of a
+/// message is its TTL. A world alone forwards without jitter, so that the shortest way comes first
+/// and a message reaches exactly the robots within its TTL. What the user sets counts more.
+void route_by_comdriver(const PlayerConfig& config, ScenarioOptions& options) {
+    if (!config.has_comdriver()) return;
+    std::vector<std::string> routing = {"routing.ttl_in_payload=true"};
+    if (config.world.ends_with(".world")) routing.push_back("routing.jitter=0 s");
+    options.set.insert(options.set.begin(), routing.begin(), routing.end());
+}
+
+/// Prints notices about ignored parts of a configuration.
+void tell_of(const PlayerConfig& config, const Scenario& scenario) {
+    std::vector<std::string> ips;
+    for (const PlayerConfig::Robot& each : config.robots) {
+        const auto found =
+            std::find_if(scenario.robots.begin(), scenario.robots.end(),
+                         [&](const RobotTable& robot) { return robot.name == each.model; });
+        ips.push_back(found == scenario.robots.end() ? "" : found->radio.ip.value_or(""));
+    }
+    for (const std::string& text : config.notices) notice(text);
+    for (const std::string& text : mapping_notices(config, ips)) notice(text);
+}
+
+/// Runs FILE (or the world of a Player configuration) paced by the clock.
 LiveResult run_by_clock(LiveArguments a) {
     std::optional<PlayerConfig> config;
     if (a.player && a.file.ends_with(".cfg")) {
         config = read_player_config(a.file);
         a.file = config->world;
+        route_by_comdriver(*config, a.options);
     }
     const Scenario scenario = scenario_of(a);
+    if (config) tell_of(*config, scenario);
     PacedOptions options;
     options.folder = folder_of(a, scenario);
     if (a.speed) options.speed = a.speed;
     if (a.lockstep) options.speed.reset();
-    if (a.player) options.fronts.push_back(player_door(a, config, scenario));
-    if (a.rosbridge) options.fronts.push_back(rosbridge_door(a.reach.with_token(*a.rosbridge)));
+    if (a.player) options.fronts.push_back(player_listeners(a, config, scenario));
+    if (a.rosbridge) options.fronts.push_back(rosbridge_listener(a.reach.with_token(*a.rosbridge)));
     ServingStop stop;
     options.stop = stop.rules();
     options.say = announcer(a.announced());

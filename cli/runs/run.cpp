@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/run.hpp"
 
-#include "cli/terminal/diagnostics.hpp"
 #include "cli/runs/run_commands.hpp"
 #include "cli/runs/run_output.hpp"
+#include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/waiting.hpp"
 #include "experiment/run_folder.hpp"
-#include "scenario/document/json.hpp"
+#include "experiment/summary.hpp"
+#include "experiment/timeline.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
 #include <optional>
 #include <unistd.h>
 
@@ -37,7 +38,9 @@ void print_timeline(const Scenario& scenario, const RunResult& result) {
         fmt::print("{:>11.6f} s  {:<{}} {}\n", seconds(time), robot, width, text);
     }
     if (shown < timeline.size()) {
-        fmt::print("... and {} more; all are in {}/summary.json\n", timeline.size() - shown,
+        const std::uint64_t left_out = timeline.left_out();
+        fmt::print("... and {} more; {} in {}/summary.json\n", timeline.size() - shown + left_out,
+                   left_out > 0 ? fmt::format("the first {} are", timeline.size()) : "all are",
                    result.folder);
     }
     if (shown > 0) fmt::print("\n");
@@ -59,8 +62,8 @@ void print_result(const Scenario& scenario, const RunResult& result) {
             percent(m.reach));
     } else if (!scenario.metrics.reach) {
         fmt::print(
-            "reach              not looked for, as that takes longer than all the rest; "
-            "[metrics] reach = true does\n");
+            "reach              not measured, since that takes longer than the rest of the run; "
+            "[metrics] reach = true measures it\n");
     }
     if (m.latency) {
         fmt::print("latency            {:.3f} ms mean, {:.3f} ms at most\n", 1e3 * m.latency->mean,
@@ -73,7 +76,10 @@ void print_result(const Scenario& scenario, const RunResult& result) {
     }
     fmt::print("fingerprint        {}\n", result.fingerprint);
     if (const auto db = result.interference_left_out) {
-        notice(fmt::format("interference left out: at most {:.2f} dB", db->value));
+        notice(fmt::format(
+            "sinr ignores frames far below the sensitivity; with them the SINR would be at most "
+            "{:.2f} dB lower",
+            db->value));
     }
     notice(fmt::format("{} events, {:.2f} s; results in {}", result.events, result.wall_s,
                        result.folder));

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// The commands that run a scenario, once or often: run, sweep, compare, advise, fit, probe.
+/// Commands that run a scenario, once or many times: run, sweep, compare, advise, fit, probe.
 namespace rovernet::cli {
 
 struct RunArguments : FileArguments {
@@ -22,23 +22,23 @@ struct RunArguments : FileArguments {
 };
 void run(const RunArguments& arguments);
 
-/// A study, and how it is run.
+/// Arguments shared by the commands that run a study.
 struct StudyArguments : FileArguments {
     std::optional<std::string> store;
     std::optional<std::uint64_t> replications, max_replications;
-    std::optional<double> precision;
+    std::optional<double> precision, confidence;
     std::optional<std::string> interval;
-    std::uint64_t workers = 0;  ///< 0: as many as processors
+    std::uint64_t workers = 0;  ///< number of worker processes; 0: one for each processor
     std::optional<std::string> timeout, memory;
     bool fail_fast = false, json = false;
-    std::string command;  ///< command as it was typed
+    std::string command;  ///< command line of the program as the user typed it
 };
 
 struct SweepArguments : StudyArguments {
     std::optional<std::uint64_t> shard;
     std::uint64_t chunk = 50;
-    std::optional<std::string> except;  ///< store whose finished runs are not made
-    std::vector<std::string> merge;     ///< stores
+    std::optional<std::string> except;  ///< store whose finished runs this sweep skips
+    std::vector<std::string> merge;     ///< stores to merge into the study's store
     std::string executor = "local", sbatch;
     bool dry_run = false, resume = false, fresh = false, yes = false;
 };
@@ -46,7 +46,7 @@ void sweep(const SweepArguments& arguments);
 
 struct CompareArguments : StudyArguments {
     std::vector<std::string> models;
-    std::optional<std::string> vary;  ///< KEY=VALUE,VALUE,... in place of models
+    std::optional<std::string> vary;  ///< KEY=VALUE,VALUE,...: values to compare, not models
     std::string metric, baseline;
     std::optional<double> margin;
     std::optional<std::string> picture;

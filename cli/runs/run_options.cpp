@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/options.hpp"
 #include "cli/runs/run_commands.hpp"
+#include "cli/terminal/options.hpp"
 
 namespace rovernet::cli {
 namespace {
@@ -96,12 +96,15 @@ void add_compare(Command app, const std::string& typed) {
         .add_option("--vary", a.vary, "any key and its values in place of models: routing.ttl=4,8")
         .excludes(compare.option("--models"));
     compare.add_option("--metric", a.metric, "compared (default: the study's first)");
-    compare.add_option("--baseline", a.baseline,
-                       "to differ from (default: the most detailed model, or the first value)");
+    compare.add_option(
+        "--baseline", a.baseline,
+        "to differ from (default: the most detailed model, or --vary's first value)");
     compare
         .add_option("--margin", a.margin,
                     "say of each model whether its mean is this near to the baseline's")
         .check(above_zero());
+    compare.add_option("--confidence", a.confidence, "of the intervals, such as 0.95")
+        .range(0.5, 0.9999);
     compare.add_option("--store", a.store, "keep the runs in this file, and go on from there");
     compare.add_option("-o,--output", a.picture,
                        "picture to write: NAME.svg, NAME.png or NAME.pdf");
@@ -133,7 +136,7 @@ void add_advise(Command app, const std::string& typed) {
         .one_word();
     advise
         .add_option("--models", a.question.models,
-                    "propagation models to judge (default: those less detailed)")
+                    "models to judge, or candidates by their names (default: those less detailed)")
         .delimiter(',');
     advise.add_flag("--as-given", a.question.as_given,
                     "do not fit models first, but take the parameters of the file");

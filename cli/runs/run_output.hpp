@@ -5,7 +5,7 @@
 
 namespace rovernet::cli {
 
-/// Prints the results of a run: for people, or as JSON.
+/// Prints the results of a run, as text or as JSON.
 void print_run(const Scenario& scenario, const RunResult& result, bool json);
 
 }  // namespace rovernet::cli

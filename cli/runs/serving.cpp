@@ -4,6 +4,7 @@
 #include "cli/terminal/diagnostics.hpp"
 #include "experiment/run_folder.hpp"
 #include "scenario/document/quantity.hpp"
+#include "scenario/scenario_file.hpp"
 
 #include <fmt/format.h>
 

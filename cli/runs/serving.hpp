@@ -6,6 +6,7 @@
 #include "live/carriers/address.hpp"
 #include "live/logged_run.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 
 #include <chrono>
 #include <functional>
@@ -13,47 +14,48 @@
 #include <string>
 #include <string_view>
 
-/// What the commands share that serve programs outside.
+/// Functions shared by the commands that serve external programs (live, emulate).
 namespace rovernet::cli {
 
-/// A time of an option, such as "30 s" or 30s. @throws InputError
+/// Reads a time of an option, such as "30 s" or 30s. @throws InputError
 std::chrono::nanoseconds time_of(const std::string& option, const std::string& text);
 
-/// Folder for the results: `out`, or that of `rovernet run`.
+/// Folder for the results: `out`, or the default folder of `rovernet run`.
 std::string results_folder(const std::optional<std::string>& out, const Scenario& scenario,
                            const ScenarioOptions& options);
 
-/// Options that say which machines may reach the servers of a run.
+/// Options that decide which machines can reach the servers of a run.
 struct Reach {
     std::optional<std::string> listen;
     bool insecure = false;
 
-    /// Adds the options to a command.
+    /// Adds the options of this struct to a command.
     void add_to(Command command);
-    /// Address of a server whose clients need a token where other machines reach it.
-    /// @throws CommandEnd if it is none
+    /// Address of a server whose clients need a token if other machines can reach it.
+    /// @throws CommandEnd if the text is no address
     Address with_token(const std::string& text) const;
-    /// Address of a server that serves anybody: of this machine alone, unless --insecure is given.
+    /// Address of a server without access control: a loopback address, unless --insecure is given.
     Address without_token(const std::string& text) const;
 };
 
-/// Stop of a run that serves programs: a signal ends its run, of which it then writes the results;
-/// while a network is set up it ends the process at once.
+/// Signal handling of a run that serves programs: a signal ends the run, and its results are
+/// written. While the network is set up, a signal ends the process at once.
 class ServingStop {
   public:
-    /// Valid as long as this object.
+    /// Rules for stopping a run on signals; valid as long as this object.
     StopRules rules();
 
   private:
     std::optional<HeldStop> writing_;
 };
 
-/// Where a run announces addresses and tokens.
+/// Output channel on which a run announces addresses and tokens.
 enum class Announced {
-    by_output,  ///< on standard output, where programs read them
-    by_notice,  ///< like all else that is told: standard output is for one document
+    by_output,  ///< standard output, where programs can read them
+    by_notice,  ///< standard error, like all notices, since standard output contains one document
 };
-/// What a run says to the person at the terminal, and to programs that wait for its addresses.
+/// Function that prints announcements of a run, for the user and for programs that wait for its
+/// addresses.
 std::function<void(std::string_view)> announcer(Announced announced);
 
 }  // namespace rovernet::cli

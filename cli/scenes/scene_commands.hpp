@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// The commands that look at a scene: link, links, scene, where, draw, move.
+/// Commands that examine a scene: link, links, scene, where, draw, move.
 namespace rovernet::cli {
 
 struct LinkArguments : FileArguments {
@@ -27,7 +27,7 @@ void links(const LinksArguments& arguments);
 
 struct SceneArguments : FileArguments {
     std::string at = "0 s";
-    std::optional<std::string> size;  ///< size of a bare picture, WIDTHxHEIGHT in metres
+    std::optional<std::string> size;  ///< size of a picture as a map, WIDTHxHEIGHT in metres
     bool json = false;
 };
 void scene(const SceneArguments& arguments);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/options.hpp"
 #include "cli/scenes/scene_commands.hpp"
+#include "cli/terminal/options.hpp"
 
 namespace rovernet::cli {
 namespace {

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
+#include "cli/scenes/scene_commands.hpp"
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/playing.hpp"
-#include "cli/scenes/scene_commands.hpp"
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/waiting.hpp"
 #include "experiment/reports/link_table.hpp"
 #include "experiment/reports/loss_table.hpp"
-#include "experiment/run.hpp"
+#include "experiment/reports/network_at.hpp"
 #include "experiment/reports/scene_report.hpp"
 #include "experiment/reports/whereabouts.hpp"
+#include "experiment/run.hpp"
 #include "pictures/map/picture.hpp"
 #include "scenario/document/json.hpp"
+#include "scene/images/image.hpp"
 
 #include <fmt/format.h>
 
@@ -40,21 +42,25 @@ void print_links(const LinkTable& table) {
     for (const LinkTable::Row& row : table.rows) {
         const Device& n = row.neighbour;
         fmt::print(
-            "  hears {:<12} ip {:<15} mac {}  essid \"{}\"  {:g} MHz  {}{}  quality {:3}  "
-            "level {:.2f} dBm  noise {:.2f} dBm\n",
+            "  hears {:<12} ip {:<15} mac {}  essid \"{}\"  {:g} MHz  {}{}  quality {:3}  {}\n",
             n.robot, n.ip, n.mac, n.essid, n.frequency.value / 1e6, name_of(n.mode),
-            n.encryption ? "  encrypted" : "", row.quality, row.level.value, row.noise.value);
+            n.encryption ? "  encrypted" : "", row.quality,
+            row.range ? fmt::format("{:.2f} m, within its range of {:.6g} m", row.distance->value,
+                                    row.range->value)
+                      : fmt::format("level {:.2f} dBm  noise {:.2f} dBm", row.level.value,
+                                    row.noise.value));
     }
-}
-
-bool is_picture(const std::string& file) {
-    const auto ending = std::filesystem::path(file).extension();
-    return ending == ".png" || ending == ".pgm";
 }
 
 bool is_map(const std::string& file) {
     const auto ending = std::filesystem::path(file).extension();
-    return is_picture(file) || ending == ".yaml" || ending == ".yml";
+    return is_image_name(file) || ending == ".yaml" || ending == ".yml";
+}
+
+/// The scenario of a picture or a report of its map, which needs no robots.
+Scenario scene_of(FileArguments a) {
+    a.options.needs_robots = false;
+    return scenario_of(a);
 }
 
 /// "16x16" or "16 m x 9 m", in metres.
@@ -73,7 +79,7 @@ Table map_report(const SceneArguments& a) {
     SceneTable table;
     table.map = std::filesystem::path(a.file).filename().string();
     table.map_where = Location{a.file};
-    if (is_picture(a.file) && !a.size) {
+    if (is_image_name(a.file) && !a.size) {
         throw InputError(Location{a.file},
                          "a picture without a scale; expected also --size WIDTHxHEIGHT in metres, "
                          "such as --size 16x16, or a map.yaml");
@@ -127,6 +133,47 @@ void print_scene(const Table& report) {
     for (const char* key : {"materials", "ceilings"}) {
         const Value* list = report.find(key);
         if (list) print_materials(*list->array());
+    }
+}
+
+std::string times_text(const Value& times) {
+    std::string text;
+    for (const Value& t : *times.array())
+        text += fmt::format("{}{:g} s", text.empty() ? "" : ", ", std::get<double>(t.data));
+    return text;
+}
+
+void print_doors(const Table& report) {
+    const auto number = [](const Table& table, std::string_view key) {
+        return std::get<double>(table.find(key)->data);
+    };
+    const auto place = [&](const Table& table) {
+        return fmt::format("({:.6g}, {:.6g}{})", number(table, "x_m"), number(table, "y_m"),
+                           table.find("z_m") ? fmt::format(", {:.6g}", number(table, "z_m")) : "");
+    };
+    const auto end = [&](const Table& of, std::string_view key) {
+        return place(*of.find(key)->table());
+    };
+    if (const Value* doors = report.find("doors")) {
+        for (const Value& each : *doors->array()) {
+            const Table& door = *each.table();
+            const std::string closes = times_text(*door.find("closes_s")),
+                              opens = times_text(*door.find("opens_s"));
+            fmt::print(
+                "{:<20} {} from {} to {} m{}, {}, {}{}{}\n", "door", *door.find("name")->string(),
+                end(door, "from"), end(door, "to"),
+                door.find("floor_m") ? fmt::format(" at {:g} m", number(door, "floor_m")) : "",
+                *door.find("material")->string(),
+                std::get<bool>(door.find("closed")->data) ? "closed" : "open",
+                closes.empty() ? "" : "; closes at " + closes,
+                opens.empty() ? "" : "; opens at " + opens);
+        }
+    }
+    if (const Value* stairs = report.find("stairs")) {
+        for (const Value& each : *stairs->array()) {
+            fmt::print("{:<20} from {} to {} m\n", "stairs", end(*each.table(), "foot"),
+                       end(*each.table(), "head"));
+        }
     }
 }
 
@@ -194,9 +241,11 @@ void scene(const SceneArguments& a) {
     if (is_map(a.file)) {
         report = map_report(a);
     } else {
-        const Scenario scenario = scenario_of(a);
-        const auto network = played(a.file, scenario, time_in(scenario, a.at));
+        const Scenario scenario = scene_of(a);
+        const Time at = time_in(scenario, a.at);
+        const auto network = played(a.file, scenario, at);
         report = scene_report(network->scene(), a.json);
+        append_doors_and_stairs(report, scenario, network->scene(), at);
         append_robots(report, *network);
     }
     if (a.json) {
@@ -204,6 +253,7 @@ void scene(const SceneArguments& a) {
         return;
     }
     print_scene(report);
+    print_doors(report);
     if (report.find("robots")) print_robots(report);
 }
 
@@ -248,7 +298,7 @@ void where(const WhereArguments& a) {
 
 void draw(const DrawArguments& a) {
     check_picture_name(a.out);
-    const Scenario scenario = scenario_of(a);
+    const Scenario scenario = scene_of(a);
     const PictureOptions options{.at = time_in(scenario, a.at),
                                  .coverage = a.coverage,
                                  .receiver = a.receiver,

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise/advise.hpp"
 
-#include "cli/studies/advise_report.hpp"
-#include "cli/terminal/diagnostics.hpp"
-#include "cli/studies/passing_store.hpp"
-#include "cli/terminal/picture_output.hpp"
 #include "cli/runs/run_commands.hpp"
+#include "cli/studies/advise_report.hpp"
+#include "cli/studies/passing_store.hpp"
+#include "cli/studies/study_run.hpp"
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/picture_output.hpp"
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/study_display.hpp"
-#include "cli/studies/study_run.hpp"
 #include "cli/terminal/waiting.hpp"
 #include "scenario/document/quantity.hpp"
+#include "scenario/scenario_file.hpp"
 #include "study/advise/advise_chart.hpp"
 #include "study/advise/advise_cost.hpp"
 #include "study/explain.hpp"
@@ -100,8 +101,8 @@ bool make_block(const AdviseArguments& a, Study& study, Store& store, const Budg
     return result.progress.left == 0;
 }
 
-/// Makes two runs of the reference, which are needed anyway, and says what all may take: by the CPU
-/// time of the second, as the first one also plans ways and reads maps.
+/// Makes two runs of the reference, which are needed anyway, and prints an estimate of the total
+/// time, from the CPU time of the second run: the first one also plans paths and reads maps.
 void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std::uint64_t most,
                const Budget& budget, Study& study, Store& store) {
     const std::size_t top = candidates.reference_path_loss();
@@ -120,11 +121,34 @@ void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std
     notice(fmt::format(
         "a run with the reference, {}, takes about {:.2g} s of CPU; the {} to {} of them that "
         "verdicts may need take {} to {} on one worker, and the candidates' come to that. "
-        "--budget {} ends it with the interim verdict; a larger --tolerance or a cheaper "
-        "--reference takes less",
+        "--budget {} ends it with the interim verdict; a cheaper --reference takes less",
         candidates.path_losses[top].name, run_s, std::min(least, most), most,
         duration_text(run_s * static_cast<double>(std::min(least, most))), duration_text(all),
         a.budget));
+}
+
+/// End of a fit by the budget or the user.
+struct FitEnded {};
+
+/// Advice before anything was compared.
+Advice advice_of_nothing(const AdviseArguments& a, const ScenarioOptions& options,
+                         const Scenario& scenario, const Store& none) {
+    CandidateQuestion question = a.question;
+    question.as_given = true;
+    const AdviceCandidates candidates = candidates_for(a.file, options, question);
+    const DecisionRule rule = rule_for(a, scenario.study, candidates.family());
+    return rovernet::advise(candidates, none, a.metric, rule, [](const auto&) { return false; });
+}
+
+/// Candidates, fitted unless they are wanted as given.
+/// @throws FitEnded if the budget or the user ends it meanwhile
+AdviceCandidates fitted_candidates(const AdviseArguments& a, const ScenarioOptions& options,
+                                   const Budget& budget) {
+    Waiting waiting("fitting models to the reference");
+    return candidates_for(a.file, options, a.question, [&](double share) {
+        if (stops_asked() > 0 || budget.is_spent()) throw FitEnded{};
+        waiting.tell(share);
+    });
 }
 
 /// Ends the command if the user ended it: what was known by then has been printed.
@@ -133,6 +157,36 @@ void check_not_stopped(const AdviseArguments& a) {
     throw CommandEnd(interrupted,
                      a.store ? "interrupted; what was finished is kept: go on with\n  " + a.command
                              : "interrupted; --store FILE would have kept the runs");
+}
+
+/// Prints an advice, and how it ended if that was too early.
+/// @throws CommandEnd if the user ended it
+void tell_advice(const AdviseArguments& a, const Advice& advice) {
+    print_advice(advice, a.json);
+    if (advice.stopped && stops_asked() == 0) {
+        notice(fmt::format("the budget of {} is spent: this is the interim verdict", a.budget));
+    }
+    check_not_stopped(a);
+}
+
+/// Judges the candidates, and prints the advice.
+void judge(const AdviseArguments& a, const ScenarioOptions& options,
+           const AdviceCandidates& candidates, const Budget& budget,
+           const std::string& store_file) {
+    Study study(a.file, options, candidates.vary(), candidates.exclude());
+    for (const std::string& text : study.base().notices) notice(text);
+    Store store = open_store(store_file, study);
+    const DecisionRule rule = rule_for(a, study.table(), candidates.family());
+    tell_time(a, candidates, rule.most, budget, study, store);
+    Advice advice =
+        rovernet::advise(candidates, store, a.metric, rule, [&](const auto& replications) {
+            return make_block(a, study, store, budget, replications);
+        });
+    if (!a.no_cost && !advice.stopped) add_costs(advice, study, [] { return stops_asked() > 0; });
+    if (a.picture && !advice.knows_nothing()) {
+        write_picture(*a.picture, chart_svg(advice_charts(advice), {.width = 480}));
+    }
+    tell_advice(a, advice);
 }
 
 }  // namespace
@@ -145,31 +199,15 @@ void advise(const AdviseArguments& a) {
     const Scenario scenario = ScenarioFile(a.file, options).scenario();
     check_metric(a.metric, scenario, {"--metric " + a.metric, 0, 0, true});
     rule_for(a, scenario.study, 1);
-    const AdviceCandidates candidates = [&] {
-        Waiting waiting("fitting models to the reference");
-        return candidates_for(a.file, options, a.question,
-                              [&](double share) { waiting.tell(share); });
-    }();
-    Study study(a.file, options, candidates.vary(), candidates.exclude());
-    for (const std::string& text : study.base().notices) notice(text);
-    const HeldStop until_gone;
+    const HeldStop until_told;
     const PassingStore passing;
-    Store store = open_store(a.store.value_or(passing.file()), study);
-    const DecisionRule rule = rule_for(a, scenario.study, candidates.family());
-    tell_time(a, candidates, rule.most, budget, study, store);
-    Advice advice =
-        rovernet::advise(candidates, store, a.metric, rule, [&](const auto& replications) {
-            return make_block(a, study, store, budget, replications);
-        });
-    if (!a.no_cost && !advice.stopped) add_costs(advice, study, [] { return stops_asked() > 0; });
-    if (a.picture) {
-        write_picture(*a.picture, chart_svg(advice_charts(advice), {.width = 480}));
+    try {
+        const AdviceCandidates candidates = fitted_candidates(a, options, budget);
+        judge(a, options, candidates, budget, a.store.value_or(passing.file()));
+    } catch (const FitEnded&) {
+        const Store none = Store::open_to_write(passing.file());
+        tell_advice(a, advice_of_nothing(a, options, scenario, none));
     }
-    print_advice(advice, a.json);
-    if (advice.stopped && stops_asked() == 0) {
-        notice(fmt::format("the budget of {} is spent: this is the interim verdict", a.budget));
-    }
-    check_not_stopped(a);
 }
 
 }  // namespace rovernet::cli

@@ -4,6 +4,7 @@
 #include "cli/terminal/text_table.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/tables/own_keys.hpp"
 #include "study/advise/advise_cost.hpp"
 
 #include <fmt/format.h>
@@ -42,11 +43,11 @@ std::string share_of_run(const CandidateCost& cost) {
     return cost.share ? fmt::format("{:.2g} %", 100 * *cost.share) : "-";
 }
 
-/// Tables of a scenario file.
+/// Tables of a scenario file, with the keys that the models take.
 std::string toml_of(const CandidateModel& path_loss, const CandidateModel& reception) {
     Table table;
-    table.set("propagation", path_loss.table);
-    table.set("reception", reception.table);
+    table.set("propagation", own_keys_of_propagation(path_loss.table));
+    table.set("reception", own_keys_of_reception(reception.table));
     return to_toml(table);
 }
 
@@ -77,13 +78,15 @@ void print_judged(const Advice& advice) {
         }
         table.add(std::move(line));
     };
+    const auto number = [](std::size_t n) { return n > 0 ? fmt::format("{}", n) : "-"; };
     for (const JudgedCandidate& each : advice.judged) {
-        add({each.name, std::string(verdict_of(each)), fmt::format("{}", replications_of(each)),
-             interval_text(each.bias, each.bias_interval),
-             interval_text(each.run_error, each.run_error_interval)},
+        const bool compared = each.decision.n() > 0;
+        add({each.name, std::string(verdict_of(each)), number(replications_of(each)),
+             compared ? interval_text(each.bias, each.bias_interval) : "-",
+             compared ? interval_text(each.run_error, each.run_error_interval) : "-"},
             each.cost);
     }
-    add({reference_of(advice), "reference", fmt::format("{}", advice.replications), "-", "-"},
+    add({reference_of(advice), "reference", number(advice.replications), "-", "-"},
         advice.reference_cost);
     fmt::print("{}", table.text());
 }
@@ -114,12 +117,11 @@ void print_report(const Advice& advice) {
     if (!advice.cost_text.empty()) fmt::print("{}\n", advice.cost_text);
     print_models(advice);
     fmt::print("\n{}\n", advice_text(advice));
-    const std::string mix = control_variate_text(advice);
-    if (!mix.empty()) fmt::print("{}\n", mix);
+    if (advice.knows_nothing()) return;
     fmt::print("\n{}", advice.saves_nothing() ? toml_of_reference(advice) : toml_of_choice(advice));
 }
 
-void set_interval(Table& row, const std::string& name, double mean,
+void set_interval(Table& row, const std::string& name, const std::optional<double>& mean,
                   const std::optional<MeanInterval>& interval) {
     row.set(name, mean);
     row.set(name + "_low", interval ? Value(interval->low) : Value());
@@ -148,12 +150,13 @@ Table row_of(const Advice& advice, const JudgedCandidate& each) {
     row.set("n", std::uint64_t{each.decision.n()});
     row.set("decided_at", count(each.decision.decided_at()));
     row.set("needed", count(each.decision.needed()));
-    set_interval(row, "bias", each.bias, each.bias_interval);
-    set_interval(row, "run_error", each.run_error, each.run_error_interval);
+    row.set("deciding_tolerance", each.decision.deciding_tolerance());
+    const auto known = [&](double mean) {
+        return each.decision.n() > 0 ? std::optional(mean) : std::nullopt;
+    };
+    set_interval(row, "bias", known(each.bias), each.bias_interval);
+    set_interval(row, "run_error", known(each.run_error), each.run_error_interval);
     row.set("fitted", advice.candidates.path_losses[each.path_loss].fitted);
-    row.set("rho", each.helper ? Value(each.helper->rho) : Value());
-    row.set("mix", each.mix ? Value(each.mix->ratio) : Value());
-    row.set("saving", each.mix ? Value(each.mix->saving) : Value());
     set_cost(row, each.cost);
     return row;
 }
@@ -181,11 +184,10 @@ Table as_json(const Advice& advice) {
     choice.set("path_loss", c.path_losses[advice.path_loss].name);
     choice.set("reception", c.receptions[advice.reception].name);
     choice.set("toml", toml_of_choice(advice));
-    table.set("choice", std::move(choice));
+    table.set("choice", advice.knows_nothing() ? Value() : Value(std::move(choice)));
     table.set("stopped", advice.stopped);
     table.set("saves_nothing", advice.saves_nothing());
     table.set("advice", advice_text(advice));
-    table.set("control_variate", control_variate_text(advice));
     table.set("cost", advice.cost_text);
     return table;
 }

@@ -5,8 +5,8 @@
 
 namespace rovernet::cli {
 
-/// Prints an advice: a table of what was judged, the advice in a sentence, what a control variate
-/// would save, and the choice as tables of a scenario file; or all of it as JSON.
+/// Prints an advice: a table of the compared candidates, the advice as a sentence, and the chosen
+/// models as tables of a scenario file; or everything as JSON.
 void print_advice(const Advice& advice, bool json);
 
 }  // namespace rovernet::cli

@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise/compare.hpp"
 
-#include "cli/terminal/diagnostics.hpp"
-#include "cli/studies/passing_store.hpp"
-#include "cli/terminal/picture_output.hpp"
 #include "cli/runs/run_commands.hpp"
-#include "cli/terminal/stop.hpp"
+#include "cli/studies/passing_store.hpp"
 #include "cli/studies/study_run.hpp"
+#include "cli/terminal/diagnostics.hpp"
+#include "cli/terminal/picture_output.hpp"
+#include "cli/terminal/stop.hpp"
 #include "cli/terminal/text_table.hpp"
-#include "experiment/version.hpp"
-#include "files/input_file.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
 #include "study/advise/compare_cost.hpp"
-#include "study/explain.hpp"
-#include "study/merge.hpp"
-#include "study/precision.hpp"
 #include "study/advise/study_chart.hpp"
+#include "study/explain.hpp"
+#include "study/part_of_store.hpp"
+#include "study/precision.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <set>
 #include <sstream>
 
 namespace rovernet::cli {
@@ -209,7 +206,7 @@ void print_table(const Comparison& c) {
     fmt::print("{}", table.text());
 }
 
-/// Notes on what the numbers are of, and what is not in them.
+/// Notes on the data behind the numbers, and missing runs.
 void print_coverage(const Comparison& c) {
     if (!c.held.empty()) fmt::print("{}\n", c.held);
     const std::string lacking = incompleteness(c.runs);
@@ -244,26 +241,28 @@ void print_text(const Comparison& c) {
     }
 }
 
-/// Whether a store has all points of a comparison, and others: a sweep over more keys or values.
-bool has_more(const std::string& path, const Study& study) {
-    if (input_kind(path) == InputKind::nothing) return false;
-    const Store store = Store::open(path);
-    if (store.property("version") != code_version()) return false;
-    std::set<std::string> ids;
-    for (const StoredPoint& point : store.points()) ids.insert(point.id);
-    const auto known = [&](const StudyPoint& point) { return ids.contains(point.id); };
-    return std::ranges::all_of(study.points(), known) && ids.size() > study.points().size();
-}
-
-/// Name of the baseline; a value of --vary stands for its name. @throws std::invalid_argument if it
-/// is not compared
+/// Name of the baseline: of --vary the first value, if none is given; empty for the most detailed
+/// model. A value of --vary stands for its name. @throws std::invalid_argument if it is not
+/// compared
 std::string baseline_of(const CompareArguments& a, const Vary& models) {
-    if (a.baseline.empty()) return "";
     const std::vector<std::string> names = names_of(models);
+    if (a.baseline.empty()) return a.vary ? names.front() : "";
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (plain_text(models.values[i]) == a.baseline) return names[i];
     }
     return names[place_of(a.baseline, names)];
+}
+
+/// Copies the requested runs from a store, and prints which runs remain there.
+void take_part_of(const std::string& path, const Study& study, Store& store) {
+    const Store whole = Store::open(path);
+    take_part(whole, study, store);
+    if (const auto most = more_replications(whole, study)) {
+        notice(
+            fmt::format("{} has up to {} replications; compared are the first {}, as asked for "
+                        "(--replications {} takes all)",
+                        path, *most, study.table().replications, *most));
+    }
 }
 
 /// @throws InputError for a margin that every difference of the metric is within
@@ -273,6 +272,17 @@ void check_margin(const CompareArguments& a, const std::string& metric) {
     throw InputError({fmt::format("--margin {}", *a.margin), 0, 0, true},
                      fmt::format("expected a value below {}, as no two values of {} differ by more",
                                  *range.high, metric));
+}
+
+/// Prints where intervals do not use the requested method.
+void tell_other_methods(const Comparison& c, std::optional<IntervalMethod> wish) {
+    std::vector<IntervalMethod> methods;
+    for (const ComparedModel& m : c.models) {
+        if (m.answer.method) methods.push_back(*m.answer.method);
+        if (m.difference) methods.push_back(m.difference->method);
+    }
+    const std::string text = other_method_text(c.metric, wish, methods);
+    if (!text.empty()) notice(text);
 }
 
 /// @throws CommandEnd if the user has ended it before it was done: a part of a comparison is none
@@ -310,15 +320,14 @@ void compare(const CompareArguments& a) {
     check_margin(a, metric);
     const HeldStop until_gone;
     const PassingStore passing;
-    const bool is_part = a.store && has_more(*a.store, study);
+    const bool is_part = a.store && takes_part_of(*a.store, study);
     Store store = open_store(a.store && !is_part ? *a.store : passing.file(), study);
-    if (is_part) copy_runs(Store::open(*a.store), store);
-    const SweepResult result =
-        run_study(a, study, store, {}, a.store ? Finished::is_kept : Finished::is_lost);
+    if (is_part) take_part_of(*a.store, study, store);
+    const SweepResult result = run_study(a, study, store, {.replication_on_one_worker = true},
+                                         a.store ? Finished::is_kept : Finished::is_lost);
     if (is_part) {
         Store whole = Store::open_to_write(*a.store);
-        whole.set_points(whole.points());
-        copy_runs(store, whole);
+        give_back(store, whole);
     }
     check_interrupted(a, result.progress.left == 0);
     Comparison comparison = compare_models(store, metric, baseline, a.margin);
@@ -326,6 +335,7 @@ void compare(const CompareArguments& a) {
         add_costs(comparison, study, store, [] { return stops_asked() > 0; });
         check_interrupted(a, false);
     }
+    tell_other_methods(comparison, interval_method_of(store));
     comparison.held = held_keys(given, study.base(), models.path);
     if (a.picture) {
         write_picture(*a.picture, chart_svg(comparison_charts(comparison), {.width = 480}));

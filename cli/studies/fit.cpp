@@ -3,9 +3,9 @@
 #include "cli/terminal/text_table.hpp"
 #include "cli/terminal/waiting.hpp"
 #include "scenario/document/json.hpp"
+#include "scenario/document/toml.hpp"
 #include "scenario/tables/read_value.hpp"
 #include "scenario/tables/reader.hpp"
-#include "scenario/document/toml.hpp"
 #include "study/calibration/calibration.hpp"
 #include "study/statistics/distributions.hpp"
 
@@ -69,7 +69,16 @@ Table as_table(const FittedParameter& p) {
     return table;
 }
 
-Table as_table(const CalibratedModel& m) {
+/// Line for the [[robot]] of a transmitter: its gain over that of [radio].
+std::string gain_line(const TransmitterGain& each, const Scenario& scenario) {
+    Table radio, robot;
+    const double gain = scenario.radio.antenna_gain.value + each.gain.value;
+    radio.set("antenna_gain", fmt::format("{:.2f} dB", std::round(100 * gain) / 100 + 0.0));
+    robot.set("radio", std::move(radio));
+    return to_toml(robot.entries.front().value);
+}
+
+Table as_table(const CalibratedModel& m, const Scenario& scenario) {
     Table table;
     table.set("model", m.model);
     if (!m.failure.empty()) {
@@ -96,6 +105,7 @@ Table as_table(const CalibratedModel& m) {
         row.set("at_m", Array{each.at.x, each.at.y, each.at.z});
         row.set("gain_db", each.gain.value);
         row.set("se_by_group", each.gain.se_by_group);
+        row.set("toml", fmt::format("radio = {}", gain_line(each, scenario)));
         gains.push_back(std::move(row));
     }
     table.set("gains", std::move(gains));
@@ -104,7 +114,7 @@ Table as_table(const CalibratedModel& m) {
     return table;
 }
 
-Table as_table(const Fit& fit) {
+Table as_table(const Fit& fit, const Scenario& scenario) {
     const Calibration& c = fit.calibration;
     Table table;
     table.set("reference", c.reference.empty() ? Value() : Value(c.reference));
@@ -117,7 +127,7 @@ Table as_table(const Fit& fit) {
     table.set("one_level_db", r && r->levels > 0 ? Value(r->one_level()) : Value());
     table.set("repeated", std::uint64_t{r ? r->levels : 0});
     Array models;
-    for (const CalibratedModel& m : c.models) models.push_back(as_table(m));
+    for (const CalibratedModel& m : c.models) models.push_back(as_table(m, scenario));
     table.set("models", std::move(models));
     return table;
 }
@@ -149,8 +159,9 @@ std::string parameters_text(const CalibratedModel& m, std::size_t groups) {
 }
 
 void print_calibrated(const Calibration& c) {
-    TextTable table({"model", "rmse", "bias", "95 %", "wrong links", "up", "down", "as given",
-                     "checked", "fitted"});
+    // With one group nothing is left out, so that errors are of the links that were fitted to.
+    TextTable table({"model", c.known.groups > 1 ? "rmse" : "rmse in-sample", "bias", "95 %",
+                     "wrong links", "up", "down", "as given", "checked", "fitted"});
     for (const CalibratedModel& m : c.models) {
         const PredictionErrors& e = m.left_out ? *m.left_out : m.fitted;
         const auto db = [](const PredictionErrors& of, double value) {
@@ -195,7 +206,31 @@ void print_gains(const Calibration& c) {
     fmt::print("\ngains beyond their mean\n{}", table.text());
 }
 
-/// What the links are, and whether there are enough of them.
+/// Name of the only robot whose antenna is above or below a place; empty if none or several are.
+std::string robot_at(const Scenario& scenario, Vec3 place) {
+    constexpr double near = 0.01;  // [m]
+    std::string name;
+    for (const RobotTable& robot : scenario.robots) {
+        if (!robot.at || std::hypot(robot.at->x - place.x, robot.at->y - place.y) > near) continue;
+        if (!name.empty()) return "";
+        name = robot.name;
+    }
+    return name;
+}
+
+/// Lines for a scenario file that hold the gains of a model's transmitters.
+std::string gains_toml(const CalibratedModel& m, const Scenario& scenario) {
+    std::string out;
+    for (const TransmitterGain& each : m.gains) {
+        const std::string name = robot_at(scenario, each.at);
+        out += fmt::format("radio = {}  # [[robot]] {}at ({:.2f}, {:.2f}, {:.2f}) m\n",
+                           gain_line(each, scenario), name.empty() ? "" : name + " ", each.at.x,
+                           each.at.y, each.at.z);
+    }
+    return out;
+}
+
+/// Description of the links, and whether they suffice.
 void print_known(const Fit& fit) {
     const Calibration& c = fit.calibration;
     const KnownLinks& known = c.known;
@@ -204,8 +239,8 @@ void print_known(const Fit& fit) {
         least = std::min(least, link.distance());
         most = std::max(most, link.distance());
     }
-    fmt::print("{} links, {:.3g} to {:.3g} m long, in {} groups (by {}); {}\n", known.links.size(),
-               least, most, known.groups, known.group_name,
+    fmt::print("{} links, {:.3g} to {:.3g} m long, in {} group{} (by {}); {}\n", known.links.size(),
+               least, most, known.groups, known.groups == 1 ? "" : "s", known.group_name,
                c.reference.empty() ? "losses as measured" : "losses by " + c.reference);
     const auto far = std::count_if(known.links.begin(), known.links.end(),
                                    [](const KnownLink& link) { return link.unseen; });
@@ -231,7 +266,7 @@ void print_known(const Fit& fit) {
     }
 }
 
-void print_fit(const Fit& fit) {
+void print_fit(const Fit& fit, const Scenario& scenario) {
     const Calibration& c = fit.calibration;
     print_known(fit);
     fmt::print("\n");
@@ -241,6 +276,11 @@ void print_fit(const Fit& fit) {
             "\nerrors of each {} by the fit of the others; wrong links: called up (up) or "
             "down (down), and are not;\nas given: rmse with the parameters of the file\n",
             c.known.group_name);
+    } else {
+        fmt::print(
+            "\nin-sample: errors on the links that were fitted to, as there is one {} alone: on "
+            "other links they are larger\n",
+            c.known.group_name);
     }
     print_gains(c);
     for (const CalibratedModel& m : c.models) {
@@ -248,6 +288,10 @@ void print_fit(const Fit& fit) {
             fmt::print("\n{} is not for a scenario: {}\n", m.model, m.refusal);
         } else if (m.is_fitted()) {
             fmt::print("\n{}", to_toml(m.settings));
+        }
+        if (m.refusal.empty() && !m.gains.empty()) {
+            fmt::print("# a line for the [[robot]] of each place that sends, for {}:\n{}", m.model,
+                       gains_toml(m, scenario));
         }
     }
 }
@@ -268,9 +312,9 @@ void fit(const FitArguments& a) {
     const Scenario scenario = scenario_of(a);
     const Fit made = fit_of(a, scenario);
     if (a.json) {
-        fmt::print("{}", to_json(as_table(made)));
+        fmt::print("{}", to_json(as_table(made, scenario)));
     } else {
-        print_fit(made);
+        print_fit(made, scenario);
     }
 }
 

@@ -5,7 +5,7 @@
 
 namespace rovernet::cli {
 
-/// Folder for a store that vanishes with its object.
+/// Temporary folder for a store, removed by the destructor.
 class PassingStore {
   public:
     /// @throws RunError if the folder for temporary files cannot be written
@@ -13,7 +13,7 @@ class PassingStore {
     ~PassingStore();
     PassingStore(const PassingStore&) = delete;
     PassingStore& operator=(const PassingStore&) = delete;
-    /// Name of the store in it.
+    /// Path of the store in the temporary folder.
     std::string file() const { return path_ + "/study.db"; }
 
   private:

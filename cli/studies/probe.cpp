@@ -4,6 +4,7 @@
 #include "cli/runs/run_commands.hpp"
 #include "cli/terminal/text_table.hpp"
 #include "cli/terminal/waiting.hpp"
+#include "models/propagation/disc.hpp"
 #include "scenario/document/json.hpp"
 
 #include <fmt/format.h>
@@ -29,37 +30,43 @@ const char* state_text(const LinkEffect& e) {
     return e.is_up() ? "down -> up" : "up -> down";
 }
 
-Table as_table(const PerturbationEffect& p) {
+/// The model disc has no levels: what it changes is links.
+bool has_levels(const Probe& probe) { return probe.model != Disc::name; }
+
+/// Null for a number of decibels that the model does not have.
+Value level(bool has_levels, double db) { return has_levels ? Value(db) : Value(); }
+
+Table as_table(const PerturbationEffect& p, bool levels) {
     Table table;
     table.set("name", p.name);
     table.set("nothing", p.nothing.empty() ? Value() : Value(p.nothing));
     table.set("changed", std::uint64_t{p.changed});
     table.set("flips", std::uint64_t{p.flips});
-    table.set("worst_db", p.worst);
-    table.set("rms_db", p.rms);
-    table.set("steepest_db_per_mm", p.steepest);
+    table.set("worst_db", level(levels, p.worst));
+    table.set("rms_db", level(levels, p.rms));
+    table.set("steepest_db_per_mm", level(levels, p.steepest));
     table.set("lost", p.lost);
     table.set("gained", p.gained);
     return table;
 }
 
-Table as_table(const LinkEffect& e) {
+Table as_table(const LinkEffect& e, bool levels) {
     Table table;
     table.set("link", e.link);
     table.set("perturbation", e.perturbation);
     table.set("distance_m", e.distance);
-    table.set("budget_db", e.budget);
-    table.set("loss_db", e.before);
-    table.set("perturbed_loss_db", e.after);
-    table.set("change_db", e.change());
-    table.set("db_per_mm", e.moved > 0 ? Value(e.steepness()) : Value());
+    table.set("budget_db", level(levels, e.budget));
+    table.set("loss_db", level(levels, e.before));
+    table.set("perturbed_loss_db", level(levels, e.after));
+    table.set("change_db", level(levels, e.change()));
+    table.set("db_per_mm", level(levels && e.moved > 0, e.steepness()));
     table.set("cliff", e.is_cliff());
     table.set("was_up", e.was_up());
     table.set("is_up", e.is_up());
     return table;
 }
 
-Table as_table(const MessageEffect& m) {
+Table as_table(const MessageEffect& m, bool /*levels*/) {
     Table table;
     table.set("perturbation", m.perturbation);
     table.set("from", m.from);
@@ -71,10 +78,10 @@ Table as_table(const MessageEffect& m) {
 }
 
 template <class Effect>
-Array array_of(const std::vector<Effect>& all, std::size_t most) {
+Array array_of(const std::vector<Effect>& all, std::size_t most, bool levels) {
     Array array;
     for (const Effect& each : all) {
-        if (array.size() < most) array.push_back(as_table(each));
+        if (array.size() < most) array.push_back(as_table(each, levels));
     }
     return array;
 }
@@ -85,9 +92,10 @@ Table as_table(const Probe& probe, std::size_t most) {
     table.set("links", std::uint64_t{probe.links});
     table.set("messages_until_s", seconds(probe.until));
     table.set("deliveries", probe.deliveries);
-    table.set("perturbations", array_of(probe.perturbations, probe.perturbations.size()));
-    table.set("effects", array_of(probe.effects, most));
-    table.set("messages", array_of(probe.messages, most));
+    const bool levels = has_levels(probe);
+    table.set("perturbations", array_of(probe.perturbations, probe.perturbations.size(), levels));
+    table.set("effects", array_of(probe.effects, most, levels));
+    table.set("messages", array_of(probe.messages, most, levels));
     return table;
 }
 
@@ -100,10 +108,11 @@ void print_perturbations(const Probe& probe, bool messages) {
             continue;
         }
         const auto count = [&](std::uint64_t n) { return messages ? fmt::format("{}", n) : "-"; };
+        const bool levels = has_levels(probe);
         table.add({p.name, fmt::format("{}", p.changed), fmt::format("{}", p.flips),
-                   db_text(p.worst), fmt::format("{:.2f} dB", p.rms),
-                   p.steepest > 0 ? fmt::format("{:.2g}", p.steepest) : "-", count(p.lost),
-                   count(p.gained)});
+                   levels ? db_text(p.worst) : "-", levels ? fmt::format("{:.2f} dB", p.rms) : "-",
+                   levels && p.steepest > 0 ? fmt::format("{:.2g}", p.steepest) : "-",
+                   count(p.lost), count(p.gained)});
     }
     fmt::print("{}", table.text());
     for (const PerturbationEffect& p : probe.perturbations) {
@@ -116,10 +125,16 @@ std::string more_text(std::size_t all, std::size_t most) {
 }
 
 void print_effects(const Probe& probe, std::size_t most) {
-    TextTable table({"link", "perturbation", "loss", "change", "dB/mm", "budget", "state"});
+    TextTable table({"link", "perturbation", has_levels(probe) ? "loss" : "distance", "change",
+                     "dB/mm", "budget", "state"});
     const std::size_t n = std::min(most, probe.effects.size());
     for (std::size_t i = 0; i < n; ++i) {
         const LinkEffect& e = probe.effects[i];
+        if (!has_levels(probe)) {
+            table.add({e.link, e.perturbation, fmt::format("{:.6g} m", e.distance), "-", "-", "-",
+                       state_text(e)});
+            continue;
+        }
         table.add({e.link, e.perturbation, fmt::format("{:.2f} dB", e.before),
                    db_text(e.change(), std::abs(e.change()) < 0.01 ? 6 : 2),
                    e.moved > 0 ? fmt::format("{:.2g}", e.steepness()) : "-",

@@ -6,14 +6,14 @@
 
 namespace rovernet::cli {
 
-/// Submits what a store has not finished of a study to Slurm, and says which jobs these are. With
-/// --dry-run it writes their scripts, and prints them with the commands that submit them.
-/// @throws RunError if sbatch is not there or does not take a job; and as open_store()
+/// Submits the unfinished runs of a study to Slurm, and prints the job numbers. With --dry-run the
+/// scripts are only written, and printed with the commands that submit them.
+/// @throws RunError if sbatch is missing or rejects a job; and as open_store()
 void submit_sweep(const SweepArguments& arguments, Study& study, const std::string& store);
 
-/// Moves the runs of shards into the store of a study. A shard that cannot be taken is named, and
-/// the others are.
-/// @throws CommandEnd if the store has not finished every run then
+/// Moves the runs of shards (stores of parts of a study) into the store of the study. A shard that
+/// cannot be merged is reported, and the other shards are merged.
+/// @throws CommandEnd if some runs are still unfinished afterwards
 void merge_shards(const SweepArguments& arguments, const Study& study, Store& store);
 
 }  // namespace rovernet::cli

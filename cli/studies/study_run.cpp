@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cli/studies/study_run.hpp"
 
+#include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/study_display.hpp"
 #include "scenario/document/quantity.hpp"
+#include "scenario/scenario_file.hpp"
 #include "study/explain.hpp"
 #include "study/precision.hpp"
 
@@ -64,6 +66,7 @@ ScenarioOptions study_options(const StudyArguments& a) {
     set("replications", a.replications);
     set("max_replications", a.max_replications);
     set("precision", a.precision);
+    set("confidence", a.confidence);
     set("interval", a.interval);
     return options;
 }
@@ -81,7 +84,9 @@ SweepResult run_study(const StudyArguments& a, Study& study, Store& store, Sweep
         return is_for_nothing ? Stop::at_once : Stop::when_idle;
     };
     const HeldStop until_kept;
-    return rovernet::sweep(study, store, options);
+    SweepResult result = rovernet::sweep(study, store, options);
+    detail(fmt::format("{} ways around walls searched for", result.progress.searches));
+    return result;
 }
 
 void check_end(const StudyArguments& a, const Store& store, const SweepResult& result) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "study/sweep.hpp"
 
-#include "cli/terminal/diagnostics.hpp"
 #include "cli/runs/run_commands.hpp"
 #include "cli/studies/slurm.hpp"
 #include "cli/studies/study_run.hpp"
+#include "cli/terminal/diagnostics.hpp"
 #include "files/input_file.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
@@ -44,7 +44,7 @@ std::string runs_in(const std::string& path) {
     }
 }
 
-/// Throws away the store and its shards, if that is what the person wants.
+/// Deletes the store and its shards, if the user confirms.
 void begin_afresh(const SweepArguments& a, const std::string& path) {
     const std::string shards = path + ".slurm/shards";
     const bool has_shards =

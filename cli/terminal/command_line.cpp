@@ -3,7 +3,6 @@
 
 #include "cli/terminal/commands.hpp"
 #include "cli/terminal/diagnostics.hpp"
-#include "study/command_words.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

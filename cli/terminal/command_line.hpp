@@ -11,39 +11,39 @@ class App;
 class Option;
 }  // namespace CLI
 
-/// The command line: commands with their options, how they are read and how they are listed. It is
-/// CLI11 behind two handles, so that only command_line.cpp pays for reading that library's headers.
+/// Command line: commands with options, their parsing and listing. It wraps CLI11 in two handles,
+/// so that only command_line.cpp includes CLI11, which is slow to compile.
 namespace rovernet::cli {
 
-/// Check of an option's text.
+/// Check of the text of a command-line option.
 struct Check {
-    const char* kind;  ///< kind of value, in --help; may be empty
-    /// What is wrong with a text; empty if nothing.
+    const char* kind;  ///< kind of value, shown in --help; may be empty
+    /// Function that returns the error message for a text; empty if the text is valid.
     std::function<std::string(const std::string& text)> fault;
 };
 
-/// Option of a command, or an argument without a name. A handle: cheap to copy; the command keeps
+/// Option of a command, or a positional argument. This is a handle, cheap to copy; the command owns
 /// the option. Each function returns the option itself.
 class Option {
   public:
     explicit Option(CLI::Option* option) : option_(option) {}
 
     Option required() const;
-    /// Shows the variable's present value as the default.
+    /// Shows the current value of the option's variable as the default in --help.
     Option shows_default() const;
-    /// Takes several values in one word, between these characters.
+    /// Accepts several values of the option in one word, separated by this character.
     Option delimiter(char between) const;
-    /// Its value may be left out; then it is `text`.
+    /// Makes the value of the option optional; the default is `text`.
     Option usually(const char* text) const;
-    /// Takes one word each time that it is given.
+    /// Accepts one value for each occurrence of the option, not several words.
     Option one_word() const;
     Option check(const Check& check) const;
-    /// Takes numbers from `lowest` to `highest` only.
+    /// Accepts only numbers from `lowest` to `highest` as the option's value.
     Option range(int lowest, int highest) const;
     Option range(double lowest, double highest) const;
-    /// Takes these words only.
+    /// Accepts only these words as the option's value.
     Option one_of(const std::vector<std::string>& words) const;
-    /// Changes the text before it is checked and read.
+    /// Transforms the option's text before it is checked and read.
     Option transform(std::string (*changed)(const std::string& text)) const;
     Option excludes(Option other) const;
     Option needs(Option other) const;
@@ -52,41 +52,40 @@ class Option {
     CLI::Option* option_;
 };
 
-/// One command: the program itself, or one below another. A handle: cheap to copy.
+/// Command: the program itself, or a subcommand. This is a handle, cheap to copy.
 class Command {
   public:
     explicit Command(CLI::App* command) : command_(command) {}
 
-    /// Adds a command below this one.
+    /// Adds a subcommand to the command.
     Command add_command(const char* name, const char* what) const;
-    /// Adds an option whose value goes to `value`, which has to live as long as the command. Types:
-    /// text, int, unsigned 64-bit numbers and double, optional ones, lists of text and of 32-bit
-    /// numbers.
-    /// @param name  "--seed", "-o,--output", or "FILE" for an argument without a name
+    /// Adds an option that sets `value`, which must outlive the command. Types: text, int, unsigned
+    /// 64-bit numbers and double, optional ones, lists of text and of 32-bit numbers.
+    /// @param name  "--seed", "-o,--output", or "FILE" for a positional argument
     template <class T>
     Option add_option(const char* name, T& value, const char* what) const;
     Option add_flag(const char* name, bool& value, const char* what) const;
-    /// Adds a flag that does something at once.
+    /// Adds a flag that calls `act` when it is parsed.
     Option add_flag(const char* name, const std::function<void()>& act, const char* what) const;
-    /// Option that was added under this name.
+    /// Option of the command with this name.
     Option option(const char* name) const;
 
-    /// What the command does once its words are read. @return exit code
+    /// Sets the function that executes the command after parsing; it returns the exit code.
     void runs(const std::function<int()>& act) const;
-    /// Asks for one of the commands below this one.
+    /// Makes a subcommand of the command mandatory.
     void needs_command() const;
-    /// Leaves the command out of every list.
+    /// Hides the command in --help, man page and completion.
     void hide() const;
-    /// Lines under "Examples" in --help and in the man page.
+    /// Adds lines under "Examples" in --help and in the man page.
     void add_examples(std::initializer_list<const char*> lines) const;
 
-    /// Texts of an option, to be listed.
+    /// Texts of an option, for --help, the man page and completion.
     struct OptionText {
-        std::vector<std::string> short_names, long_names;  ///< without dashes
-        std::string argument;                              ///< its name, if it has no dashes
-        std::string type, what, usual;                     ///< type is empty if it takes no value
+        std::vector<std::string> short_names, long_names;  ///< names without their dashes
+        std::string argument;                              ///< name of a positional argument
+        std::string type, what, usual;                     ///< `type` is empty for a flag
     };
-    /// Texts of a command and of those below it that are not hidden.
+    /// Texts of a command and of its visible subcommands, for --help, the man page and completion.
     struct Text {
         std::string name, what, examples;
         std::vector<OptionText> options;
@@ -98,8 +97,8 @@ class Command {
     CLI::App* command_;
 };
 
-/// Reads a command line and runs the command that it names.
-/// @param declare  adds the commands below the program
+/// Parses a command line and runs its command.
+/// @param declare  function that adds the commands of the program
 /// @return exit code
 int run_command_line(int argc, char** argv, const char* name, const char* what,
                      const std::string& version,

@@ -2,14 +2,15 @@
 #pragma once
 
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
-/// What all commands behind their options share. A command prints its result to standard output and
-/// throws what goes wrong; FAMILY_commands.hpp has those of a family, with their arguments.
+/// Types and functions shared by all commands. A command prints its result to standard output, and
+/// throws errors. The commands of a family and their arguments are in FAMILY_commands.hpp.
 namespace rovernet::cli {
 
 /// Exit codes of commands.
@@ -22,7 +23,7 @@ enum ExitCode {
     interrupted = 130
 };
 
-/// Ends a command that has done a part of its work, with its code and what to say of it.
+/// Exception that ends a command with an exit code and a message, after a part of its work is done.
 class CommandEnd : public std::runtime_error {
   public:
     CommandEnd(ExitCode code, const std::string& message)
@@ -33,18 +34,18 @@ class CommandEnd : public std::runtime_error {
     ExitCode code_;
 };
 
-/// FILE and what may be said over it: a scenario, a Stage world or a movement file.
+/// Argument FILE (a scenario, a Stage world or a movement file) and the options that override it.
 struct FileArguments {
     std::string file;
     std::optional<std::uint64_t> seed, replication;
     ScenarioOptions options;
 };
-/// The options over the file, those for the seed and the replication among them.
+/// Options that override the scenario file, including seed and replication.
 ScenarioOptions options_of(const FileArguments& arguments);
-/// Reads FILE, and says its notices.
+/// Reads the scenario of FILE, and prints its notices.
 Scenario scenario_of(const FileArguments& arguments);
 
-/// The time of an option --at; one after the end of the run is told.
+/// Simulated time of the option --at; prints a notice if it is after the end of the run.
 Time time_in(const Scenario& scenario, const std::string& at);
 
 }  // namespace rovernet::cli

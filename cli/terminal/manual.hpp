@@ -5,14 +5,14 @@
 
 #include <string>
 
-/// Texts that are generated from the commands as they are declared.
+/// Texts generated from the declared commands.
 namespace rovernet::cli {
 
-/// The script with which a shell completes commands and options: bash, zsh or fish.
-/// @throws std::invalid_argument for another
+/// Completion script for a shell: bash, zsh or fish.
+/// @throws std::invalid_argument for any other shell
 std::string completion_script(const Command::Text& program, const std::string& shell);
 
-/// The page rovernet(1), for man.
+/// Text of the man page rovernet(1).
 std::string man_page(const Command::Text& program);
 
 }  // namespace rovernet::cli

@@ -5,12 +5,13 @@
 
 namespace rovernet::cli {
 
-/// Refuses a picture's name before anything is computed for it.
-/// @param out  of the option --output
-/// @throws InputError unless it ends in .svg, .png or .pdf
+/// Checks the file name of a picture, before the picture is computed.
+/// @param out  value of the option --output
+/// @throws InputError unless the name ends in .svg, .png or .pdf
 void check_picture_name(const std::string& out);
 
-/// Writes a picture as its name's ending says, or nothing of it. @throws RunError
+/// Writes a picture in the format of the file name's ending, completely or not at all. @throws
+/// RunError
 void write_picture(const std::string& out, const std::string& svg);
 
 }  // namespace rovernet::cli

@@ -7,13 +7,12 @@
 
 namespace rovernet::cli {
 
-/// Lets Ctrl-C (SIGINT), SIGTERM and SIGHUP end the process at once from now on, with exit code
-/// 130 and with the programs that it has started. SIGHUP does nothing where it is ignored already,
-/// as by nohup.
+/// Makes Ctrl-C (SIGINT), SIGTERM and SIGHUP end the process and the programs that it has started
+/// at once, with exit code 130. SIGHUP stays ignored if it was ignored before, as by nohup.
 void end_on_signals();
 
-/// While one of these lives, signals to stop are counted only, for a command that has something to
-/// finish or to put away; the fifth ends the process all the same.
+/// Guard that defers stop signals (Ctrl-C, SIGTERM) during its lifetime: they are only counted, so
+/// that a command can finish or clean up. The fifth signal ends the process nevertheless.
 class HeldStop {
   public:
     HeldStop();
@@ -22,11 +21,11 @@ class HeldStop {
     HeldStop& operator=(const HeldStop&) = delete;
 };
 
-/// Writes files with the stop held: none is written by half.
+/// Writes files with stop signals deferred, so that no file is written partly.
 /// @throws RunError as write_files()
 void write_whole(const std::vector<OutputFile>& files);
 
-/// Number of times that the process was asked to stop while that was held.
+/// Number of stop signals received while a HeldStop deferred them.
 int stops_asked();
 
 }  // namespace rovernet::cli

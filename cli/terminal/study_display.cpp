@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <unistd.h>
 
 namespace rovernet::cli {
@@ -23,6 +22,7 @@ std::string bar(const SweepProgress& p) {
 }  // namespace
 
 std::string duration_text(double seconds) {
+    if (seconds < 9.5) return fmt::format("{:.2g} s", seconds);
     if (seconds < 100) return fmt::format("{:.0f} s", seconds);
     if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
     return fmt::format("{:.1f} h", seconds / 3600);

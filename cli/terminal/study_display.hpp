@@ -8,8 +8,8 @@
 
 namespace rovernet::cli {
 
-/// Display of a sweep's progress, on standard error: a line that changes on a terminal, else one
-/// every 10 s.
+/// Progress display of a sweep on standard error: a changing line on a terminal, otherwise a new
+/// line every 10 s.
 class SweepDisplay {
   public:
     SweepDisplay();
@@ -27,10 +27,10 @@ class SweepDisplay {
     Clock::time_point last_ = started_;
 };
 
-/// "12 runs finished, 1 failed, 87 left; 3.4 runs/s, 26 s to go"
+/// Text of a sweep's progress: "12 runs finished, 1 failed, 87 left; 3.4 runs/s, 26 s to go".
 std::string progress_text(const SweepProgress& progress, double elapsed_s);
 
-/// A duration for people [s]: "26 s", "4 min", "3.2 h".
+/// Text of a duration [s]: "26 s", "4 min", "3.2 h".
 std::string duration_text(double seconds);
 
 }  // namespace rovernet::cli

@@ -6,15 +6,15 @@
 
 namespace rovernet::cli {
 
-/// Columns of text, each as wide as its widest cell.
+/// Table of text; each column is as wide as its widest cell.
 class TextTable {
   public:
     using Line = std::vector<std::string>;
 
     explicit TextTable(Line head) : lines_{std::move(head)} {}
-    /// @throws std::invalid_argument if it has not as many cells as the head
+    /// Adds a row. @throws std::invalid_argument if its number of cells differs from the head
     void add(Line line);
-    /// A line each, with its newline and no blanks at its end.
+    /// Text of the table: one line for each row, without trailing blanks.
     std::string text() const;
 
   private:

@@ -7,19 +7,19 @@
 
 namespace rovernet::cli {
 
-/// Display of what a command is at: shown on a terminal once it has taken a second, until it is
-/// done, with the share that is done and the time left if these are told; with --verbose its time
-/// is told. One at a time.
+/// Progress display of one step of a command, on a terminal, for steps longer than 1 s. It shows
+/// the finished share and the time left if tell() is called. With --verbose the duration of the
+/// step is printed. Only one display may exist at a time.
 class Waiting {
   public:
-    /// @param what  "reading office.toml"
+    /// @param what  description of the step, such as "reading office.toml"
     explicit Waiting(std::string what);
     ~Waiting();
     Waiting(const Waiting&) = delete;
     Waiting& operator=(const Waiting&) = delete;
 
-    /// Tells the share that is done, 0 ... 1: cheap, to be called often. A share below the last one
-    /// is that of a next part, whose time is its own.
+    /// Reports the finished share of the step, 0 ... 1; cheap enough to be called often. A share
+    /// below the previous one starts a new part, with a separate time estimate.
     void tell(double share);
 
   private:
@@ -28,13 +28,14 @@ class Waiting {
     std::string what_;
     bool on_terminal_;
     Clock::time_point started_ = Clock::now();
-    Clock::time_point next_;                // look of the line
-    std::optional<Clock::time_point> told_  // first: what came before tells nothing of the rest
+    Clock::time_point next_;  // time of the next update of the line
+    std::optional<Clock::time_point>
+        told_  // first report of the part; earlier time is no part of the estimate
         = std::nullopt;
     double told_share_ = 0;
 };
 
-/// "[====      ]  42 %, 26 s to go"; without the time while nothing is done.
+/// Progress bar: "[====      ]  42 %, 26 s to go"; without the time while the share is 0.
 std::string share_text(double share, double elapsed_s);
 
 }  // namespace rovernet::cli

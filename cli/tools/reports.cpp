@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "cli/terminal/diagnostics.hpp"
-#include "cli/terminal/playing.hpp"
 #include "cli/scenes/scene_commands.hpp"
+#include "cli/terminal/playing.hpp"
 #include "cli/tools/tool_commands.hpp"
+#include "experiment/reports/link_report.hpp"
 #include "experiment/reports/loss_table.hpp"
 #include "experiment/run.hpp"
 #include "experiment/version.hpp"
+#include "models/propagation/disc.hpp"
 #include "scenario/document/json.hpp"
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -48,13 +48,15 @@ Table as_table(const LinkReport& report) {
         table.set("paths_left_out", static_cast<std::uint64_t>(rays->left_out));
         table.set("left_out_db", rays->too_high.value);
     }
-    table.set("path_loss_db", report.path_loss.value);
+    const auto in_db = [&](double value) { return report.range ? Value() : Value(value); };
+    if (report.range) table.set("range_m", report.range->value);
+    table.set("path_loss_db", in_db(report.path_loss.value));
     if (report.shadowing) table.set("shadowing_db", report.shadowing->value);
     if (report.sender.is_directional()) table.set("sender_pattern_db", report.sender_pattern.value);
     if (report.receiver.is_directional())
         table.set("receiver_pattern_db", report.receiver_pattern.value);
-    table.set("rx_power_dbm", report.received.value);
-    table.set("margin_db", report.margin.value);
+    table.set("rx_power_dbm", in_db(report.received.value));
+    table.set("margin_db", in_db(report.margin.value));
     table.set("up", report.up);
     table.set("why_down", report.up ? Value() : Value(report.why_down));
     return table;
@@ -67,6 +69,10 @@ void print_paths(const Rays::Paths& paths) {
                    paths.left_out, paths.too_high.value);
     }
     fmt::print("\n\n");
+}
+
+void print_state(const LinkReport& r) {
+    fmt::print("\n{} -> {} is {}\n", r.from, r.to, r.up ? "up" : "down: " + r.why_down);
 }
 
 void print_budget(const LinkReport& r) {
@@ -83,11 +89,17 @@ void print_budget(const LinkReport& r) {
         fmt::print("  {:.3f} m of wall in all{}\n\n", r.wall_m,
                    sees_walls ? "" : "; model " + r.model + " does not see walls");
     }
-    if (r.floors > 0) {
-        fmt::print("  {} {}{}, {:.3f} dB\n\n", r.floors, r.ceilings > 0 ? "ceiling" : "floor",
-                   r.floors == 1 ? "" : "s", r.floor_loss.value);
+    if (r.ceilings > 0 || r.floors > 0) {
+        const std::size_t number = r.ceilings > 0 ? r.ceilings : r.floors;
+        fmt::print("  {} {}{}, {:.3f} dB\n\n", number, r.ceilings > 0 ? "ceiling" : "floor",
+                   number == 1 ? "" : "s", (r.ceilings > 0 ? r.ceiling_loss : r.floor_loss).value);
     }
     if (r.rays) print_paths(*r.rays);
+    if (r.range) {
+        fmt::print("  {:<28} {:10.3f} m\n  {:<28} {:10.3f} m\n", "distance", r.distance_m, "range",
+                   r.range->value);
+        return print_state(r);
+    }
     const auto line = [](std::string_view what, double value, std::string_view unit) {
         fmt::print("  {:<28} {:+10.3f} {}\n", what, value, unit);
     };
@@ -104,7 +116,7 @@ void print_budget(const LinkReport& r) {
     line("received power", r.received.value, "dBm");
     line("receiver's sensitivity", r.receiver.sensitivity.value, "dBm");
     line("margin", r.margin.value, "dB");
-    fmt::print("\n{} -> {} is {}\n", r.from, r.to, r.up ? "up" : "down: " + r.why_down);
+    print_state(r);
 }
 
 std::string text_of(const Value& value) {
@@ -141,10 +153,16 @@ void loss(const LossArguments& a) {
     const LossAntennas heights{
         a.heights.empty() ? standard : option_length("--heights", a.heights.front()),
         a.heights.empty() ? standard : option_length("--heights", a.heights.back())};
+    const bool has_levels = a.model != Disc::name;
     const auto rows = loss_table(a.model, a.parameters, frequency, distances, heights, wall);
     if (!a.json) {
-        fmt::print("{:>14} {:>14}\n", "distance [m]", "loss [dB]");
-        for (const auto& [d, l] : rows) fmt::print("{:>14} {:>14.6f}\n", d.value, l.value);
+        fmt::print("{:>14} {:>14}\n", "distance [m]", has_levels ? "loss [dB]" : "link");
+        for (const auto& [d, l] : rows) {
+            const std::string loss = has_levels       ? fmt::format("{:.6f}", l.value)
+                                     : l.value == 0.0 ? "in range"
+                                                      : "out of range";
+            fmt::print("{:>14} {:>14}\n", d.value, loss);
+        }
         return;
     }
     Table table;
@@ -158,7 +176,8 @@ void loss(const LossArguments& a) {
     for (const auto& [d, l] : rows) {
         Table row;
         row.set("distance_m", d.value);
-        row.set("loss_db", l.value);
+        row.set("loss_db", has_levels ? Value(l.value) : Value());
+        if (!has_levels) row.set("in_range", l.value == 0.0);
         list.emplace_back(std::move(row));
     }
     table.set("rows", std::move(list));

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// The commands that need no scenario: models, loss, material, validate, bench, version.
+/// Commands that need no scenario: models, loss, material, validate, bench, version.
 namespace rovernet::cli {
 
 struct LossArguments {
@@ -25,7 +25,7 @@ void loss(const LossArguments& arguments);
 struct MaterialArguments {
     std::string material, thickness;
     std::string frequency = "2450 MHz";
-    double angle = 0;  ///< to the normal [degrees]
+    double angle = 0;  ///< angle of incidence, from the normal [degrees]
     bool json = false;
 };
 void material(const MaterialArguments& arguments);
@@ -39,7 +39,7 @@ void bench_flood(const BenchArguments& arguments);
 
 struct ValidateArguments {
     std::string out;
-    std::optional<std::string> field;  ///< folder of measurements
+    std::optional<std::string> field;  ///< folder with received levels [dBm] measured in buildings
     bool quick = false;
 };
 void validate(const ValidateArguments& arguments);

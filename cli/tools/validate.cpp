@@ -3,14 +3,12 @@
 #include "cli/terminal/stop.hpp"
 #include "cli/terminal/text_table.hpp"
 #include "cli/tools/tool_commands.hpp"
-#include "cli/terminal/waiting.hpp"
 #include "experiment/output.hpp"
 #include "study/validation/validation.hpp"
 #include "study/validation/validation_report.hpp"
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

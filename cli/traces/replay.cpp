@@ -3,18 +3,19 @@
 
 #include "cli/terminal/diagnostics.hpp"
 #include "cli/terminal/options.hpp"
-#include "cli/traces/replay_inputs.hpp"
 #include "cli/terminal/text_table.hpp"
-#include "cli/traces/trace_commands.hpp"
 #include "cli/terminal/waiting.hpp"
-#include "experiment/run.hpp"
+#include "cli/traces/replay_inputs.hpp"
+#include "cli/traces/trace_commands.hpp"
+#include "experiment/replay/ns2_day.hpp"
 #include "experiment/replay/trace_input.hpp"
 #include "experiment/replay/trace_play.hpp"
+#include "experiment/run.hpp"
+#include "experiment/summary.hpp"
 #include "live/input_replay.hpp"
 #include "scenario/document/json.hpp"
 #include "study/command_words.hpp"
 #include "study/day_store.hpp"
-#include "experiment/replay/ns2_day.hpp"
 
 #include <fmt/format.h>
 
@@ -36,8 +37,11 @@ void print_verification(const ReplayArguments& a, const Verification& v) {
     const bool is_other_version = !v.recorded_by.empty() && v.recorded_by != v.version;
     if (a.json) {
         Table table;
-        table.set("identical", !v.difference.has_value());
+        Array damage;
+        for (const std::string& what : v.damage) damage.emplace_back(what);
+        table.set("identical", v.is_identical());
         table.set(v.unit, v.same);
+        if (!v.damage.empty()) table.set("damage", std::move(damage));
         if (v.difference) {
             table.set("recorded", v.difference->recorded);
             table.set("now", v.difference->now);
@@ -47,8 +51,11 @@ void print_verification(const ReplayArguments& a, const Verification& v) {
         fmt::print("{}", to_json(table));
         return;
     }
-    if (!v.difference) {
+    if (v.is_identical()) {
         fmt::print("identical: {} {}\n", v.same, v.unit);
+    } else if (!v.difference) {
+        fmt::print("not whole: {} {} are the same, and the others cannot be read\n", v.same,
+                   v.unit);
     } else {
         fmt::print("different after {} {}\nrecorded  {}\nnow       {}\n", v.same, v.unit,
                    or_nothing(v.difference->recorded), or_nothing(v.difference->now));
@@ -71,6 +78,11 @@ void verify(const ReplayArguments& a) {
     for (const std::string& text : v.damage) notice(a.file + ": " + text);
     print_verification(a, v);
     if (v.difference) throw CommandEnd(failed, a.file + ": the run differs from its trace");
+    if (!v.is_identical()) {
+        throw CommandEnd(failed, a.file +
+                                     ": the trace is broken or has no end: it cannot be told "
+                                     "whether the run is the same");
+    }
 }
 
 /// A day, and the radio that all rows of its table are compared with.
@@ -126,26 +138,59 @@ Radios radios_of(const ReplayArguments& a) {
         .plays_first = true};
 }
 
-std::vector<DayRow> play_radios(const ReplayArguments& a, const Radios& radios) {
+/// A row to be played: its name and its assignments.
+struct RadioRow {
+    std::string name;
+    std::vector<std::string> set;
+};
+
+/// Rows of the table but for what was recorded; the one that others are compared with comes first.
+std::vector<RadioRow> rows_of(const ReplayArguments& a, const Radios& radios) {
+    std::vector<RadioRow> rows;
+    if (radios.plays_first) {
+        rows.push_back({radios.first, {}});
+        append(rows.back().set, radios.as);
+    }
     std::vector<std::string> names = a.with;
     if (names.empty() && a.map) names.push_back("map " + *a.map);
-    std::vector<DayRow> rows;
-    if (radios.plays_first) {
-        std::vector<std::string> set;
-        append(set, radios.as);
-        rows.push_back({radios.first, play_radio(a, radios.day, set, radios.first), {}});
-    }
-    const PlayedDay first = radios.plays_first ? rows[0].day : radios.day.recorded();
     for (const std::string& name : names) {
-        std::vector<std::string> set;
-        append(set, radios.as);
-        if (!a.with.empty()) append(set, name);
-        if (a.map) set.push_back("scene.map=" + std::filesystem::absolute(*a.map).string());
-        PlayedDay day = play_radio(a, radios.day, set, name);
-        DeliveryChange change = change_of(first, day, radios.day.robots().size());
-        rows.push_back({name, std::move(day), std::move(change)});
+        rows.push_back({name, {}});
+        append(rows.back().set, radios.as);
+        if (!a.with.empty()) append(rows.back().set, name);
+        if (a.map)
+            rows.back().set.push_back("scene.map=" + std::filesystem::absolute(*a.map).string());
     }
     return rows;
+}
+
+/// Notices what the rows cannot show: messages that collide since they begin together, and
+/// receptions that the first radio cannot have had.
+void note_doubts(const ReplayArguments& a, const Radios& radios,
+                 const std::vector<RadioRow>& rows) {
+    std::vector<std::string> told;
+    const auto tell = [&](const std::string& text, const std::string& row) {
+        if (text.empty() || std::ranges::find(told, text) != told.end()) return;
+        told.push_back(text);
+        notice(fmt::format("{}: row \"{}\": {}", a.file, row, text));
+    };
+    for (const RadioRow& row : rows) tell(radios.day.starts_together(row.set), row.name);
+    if (radios.plays_first) tell(radios.day.hears_farther(rows[0].set), rows[0].name);
+}
+
+std::vector<DayRow> play_radios(const ReplayArguments& a, const Radios& radios,
+                                const std::vector<RadioRow>& rows) {
+    std::vector<DayRow> played;
+    for (const RadioRow& row : rows) {
+        PlayedDay day = play_radio(a, radios.day, row.set, row.name);
+        if (played.empty() && radios.plays_first) {
+            played.push_back({row.name, std::move(day), {}});
+            continue;
+        }
+        const PlayedDay& first = radios.plays_first ? played[0].day : radios.day.recorded();
+        DeliveryChange change = change_of(first, day, radios.day.robots().size());
+        played.push_back({row.name, std::move(day), std::move(change)});
+    }
+    return played;
 }
 
 Table row_table(const std::string& name, const PlayedDay& day) {
@@ -263,7 +308,9 @@ void keep_rows(const ReplayArguments& a, const Radios& radios, const std::vector
 void play_with(const ReplayArguments& a) {
     const Radios radios = radios_of(a);
     for (const std::string& text : radios.day.notices()) notice(a.file + ": " + text);
-    const std::vector<DayRow> rows = play_radios(a, radios);
+    const std::vector<RadioRow> to_play = rows_of(a, radios);
+    note_doubts(a, radios, to_play);
+    const std::vector<DayRow> rows = play_radios(a, radios, to_play);
     if (a.store) keep_rows(a, radios, rows);
     if (a.json) {
         print_radios_json(radios.day, rows);

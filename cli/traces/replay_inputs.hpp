@@ -5,8 +5,8 @@
 
 namespace rovernet::cli {
 
-/// Runs a live run's scenario again with the inputs of its log, and compares the fingerprints.
-/// @throws CommandEnd if they differ
+/// Replays the inputs of a live run's log, and compares the fingerprints.
+/// @throws CommandEnd if the fingerprints differ
 void verify_inputs(const ReplayArguments& arguments);
 
 }  // namespace rovernet::cli

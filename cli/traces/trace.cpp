@@ -3,15 +3,17 @@
 #include "cli/terminal/text_table.hpp"
 #include "cli/traces/trace_commands.hpp"
 #include "cli/traces/trace_notices.hpp"
-#include "experiment/replay/replay.hpp"
+#include "experiment/replay/recorded_stats.hpp"
 #include "experiment/run.hpp"
-#include "experiment/replay/trace_input.hpp"
+#include "experiment/summary.hpp"
 #include "scenario/document/json.hpp"
 #include "traces/ns2/ns2_stats.hpp"
+#include "traces/recorded/recorded_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +21,12 @@
 namespace rovernet::cli {
 
 void tell_refused(const std::string& file, const Ns2Counts& counts) {
+    if (counts.is_empty() && !is_recorded_trace(file)) {
+        throw InputError({.source = file},
+                         counts.lines == 0
+                             ? "the file is empty, expected a trace"
+                             : "the file has blank lines and comments only, expected a trace");
+    }
     if (counts.refused == 0) return;
     const bool is_one = counts.refused == 1;
     notice(fmt::format("{}: {} of {} lines {} none of ns-2 and {} not counted{}", file,
@@ -37,9 +45,10 @@ void tell_damage(const std::string& file, const std::vector<std::string>& damage
 
 namespace {
 
-/// Stats of a trace, and its format: a recorded trace is read as text of another.
+/// Stats of a trace, its format, and what of it a recorded one alone has.
 struct ToldStats : TraceStats {
     std::string format;
+    std::optional<std::uint64_t> file_bytes, receptions_in_file;
 };
 
 Table counts_table(const Ns2Counts& counts, const std::string& format) {
@@ -112,6 +121,10 @@ Table stats_table(const ToldStats& stats, const std::string& by) {
     table.set("throughput_bps", stats.throughput);
     for (const Entry& entry : counts_table(stats.counts, stats.format).entries) {
         table.set(entry.key, entry.value);
+    }
+    if (stats.file_bytes) {
+        table.set("file_bytes", *stats.file_bytes);
+        table.set("bytes_per_reception", per(*stats.file_bytes, *stats.receptions_in_file));
     }
     if (by.empty()) return table;
     Array rows;
@@ -192,22 +205,18 @@ TraceRows rows_by(const std::string& by) {
     return by == "second" ? TraceRows::second : TraceRows::none;
 }
 
-/// What is counted of a trace. A recorded one has the metrics of its run, without its warm-up.
 ToldStats stats_of(const TraceStatsArguments& a) {
-    const TraceInput trace(a.file, {.format = Ns2Format::old_format, .mac = MacTrace::on});
     const auto strictness = a.strict ? Ns2Strictness::strict : Ns2Strictness::tolerant;
-    ToldStats stats{ns2_stats(trace.text(), strictness, rows_by(a.by)), {}};
-    stats.format = trace.is_recorded() ? "recorded" : stats.counts.format();
-    tell_refused(a.file, stats.counts);
-    if (!trace.is_recorded()) return stats;
-    tell_damage(a.file, trace.damage());
-    std::vector<std::string> told;
-    stats.metrics = recorded_metrics(a.file, told);
-    stats.drops.clear();
-    for (const auto& drop : stats.metrics.drops) {
-        if (drop.count > 0) stats.drops.emplace_back(drop.reason, drop.count);
+    if (!is_recorded_trace(a.file)) {
+        ToldStats stats{ns2_stats(Ns2Source(a.file), strictness, rows_by(a.by)), {}, {}, {}};
+        stats.format = stats.counts.format();
+        tell_refused(a.file, stats.counts);
+        return stats;
     }
-    return stats;
+    RecordedStats recorded = recorded_stats(a.file, strictness, rows_by(a.by));
+    tell_refused(a.file, recorded.stats.counts);
+    tell_damage(a.file, recorded.damage);
+    return {std::move(recorded.stats), "recorded", recorded.file_bytes, recorded.receptions};
 }
 
 }  // namespace

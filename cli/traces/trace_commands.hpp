@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-/// The commands that read traces: trace and what is below it, replay.
+/// Commands that read traces: trace with its subcommands, and replay.
 namespace rovernet::cli {
 
 struct TraceStatsArguments {
     std::string file;
-    std::string by;  ///< robot, flow or second; empty: the totals alone
+    std::string by;  ///< grouping of the statistics: robot, flow or second; empty: totals
     bool strict = false, csv = false, json = false;
 };
 void trace_stats(const TraceStatsArguments& arguments);
@@ -51,11 +51,12 @@ void trace_follow(const TraceFollowArguments& arguments);
 struct ReplayArguments {
     std::string file;
     bool verify = false;
-    std::vector<std::string> with;   ///< radios, each "path=value" or several of them after ";"
-    std::optional<std::string> map;  ///< map of these
+    /// Radio settings, each "path=value", or several separated by ";".
+    std::vector<std::string> with;
+    std::optional<std::string> map;  ///< map file to use with the radio settings `with`
     std::optional<double> speed;
-    // Radio of an ns-2 trace, as one of `with`; routing of its messages, "flood" or "direct"; file
-    // of the movements that moved its robots.
+    // For an ns-2 trace: radio settings, as in `with`; routing of its messages, "flood" or
+    // "direct"; movement file of its robots.
     std::optional<std::string> as, routing, movements;
     std::optional<std::string> store;
     bool json = false;

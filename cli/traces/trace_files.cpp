@@ -3,8 +3,8 @@
 #include "cli/traces/trace_commands.hpp"
 #include "cli/traces/trace_notices.hpp"
 #include "experiment/replay/capture.hpp"
-#include "experiment/reports/loss_table.hpp"
 #include "experiment/replay/trace_input.hpp"
+#include "experiment/reports/loss_table.hpp"
 #include "traces/ns2/ns2_convert.hpp"
 #include "traces/ns2/ns2_diff.hpp"
 #include "traces/recorded/recorded_reader.hpp"
@@ -12,8 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 namespace rovernet::cli {
 namespace {
@@ -90,7 +88,10 @@ void trace_cut(const TraceCutArguments& a) {
     const Converted made = cut_ns2(trace.text(), a.out, cut, strictness_of(a.strict));
     tell_left_out(a.in, made);
     tell_damage(a.in, trace.damage());
-    if (made.written == 0) notice(a.out + ": no event of " + a.in + " is in this piece");
+    if (made.written > 0) return;
+    const bool is_by_time = !a.robot && !a.message;
+    notice(fmt::format("{}: {} has no event {}", a.out, a.in,
+                       is_by_time ? "between --from and --to" : "that fits the options"));
 }
 
 void trace_diff(const TraceDiffArguments& a) {

@@ -4,16 +4,17 @@
 #include "cli/traces/trace_commands.hpp"
 #include "cli/traces/trace_notices.hpp"
 #include "experiment/replay/message_at_robot.hpp"
-#include "experiment/replay/trace_input.hpp"
+#include "experiment/replay/recorded_follow.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 #include "traces/ns2/ns2_follow.hpp"
+#include "traces/recorded/recorded_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -122,25 +123,35 @@ std::string others_text(const FrameAtRobot& frame, const MessageAtRobot& message
     for (std::size_t i = 0; i < std::min(shown, frame.others.size()); ++i) {
         const OverlappingFrame& other = frame.others[i];
         if (i > 0) text += ", ";
-        text += message.names[other.from.index()] == message.robot
-                    ? "its own frame"
-                    : fmt::format("{} {:.2f} dBm", message.names[other.from.index()],
-                                  other.level.value);
+        const std::string& name = message.names[other.from.index()];
+        text += name == message.robot ? "its own frame"
+                : other.has_level     ? fmt::format("{} {:.2f} dBm", name, other.level.value)
+                                      : name;
     }
     if (frame.others.size() > shown) text += fmt::format(", {} more", frame.others.size() - shown);
     return text.empty() ? "-" : text;
 }
 
+std::string outcome_text(const FrameAtRobot& frame) {
+    const bool is_far = frame.outcome == Outcome::too_weak && frame.range;
+    return is_far ? "too far" : std::string(name_of(frame.outcome));
+}
+
 void print_frames(const MessageAtRobot& message) {
     if (!message.frames.empty()) {
         fmt::print("\nits frames, as they came to {}:\n", message.robot);
-        TextTable table({"after", "from", "level", "margin", "walls", "outcome", "also on air"});
+        const bool has_levels = std::any_of(message.frames.begin(), message.frames.end(),
+                                            [](const FrameAtRobot& f) { return !f.range; });
+        TextTable table({"after", "from", has_levels ? "level" : "distance",
+                         has_levels ? "margin" : "range", "walls", "outcome", "also on air"});
         for (const FrameAtRobot& f : message.frames) {
             table.add({milliseconds(f.begin - message.sent), message.names[f.from.index()],
-                       fmt::format("{:.2f} dBm", f.level.value),
-                       fmt::format("{:+.2f} dB", f.margin.value),
+                       f.range ? fmt::format("{:.2f} m", f.distance_m)
+                               : fmt::format("{:.2f} dBm", f.level.value),
+                       f.range ? fmt::format("{:.2f} m", f.range->value)
+                               : fmt::format("{:+.2f} dB", f.margin.value),
                        f.walls == 0 ? "-" : fmt::format("{}, {:.2f} m", f.walls, f.wall_m),
-                       std::string(name_of(f.outcome)), others_text(f, message)});
+                       outcome_text(f), others_text(f, message)});
         }
         fmt::print("{}", table.text());
     }
@@ -169,17 +180,22 @@ Table frame_table(const FrameAtRobot& frame, const MessageAtRobot& message) {
         Table table;
         table.set("from", from);
         table.set("kind", kinds[other.kind]);
-        table.set("level_dbm", from == message.robot ? Value() : Value(other.level.value));
+        const bool has_level = other.has_level && from != message.robot;
+        table.set("level_dbm", has_level ? Value(other.level.value) : Value());
         others.emplace_back(std::move(table));
     }
     Table table;
     table.set("from", message.names[frame.from.index()]);
     table.set("after_s", seconds(frame.begin - message.sent));
-    table.set("level_dbm", frame.level.value);
-    table.set("margin_db", frame.margin.value);
+    table.set("level_dbm", frame.range ? Value() : Value(frame.level.value));
+    table.set("margin_db", frame.range ? Value() : Value(frame.margin.value));
+    if (frame.range) {
+        table.set("distance_m", frame.distance_m);
+        table.set("range_m", frame.range->value);
+    }
     table.set("walls", static_cast<std::uint64_t>(frame.walls));
     table.set("wall_m", frame.wall_m);
-    table.set("outcome", name_of(frame.outcome));
+    table.set("outcome", outcome_text(frame));
     table.set("also_on_air", std::move(others));
     return table;
 }
@@ -261,16 +277,19 @@ std::optional<MessageAtRobot> frames_there(const TraceFollowArguments& a, NodeId
 
 void trace_follow(const TraceFollowArguments& a) {
     const auto strictness = a.strict ? Ns2Strictness::strict : Ns2Strictness::tolerant;
-    const TraceInput trace(a.file, {.format = Ns2Format::old_format, .mac = MacTrace::on});
-    FollowedMessage way = follow_ns2(trace.text(), a.message, strictness);
+    const bool is_recorded = is_recorded_trace(a.file);
+    RecordedWay found = is_recorded
+                            ? follow_recorded(a.file, a.message, strictness)
+                            : RecordedWay{follow_ns2(a.file, a.message, strictness), {}, {}};
+    FollowedMessage& way = found.way;
     tell_refused(a.file, way.counts);
-    tell_damage(a.file, trace.damage());
-    const TraceNames names(a.file, trace.robots());
+    tell_damage(a.file, found.damage);
+    const TraceNames names(a.file, found.robots);
     std::optional<NodeId> goal;
     if (a.robot) goal = names.number(*a.robot);
     if (goal) way = part_for(way, *goal);
     std::optional<MessageAtRobot> there;
-    if (goal && trace.is_recorded()) there = frames_there(a, *goal);
+    if (goal && is_recorded) there = frames_there(a, *goal);
     if (a.json) return print_json(way, names, there);
     print_way(way, names, goal);
     if (there) print_frames(*there);

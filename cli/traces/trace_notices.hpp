@@ -8,9 +8,10 @@
 
 namespace rovernet::cli {
 
-/// Says on standard error which lines of the trace are none of ns-2, if there are any.
+/// Prints on standard error which lines of a trace are no valid ns-2 lines, if any.
+/// @throws InputError if a file of ns-2 text has no valid line
 void tell_refused(const std::string& file, const Ns2Counts& counts);
-/// Says there what of a recorded trace is broken or missing.
+/// Prints on standard error the broken or missing parts of a recorded trace.
 void tell_damage(const std::string& file, const std::vector<std::string>& damage);
 
 }  // namespace rovernet::cli

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "experiment/replay/capture.hpp"
 
-#include "experiment/reports/link_table.hpp"
 #include "experiment/replay/recorded_air.hpp"
+#include "experiment/reports/link_table.hpp"
+#include "experiment/reports/range_of_model.hpp"
 #include "traces/pcapng/wifi_packet.hpp"
 
 #include <charconv>
@@ -117,9 +118,12 @@ void Capturing::add_received(const AirFrame& air, const Reception& reception) {
     }
     RecordedFrame found = *frame;
     found.air.frame.message = air.frame.message;  // behind a broken chunk its slot may be another
-    add_packet(reception.node, reception.time, PcapngWriter::Way::in, found,
-               RadiotapFacts::Signal{Dbm{air_.arrival(found, reception.node).level_dbm},
-                                     air_.medium().stations().noise(reception.node)});
+    std::optional<RadiotapFacts::Signal> signal;
+    if (!range_of(air_.medium().stations().model(air.frame.sender))) {
+        signal = {Dbm{air_.arrival(found, reception.node).level_dbm},
+                  air_.medium().stations().noise(reception.node)};
+    }
+    add_packet(reception.node, reception.time, PcapngWriter::Way::in, found, signal);
 }
 
 /// Adds a frame to the interface of a robot that sends or receives it.

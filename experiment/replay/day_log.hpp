@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "experiment/replay/deliveries.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/message.hpp"
 #include "sim/record.hpp"
 #include "sim/sink.hpp"
 #include "sim/time.hpp"
-#include "experiment/replay/deliveries.hpp"
 #include "traces/metric_values.hpp"
 
 #include <string>
@@ -16,18 +16,23 @@
 
 namespace rovernet {
 
-/// What happened when a recorded day was played under some radio.
+/// Result of a recorded run that is simulated again with given radio models.
 struct PlayedDay {
-    MetricValues metrics;              ///< without the warm-up of the recorded run
-    std::vector<Delivery> deliveries;  ///< all of the day, in order
+    MetricValues metrics;              ///< metrics without the warm-up of the recorded run
+    std::vector<Delivery> deliveries;  ///< all deliveries, in order of time
 };
 
-/// What robots did on a day, as its trace tells: who moved, spoke and was switched.
+/// Actions of robots in a recorded run: movements, messages sent, switching on and off.
 struct DayLog {
-    /// Message that a robot's application sent.
+    /// Message sent by a robot's application.
     struct Said {
         Time time;
         Message message;
+    };
+    /// Reception of a frame of robot `from` by robot `to`.
+    struct Heard {
+        Time time;
+        NodeId from, to;
     };
     /// Robot that was switched on or off.
     struct Turned {
@@ -36,14 +41,16 @@ struct DayLog {
         bool on;
     };
 
-    std::vector<std::vector<Leg>> legs;  ///< by NodeId; empty: it stays where the scenario has it
-    std::vector<Said> said;              ///< in order of time
-    std::vector<Turned> turned;          ///< in order of time
-    PlayedDay recorded;                  ///< what came of it under the radio of the day
-    std::vector<std::string> notices;    ///< sentences on what is missing in the trace
+    /// Legs (pieces of movement) by NodeId; empty: the robot stays at its scenario position.
+    std::vector<std::vector<Leg>> legs;
+    std::vector<Said> said;            ///< sent messages, in order of time
+    std::vector<Turned> turned;        ///< switched robots, in order of time
+    std::vector<Heard> heard;          ///< receptions, in order of time; of ns-2 traces only
+    PlayedDay recorded;                ///< recorded outcome, with the radio models of that run
+    std::vector<std::string> notices;  ///< sentences about missing parts of the trace
 };
 
-/// Sink that takes down who moved, spoke and was switched.
+/// Sink that logs movements, sent messages and switching of robots.
 struct DayLogSink {
     DayLog& log;
 
@@ -62,7 +69,7 @@ struct DayLogSink {
     void take(const Moved& moved) {
         if (moved.node.index() >= log.legs.size()) log.legs.resize(moved.node.index() + 1);
         std::vector<Leg>& legs = log.legs[moved.node.index()];
-        // Legs may begin at one time: the later one holds.
+        // Two legs may start at the same time: the later record replaces the earlier one.
         if (!legs.empty() && legs.back().start == moved.leg.start) legs.pop_back();
         legs.push_back(moved.leg);
     }

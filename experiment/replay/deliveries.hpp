@@ -12,22 +12,22 @@
 
 namespace rovernet {
 
-/// Delivery of an application's message to a robot. Messages have the same origin and number in two
-/// runs of a scenario, whatever becomes of them.
+/// Delivery of an application's message to a robot. A message has the same origin and number in
+/// every run of a scenario, so that deliveries of two runs can be compared.
 struct Delivery {
     NodeId origin;
-    std::uint32_t number;  ///< number among the messages of its origin, from 0
+    std::uint32_t number;  ///< number of the message among the messages of its origin, from 0
     NodeId at;
     Time sent;
 
-    /// Order by message and robot, whenever it was sent.
+    /// Order by message, then by receiver; the sending time does not matter.
     friend auto operator<=>(const Delivery& a, const Delivery& b) {
         return std::tie(a.origin, a.number, a.at) <=> std::tie(b.origin, b.number, b.at);
     }
     friend bool operator==(const Delivery& a, const Delivery& b) { return (a <=> b) == 0; }
 };
 
-/// Sink that keeps who got which message, 24 bytes each, in the order of the run.
+/// Sink that stores every delivery (24 bytes each), in the order of the run.
 struct Deliveries {
     std::vector<Delivery> all = {};
 

@@ -2,13 +2,13 @@
 #include "experiment/replay/message_at_robot.hpp"
 
 #include "experiment/replay/recorded_air.hpp"
+#include "experiment/reports/range_of_model.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
-#include <optional>
+#include <cmath>
 #include <utility>
 
 namespace rovernet {
@@ -44,7 +44,7 @@ class Account {
     }
 
     void take(const Record& record);
-    MessageAtRobot told() &&;
+    MessageAtRobot result() &&;
 
   private:
     struct Open {
@@ -80,7 +80,7 @@ void Account::take(const Record& record) {
     }
 }
 
-/// Takes the frame that begins now: one of the message, or one that meets some of them.
+/// Handles a frame that starts now: a frame of the message, or one that overlaps such a frame.
 void Account::begin(const RecordedFrame& frame) {
     const bool is_of_message = frame.air.kind == AirFrame::data && frame.uid == uid_;
     if (!is_of_message || frame.air.frame.sender == robot_) {
@@ -94,6 +94,8 @@ void Account::begin(const RecordedFrame& frame) {
                       .level = {arrival.level_dbm},
                       .margin = {},
                       .others = {}};
+    here.distance_m = std::sqrt(arrival.squared_distance);
+    here.range = range_of(air_.medium().stations().model(here.from));
     here.margin = here.level - air_.medium().stations().radio(robot_).sensitivity;
     for (const Wall& wall : air_.walls(frame, robot_)) {
         ++here.walls;
@@ -113,10 +115,13 @@ void Account::meet(Open& open, const RecordedFrame& other) const {
     const Arrival arrival = air_.arrival(other, robot_);
     if (!arrival.overlaps(open.arrival)) return;
     if (!arrival.own && !air_.medium().stations().may_link(other.air.frame.sender, robot_)) return;
-    open.frame.others.push_back({arrival.from, other.air.kind, {arrival.level_dbm}});
+    const auto range = range_of(air_.medium().stations().model(arrival.from));
+    if (!arrival.own && range && arrival.squared_distance > range->value * range->value) return;
+    open.frame.others.push_back(
+        {arrival.from, other.air.kind, {arrival.level_dbm}, !range.has_value()});
 }
 
-/// What is certain of a frame as it begins.
+/// Outcome of a frame as far as it is known at its start.
 std::optional<Outcome> Account::outcome_at_begin(const RecordedFrame& frame, Db margin) const {
     const NodeId to = frame.air.frame.next_hop;
     if (!air_.medium().stations().is_on(robot_)) return Outcome::off;
@@ -140,7 +145,7 @@ void Account::end(const Received& received) {
     }
 }
 
-MessageAtRobot Account::told() && {
+MessageAtRobot Account::result() && {
     for (Open& open : frames_) {
         auto& others = open.frame.others;
         std::stable_sort(others.begin(), others.end(),
@@ -157,7 +162,7 @@ MessageAtRobot message_at_robot(const std::string& path, std::uint64_t uid, Node
     RecordedReader trace(path);
     Account account(trace, path, uid, robot);
     while (const Record* record = trace.next()) account.take(*record);
-    return std::move(account).told();
+    return std::move(account).result();
 }
 
 namespace {
@@ -185,23 +190,36 @@ FrameList with_outcome(const MessageAtRobot& message, std::initializer_list<Outc
 }
 
 std::string received_in_words(const MessageAtRobot& message, const FrameAtRobot& first) {
-    return fmt::format(
-        "{} has it from {}, {:.3f} ms after it was sent: that frame came at {:.2f} dBm, {:.1f} dB "
-        "above its sensitivity{}.",
-        message.robot, message.names[first.from.index()], seconds(first.end - message.sent) * 1e3,
-        first.level.value, first.margin.value, walls_in_words(message, first));
+    const std::string how = first.range
+                                ? fmt::format("came over {:.6g} m, within its range of {:.6g} m",
+                                              first.distance_m, first.range->value)
+                                : fmt::format("came at {:.2f} dBm, {:.1f} dB above its sensitivity",
+                                              first.level.value, first.margin.value);
+    return fmt::format("{} has it from {}, {:.3f} ms after it was sent: that frame {}{}.",
+                       message.robot, message.names[first.from.index()],
+                       seconds(first.end - message.sent) * 1e3, how,
+                       walls_in_words(message, first));
 }
 
 std::string weak_in_words(const MessageAtRobot& message, const FrameList& weak) {
+    // The strongest frame; without levels, the frame that came nearest to its range.
+    const auto margin = [](const FrameAtRobot& frame) {
+        return frame.range ? frame.range->value - frame.distance_m : frame.margin.value;
+    };
     const FrameAtRobot& best =
         **std::max_element(weak.begin(), weak.end(),
-                           [](const auto* a, const auto* b) { return a->margin < b->margin; });
+                           [&](const auto* a, const auto* b) { return margin(*a) < margin(*b); });
     const bool is_one = weak.size() == 1;
     const std::size_t off = with_outcome(message, {Outcome::off}).size();
     return fmt::format(
-        "{} never was within reach: {} came {:.1f} dB below its sensitivity{}{}.", message.robot,
-        is_one ? "the only frame" : fmt::format("the strongest of {} frames", weak.size()),
-        -best.margin.value, walls_in_words(message, best),
+        "{} never was within reach: {} {}{}{}.", message.robot,
+        is_one
+            ? "the only frame"
+            : fmt::format("the {} of {} frames", best.range ? "nearest" : "strongest", weak.size()),
+        best.range ? fmt::format("came from {:.6g} m, beyond its range of {:.6g} m",
+                                 best.distance_m, best.range->value)
+                   : fmt::format("came {:.1f} dB below its sensitivity", -best.margin.value),
+        walls_in_words(message, best),
         off > 0 ? fmt::format("; {} more came while it was off", off) : "");
 }
 
@@ -210,7 +228,7 @@ std::string lost_in_words(const MessageAtRobot& message, const FrameList& lost) 
         {Outcome::collided, "while other frames were on air"},
         {Outcome::busy, "while it was sending itself"},
         {Outcome::garbled, "by wrong bits"},
-        {Outcome::not_told, "as the trace tells nothing of their ends"}};
+        {Outcome::not_told, "as the trace has no record of their end"}};
     std::string list;
     for (const auto& [outcome, words] : causes) {
         const std::size_t count = with_outcome(message, {outcome}).size();
@@ -237,11 +255,11 @@ std::string sentence(const MessageAtRobot& message) {
     if (!weak.empty()) return weak_in_words(message, weak);
     const std::string all = counted(message.frames.size(), "frame");
     if (!with_outcome(message, {Outcome::off}).empty()) {
-        return fmt::format("{} was off: it could hear none of {}.", message.robot, all);
+        return fmt::format("{} was off: it could receive none of {}.", message.robot, all);
     }
     if (!with_outcome(message, {Outcome::other_network}).empty()) {
         return fmt::format(
-            "{} is in another network than those who sent it: it could hear none "
+            "{} is in another network than its senders: it could receive none "
             "of {}.",
             message.robot, all);
     }

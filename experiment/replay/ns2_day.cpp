@@ -13,13 +13,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <utility>
 
 namespace rovernet {
 namespace {
 
-/// Takes down what the lines of an ns-2 trace tell of a day.
+/// Collects the log of a day from the lines of an ns-2 trace.
 class Ns2DayReader {
   public:
     explicit Ns2DayReader(DayRouting routing) : routing_(routing) {}
@@ -29,6 +28,7 @@ class Ns2DayReader {
         const KindMask kind = KindMask{1} << record.index();
         if (metrics_.kinds() & kind) metrics_.on(record, context);
         if (deliveries_.kinds() & kind) deliveries_.on(record, context);
+        if (const auto* received = std::get_if<Received>(&record)) hear(*received);
         const auto* moved = std::get_if<Moved>(&record);
         if (!moved) return;
         know(moved->node, moved->time);
@@ -47,17 +47,24 @@ class Ns2DayReader {
     }
     PlayedDay recorded() const { return {metrics_.values(), deliveries_.all}; }
     Time end() const { return end_; }
-    /// Messages that are left out, as a sentence; empty: none.
+    /// Sentence about dropped messages; empty: none.
     std::string left_out() const {
         if (left_out_ == 0) return "";
         return fmt::format("{} messages to no other robot of the trace are left out", left_out_);
     }
     std::vector<DayLog::Said> said;
+    std::vector<DayLog::Heard> heard;
 
   private:
     void know(NodeId node, Time time) {
         robots_ = std::max(robots_, node.value + 1);
         end_ = std::max(end_, time);
+    }
+    void hear(const Received& received) {
+        for (const Reception& each : received.receptions) {
+            if (each.node == received.frame.sender || !is_decoded(each.fate)) continue;
+            heard.push_back({each.time, received.frame.sender, each.node});
+        }
     }
     void say(const Ns2Packet& packet, const Message& message) {
         const bool is_for_one = packet.ip && packet.ip->to >= 0;
@@ -92,7 +99,7 @@ std::optional<std::uint32_t> robot_number(const std::string& name) {
     return static_cast<std::uint32_t>(std::stoul(digits));
 }
 
-/// Takes motion from a movement file: plays it in a network where nobody speaks.
+/// Reads legs from a movement file, by playing it in a network without traffic.
 void take_movements(const std::string& path, Time end, DayLog& log) {
     MovementFile file(path);
     Network network;
@@ -132,17 +139,17 @@ void check_places(const std::string& path, const Ns2DayOptions& options, const D
         }
     }
     if (unknown.empty()) return;
-    const std::string names = unknown.size() == 1 ? fmt::format("robot {} is", unknown[0])
-                                                  : fmt::format("robot {} and {} more are",
-                                                                unknown[0], unknown.size() - 1);
+    const std::string names =
+        unknown.size() == 1 ? fmt::format("robot {}", unknown[0])
+                            : fmt::format("robot {} and {} more", unknown[0], unknown.size() - 1);
     if (options.movements) {
         throw InputError({*options.movements},
-                         fmt::format("it does not tell where {}, which {} has", names, path));
+                         fmt::format("no position of {}, named in {}", names, path));
     }
-    throw InputError(
-        {path}, fmt::format("it does not tell where {}: the old format has no place of a robot "
-                            "that never moves; expected --movements FILE.tcl",
-                            names));
+    throw InputError({path},
+                     fmt::format("no position of {}: the old format has none of a robot that never "
+                                 "moves; expected --movements FILE.tcl",
+                                 names));
 }
 
 /// Scenario with the radio that ns-2 has by default.
@@ -166,8 +173,10 @@ Table ns2_scenario(const DayLog& log, Time end, DayRouting routing) {
     document.set("propagation", section({{"model", "two_ray"}}));
     document.set("reception", section({{"model", "collision"}, {"capture_ratio", "10 dB"}}));
     // 20 bytes of IP, 34 of Mac/802_11.
-    document.set("access",
-                 section({{"model", "csma"}, {"header", "54 B"}, {"rts_threshold", "0 B"}}));
+    document.set(
+        "access",
+        section(
+            {{"model", "csma"}, {"eifs", "ns2"}, {"header", "54 B"}, {"rts_threshold", "0 B"}}));
     constexpr std::int64_t default_ttl_of_ip = 32;
     protocol.set("protocol", "flood");
     protocol.set("ttl", routing == DayRouting::flood ? default_ttl_of_ip : 1);
@@ -189,7 +198,7 @@ Table ns2_scenario(const DayLog& log, Time end, DayRouting routing) {
 
 RecordedDay read_ns2_day(const std::string& path, const Ns2DayOptions& options) {
     const auto reader = std::make_shared<Ns2DayReader>(options.routing);
-    read_ns2_trace(
+    const Ns2Counts counts = read_ns2_trace(
         path, reader, Ns2Strictness::tolerant,
         [&](const Ns2Packet& packet, const Message* message) { reader->on(packet, message); });
     DayLog log;
@@ -201,7 +210,13 @@ RecordedDay read_ns2_day(const std::string& path, const Ns2DayOptions& options) 
     }
     check_places(path, options, log);
     log.said = std::move(reader->said);
+    log.heard = std::move(reader->heard);
     log.recorded = reader->recorded();
+    if (counts.refused > 0)
+        log.notices.push_back(
+            fmt::format("{} of {} lines are none of ns-2, and left out; the first "
+                        "is line {}",
+                        counts.refused, counts.lines, counts.refused_lines.front().line));
     if (const std::string text = reader->left_out(); !text.empty()) log.notices.push_back(text);
     RecordedRun run;
     run.scenario = to_toml(ns2_scenario(log, reader->end(), options.routing));

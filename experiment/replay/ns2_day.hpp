@@ -5,37 +5,38 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace rovernet {
 
-/// Way of the messages of an ns-2 trace, whose own protocol is not simulated.
+/// Routing of the replayed messages of an ns-2 trace; the trace's own protocol is not simulated.
 enum class DayRouting {
-    /// To everyone, who forwards them; one for a single robot is delivered there alone.
+    /// Flood: every robot forwards; a message for one robot is delivered at that robot only.
     flood,
-    /// To their destination, or to everyone who hears the sender, over one hop.
+    /// One hop: to the destination, or to all robots that receive the sender's frame.
     direct,
 };
 
 struct Ns2DayOptions {
     DayRouting routing = DayRouting::flood;
-    /// Movement file that moved the robots, in place of what the trace tells of their places.
+    /// Movement file to use instead of the positions in the trace.
     std::optional<std::string> movements = {};
 };
 
-/// Reads a day from an ns-2 trace, in any format: robots "n0", "n1", ... move by Ns2Motion and say
-/// what the `s AGT` lines say. The day lasts a second longer than the trace, so that what was said
-/// last can arrive.
+/// Reads a recorded run (movements and messages) from an ns-2 trace, in any format. Robots "n0",
+/// "n1", ... move by Ns2Motion and send the messages of the `s AGT` lines. The run ends 1 s after
+/// the trace, so that the last messages can arrive.
 ///
-/// The scenario of the day has the radio that ns-2 has by default: 914 MHz, two_ray, 250 m,
-/// collisions with a capture ratio of 10 dB, and the DCF of 802.11 at 1 Mb/s. `recorded()` is what
-/// the trace tells, of its own protocol: to be shown, not to be compared with.
+/// The scenario of the run has the default radio of ns-2: 914 MHz, two_ray, 250 m, collisions with
+/// a capture ratio of 10 dB, and the DCF of ns-2 at 1 Mb/s (its EIFS, its times, and a backoff
+/// before every frame). `recorded()` returns the outcome with the trace's own routing protocol: for
+/// display, not for comparison.
 ///
-/// Left out, with a notice: messages to the sender itself, and to addresses that are no robot's.
-/// The trace does not tell when robots are switched off.
+/// Messages to the sender itself and to addresses of no robot are dropped, with a notice. The trace
+/// does not record when robots are switched off.
 ///
-/// @throws InputError as read_ns2_trace(); if it has no robots; naming the robots of which it does
-///         not tell where they are (old traces hold no place of one that never moves)
+/// @throws InputError as read_ns2_trace(); if the trace has no robots; if it has no position of
+///         some robots, which the message names (old traces have no position of a robot that never
+///         moves)
 RecordedDay read_ns2_day(const std::string& path, const Ns2DayOptions& options);
 
 }  // namespace rovernet

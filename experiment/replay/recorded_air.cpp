@@ -7,14 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 namespace rovernet {
 namespace {
 
-// Light goes 3,000 km in it: a frame that ended so long ago arrives nowhere any more.
+// Light travels 3,000 km in this time, so that an older frame arrives nowhere.
 constexpr Duration longest_delay{10'000'000};
 
 MediumSettings medium_settings(const NetworkSettings& settings, const Scene& scene,
@@ -55,7 +54,7 @@ void add_stations(Medium& medium, const std::vector<std::string>& names, const S
 
 }  // namespace
 
-/// What the scenario inside a trace says.
+/// Parts of the scenario in a trace.
 struct RecordedAir::Loaded {
     Loaded(const RecordedRun& run, const std::string& path)
         : replayed(run, path),
@@ -106,7 +105,7 @@ void RecordedAir::take(const Record& record, const RecordContext& context) {
     ++records_;
 }
 
-/// Adds a frame that begins now, and forgets those that cannot matter any more.
+/// Adds a frame that starts now, and removes frames that are no longer needed.
 void RecordedAir::add(const RecordedFrame& frame, Time now) {
     const NodeId from = frame.air.frame.sender, to = frame.air.frame.next_hop;
     if (from.index() >= robots() || (to != everyone && to.index() >= robots())) return;
@@ -196,18 +195,14 @@ Db RecordedAir::loss(const RecordedFrame& frame, NodeId to, Vec3 here, Vec3 ther
                 static_cast<std::uint64_t>((frame.begin - start_of_run).count()));
     const LinkBatch link{.frequency = medium_.stations().radio(from).frequency,
                          .from = here,
-                         .to = {&there, 1},
                          .from_key = medium_.stations().key(from),
-                         .to_keys = {&to_key, 1},
                          .scene = &settings.scene_at(frame.begin),
                          .floor_height = settings.floor_height,
                          .seed = settings.seed,
                          .replication = settings.replication,
                          .at = frame.begin,
                          .frame = key};
-    double db = 0;
-    medium_.stations().model(from).loss(link, Db{std::numeric_limits<double>::infinity()},
-                                        {&db, 1});
+    const double db = medium_.stations().model(from).loss_to(there, link, to_key);
     if (!fades_) return {db};
     const Db fade = fades_->gain(
         {.key = key, .receiver = to_key, .from = here, .to = there, .frequency = link.frequency});

@@ -5,7 +5,7 @@
 #include "models/arrival.hpp"
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
-#include "models/variation/fading.hpp"
+#include "models/variation/fades.hpp"
 #include "scene/scene.hpp"
 #include "scene/scene_change.hpp"
 #include "sim/record.hpp"
@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,66 +22,67 @@ namespace rovernet {
 /// Frame that was on air in a recorded run.
 struct RecordedFrame {
     AirFrame air;
-    /// Id of its message; of a data frame only.
+    /// Uid of the frame's message; data frames only.
     std::uint64_t uid = 0;
-    /// Size on air [bytes].
+    /// Size of the frame on air [bytes].
     std::uint32_t bytes = 0;
-    /// Bit rate of its payload [bit/s].
+    /// Bit rate of the frame's payload [bit/s].
     BitRate rate;
-    /// Begin and end at the sender.
+    /// Start and end of the frame at the sender.
     Time begin, end;
-    /// Number of records before the one that put it on air.
+    /// Number of records in the trace before the record of the frame's transmission.
     std::uint64_t record = 0;
 };
 
-/// Air of a recorded run: which frames were on air, and at what level they came to any robot.
+/// Frames on air in a recorded run, and their levels at every robot.
 ///
-/// A recorded trace keeps no levels. They are computed again here from the scenario inside and the
-/// recorded legs, with the shadowing and the fading that the run had:
+/// A recorded trace does not store levels. They are computed again from the scenario in the trace
+/// and the recorded legs, with the shadowing and fading of the run:
 ///
 ///   level = power + gains - max(0, L - g)   [dBm]
 ///
-/// where L is the path loss with its shadowing and g the fade of the frame [dB].
+/// where L is the path loss with shadowing [dB] and g the fading gain of the frame [dB].
 ///
 ///     RecordedReader trace(path);
 ///     RecordedAir air(trace.run(), path);
 ///     while (const Record* record = trace.next()) air.take(*record, trace.context());
 class RecordedAir {
   public:
-    /// @param path  of the trace, for errors
-    /// @throws InputError if there is no scenario in the trace, or it cannot be loaded
+    /// @param path  path of the trace, for errors
+    /// @throws InputError if the trace has no scenario, or the scenario cannot be loaded
     RecordedAir(const RecordedRun& run, const std::string& path);
-    /// Copies are forbidden: the medium refers to the scene.
+    /// Copies are forbidden: the member `medium_` refers to the scene.
     RecordedAir(const RecordedAir&) = delete;
     RecordedAir& operator=(const RecordedAir&) = delete;
 
-    /// Takes the next record of the trace: every record, in order.
+    /// Processes the next record of the trace. Every record must be given, in order.
     void take(const Record& record, const RecordContext& context);
 
-    /// Frames on air now, by their begins, and those that ended within the last 10 ms.
+    /// Frames that are on air at the time of the last record or ended in the 10 ms before, in the
+    /// order of their starts.
     const std::deque<RecordedFrame>& frames() const { return frames_; }
-    /// Frame on air that a reception tells of, at the time of its record.
-    /// @param uid  id of its message; of a data frame only
-    /// @return null if the record of its begin is missing
+    /// Frame of a reception, to be called at the time of the reception's record.
+    /// @param uid  uid of the message; data frames only
+    /// @return null if the record of the frame's start is missing
     const RecordedFrame* frame_of(const AirFrame& air, std::uint64_t uid,
                                   const Reception& reception) const;
 
-    /// Frame as it arrives at a robot that may be too far away to notice it. A frame of the robot's
-    /// own arrives without a delay.
+    /// Arrival of a frame at a robot, even if it is too weak to be received. A robot's own frame
+    /// arrives without delay.
     Arrival arrival(const RecordedFrame& frame, NodeId to) const;
-    /// Walls between both antennas when the frame begins.
+    /// Walls between the antennas of sender and receiver at the start of the frame.
     std::vector<Wall> walls(const RecordedFrame& frame, NodeId to) const;
 
-    /// Robots whose radios are known: those of the scenario.
+    /// Number of robots of the scenario.
     std::size_t robots() const { return names_.size(); }
-    /// Medium with the radios of all robots, on or off as they are now.
+    /// Medium with the radios of all robots, in their current state (on or off).
     const Medium& medium() const { return medium_; }
-    /// Scene with all doors open.
+    /// Scene of the run with all doors open.
     const Scene& scene() const { return *scene_; }
     const std::vector<std::string>& names() const { return names_; }
 
   private:
-    /// Leg that held from a record on.
+    /// Piece of a robot's movement (leg), and the number of the record from which on it is valid.
     struct Placed {
         std::uint64_t record;
         Leg leg;
@@ -95,7 +95,7 @@ class RecordedAir {
     BitRate rate_of(const AirFrame& air) const;
     Pose pose(NodeId node, const RecordedFrame& frame) const;
     Duration delay(const RecordedFrame& frame, NodeId to) const;
-    // Path loss that a frame sees [dB].
+    // Path loss of a frame [dB].
     Db loss(const RecordedFrame& frame, NodeId to, Vec3 here, Vec3 there) const;
 
     std::vector<std::string> names_;
@@ -104,11 +104,11 @@ class RecordedAir {
     Medium medium_;
     std::unique_ptr<Access> access_;
     Phy phy_;
-    // Fades of frames; null: they do not fade.
+    // Fading of frames; null: no fading.
     std::unique_ptr<const Fades> fades_;
     std::uint64_t records_ = 0;
     std::deque<RecordedFrame> frames_;
-    // Legs by node, in their order: those that frames_ may ask for.
+    // Legs of each node that frames_ may still need, in order of time.
     std::vector<std::deque<Placed>> legs_;
 };
 

@@ -2,15 +2,24 @@
 #include "experiment/replay/recorded_day.hpp"
 
 #include "experiment/build.hpp"
+#include "experiment/replay/to_destination.hpp"
 #include "experiment/run.hpp"
 #include "experiment/warmup.hpp"
 #include "mobility/recorded_legs.hpp"
-#include "experiment/replay/to_destination.hpp"
+#include "models/medium/medium.hpp"
+#include "models/propagation/disc.hpp"
+#include "scenario/equal_starts.hpp"
+#include "sim/geometry.hpp"
 #include "traces/metrics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace rovernet {
@@ -97,6 +106,80 @@ PlayedDay RecordedDay::play(const std::vector<std::string>& set,
     return {metrics->values(), std::move(deliveries->all)};
 }
 
+std::string RecordedDay::starts_together(const std::vector<std::string>& set) const {
+    const Scenario scenario = scenario_->with(set);
+    const AccessTable& access = scenario.access;
+    const bool repeats = access.model == AccessChoice::csma;
+    // A unicast of csma is repeated after a backoff.
+    const auto counts = [&](const Message& message) {
+        return !repeats || message.to == everyone || message.is_routed;
+    };
+    const auto meets = [&](const DayLog::Said& a, const DayLog::Said& b, Duration apart) {
+        return a.message.origin != b.message.origin && b.time - a.time < apart;
+    };
+    std::vector<bool> together(log_.said.size());
+    for (std::size_t i = 0; i < log_.said.size(); ++i) {
+        const DayLog::Said& said = log_.said[i];
+        const Duration apart = collision_free_gap(scenario, said.message.size);
+        if (apart == Duration{0}) return "";
+        for (std::size_t k = i + 1; k < log_.said.size() && log_.said[k].time - said.time < apart;
+             ++k) {
+            if (!meets(said, log_.said[k], apart)) continue;
+            together[i] = together[i] || counts(said.message);
+            together[k] = together[k] || counts(log_.said[k].message);
+        }
+    }
+    const auto met = static_cast<std::size_t>(std::count(together.begin(), together.end(), true));
+    if (met == 0 || met * 10 < log_.said.size()) return "";
+    return fmt::format(
+        "{} of {} messages begin at the same instant as one of another robot, or within a frame of "
+        "it, and nothing parts their frames under access.model={}: they collide. access.model=csma "
+        "with access.immediate_access=false draws a backoff first, as ns-2 does",
+        met, log_.said.size(), name_of(access.model));
+}
+
+std::string RecordedDay::hears_farther(const std::vector<std::string>& set) const {
+    const auto place = [&](NodeId node, Time t) {
+        const std::vector<Leg>& legs = log_.legs[node.index()];
+        const auto later = std::upper_bound(legs.begin(), legs.end(), t,
+                                            [](Time at, const Leg& leg) { return at < leg.start; });
+        return later == legs.begin() ? legs.front().from : std::prev(later)->position(t);
+    };
+    const DayLog::Heard* farthest = nullptr;
+    double metres = 0;
+    for (const DayLog::Heard& heard : log_.heard) {
+        const double d = distance(place(heard.from, heard.time), place(heard.to, heard.time));
+        if (d <= metres) continue;
+        metres = d;
+        farthest = &heard;
+    }
+    if (!farthest) return "";
+    const Scenario scenario = scenario_->with(set);
+    Network network(network_settings(scenario));
+    add_robots(network, scenario);
+    network.run_until(farthest->time);
+    const Disc* disc = network.medium().stations().model(farthest->from).as<Disc>();
+    const double missing = -network.medium()
+                                .links()
+                                .margin(farthest->from, farthest->to, network.now(), network.legs())
+                                .value;
+    constexpr double rounding = 0.5;  // [dB] of places in the trace
+    if (missing <= rounding) return "";
+    const std::string found = fmt::format(
+        "{} received {} from {:.0f} m at {:.6f} s", run_.robots[farthest->to.index()],
+        run_.robots[farthest->from.index()], metres, seconds(farthest->time - start_of_run));
+    if (disc)
+        return fmt::format(
+            "{}, and the first radio played reaches {:g} m; --as "
+            "\"propagation.model=disc;propagation.range={:.0f} m\" reaches as far",
+            found, disc->range.value, std::ceil(metres));
+    const double power = scenario.radio.power.value + std::ceil(missing * 10) / 10;
+    return fmt::format(
+        "{}, {:.1f} dB below the sensitivity of the first radio played; --as \"radio.power={:.1f} "
+        "dBm\" reaches as far",
+        found, missing, power);
+}
+
 /// Adds the robots in their order: those of the scenario's tables, and those of a movement file.
 void RecordedDay::add_robots(Network& network, const Scenario& scenario) const {
     std::map<std::string, const RobotTable*> tables;
@@ -128,7 +211,7 @@ void RecordedDay::schedule(Network& network) const {
         network.at(turned.time, [this, &network, turned] {
             if (!turned.on) return network.switch_off(turned.node);
             network.switch_on(turned.node);
-            // It would take up the leg that it was on; the trace has what it did then.
+            // A robot would continue its last leg when switched on; the trace has its real leg.
             network.move(turned.node, RecordedLegs(log_.legs[turned.node.index()]));
         });
     }

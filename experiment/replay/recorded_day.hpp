@@ -2,8 +2,8 @@
 #pragma once
 
 #include "experiment/recorded_scenario.hpp"
-#include "network/network.hpp"
 #include "experiment/replay/day_log.hpp"
+#include "network/network.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,19 +14,19 @@
 
 namespace rovernet {
 
-/// Deliveries that one day has and another has not, by the robot that got them or did not.
+/// Difference between the deliveries of two runs of the same messages, counted by receiving robot.
 struct DeliveryChange {
-    std::vector<std::uint64_t> gained, lost;  ///< by NodeId
+    std::vector<std::uint64_t> gained, lost;  ///< number of deliveries by receiver (NodeId)
 
     std::uint64_t all_gained() const;
     std::uint64_t all_lost() const;
 };
-/// @param robots  number of robots
+/// Difference between the deliveries of two runs. @param robots  number of robots
 DeliveryChange change_of(const PlayedDay& before, const PlayedDay& after, std::size_t robots);
 
-/// One recorded day, to be played under another radio: robots move, speak and are switched as they
-/// did when it was recorded. What they would have decided otherwise is not decided anew: for that,
-/// run the scenario with other settings.
+/// Recorded run (movements and messages) that can be simulated again with other radio models.
+/// Robots move, send and are switched as recorded. Robots do not react to the new messages: to have
+/// them react, run the scenario with other settings.
 ///
 ///     const RecordedDay day("runs/rescue-s7/trace.mcap");
 ///     const PlayedDay other = day.play({"propagation.model=friis"});
@@ -34,27 +34,38 @@ DeliveryChange change_of(const PlayedDay& before, const PlayedDay& after, std::s
 class RecordedDay {
   public:
     /// @param path  recorded trace
-    /// @throws InputError if it is none, or holds no scenario
+    /// @throws InputError if the file is no recorded trace, or has no scenario
     explicit RecordedDay(const std::string& path);
-    /// Makes a day of any other trace.
-    /// @param run   its scenario, and the names of its robots by NodeId
-    /// @param path  of the trace, for errors
+    /// Takes a recorded run from the content of any trace.
+    /// @param run   scenario, and names of robots by NodeId
+    /// @param path  path of the trace, for errors
     /// @throws InputError if the scenario cannot be read
     RecordedDay(RecordedRun run, const std::string& path, DayLog log);
 
     /// Names of the robots by NodeId.
     const std::vector<std::string>& robots() const { return run_.robots; }
-    /// What is broken or missing in the trace, as sentences.
+    /// Sentences about broken or missing parts of the trace.
     const std::vector<std::string>& notices() const { return log_.notices; }
-    /// The day as it was recorded.
+    /// Outcome of the run as recorded: metrics and deliveries.
     const PlayedDay& recorded() const { return log_.recorded; }
-    /// Plays the day under the radio of its scenario with these assignments "path=value" over it.
-    /// A protocol that brings messages to everyone only also brings those for one robot: to
-    /// everyone, and they count as delivered at that robot.
-    /// @param progress  told the share that is done, 0 ... 1; false stops it
+    /// Simulates the recorded movements and messages with the radio models of the scenario,
+    /// overridden by assignments "path=value". A routing protocol that only supports messages to
+    /// everyone also carries messages for one robot: it floods them, and they count as delivered at
+    /// that robot only.
+    /// @param progress  called with the finished share, 0 ... 1; returning false stops the
+    /// simulation
     /// @throws InputError, RunError, Interrupted
     PlayedDay play(const std::vector<std::string>& set,
                    const std::function<bool(double)>& progress = {}) const;
+
+    /// Warning, as a sentence, that at least a tenth of the messages start at the same instant and
+    /// collide under the access model of the scenario with the assignments `set`; empty: fewer do.
+    /// @throws InputError
+    std::string starts_together(const std::vector<std::string>& set) const;
+    /// Warning, as a sentence, that the farthest reception in the trace is out of range of the
+    /// radio with the assignments `set`; empty: it is in range, or the trace has no receptions.
+    /// @throws InputError
+    std::string hears_farther(const std::vector<std::string>& set) const;
 
   private:
     void add_robots(Network& network, const Scenario& scenario) const;

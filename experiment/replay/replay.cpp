@@ -9,17 +9,17 @@
 #include "experiment/warmup.hpp"
 #include "files/input_file.hpp"
 #include "files/text_source.hpp"
+#include "scenario/scenario_file.hpp"
 #include "sim/error.hpp"
 #include "traces/ns2/ns2_trace.hpp"
+#include "traces/recorded/record_match.hpp"
 #include "traces/recorded/record_text.hpp"
-#include "traces/recorded/recorded_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <string_view>
 
 namespace rovernet {
 namespace {
@@ -35,7 +35,7 @@ std::string_view first_line(std::string_view& text) {
 Verification::Difference difference_of(std::string_view recorded, std::string_view now) {
     for (;;) {
         const std::string_view a = first_line(recorded), b = first_line(now);
-        if (a != b) return {std::string(a), std::string(b)};
+        if (a != b || (recorded.empty() && now.empty())) return {std::string(a), std::string(b)};
     }
 }
 
@@ -48,28 +48,30 @@ class Comparison {
     KindMask kinds() const { return links_ ? kind_all : kind_all & ~kind_links; }
     void on(const Record& record, const RecordContext& context) {
         if (result_.difference || has_ended_) return;
-        now_.clear();
-        append_text(record, context, now_);
-        compare(trace_.next());
+        compare(trace_.next(), &record, &context);
     }
     void finish() {
         if (result_.difference || has_ended_) return;
-        now_.clear();
-        const Record* more = trace_.next();
-        if (more) compare(more);
+        if (const Record* more = trace_.next()) compare(more, nullptr, nullptr);
     }
 
   private:
-    void compare(const Record* record) {
-        // A part is compared as far as it goes.
-        has_ended_ = !record && !trace_.damage().empty();
+    /// Compares a record of the trace with one of the run; null: there is no more.
+    void compare(const Record* recorded, const Record* now, const RecordContext* context) {
+        // An incomplete trace is compared up to its end.
+        has_ended_ = !recorded && !trace_.damage().empty();
         if (has_ended_) return;
-        recorded_.clear();
-        if (record) append_text(*record, trace_.context(), recorded_);
-        if (record && recorded_ == now_) {
+        if (recorded && now && are_same(*recorded, trace_.context(), *now, *context)) {
+            ++result_.same;
+            return;
+        }
+        std::string told, found;
+        if (recorded) append_text(*recorded, trace_.context(), told);
+        if (now) append_text(*now, *context, found);
+        if (recorded && told == found) {
             ++result_.same;
         } else {
-            result_.difference = difference_of(recorded_, now_);
+            result_.difference = difference_of(told, found);
         }
     }
 
@@ -77,7 +79,6 @@ class Comparison {
     bool links_;
     Verification& result_;
     bool has_ended_ = false;
-    std::string recorded_, now_;
 };
 
 /// Compares the ns-2 text of a run with that of a trace, until they differ.
@@ -167,17 +168,18 @@ Verification verify_replay(const std::string& path, const std::function<bool(dou
     return result;
 }
 
+Metrics metrics_of(const RecordedRun& run, const std::string& path) {
+    if (run.scenario.empty()) return Metrics();
+    const ReplayedScenario replayed(run, path);
+    const Scenario scenario = replayed.with({});
+    check_robots(run, scenario, path);
+    const NetworkSettings settings = network_settings(scenario);
+    return Metrics(start_of_run + warmup_of(scenario, settings), settings.metric_parts);
+}
+
 MetricValues recorded_metrics(const std::string& path, std::vector<std::string>& damage) {
     RecordedReader trace(path);
-    auto metrics = std::make_shared<Metrics>();
-    if (!trace.run().scenario.empty()) {
-        const ReplayedScenario replayed(trace.run(), path);
-        const Scenario scenario = replayed.with({});
-        check_robots(trace.run(), scenario, path);
-        const NetworkSettings settings = network_settings(scenario);
-        metrics = std::make_shared<Metrics>(start_of_run + warmup_of(scenario, settings),
-                                            settings.metric_parts);
-    }
+    const auto metrics = std::make_shared<Metrics>(metrics_of(trace.run(), path));
     trace.read(Sink(metrics));
     damage = trace.damage();
     return metrics->values();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "traces/metrics.hpp"
+#include "traces/recorded/recorded_reader.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -12,32 +13,39 @@
 
 namespace rovernet {
 
-/// What came out when the scenario of a trace was run again.
+/// Result of running the scenario of a trace again and comparing its records with the trace.
 struct Verification {
-    /// First line that differs: of a recorded trace as append_text() writes it; empty: the other
-    /// had no more.
+    /// First record that differs, recorded and as computed now: an ns-2 line, or the text of
+    /// append_text(); empty: that run has ended before.
     struct Difference {
         std::string recorded, now;
     };
-    /// Records, or lines of an ns-2 trace, that were the same, up to the first difference.
+    /// Number of equal records (or lines of an ns-2 trace) before the first difference.
     std::uint64_t same = 0;
-    std::string_view unit = "records";  ///< "records" or "lines"
+    std::string_view unit = "records";  ///< unit of `same`: "records" or "lines"
     std::optional<Difference> difference;
-    /// Version that recorded it (empty: the trace does not say), and this one.
+    /// Version of rovernet that recorded the trace (empty: unknown), and the running version.
     std::string recorded_by, version;
-    /// What is broken or missing in the trace.
+    /// Broken or missing parts of the trace.
     std::vector<std::string> damage;
+
+    /// Whether the whole run is reproduced: nothing differs, and no part of the trace is missing.
+    bool is_identical() const { return !difference && damage.empty(); }
 };
 
-/// Runs the scenario of a trace again, and compares: every record of a recorded trace, whose
-/// scenario is inside; every line of an ns-2 trace that rovernet wrote, whose scenario is the
-/// `scenario.toml` beside it.
-/// @param progress  told the share that is done, 0 ... 1; false stops it
+/// Runs the scenario of a trace again, and compares every record (recorded trace, which includes
+/// its scenario) or every line (ns-2 trace of rovernet, whose scenario is the file `scenario.toml`
+/// beside it).
+/// @param progress  called with the finished share, 0 ... 1; returning false stops the run
 /// @throws InputError, RunError, Interrupted
 Verification verify_replay(const std::string& path, const std::function<bool(double)>& progress);
 
-/// Metrics of a recorded trace: those of the run that wrote it, without its warm-up.
-/// @param damage  gets what is broken or missing in the trace
+/// Metrics sink for the records of a trace, set up as in the recorded run: the warm-up is excluded.
+/// @throws InputError if the scenario of the trace cannot be loaded
+Metrics metrics_of(const RecordedRun& run, const std::string& path);
+
+/// Metrics of a recorded trace, without the warm-up: equal to the metrics of the run that wrote it.
+/// @param damage  receives sentences about broken or missing parts of the trace
 /// @throws InputError
 MetricValues recorded_metrics(const std::string& path, std::vector<std::string>& damage);
 

@@ -10,8 +10,8 @@
 
 namespace rovernet {
 
-/// Protocol that brings messages to everyone, used for messages to one robot: everyone gets them
-/// and forwards them, and they are delivered at their destination alone.
+/// Adapter that lets a flooding protocol carry messages to one robot: all robots receive and
+/// forward them, and only the destination delivers them.
 /// @tparam wants_level  RouterTraits::wants_levels of the protocol
 template <bool wants_level>
 class ToDestination {
@@ -21,7 +21,8 @@ class ToDestination {
 
     explicit ToDestination(Router protocol) : protocol_(std::move(protocol)) {}
 
-    Hops initial_ttl() const { return protocol_.initial_ttl(); }
+    Hops initial_ttl() const { return protocol_.initial_ttl(Message{}); }
+    Hops initial_ttl(const Message& message) const { return protocol_.initial_ttl(message); }
     void send(LinkLayer& link, NodeId node, MessageId message) {
         protocol_.send(link, node, message);
     }
@@ -47,7 +48,8 @@ class ToDestination {
     Router protocol_;
 };
 
-/// The protocol as one that also brings messages to one robot.
+/// Protocol that also carries messages to one robot: `protocol` itself if it can, or else wrapped
+/// in ToDestination.
 inline Router to_destinations(Router protocol) {
     if (protocol.traits().routes_unicasts) return protocol;
     const bool wants_levels = protocol.traits().wants_levels;

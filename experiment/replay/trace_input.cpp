@@ -3,6 +3,7 @@
 
 #include "scenario/document/toml.hpp"
 #include "scenario/document/value.hpp"
+#include "scenario/scenario.hpp"
 #include "traces/recorded/recorded_reader.hpp"
 
 #include <string_view>

@@ -11,18 +11,18 @@
 
 namespace rovernet {
 
-/// A trace of either kind as ns-2 text: a file that has it, or a recorded trace, of which the text
-/// is made while it is read. What reads ns-2 traces reads both.
+/// Trace of either kind as ns-2 text: an ns-2 trace file, or a recorded trace, whose text is
+/// generated during reading. Every reader of ns-2 traces can read both.
 ///
 ///     TraceInput trace("runs/rescue-s7/trace.mcap", {.format = Ns2Format::old_format});
 ///     const TraceStats stats = ns2_stats(trace.text());
 ///     for (const std::string& what : trace.damage()) notice(what);
 class TraceInput {
   public:
-    /// Form of the lines that are made of a recorded trace.
+    /// Format of the lines that are generated from a recorded trace.
     struct Lines {
         Ns2Format format = Ns2Format::new_format;
-        /// Whether lines of the MAC are made; if not given, as `[trace] mac` of its scenario says.
+        /// Whether MAC lines are generated; none: as [trace] mac of the scenario in the trace.
         std::optional<MacTrace> mac = {};
     };
 
@@ -30,11 +30,11 @@ class TraceInput {
     TraceInput(const std::string& path, Lines lines);
 
     bool is_recorded() const { return recorded_ != nullptr; }
-    /// The text, to be read once. @throws InputError if the file cannot be read
+    /// Text of the trace; can be read once. @throws InputError if the file cannot be read
     Ns2Source text() const;
-    /// Names of the robots by their numbers; of a recorded trace only.
+    /// Names of the robots, by number; recorded traces only.
     const std::vector<std::string>& robots() const;
-    /// What is broken or missing in what was read so far of a recorded trace; empty: nothing.
+    /// Broken or missing parts of a recorded trace, as far as it was read; empty: none.
     const std::vector<std::string>& damage() const;
 
   private:
@@ -44,8 +44,8 @@ class TraceInput {
     std::shared_ptr<Recorded> recorded_;  // null: a file of ns-2 text
 };
 
-/// Writes the ns-2 trace that the run of a recorded trace would have written, to the byte.
-/// @return what is broken or missing in the recorded trace
+/// Writes the ns-2 trace of a recorded run, byte for byte as the run would have written it.
+/// @return broken or missing parts of the recorded trace
 /// @throws InputError, RunError
 std::vector<std::string> render_recorded(const std::string& in, const std::string& out,
                                          TraceInput::Lines lines);

@@ -8,16 +8,15 @@
 
 namespace rovernet {
 
-/// What becomes of the lines of a trace that is played.
+/// Callbacks of play_trace().
 struct TracePlay {
-    /// Called with each event when its time has come.
+    /// Called with each event of the trace, when its time has come.
     std::function<void(std::string_view line)> show;
-    /// Asked at least every 50 ms while it waits; false stops the play.
+    /// Called at least every 50 ms during waits; returning false stops the play.
     std::function<bool()> goes_on;
 };
 
-/// Plays a trace: shows its events one after the other, paced by the clock. Time begins with the
-/// first event.
+/// Plays a trace: shows its events in turn, paced by the clock, from the first event on.
 /// @param speed  > 0: seconds of the trace in a second of real time
 /// @return false if it was stopped
 /// @throws InputError as Ns2File

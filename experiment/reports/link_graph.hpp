@@ -8,14 +8,15 @@
 
 namespace rovernet {
 
-/// Shape of a network: how links that work both ways join robots.
+/// Topology of a network: the graph of bidirectional links.
 struct LinkGraph {
-    std::vector<std::size_t> parts;  ///< part of each robot, from 0: robots of a part are joined
-    std::vector<std::size_t> cut;    ///< robots without which a part would fall apart, in order
-    int diameter = 0;  ///< longest of the shortest ways between robots that are joined [hops]
+    std::vector<std::size_t> parts;  ///< number of each robot's connected component, from 0
+    std::vector<std::size_t> cut;  ///< articulation points: robots without which a component would
+                                   ///< split, in ascending order
+    int diameter = 0;              ///< longest shortest path between connected robots [hops]
 };
 
-/// @param links  pairs of robots, each once
+/// Computes the topology of `robots` robots. @param links  pairs of linked robots, each once
 LinkGraph link_graph(std::size_t robots,
                      const std::vector<std::pair<std::uint32_t, std::uint32_t>>& links);
 

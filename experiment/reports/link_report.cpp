@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "experiment/reports/link_report.hpp"
+
 #include "experiment/build.hpp"
-#include "experiment/run.hpp"
+#include "experiment/reports/network_at.hpp"
+#include "experiment/reports/range_of_model.hpp"
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
 #include "models/medium/shadowed.hpp"
@@ -8,57 +11,20 @@
 #include "models/propagation/itu_indoor.hpp"
 #include "models/propagation/multi_wall.hpp"
 #include "models/propagation/rays.hpp"
+#include "scenario/scenario.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 
 namespace rovernet {
 
-NodeId robot_named(const Network& network, const std::string& name) {
-    if (const auto node = network.find(name)) return *node;
-    constexpr std::size_t most_listed = 20, most_compared = 1000;
-    std::vector<std::string> names;
-    for (std::uint32_t i = 0; i < network.size() && i < most_compared; ++i) {
-        names.push_back(network.name(NodeId{i}));
-    }
-    const std::string near = did_you_mean(name, names);
-    names.resize(std::min(names.size(), most_listed));
-    throw std::invalid_argument(fmt::format(
-        "there is no robot \"{}\"; expected one of {}{}{}{}", name, fmt::join(names, ", "),
-        network.size() > most_listed ? " ..." : "", near.empty() ? "" : "; ", near));
-}
-
 namespace {
 
-bool somebody_reacts(const Scenario& scenario) {
-    return std::any_of(scenario.robots.begin(), scenario.robots.end(),
-                       [](const RobotTable& robot) { return !robot.reactions.empty(); });
-}
-
-}  // namespace
-
-Scenario without_idle_traffic(const Scenario& scenario) {
-    Scenario quiet = scenario;
-    if (!somebody_reacts(scenario)) quiet.traffic.clear();
-    return quiet;
-}
-
-std::unique_ptr<Network> network_at(const Scenario& scenario, Time at, const TellTime& tell) {
-    const Scenario played = without_idle_traffic(scenario);
-    auto network = std::make_unique<Network>(network_settings(played));
-    populate(*network, played);
-    play_until(*network, at, tell);
-    return network;
-}
-
-namespace {
-
-/// These robots and all whom they go by, one after the other.
+/// These robots and, transitively, the leaders that they follow.
 std::set<std::string> with_leaders(const Scenario& scenario, std::set<std::string> robots) {
     std::map<std::string, std::string> leaders;
     for (const RobotTable& table : scenario.robots) {
@@ -76,8 +42,8 @@ std::set<std::string> with_leaders(const Scenario& scenario, std::set<std::strin
     return robots;
 }
 
-/// A movement depends on its robot's own draws and on those that it goes by: the others may stay
-/// where they are, unless a robot reacts to something.
+/// A movement depends only on the robot's random draws and on its leaders. Other robots need not
+/// move, unless a robot reacts to events.
 void keep_others_still(Network& network, const Scenario& scenario,
                        const std::set<std::string>& asked_for) {
     if (somebody_reacts(scenario)) return;
@@ -90,20 +56,15 @@ void keep_others_still(Network& network, const Scenario& scenario,
 /// Loss [dB] of a link by another model or in another scene than its own.
 double loss_by(const Propagation& model, const Scene& scene, const Network& network, NodeId from,
                NodeId to, Vec3 here, Vec3 there, std::optional<Meters> floor_height = {}) {
-    const Medium& medium = network.medium();
-    const std::uint64_t to_key = medium.stations().key(to);
-    const LinkBatch batch{.frequency = medium.stations().radio(from).frequency,
-                          .from = here,
-                          .to = {&there, 1},
-                          .from_key = medium.stations().key(from),
-                          .to_keys = {&to_key, 1},
-                          .scene = &scene,
-                          .floor_height = floor_height.value_or(network.settings().floor_height),
-                          .seed = network.settings().seed,
-                          .replication = network.settings().replication};
-    double db = 0;
-    model.loss(batch, Db{std::numeric_limits<double>::infinity()}, {&db, 1});
-    return db;
+    const Stations& stations = network.medium().stations();
+    const LinkBatch link{.frequency = stations.radio(from).frequency,
+                         .from = here,
+                         .from_key = stations.key(from),
+                         .scene = &scene,
+                         .floor_height = floor_height.value_or(network.settings().floor_height),
+                         .seed = network.settings().seed,
+                         .replication = network.settings().replication};
+    return model.loss_to(there, link, stations.key(to));
 }
 
 /// The model of what a robot sends, without shadowing.
@@ -113,8 +74,8 @@ const Propagation& base_model(const Network& network, NodeId from) {
     return shadowed ? shadowed->base() : used;
 }
 
-/// What each wall of a link takes [dB]. A material with a loss of its own takes that; what the
-/// propagation model takes for the rest is in proportion to their lengths.
+/// Loss of each wall of a link [dB]. A material with a given loss has that loss; the propagation
+/// model's loss for the other walls is divided in proportion to their lengths.
 std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, const LinkReport& link,
                             Vec3 here, Vec3 there) {
     const double without_walls =
@@ -141,10 +102,10 @@ std::vector<Db> wall_losses(const Network& network, NodeId from, NodeId to, cons
     return losses;
 }
 
-/// Floors between the antennas of a link, and what they take.
+/// Ceilings and floors between the antennas of a link, and what they take.
 struct Floors {
     std::size_t ceilings = 0, number = 0;
-    Db loss{0};
+    Db ceiling_loss{0}, floor_loss{0};
 };
 
 Floors floors_between(const Network& network, NodeId from, NodeId to, Vec3 here, Vec3 there) {
@@ -152,24 +113,25 @@ Floors floors_between(const Network& network, NodeId from, NodeId to, Vec3 here,
     const Propagation& model = base_model(network, from);
     const ItuIndoor* itu = model.as<ItuIndoor>();
     Floors out{.ceilings = scene.storeys().ceilings_between(here.z, there.z).size()};
-    const LinkBatch batch{.frequency = {},
+    const LinkBatch batch{.frequency = network.medium().stations().radio(from).frequency,
                           .from = here,
                           .to = {&there, 1},
-                          .to_keys = {},
+                          .scene = &scene,
                           .floor_height = network.settings().floor_height};
-    out.number = itu && itu->floors ? static_cast<std::size_t>(*itu->floors)
-                 : scene.storeys().size() > 1
-                     ? out.ceilings
-                     : static_cast<std::size_t>(FloorCounter(batch).between(0).of_model);
-    if (out.number == 0) return out;
+    const FloorsBetween counted = FloorCounter(batch).between(0);
+    out.number = static_cast<std::size_t>(itu && itu->floors ? *itu->floors : counted.of_model);
+    if (out.number == 0 && out.ceilings == 0) return out;
     Propagation without = model;
     if (itu) {
         ItuIndoor level = *itu;
         level.floors = 0;
         without = level;
     }
-    out.loss = {loss_by(model, scene.with_walls_of(Scene()), network, from, to, here, there) -
-                loss_by(without, Scene(), network, from, to, here, there, no_storeys)};
+    const Db all{loss_by(model, scene.with_walls_of(Scene()), network, from, to, here, there) -
+                 loss_by(without, Scene(), network, from, to, here, there, no_storeys)};
+    if (out.ceilings > 0) out.ceiling_loss = all;
+    // Ceilings with a loss of their own are no floors of the model.
+    if (out.number > 0) out.floor_loss = all - Db{counted.loss_db};
     return out;
 }
 
@@ -190,10 +152,14 @@ std::string why_down(const Network& network, NodeId from, NodeId to, const LinkR
         }
         return gate + fmt::format("essid \"{}\" and \"{}\"", a.essid, b.essid);
     }
+    if (link.range && link.distance_m > link.range->value) {
+        return fmt::format("{:.6g} m, beyond its range of {:.6g} m", link.distance_m,
+                           link.range->value);
+    }
     return "the received power is below the receiver's sensitivity";
 }
 
-/// What the model's parts take of a link's path loss: shadowing, walls, rays.
+/// Parts of a link's path loss: shadowing, walls, rays.
 void add_parts(LinkReport& report, const Network& network, NodeId from, NodeId to, Vec3 here,
                Vec3 there) {
     const Propagation& used = network.medium().stations().model(from);
@@ -208,7 +174,6 @@ void add_parts(LinkReport& report, const Network& network, NodeId from, NodeId t
         report.rays = rays->paths({.frequency = report.sender.frequency,
                                    .from = here,
                                    .to = {&there, 1},
-                                   .to_keys = {},
                                    .scene = &network.scene()});
     }
     if (model.shape() == LossShape::by_walls) {
@@ -237,9 +202,9 @@ LinkReport report_at(const Network& network, NodeId from, NodeId to, Time at) {
                       .wall_losses = {},
                       .wall_m = network.scene().wall_length(a, b),
                       .ceilings = floors.ceilings,
-                      .ceiling_loss = floors.ceilings > 0 ? floors.loss : Db{0},
+                      .ceiling_loss = floors.ceiling_loss,
                       .floors = floors.number,
-                      .floor_loss = floors.loss,
+                      .floor_loss = floors.floor_loss,
                       .sender = stations.radio(from),
                       .receiver = stations.radio(to),
                       .path_loss = links.path_loss(from, to, at, legs),
@@ -250,7 +215,8 @@ LinkReport report_at(const Network& network, NodeId from, NodeId to, Time at) {
                       .margin = links.margin(from, to, at, legs),
                       .up = links.is_up(from, to, at, legs),
                       .why_down = {},
-                      .rays = {}};
+                      .rays = {},
+                      .range = range_of(stations.model(from))};
     if (!report.up) report.why_down = why_down(network, from, to, report);
     add_parts(report, network, from, to, a, b);
     return report;

@@ -2,6 +2,8 @@
 #include "experiment/reports/link_table.hpp"
 
 #include "experiment/build.hpp"
+#include "experiment/reports/network_at.hpp"
+#include "experiment/reports/range_of_model.hpp"
 #include "experiment/run.hpp"
 #include "models/medium/medium.hpp"
 
@@ -149,7 +151,15 @@ void for_each_link_table(const Network& network, const std::optional<std::string
         if (only && node != *only) continue;
         LinkTable table{all[i], {}};
         for (const Neighbour& n : network.links(node, network.now())) {
-            table.rows.push_back({all[n.node.index()], n.quality, n.level, n.noise});
+            LinkTable::Row& row = table.rows.emplace_back(
+                LinkTable::Row{all[n.node.index()], n.quality, n.level, n.noise});
+            const Stations& stations = network.medium().stations();
+            row.range = range_of(stations.model(n.node));
+            if (!row.range) continue;
+            const auto antenna = [&](NodeId of) {
+                return stations.pose(of, network.now(), network.legs()).antenna;
+            };
+            row.distance = Meters{distance(antenna(n.node), antenna(node))};
         }
         visit(table);
     }
@@ -161,8 +171,12 @@ Table link_table_document(const LinkTable& table) {
     for (const LinkTable::Row& row : table.rows) {
         Table link = device_document(row.neighbour);
         link.set("quality", row.quality);
-        link.set("level_dbm", row.level.value);
+        link.set("level_dbm", row.range ? Value() : Value(row.level.value));
         link.set("noise_dbm", row.noise.value);
+        if (row.range) {
+            link.set("distance_m", row.distance->value);
+            link.set("range_m", row.range->value);
+        }
         links.emplace_back(std::move(link));
     }
     robot.set("links", std::move(links));

@@ -3,8 +3,8 @@
 
 #include "experiment/playing.hpp"
 #include "network/network.hpp"
-#include "scenario/scenario.hpp"
 #include "scenario/document/value.hpp"
+#include "scenario/scenario.hpp"
 
 #include <functional>
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// Description of a wireless device, as it says it of itself.
+/// Description of a wireless device: addresses, frequency and mode.
 struct Device {
     std::string robot, ip, mac, essid;
     Hertz frequency;
@@ -22,32 +22,35 @@ struct Device {
     bool encryption;
 };
 
-/// A device's table of those that it hears.
+/// Link table of a robot's wireless device: the neighbours that it receives.
 struct LinkTable {
     struct Row {
         Device neighbour;
-        int quality;  ///< 0 ... 100, see link_quality
-        Dbm level;    ///< received power of the neighbour's signal here
-        Dbm noise;    ///< here
+        int quality;  ///< link quality 0 ... 100, see link_quality
+        Dbm level;    ///< received power of the neighbour's signal at this device
+        Dbm noise;    ///< power of the noise at this device
+        /// Range of the neighbour's propagation model, and distance of the neighbour, if that model
+        /// has no levels (disc).
+        std::optional<Meters> range = {}, distance = {};
     };
     Device device;
-    std::vector<Row> rows;  ///< rows in the order of the robots
+    std::vector<Row> rows;  ///< one row for each neighbour, in the order of the robots
 };
 
-/// Devices of all robots. Addresses that were not given are made: ip 10.0.0.1 for the first robot
-/// and so on, mac 02:00:00:00:00:01; a number that a robot has been given is passed over.
+/// Wireless devices of all robots. Missing addresses are generated: ip 10.0.0.1 and mac
+/// 02:00:00:00:00:01 for the first robot, and so on, skipping addresses given by the scenario.
 std::vector<Device> devices(const Network& network);
-/// Devices of the stations of a medium, which have these names.
+/// Wireless devices of the stations of a Medium. @param names  names of the stations
 std::vector<Device> devices(const Medium& medium, const std::vector<std::string>& names);
-/// Devices of the robots that a scenario makes, in their order, before it makes them.
+/// Devices of a scenario's robots, in their order, without building a network.
 std::vector<Device> devices(const Scenario& scenario);
 
-/// Visits the tables of all robots now, or of `robot` only, one after the other: the memory is that
-/// of one table, n rows for n robots.
+/// Visits the current link table of every robot, or of `robot` only, one after the other. Memory:
+/// one table, with at most one row for each robot.
 void for_each_link_table(const Network& network, const std::optional<std::string>& robot,
                          const std::function<void(const LinkTable&)>& visit);
 
-/// A table as data: {"robot", ..., "links": [...]}.
+/// Link table as a document: {"robot", ..., "links": [...]}.
 Table link_table_document(const LinkTable& table);
 
 /// Writes every link change of the scenario's run as CSV: time_s,from,to,event.

@@ -3,12 +3,12 @@
 
 #include "models/variation/fading.hpp"
 #include "models/variation/shadowing.hpp"
-#include "scenario/scenario.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/tables/read_value.hpp"
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -109,23 +109,15 @@ std::vector<LossRow> loss_table(const std::string& model,
     }
 
     const Scene scene = scene_with_wall(wall);
-    const std::uint64_t key = 1;
     std::vector<LossRow> rows;
     for (const Meters d : distances) {
         if (wall > d) {
             throw InputError(option, fmt::format("{} m of wall do not fit into a way of {} m",
                                                  wall.value, d.value));
         }
-        const Vec3 to{d.value, 0, heights.to.value};
-        const LinkBatch link{.frequency = frequency,
-                             .from = {0, 0, heights.from.value},
-                             .to = {&to, 1},
-                             .from_key = 0,
-                             .to_keys = {&key, 1},
-                             .scene = &scene};
-        double loss = 0;
-        propagation.loss(link, Db{std::numeric_limits<double>::infinity()}, {&loss, 1});
-        rows.push_back({d, {loss}});
+        const LinkBatch link{
+            .frequency = frequency, .from = {0, 0, heights.from.value}, .scene = &scene};
+        rows.push_back({d, {propagation.loss_to({d.value, 0, heights.to.value}, link, 1)}});
     }
     return rows;
 }

@@ -23,22 +23,23 @@ struct LossAntennas {
 /// Median path loss (shadowing off) of a listed model over distance.
 /// @param parameters  "name=value" each; parameters that are not given take the model's defaults
 /// @param distances   [m] horizontal
-/// @param wall        [m] length of the way that lies in walls
-/// @throws InputError that names the wrong option in place of a file
+/// @param wall        [m] length of the path inside walls
+/// @throws InputError with the name of the wrong option instead of a file
 std::vector<LossRow> loss_table(const std::string& model,
                                 const std::vector<std::string>& parameters, Hertz frequency,
                                 const std::vector<Meters>& distances, LossAntennas heights,
                                 Meters wall);
 
-/// A quantity from the command line: its text, or a bare number in SI units.
-/// @throws InputError that names `option` in place of a file
+/// Quantity from the command line: text with a unit, or a bare number in SI units.
+/// @throws InputError with `option` instead of a file
 Hertz option_frequency(const std::string& option, const std::string& text);
 Meters option_length(const std::string& option, const std::string& text);
 Duration option_time(const std::string& option, const std::string& text);
 
-/// List of the models: name, and per parameter its name, default, range and meaning.
+/// List of propagation models: name, and name, default, range and meaning of each parameter.
 Array list_models();
-/// List of what varies the loss of any model: shadowing and fading, as list_models().
+/// List of shadowing and fading models, which vary the loss of any propagation model; in the form
+/// of list_models().
 Array list_variations();
 
 }  // namespace rovernet

@@ -4,11 +4,15 @@
 #include "experiment/reports/link_graph.hpp"
 #include "experiment/reports/link_table.hpp"
 #include "models/medium/medium.hpp"
+#include "scene/doors.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#include <variant>
 
 namespace rovernet {
 namespace {
@@ -148,6 +152,66 @@ Table scene_report(const Scene& scene, bool walls) {
     for (const WallRectangle& wall : rectangles) list.emplace_back(wall_document(wall, scene));
     table.set("walls", std::move(list));
     return table;
+}
+
+void append_doors_and_stairs(Table& report, const Scenario& scenario, const Scene& scene, Time at) {
+    Array doors, stairs;
+    const std::vector<Door> placed = doors_of(scenario.scene);
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const DoorTable& table = scenario.scene.doors[i];
+        Table door;
+        door.set("name", table.name.value_or(fmt::format("{}", i + 1)));
+        door.set("from", point(placed[i].from));
+        door.set("to", point(placed[i].to));
+        if (scene.storeys().size() > 1) door.set("floor_m", placed[i].from.z);
+        door.set("thickness_m", placed[i].thickness.value);
+        door.set("material", table.material.value_or(scene.materials().front().name));
+        const auto times = [](const std::vector<Duration>& all) {
+            Array list;
+            for (const Duration t : all) list.emplace_back(seconds(t));
+            return list;
+        };
+        door.set("closes_s", times(placed[i].closes));
+        door.set("opens_s", times(placed[i].opens));
+        door.set("closed", placed[i].is_closed(at));
+        doors.emplace_back(std::move(door));
+    }
+    for (const Stairs& each : stairs_of(scenario, scene.storeys())) {
+        const auto place = [](Vec3 p) {
+            Table table = point(p);
+            table.set("z_m", p.z);
+            return table;
+        };
+        Table table;
+        table.set("foot", place(each.foot));
+        table.set("head", place(each.head));
+        stairs.emplace_back(std::move(table));
+    }
+    if (!doors.empty()) report.set("doors", std::move(doors));
+    if (!stairs.empty()) report.set("stairs", std::move(stairs));
+}
+
+std::vector<Stairs> stairs_of(const Scenario& scenario, const Storeys& storeys) {
+    std::vector<Stairs> all;
+    const auto take = [&](Vec3 a, Vec3 b) {
+        if (storeys.number_at(a.z) == storeys.number_at(b.z)) return;
+        const Stairs stairs = a.z < b.z ? Stairs{a, b} : Stairs{b, a};
+        const auto is_same = [&](const Stairs& each) {
+            return each.foot == stairs.foot && each.head == stairs.head;
+        };
+        if (std::none_of(all.begin(), all.end(), is_same)) all.push_back(stairs);
+    };
+    for (const RobotTable& robot : scenario.robots) {
+        const auto look = [&](const auto& model) {
+            if constexpr (requires { model.path; }) {
+                if (robot.at && !model.path.empty()) take(*robot.at, model.path.front());
+                for (std::size_t i = 1; i < model.path.size(); ++i)
+                    take(model.path[i - 1], model.path[i]);
+            }
+        };
+        std::visit(look, robot.move.model);
+    }
+    return all;
 }
 
 void append_robots(Table& report, const Network& network) {

@@ -3,19 +3,30 @@
 
 #include "network/network.hpp"
 #include "scenario/document/value.hpp"
+#include "scenario/scenario.hpp"
 #include "scene/scene.hpp"
 
-#include <string>
 #include <vector>
 
 namespace rovernet {
 
-/// A map: its size, walls and materials, and how much of it is free.
-/// @param walls  true: an entry for each rectangle of wall; false: their number only
+/// Report of a map: size, walls, materials, and free area.
+/// @param walls  true: an entry for each wall rectangle; false: only their number
 Table scene_report(const Scene& scene, bool walls);
 
-/// Appends the robots of a network now, their radios, and how links join them: connected parts,
-/// robots without which a part would fall apart, and the diameter in hops.
+/// Appends the doors of a scene, open or closed at time `at`, and the stairs that robots of the
+/// scenario use.
+void append_doors_and_stairs(Table& report, const Scenario& scenario, const Scene& scene, Time at);
+
+/// Stairs between two storeys.
+struct Stairs {
+    Vec3 foot, head;  ///< lower and upper end [m]
+};
+/// Stairs in the paths of a scenario's robots, each once.
+std::vector<Stairs> stairs_of(const Scenario& scenario, const Storeys& storeys);
+
+/// Appends the current robots of a network, their radios, and the topology: connected components,
+/// articulation points (robots without which a component would split), and the diameter in hops.
 void append_robots(Table& report, const Network& network);
 
 }  // namespace rovernet

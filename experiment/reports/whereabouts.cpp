@@ -2,6 +2,7 @@
 #include "experiment/reports/whereabouts.hpp"
 
 #include "experiment/build.hpp"
+#include "experiment/reports/network_at.hpp"
 #include "experiment/run.hpp"
 
 #include <fmt/format.h>

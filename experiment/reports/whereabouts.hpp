@@ -17,25 +17,25 @@ namespace rovernet {
 struct Whereabouts {
     struct Row {
         std::string name;
-        Vec3 position;   ///< [m]
-        Vec3 velocity;   ///< [m/s]
-        double heading;  ///< [rad], -pi ... pi
+        Vec3 position;   ///< position [m]
+        Vec3 velocity;   ///< velocity [m/s]
+        double heading;  ///< heading [rad], -pi ... pi
         Presence presence;
     };
     Time time;
     std::vector<Row> robots;
 };
 
-/// Runs the scenario through all these times; the answers are in their order.
+/// Runs the scenario and reports positions at all `times`; results are in the order of `times`.
 std::vector<Whereabouts> whereabouts(const Scenario& scenario, const std::vector<Time>& times,
                                      const TellTime& tell = {});
 
-/// Legs of every robot in the scenario's run.
+/// Runs the scenario and returns the pieces of movement (legs) of every robot.
 std::vector<Track> tracks(const Scenario& scenario, const TellTime& tell = {});
 
-/// The scenario's motion as a movement file: NAME.movements (and NAME.params beside it) for
+/// Movements of a scenario's robots as movement files: NAME.movements and NAME.params for
 /// BonnMotion, NAME.tcl or NAME.ns_movements for ns-2.
-/// @throws std::invalid_argument for another ending
+/// @throws std::invalid_argument for any other ending of `path`
 std::vector<OutputFile> movement_files(const Scenario& scenario, const std::string& path,
                                        const TellTime& tell = {});
 

@@ -18,11 +18,11 @@
 #include <unistd.h>
 #include <utility>
 
-// What everything that listens on sockets (Boost.Asio) does the same way.
+// Accept loop and socket options shared by all listeners (Boost.Asio).
 
 namespace rovernet {
 
-/// Listens on an address of this machine. @throws RunError if it is in use
+/// Opens a TCP listener on an address of this machine. @throws RunError if the address is in use
 inline boost::asio::ip::tcp::acceptor listen_on(boost::asio::io_context& io,
                                                 const Address& address) {
     namespace asio = boost::asio;
@@ -33,8 +33,10 @@ inline boost::asio::ip::tcp::acceptor listen_on(boost::asio::io_context& io,
     }
 }
 
-/// Listens on a Unix socket, for this user alone; one that nobody listens on is replaced.
-/// @throws RunError if something else is there; std::invalid_argument for an overlong path
+/// Opens a listener on a Unix socket, accessible to this user only. A stale socket file is
+/// replaced.
+/// @throws RunError if the path exists and is in use or no socket; std::invalid_argument for an
+/// overlong path
 inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio::io_context& io,
                                                                     const std::string& path) {
     using boost::asio::local::stream_protocol;
@@ -62,8 +64,8 @@ inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio:
     }
 }
 
-/// Has a connection ended whose client's machine does not answer any more: it is asked after 30 s
-/// without a word, three times within 30 s.
+/// Enables TCP keep-alive: after 30 s of silence the peer is probed three times within 30 s, and
+/// without a reply the connection is closed.
 inline void keep_alive(int socket) {
     const int on = 1, silence = 30, interval = 10, times = 3;  // [s]
     setsockopt(socket, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
@@ -72,14 +74,14 @@ inline void keep_alive(int socket) {
     setsockopt(socket, IPPROTO_TCP, TCP_KEEPCNT, &times, sizeof times);
 }
 
-/// Has what was received last acknowledged at once. A client that writes a command and a request,
-/// and has not switched off Nagle's algorithm, would wait 40 ms for that in each round.
+/// Acknowledges the last received data at once (TCP_QUICKACK). Otherwise a client that uses Nagle's
+/// algorithm and writes a command and a request would wait 40 ms in each round.
 inline void acknowledge_at_once(int socket) {
     const int on = 1;
     setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
 }
 
-/// Gives each connection that comes in to `take`, as long as the acceptor is there.
+/// Accepts connections as long as the acceptor exists, and passes each to `take`.
 template <class Acceptor, class Take>
 void accept_all(Acceptor& acceptor, Take take) {
     namespace asio = boost::asio;
@@ -89,7 +91,7 @@ void accept_all(Acceptor& acceptor, Take take) {
             take(std::move(socket));
             return accept_all(acceptor, take);
         }
-        // No descriptor is free, say: that passes.
+        // A temporary error, such as too many open descriptors: try again later.
         constexpr auto again_after = std::chrono::milliseconds(100);
         auto timer = std::make_shared<asio::steady_timer>(acceptor.get_executor(), again_after);
         timer->async_wait(

@@ -26,7 +26,8 @@ std::string_view token_in(std::string_view target) {
     return {};
 }
 
-/// Compares texts in a time that tells nothing of where they differ.
+/// Compares texts in a time independent of the place of the first difference, against timing
+/// attacks.
 bool are_equal(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) return false;
     unsigned difference = 0;
@@ -44,7 +45,7 @@ Admission::Admission(Address address, std::string token)
 std::string Admission::refusal(const WebRequest& request) const {
     const bool knows = !token_.empty() && are_equal(token_in(request.target), token_);
     if (!address_.is_loopback()) {
-        return knows ? "" : "expected ?token=, as this server told it when it started";
+        return knows ? "" : "expected ?token=, as this server printed it at its start";
     }
     const std::array<std::string, 4> names = {
         address_.text(), fmt::format("127.0.0.1:{}", address_.port),
@@ -55,7 +56,7 @@ std::string Admission::refusal(const WebRequest& request) const {
     if (!request.origin || *request.origin == fmt::format("http://{}", request.host)) return {};
     if (knows) return {};
     return fmt::format(
-        "Origin: found \"{}\"; a page needs the token that this server told when it started",
+        "Origin: found \"{}\"; a page needs the token that this server printed at its start",
         *request.origin);
 }
 

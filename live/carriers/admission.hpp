@@ -9,26 +9,28 @@
 
 namespace rovernet {
 
-/// What a program or a browser says when it asks for a WebSocket (RFC 6455, 4.1).
+/// Fields of an HTTP request that opens a WebSocket (RFC 6455, 4.1).
 struct WebRequest {
-    std::string_view target;                      ///< "/?token=0123..."
-    std::string_view host;                        ///< "127.0.0.1:9090"
-    std::optional<std::string_view> origin = {};  ///< whose page it is; a program says none
+    std::string_view target;  ///< request target: "/?token=0123..."
+    std::string_view host;    ///< header Host: "127.0.0.1:9090"
+    /// Header Origin: site of the web page; none from a program that is no browser.
+    std::optional<std::string_view> origin = {};
 };
 
-/// Rule of who may open a WebSocket at an address of this machine. At one that other machines
-/// reach, it is who knows the token, which was told to the person who started the server. At one
-/// that they do not reach, it is any program, and some pages:
+/// Access rule for WebSockets at an address of this machine. If other machines can reach the
+/// address, clients need the token, which is printed when the server starts. At a loopback address,
+/// any program may connect, and some web pages:
 ///
-/// A browser opens one for any page that it shows, also for one of another machine, and tells whose
-/// page it is. So a page has to be this server's own, or to know the token. A page from a file has
-/// the origin "null", as have others that hide theirs. The name in `Host` has to be this machine's:
-/// another machine's name that leads here would make its pages the server's own.
+/// A browser opens WebSockets for pages of any site, and sends the page's origin. So the page must
+/// come from this server, or know the token. A page from a file has the origin "null", like pages
+/// that hide their origin. The name in `Host` must belong to this machine. Otherwise a foreign name
+/// that resolves to this machine would make foreign pages look like pages of this server (DNS
+/// rebinding).
 class Admission {
   public:
     Admission(Address address, std::string token);
 
-    /// Reason why a request is refused; empty if it may come in.
+    /// Reason to reject a request that opens a WebSocket; empty if it is accepted.
     std::string refusal(const WebRequest& request) const;
 
   private:
@@ -36,8 +38,8 @@ class Admission {
     std::string token_;
 };
 
-/// 128 bits that nobody can guess, as 32 hexadecimal digits.
-/// @throws RunError if the system gives none
+/// Random token of 128 bits, unpredictable, as 32 hexadecimal digits.
+/// @throws RunError if the system provides no random numbers
 std::string random_token();
 
 }  // namespace rovernet

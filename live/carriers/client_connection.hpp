@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "live/carriers/listeners.hpp"
 #include "live/carriers/input_rate.hpp"
+#include "live/carriers/listeners.hpp"
 #include "live/carriers/request.hpp"
 
 #include <boost/asio.hpp>
@@ -15,27 +15,27 @@
 
 namespace rovernet {
 
-/// One program's connection to Doors.
-struct DoorLink {
+/// Connection of one external program to a live run.
+struct ClientConnection {
     using Clock = std::chrono::steady_clock;
     using Socket = boost::asio::generic::stream_protocol::socket;
 
-    DoorLink(Socket taken, Doors::Connection number, const Doors::Streams* users)
+    ClientConnection(Socket taken, Listeners::Connection number, const Listeners::Streams* users)
         : socket(std::move(taken)), id(number), streams(users) {}
 
-    /// Whether there is a whole line in the input.
+    /// Whether the bytes received so far contain a complete line.
     bool has_line() {
         const std::size_t end = input.find('\n', searched);
         searched = std::min(end, input.size());
         return end != std::string::npos;
     }
 
-    /// Whether its bytes so far cannot begin a JSON object.
-    bool begins_strangely() const {
+    /// Whether the bytes received so far cannot be the start of a JSON object.
+    bool cannot_be_json() const {
         const std::size_t first = input.find_first_not_of(" \t\r");
         return first != input.npos && input[first] != '{';
     }
-    RequestError strange_beginning() const {
+    RequestError not_json_error() const {
         constexpr std::size_t shown = 16;  // [bytes]
         std::string found = input.substr(0, std::min(input.find_first_of("\r\n"), shown));
         const auto is_odd = [](char c) { return c < ' ' || c > '~'; };
@@ -45,19 +45,19 @@ struct DoorLink {
     }
 
     Socket socket;
-    Doors::Connection id;
-    const Doors::Streams* streams;  ///< null: it carries lines
+    Listeners::Connection id;
+    const Listeners::Streams* streams;  ///< null: a connection that carries lines
     Clock::time_point since = Clock::now();
     InputRate rate = {};
-    Clock::time_point closes_at = Clock::time_point::max();  ///< whatever is not out yet
+    Clock::time_point closes_at = Clock::time_point::max();  ///< deadline for unsent data
     std::string input, sending, queued;
-    std::size_t messages = 0;  ///< that are queued
-    std::size_t searched = 0;  ///< of the input: there is no end of line
-    bool has_spoken = false;   ///< a whole line; in a stream: a whole message
+    std::size_t messages = 0;  ///< number of queued messages to the client
+    std::size_t searched = 0;  ///< number of bytes of `input` already searched for an end of line
+    bool has_sent = false;     ///< whether the client has sent a complete line or message
     bool is_reading = false, is_writing = false;
-    bool is_answered = true;  ///< its last line
-    bool has_ended = false;   ///< no more comes in
-    bool is_closing = false;  ///< once all is out
+    bool is_answered = true;  ///< whether the client's last line is answered
+    bool has_ended = false;   ///< whether the client has closed its sending side
+    bool is_closing = false;  ///< whether the connection is to be closed once all data is sent
 };
 
 }  // namespace rovernet

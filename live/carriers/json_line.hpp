@@ -10,8 +10,8 @@
 
 namespace rovernet {
 
-/// JSON that is put together piece by piece, where tables would take too long: a run may write
-/// thousands of lines a second. It keeps its memory.
+/// Buffer for writing one JSON line piece by piece, faster than with Tables: a run may write
+/// thousands of lines per second. The buffer reuses its memory.
 class JsonLine {
   public:
     void put(std::string_view text) {
@@ -20,8 +20,8 @@ class JsonLine {
         std::memcpy(text_.data() + before, text.data(), text.size());
     }
     void put(char letter) { text_.push_back(letter); }
-    /// Puts a number: the shortest text that is read as the same one. @return that text
-    /// @param number  finite
+    /// Appends a number as the shortest text that reads back as the same number. @return this text
+    /// @param number  must be finite
     template <class Number>
     std::string_view put_number(Number number) {
         constexpr std::size_t longest = 32;

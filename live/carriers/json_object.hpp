@@ -14,33 +14,33 @@
 #include <string_view>
 #include <vector>
 
-// Reading of JSON that a program outside has written, by simdjson: every fault is a RequestError
-// with its place. Only the readers of lines include it.
+// Parsing of JSON from external programs, by simdjson. Every error is a RequestError with its
+// place. Only request readers include this header.
 
 namespace rovernet {
 
-/// Parser of JSON documents, which keeps its memory.
+/// Parser of JSON documents that reuses its memory.
 class JsonParser {
   public:
-    /// Document that a text is. Good until the next one.
-    /// @throws RequestError "bad_json", "bad_utf8"; "too_deep" beyond 32 levels of brackets
+    /// Parses a text. The document is valid until the next call.
+    /// @throws RequestError "bad_json", "bad_utf8"; "too_deep" beyond 32 nesting levels
     simdjson::dom::element parse(std::string_view text);
 
   private:
     simdjson::dom::parser parser_;
-    std::vector<char> padded_;  // simdjson reads beyond the end
+    std::vector<char> padded_;  // copy with padding: simdjson reads beyond the end
 };
 
-/// Place in a JSON document: a chain of keys and indices, of which a text is made for errors only.
+/// Path of an element in a JSON document: keys and indices, converted to text only for errors.
 struct JsonPath {
     const JsonPath* above = nullptr;
     std::string_view key = {};
-    std::size_t index = 0;  ///< in a list, if there is no key
+    std::size_t index = 0;  ///< index in a list, if `key` is empty
 
     std::string text() const;
 };
 
-/// Element of a document and where it stands.
+/// Element of a JSON document, with its path for error messages.
 struct JsonElement {
     simdjson::dom::element value;
     JsonPath path;
@@ -48,10 +48,10 @@ struct JsonElement {
     [[noreturn]] void fail(const char* code, const std::string& message) const {
         throw RequestError(code, path.text(), message);
     }
-    /// Tells that another type was expected.
+    /// Reports that the element has a wrong type. @param what  expected type
     [[noreturn]] void expected(std::string_view what) const;
 
-    /// @throws RequestError "bad_type" for any other type, "out_of_range"
+    /// Element as a number. @throws RequestError "bad_type" for any other type, "out_of_range"
     double number(const Range& range) const;
     std::uint64_t whole_number(std::uint64_t lowest, std::uint64_t highest) const;
     bool truth() const;
@@ -60,16 +60,16 @@ struct JsonElement {
     simdjson::dom::array array() const;
 };
 
-/// Fault of a key that nobody knows, with what was meant.
+/// Throws the error of an unknown key of an object, with a suggestion.
 [[noreturn]] void fail_unknown_key(const JsonPath& object, std::string_view key,
                                    std::vector<std::string> known);
-/// Element as a reader finds it in an object, by key.
+/// Throws the error of a key that an object lacks.
 [[noreturn]] void fail_missing_key(const JsonPath& object, std::string_view key,
                                    std::string_view example);
 [[noreturn]] void fail_repeated_key(const JsonPath& object, std::string_view key);
 
-/// Values of an object under the keys that it may have, in their order.
-/// @throws RequestError "bad_type" if it is none, "unknown_key", "repeated_key"
+/// Values of a JSON object for the allowed keys, in the order of `keys`.
+/// @throws RequestError "bad_type" if the element is no object, "unknown_key", "repeated_key"
 template <std::size_t N>
 std::array<std::optional<JsonElement>, N> members(const JsonElement& element,
                                                   const std::array<std::string_view, N>& keys) {
@@ -84,7 +84,7 @@ std::array<std::optional<JsonElement>, N> members(const JsonElement& element,
     return found;
 }
 
-/// Element that has to be there. @throws RequestError "missing_key"
+/// Element of a required key of the object `in`. @throws RequestError "missing_key"
 inline const JsonElement& needed(const std::optional<JsonElement>& member, const JsonElement& in,
                                  std::string_view key, std::string_view example) {
     if (!member) fail_missing_key(in.path, key, example);

@@ -14,7 +14,7 @@
 namespace rovernet {
 namespace {
 
-// Notes that a handler of a signal may read at any time.
+// Registrations, readable by a signal handler at any time.
 constexpr std::size_t most_groups = 1024, most_files = 16;
 std::array<std::atomic<pid_t>, most_groups> noted_groups;
 std::array<std::atomic<const char*>, most_files> noted_files;
@@ -55,7 +55,8 @@ bool is_any_alive(std::span<const pid_t> leaders) {
 void end_groups(std::span<const pid_t> leaders) {
     constexpr int pause = 5;  // [ms]
     const int before = errno;
-    // A leader that has ended is a zombie until it is waited for: so long nobody gets its number.
+    // A leader that has ended stays a zombie until it is reaped, so that its process id is not
+    // reused.
     for (const pid_t each : leaders) kill(-each, SIGTERM);
     for (int waited = 0; waited < before_kill.count() && is_any_alive(leaders); waited += pause) {
         poll(nullptr, 0, pause);

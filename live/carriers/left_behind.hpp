@@ -6,20 +6,21 @@
 #include <string>
 #include <sys/types.h>
 
-// What a process that serves programs outside must not leave behind, however it ends.
+// Cleanup of processes and files when a server process ends for any reason.
 
 namespace rovernet {
 
-/// Time that programs have between SIGTERM and SIGKILL.
+/// Time between SIGTERM and SIGKILL when a process is ended.
 inline constexpr std::chrono::milliseconds before_kill{1000};
 
-/// Ends process groups: SIGTERM, then SIGKILL to those of which a process is left before_kill
-/// later. Their leaders, which are children of this process, are waited for, so no zombie is left.
-/// Safe in a handler of a signal.
-/// @param leaders  numbers of the groups; a leader may have ended, but nobody has waited for it
+/// Ends process groups: sends SIGTERM, and SIGKILL to groups with a process left after
+/// `before_kill`. The leaders, which are children of this process, are reaped, so that no zombie
+/// remains. Safe in a signal handler.
+/// @param leaders  process ids of the groups; a leader may have ended, but must not be reaped yet
 void end_groups(std::span<const pid_t> leaders);
 
-/// Process group that is ended by clear_away() while this lives. At most 1,024 are noted.
+/// Registration of a process group that clear_away() ends, during the lifetime of this object. At
+/// most 1,024 groups are registered.
 class NotedGroup {
   public:
     explicit NotedGroup(pid_t leader);
@@ -31,7 +32,8 @@ class NotedGroup {
     std::size_t place_;
 };
 
-/// File that is removed by clear_away() while this lives, and by its end. At most 16 are noted.
+/// Registration of a file that clear_away() removes, and the destructor, too. At most 16 files are
+/// registered.
 class NotedFile {
   public:
     explicit NotedFile(std::string path);
@@ -44,8 +46,8 @@ class NotedFile {
     std::size_t place_;
 };
 
-/// Ends the groups and removes the files that this process has noted; a process that was forked
-/// from it has noted none. Safe in a handler of a signal, before _exit().
+/// Ends the process groups and removes the files that this process has registered; in a forked
+/// process none are registered. Safe in a signal handler, before _exit().
 void clear_away();
 
 }  // namespace rovernet

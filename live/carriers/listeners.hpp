@@ -19,98 +19,102 @@ class io_context;
 
 namespace rovernet {
 
-/// Carrier of lines and bytes between programs outside and this process: TCP on this machine, Unix
-/// sockets, and the standard input and output of programs that it starts. It is the only one that
-/// knows sockets (Boost.Asio), and everything happens in the thread that calls it.
+/// Listeners and connections to external programs: TCP on this machine, Unix sockets, and standard
+/// input and output of started programs. Connections carry lines or bytes. Only this class and
+/// WebSockets use sockets (Boost.Asio); all work is done in the calling thread.
 ///
-/// A controller's next line is read when the last one is answered and the answer is out. So
-/// nothing grows with a controller that asks without reading, and lines may be sent ahead.
-/// A stream of bytes is read as it comes, and its client may be told things without asking.
+/// The next line of a controller is read after the previous one is answered and the answer is sent.
+/// So a controller that sends without reading does not fill the memory, and lines may be sent
+/// ahead. A byte stream is read as it arrives, and messages to its client may be sent at any time.
 ///
-/// A connection from outside whose first line is no JSON object is told so and closed, by its first
-/// byte if that says so, and nothing of it is obeyed. Any page in a browser may have it send a
-/// request (HTTP) to an address of this machine, with lines that the page has chosen in its body;
-/// but a request begins with a word, never with a brace (RFC 9110, 9.1).
+/// A connection whose first line is no JSON object gets an error and is closed, by its first byte
+/// if possible, and no line of it is executed. Reason: any web page can make a browser send an HTTP
+/// request to this machine, with arbitrary lines in its body; but a request begins with a word,
+/// never with a brace (RFC 9110, 9.1).
 ///
 /// | limit                               | value           | beyond it                 |
 /// |-------------------------------------|-----------------|---------------------------|
 /// | line                                | 1 MiB           | "too_long", closed        |
-/// | lines of all, not yet taken         | 64 MiB          | "too_long", closed        |
-/// | what a stream says in a second      | InputRate       | it is not read for a while|
-/// | messages to a stream, not taken yet | 1,024 or 4 MiB  | told so, closed in 1 s    |
-/// | bytes to a stream, not taken yet    | 256 KiB         | what it says is not read  |
+/// | queued lines of all clients         | 64 MiB          | "too_long", closed        |
+/// | input of a stream per second        | InputRate       | not read for a while      |
+/// | unsent messages to a stream         | 1,024 or 4 MiB  | last message, closed (1 s)|
+/// | unsent bytes to a stream            | 256 KiB         | its input is not read     |
 /// | connections                         | 500             | see below                 |
-/// | time until a line or message is whole | 60 s          | closed                    |
-/// | silence of the client's machine     | 30 s            | asked 3 times, in 30 s    |
+/// | time for a complete line or message | 60 s            | closed                    |
+/// | silence of the client's machine     | 30 s            | 3 TCP probes within 30 s  |
 ///
-/// One connection more takes the place of the oldest that has not said a whole line or message yet.
-/// If all have, it is closed at once.
-class Doors {
+/// Beyond 500 connections, a new connection replaces the oldest one that has not sent a complete
+/// line or message yet. If there is none, the new connection is closed at once.
+class Listeners {
   public:
     using Connection = std::uint32_t;
-    /// What is told of connections. The functions may call send().
+    /// Handlers of connections that carry lines. They may call send().
     struct Users {
-        /// @return whether it is a line of their protocol at all
+        /// Handles a line of a client. @return whether the line belongs to the protocol
         std::function<bool(Connection from, std::string_view line)> line;
         std::function<void(Connection to, const RequestError& why)> refuse;
         std::function<void(Connection gone)> closed;
     };
 
-    /// What is told of connections that carry bytes. The functions may call send() and close().
+    /// Handlers of connections that carry bytes. They may call send() and close().
     struct Streams {
         std::function<void(Connection opened)> opened = [](auto) {};
-        /// @return number of messages that have become whole
+        /// Handles received bytes. @return number of messages that are now complete
         std::function<std::size_t(Connection from, std::string_view bytes)> received =
             [](auto, auto) { return std::size_t{0}; };
         std::function<void(Connection gone)> closed = [](auto) {};
-        /// Its clients may say only so much in a second (InputRate).
+        /// Whether the input rate of clients is limited, see InputRate.
         bool has_rate = true;
-        /// Last message to a client that is closed because it takes none: so many are lost.
-        std::function<std::string(std::size_t lost)> farewell = [](auto) { return std::string(); };
+        /// Last message to a client that is disconnected since it does not read. `lost`: number of
+        /// messages to it that are dropped.
+        std::function<std::string(std::size_t lost)> closing_message = [](auto) {
+            return std::string();
+        };
     };
 
-    /// @param users  of lines; none are told if no connection carries any
-    explicit Doors(Users users = {});
-    /// Closes everything; programs that are still there are ended.
-    ~Doors();
-    Doors(const Doors&) = delete;
-    Doors& operator=(const Doors&) = delete;
+    /// @param users  handlers of lines; unused if no connection carries lines
+    explicit Listeners(Users users = {});
+    /// Closes all connections; ends programs that still run.
+    ~Listeners();
+    Listeners(const Listeners&) = delete;
+    Listeners& operator=(const Listeners&) = delete;
 
-    /// Starts a program by the shell; it speaks by its standard input and output.
-    /// @throws RunError if it cannot be started
+    /// Starts a program by the shell, and connects to its standard input and output.
+    /// @throws RunError if the program cannot be started
     void start(const std::string& command);
-    /// Listens on an address. Whoever reaches it may come in.
-    /// @param address  port 0: any that is free
+    /// Listens on an address for clients that send lines. Access is not restricted.
+    /// @param address  port 0: any free port
     /// @return the address with the port
-    /// @throws RunError if it is in use, or none of this machine
+    /// @throws RunError if the address is in use, or not an address of this machine
     Address listen(const Address& address);
-    /// Listens for clients that send and are sent bytes. May be called for several addresses.
+    /// Listens for clients that send and receive bytes. May be called for several addresses.
     Address listen(const Address& address, Streams streams);
-    /// Listens on a Unix socket, for this user alone; one that nobody listens on is replaced.
+    /// Listens on a Unix socket, accessible to this user only. A stale socket file is replaced.
     /// @throws RunError
     void listen_unix(const std::string& path);
 
-    /// Calls `readable` whenever a descriptor has something to read, until it returns false.
+    /// Calls `readable` whenever a descriptor has data to read, until it returns false.
     /// @throws RunError
     void watch(int descriptor, std::function<bool()> readable);
 
-    /// Sends a line, without its end: the answer to the last one of that controller. In a stream:
-    /// a message, as it is.
+    /// Sends a line (without its end) to a controller, which answers its last line; to a client of
+    /// a byte stream, sends the message unchanged.
     void send(Connection to, std::string_view message);
-    /// Closes a connection once all is out. It is told as closed, but not by this call.
+    /// Closes a connection once all data is sent. The handler `closed` is called later, not by this
+    /// call.
     void close(Connection which);
-    /// Number of controllers that may still speak; more may come if it listens.
+    /// Number of controllers that may still send lines; with a listener more may connect.
     std::size_t connections() const;
     bool listens() const;
-    /// Waits for something to happen, at most so long, and tells of it: of one thing only. It may
-    /// return without.
+    /// Waits for an event, at most `most`, and calls its handler; one event for each call. May
+    /// return without an event.
     void wait(std::chrono::nanoseconds most);
-    /// What wait() serves, for other carriers of this process.
+    /// Event loop that wait() runs, for other carriers of this process.
     boost::asio::io_context& io();
-    /// Waits until all lines are out, at most so long, then closes everything and waits for the
-    /// programs that it started, as long again; those who are still there are ended. Users are told
-    /// of nothing any more.
-    /// @return what programs came to no good end: "python3 x.py ended with 1"
+    /// Sends all remaining lines, waiting at most `most`, then closes all connections. Waits for
+    /// started programs, again at most `most`, and ends the programs that still run. No handler is
+    /// called any more.
+    /// @return errors of programs: "python3 x.py ended with 1"
     std::vector<std::string> close(std::chrono::milliseconds most);
 
   private:

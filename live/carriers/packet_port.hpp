@@ -7,20 +7,20 @@
 
 namespace rovernet {
 
-/// Way of packets between programs outside and this process: a UDP socket or a TAP device, say. A
-/// packet is read and written as a whole, and may get lost.
+/// Interface for packets between external programs and this process, such as a UDP socket or a TAP
+/// device. Packets are read and written as a whole, and may be lost.
 class PacketPort {
   public:
     virtual ~PacketPort() = default;
 
-    /// Where programs find it: "127.0.0.1:7100 (robot A)".
+    /// Address of the port for programs: "127.0.0.1:7100 (robot A)".
     virtual std::string text() const = 0;
-    /// Descriptor at which a packet is waited for.
+    /// File descriptor that becomes readable when a packet arrives.
     virtual int descriptor() const = 0;
-    /// Hands the packet that has come to `take`, if there is one.
-    /// @return false if there will be none any more
+    /// Passes the next packet to `take`, if one has arrived.
+    /// @return false if no more packets can arrive
     virtual bool read(const std::function<void(std::string_view packet)>& take) = 0;
-    /// Sends a packet to the programs, if any are there.
+    /// Sends a packet to the programs, if any are connected.
     virtual void write(std::string_view packet) = 0;
 };
 

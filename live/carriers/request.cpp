@@ -89,21 +89,24 @@ std::optional<std::uint64_t> seed_in(const std::optional<JsonElement>& element) 
 }
 
 void read_observed(const JsonElement& list, HelloRequest& hello) {
-    hello.observes_pose = hello.observes_heard = hello.observes_neighbors = false;
+    const std::array<std::pair<std::string_view, bool*>, 4> all = {
+        {{"pose", &hello.observes_pose},
+         {"heard", &hello.observes_heard},
+         {"neighbors", &hello.observes_neighbors},
+         {"scan", &hello.observes_scan}}};
+    for (const auto& [word, observes] : all) *observes = false;
     for_each_item(list, [&](const JsonElement& item) {
         const std::string_view what = item.text();
-        if (what == "pose") {
-            hello.observes_pose = true;
-        } else if (what == "heard") {
-            hello.observes_heard = true;
-        } else if (what == "neighbors") {
-            hello.observes_neighbors = true;
-        } else {
-            const std::string found =
-                fmt::format("found \"{}\"; expected pose, heard or neighbors", what);
-            item.fail("bad_value",
-                      advised(found, did_you_mean(what, {"pose", "heard", "neighbors"})));
+        const auto found =
+            std::ranges::find(all, what, [](const auto& each) { return each.first; });
+        if (found != all.end()) {
+            *found->second = true;
+            return;
         }
+        item.fail(
+            "bad_value",
+            advised(fmt::format("found \"{}\"; expected pose, heard, neighbors or scan", what),
+                    did_you_mean(what, {"pose", "heard", "neighbors", "scan"})));
     });
 }
 

@@ -16,19 +16,19 @@
 #include <variant>
 #include <vector>
 
-// Questions of the lock-step protocol: one JSON object a line, from a controller. docs/live.md has
+// Requests of the lock-step protocol: one JSON object per line, from a controller. docs/live.md has
 // the table of keys.
 
 namespace rovernet {
 
 class Network;
 
-/// Fault of a line; the session is as before. The controller may send it again, mended.
+/// Error in a request line. The session is unchanged, and the controller may send a corrected line.
 class RequestError : public std::runtime_error {
   public:
-    /// @param code     one word for programs: "unknown_robot"
-    /// @param at       place in the line, as a path: "do.C.v"; empty: all of it
-    /// @param message  what was found and what was expected
+    /// @param code     error code for programs: "unknown_robot"
+    /// @param at       path of the wrong element in the line: "do.C.v"; empty: the whole line
+    /// @param message  text: what was found and what was expected
     RequestError(const char* code, std::string at, const std::string& message)
         : std::runtime_error(message), code_(code), at_(std::move(at)) {}
     const char* code() const { return code_; }
@@ -39,37 +39,40 @@ class RequestError : public std::runtime_error {
     std::string at_;
 };
 
-/// "hello": the controller takes robots.
+/// Request "hello": the controller takes control of robots.
 struct HelloRequest {
-    std::string name;            ///< empty: the name of its first robot
-    std::vector<NodeId> robots;  ///< one at least, each once
-    Duration step{};             ///< [ns] of simulated time from a question to its answer, > 0
-    bool observes_pose = true, observes_heard = true, observes_neighbors = false;
-    bool columns = false;  ///< states of robots come as lists
+    std::string name;            ///< name of the controller; empty: the name of its first robot
+    std::vector<NodeId> robots;  ///< robots to control: at least one, each once
+    Duration step{};             ///< simulated time between a request and its answer [ns], > 0
+    bool observes_pose = true, observes_heard = true, observes_neighbors = false,
+         observes_scan = false;
+    bool columns = false;  ///< true: states of robots are sent as lists, one list per quantity
     std::optional<std::uint64_t> seed = {};
 };
 
-/// "step": commands that hold from now on, then a step of simulated time.
+/// Request "step": commands that take effect now, then a step of simulated time.
 struct StepRequest {
-    std::uint64_t number = 0;  ///< controller's own, greater than the last one
-    /// Commands in the order in which they are carried out: by robot, movements before messages,
-    /// messages as they came.
+    /// Number chosen by the controller, greater than in the previous request.
+    std::uint64_t number = 0;
+    /// Commands in the order of execution: by robot, movements before messages, messages in the
+    /// order of the request.
     std::vector<std::pair<NodeId, RobotCommand>> commands;
 };
 
-/// "reset": the run begins anew.
+/// Request "reset": the run starts again.
 struct ResetRequest {
-    std::optional<std::uint64_t> seed = {};  ///< none: the same again
+    std::optional<std::uint64_t> seed = {};  ///< new seed; none: the same seed
 };
 
-/// "bye": the controller leaves.
+/// Request "bye": the controller leaves.
 struct ByeRequest {};
 
 using Request = std::variant<HelloRequest, StepRequest, ResetRequest, ByeRequest>;
 
-/// Reader of lines, which keeps its memory. A line is checked whole before anything is made of it.
+/// Reader of request lines that reuses its memory. A line is checked completely before any command
+/// is made.
 ///
-/// Limits: 32 levels of brackets, 100,000 robots or messages, names of 64 bytes, messages of 65,535
+/// Limits: 32 nesting levels, 100,000 robots or messages, names of 64 bytes, messages of 65,535
 /// bytes, 1,000 m/s and 1,000 rad/s.
 class RequestReader {
   public:
@@ -78,11 +81,11 @@ class RequestReader {
     ~RequestReader();
 
     /// Reads a line, without its end.
-    /// @param network  has the robots' names
-    /// @param own      robots of the controller, in ascending order; empty before its hello
+    /// @param network  network with the robots' names
+    /// @param own      robots of the controller, in ascending order; empty before its "hello"
     /// @throws RequestError
     Request read(std::string_view line, const Network& network, std::span<const NodeId> own);
-    /// Number "n" of the last line, if it had one: errors name it.
+    /// Number "n" of the last line that was read, if it has one; for error lines.
     std::optional<std::uint64_t> number() const { return number_; }
 
   private:

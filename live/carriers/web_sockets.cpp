@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "live/carriers/web_sockets.hpp"
 
+#include "experiment/version.hpp"
 #include "live/carriers/acceptor.hpp"
 #include "live/carriers/admission.hpp"
 #include "live/carriers/input_rate.hpp"
@@ -34,22 +35,24 @@ constexpr std::uint32_t longest_request = 8U << 10U;          // [bytes]
 constexpr std::size_t longest_input = std::size_t{1} << 20U;  // [bytes] of a client
 constexpr std::size_t most_input = std::size_t{64} << 20U;    // [bytes] of all clients
 constexpr std::size_t most_connections = 500;
-constexpr std::size_t most_messages = 1'024;                   // that wait for a client
-constexpr std::size_t most_waiting = std::size_t{4} << 20U;    // [bytes] the same
-constexpr std::size_t much_waiting = std::size_t{256} << 10U;  // [bytes] then it is not read
-constexpr int system_buffer = 256 << 10;  // [bytes] of the system: what it holds gets old
-constexpr std::size_t portion = 16'384;   // [bytes] that one read takes
+constexpr std::size_t most_messages = 1'024;                 // queued messages of a client
+constexpr std::size_t most_waiting = std::size_t{4} << 20U;  // [bytes] of queued messages
+constexpr std::size_t much_waiting =
+    std::size_t{256} << 10U;  // [bytes] queued output from which on input is not read
+constexpr int system_buffer =
+    256 << 10;  // [bytes] socket buffer; small, since buffered messages become outdated
+constexpr std::size_t portion = 16'384;  // [bytes] of one read
 
 struct Message {
     std::string bytes;
     bool is_text;
 };
 
-/// An address, the rule of who may come in there, and who is told of those who do.
+/// Listener with its access rule and the handlers of its connections.
 struct Gate {
     asio::ip::tcp::acceptor acceptor;
     Admission admission;
-    Doors::Streams users;
+    Listeners::Streams users;
 };
 
 using Request = http::request<http::empty_body>;
@@ -59,7 +62,7 @@ bool is_base64(char c) {
            c == '/';
 }
 
-/// What is wrong with a request whoever asks; empty if nothing.
+/// Error of a request, independent of the client; empty if valid.
 std::string fault_of(const Request& request) {
     const auto& fields = request.base();
     // RFC 9112, 3.2: exactly one Host. RFC 6455, 11.3: neither field of the handshake twice; 10.2
@@ -100,14 +103,14 @@ struct Client {
     std::size_t waiting = 0;          // [bytes] of those behind the first
     bool is_open = false;             // its users know it
     bool is_reading = false;
-    bool is_closing = false;                  // no message goes out any more
-    std::optional<close_code> farewell = {};  // it is closed once all is out
+    bool is_closing = false;                      // no message goes out any more
+    std::optional<close_code> close_reason = {};  // sent in the close frame, once all data is sent
 };
 
 }  // namespace
 
 struct WebSockets::State {
-    State(asio::io_context& context, Patience given) : io(context), patience(given) {}
+    State(asio::io_context& context, Timeouts given) : io(context), timeouts(given) {}
 
     using Shared = std::shared_ptr<Client>;
 
@@ -119,14 +122,14 @@ struct WebSockets::State {
         const auto client = std::make_shared<Client>(std::move(socket), next++, gate);
         clients[client->id] = client;
         client->request.header_limit(longest_request);
-        client->stream.next_layer().expires_after(patience.for_request);
+        client->stream.next_layer().expires_after(timeouts.request);
         http::async_read(client->stream.next_layer(), client->input, client->request,
                          [this, client](error_code error, std::size_t) {
                              error ? remove(client) : answer(client);
                          });
     }
 
-    /// Closes the oldest connection that is not let in. @return whether there was one
+    /// Closes the oldest connection that is not admitted yet. @return whether there was one
     bool make_room() {
         const auto outside = std::find_if(clients.begin(), clients.end(),
                                           [](const auto& each) { return !each.second->is_open; });
@@ -136,7 +139,7 @@ struct WebSockets::State {
         return true;
     }
 
-    /// Lets a client in, or tells it why not.
+    /// Admits a client, or sends it the reason for the rejection.
     void answer(const Shared& client) {
         const auto& request = client->request.get();
         if (const std::string fault = fault_of(request); !fault.empty()) {
@@ -155,11 +158,11 @@ struct WebSockets::State {
         }
         const std::string why = client->gate.admission.refusal(asked);
         if (!why.empty()) return refuse(client, http::status::forbidden, why);
-        // It has to wait for the answer before it sends a message (RFC 6455, 4.1).
+        // A client must wait for the answer before it sends a message (RFC 6455, 4.1).
         client->input.clear();
         client->stream.next_layer().expires_never();
         client->stream.set_option(
-            websocket::stream_base::timeout{patience.for_request, patience.for_silence, true});
+            websocket::stream_base::timeout{timeouts.request, timeouts.silence, true});
         client->stream.read_message_max(longest_input);
         client->stream.auto_fragment(false);
         client->stream.async_accept(request, [this, client](error_code error) {
@@ -194,7 +197,7 @@ struct WebSockets::State {
             [this, client](error_code error, std::size_t) { take_in(client, error); });
     }
 
-    /// Goes on reading once the client may say more.
+    /// Continues reading once the input rate permits it.
     void read_later(const Shared& client) {
         const auto pause = std::make_shared<asio::steady_timer>(io, client->rate.read_again());
         pause->async_wait([this, client, pause](error_code) {
@@ -211,13 +214,13 @@ struct WebSockets::State {
         if (client->is_closing) return;
         if (!client->stream.is_message_done()) {
             const bool is_too_much = input.size() > portion && input_of_all() > most_input;
-            return is_too_much ? say_goodbye(client, close_code::try_again_later) : read(client);
+            return is_too_much ? send_close(client, close_code::try_again_later) : read(client);
         }
         const std::string_view message{static_cast<const char*>(input.cdata().data()),
                                        input.size()};
         // Beast does not see that an empty last frame leaves a character cut.
         if (client->stream.got_text() && !simdjson::validate_utf8(message)) {
-            return say_goodbye(client, close_code::bad_payload);
+            return send_close(client, close_code::bad_payload);
         }
         client->gate.users.received(client->id, message);
         if (client->gate.users.has_rate) client->rate.add(1, input.size(), Clock::now());
@@ -236,14 +239,15 @@ struct WebSockets::State {
         const auto found = clients.find(to);
         if (found == clients.end()) return;
         const Shared client = found->second;
-        if (!client->is_open || client->is_closing || client->farewell) return;
+        if (!client->is_open || client->is_closing || client->close_reason) return;
         if (!client->output.empty()) client->waiting += message.bytes.size();
         client->output.push_back(std::move(message));
-        if (is_overdue(*client)) return say_goodbye(client, close_code::try_again_later);
+        if (is_overdue(*client)) return send_close(client, close_code::try_again_later);
         if (client->output.size() == 1) write(client);
     }
 
-    /// Too much waits for a client. Its longest message is left out: a map may be beyond the limit.
+    /// Whether too much is queued for a client. Its longest message does not count, since a map may
+    /// exceed the limit.
     static bool is_overdue(const Client& client) {
         if (client.output.size() > most_messages) return true;
         if (client.waiting <= most_waiting) return false;
@@ -267,20 +271,20 @@ struct WebSockets::State {
         if (!client->output.empty()) {
             client->waiting -= client->output.front().bytes.size();
             write(client);
-        } else if (client->farewell) {
-            say_goodbye(client, *client->farewell);
+        } else if (client->close_reason) {
+            send_close(client, *client->close_reason);
         }
         read(client);
     }
 
-    /// Closes a connection once all is out.
+    /// Closes a connection once all data is sent.
     void leave(const Shared& client, close_code why) {
-        client->farewell = why;
-        if (client->output.empty()) say_goodbye(client, why);
+        client->close_reason = why;
+        if (client->output.empty()) send_close(client, why);
     }
 
-    /// Closes a connection once the message that is being written is out. Its users are told soon.
-    void say_goodbye(const Shared& client, close_code why) {
+    /// Closes a connection once the current message is sent. The handler `closed` is called later.
+    void send_close(const Shared& client, close_code why) {
         if (std::exchange(client->is_closing, true)) return;
         while (client->output.size() > 1) client->output.pop_back();
         client->waiting = 0;
@@ -301,18 +305,18 @@ struct WebSockets::State {
     }
 
     asio::io_context& io;
-    const Patience patience;
+    const Timeouts timeouts;
     std::string token = random_token();
     std::list<Gate> gates;  // clients refer to them
     std::map<Connection, Shared> clients;
     Connection next = first;
 };
 
-WebSockets::WebSockets(Doors& doors, Patience patience)
-    : state_(std::make_unique<State>(doors.io(), patience)) {}
+WebSockets::WebSockets(Listeners& listeners, Timeouts timeouts)
+    : state_(std::make_unique<State>(listeners.io(), timeouts)) {}
 WebSockets::~WebSockets() = default;
 
-Address WebSockets::listen(const Address& address, Doors::Streams users) {
+Address WebSockets::listen(const Address& address, Listeners::Streams users) {
     auto acceptor = listen_on(state_->io, address);
     const Address own{address.host, acceptor.local_endpoint().port()};
     Gate& gate = state_->gates.emplace_back(
@@ -323,7 +327,7 @@ Address WebSockets::listen(const Address& address, Doors::Streams users) {
     return own;
 }
 
-std::string WebSockets::invitation(const Address& own) const {
+std::string WebSockets::token_notice(const Address& own) const {
     const bool is_any = own.host == "0.0.0.0" || own.host == "::";
     const std::string at =
         is_any ? fmt::format("{}:{}", asio::ip::host_name(), own.port) : own.text();

@@ -10,61 +10,63 @@
 
 namespace rovernet {
 
-/// Carrier of whole messages between clients that speak WebSocket (RFC 6455), browsers among them,
-/// and this process. Who may come in, Admission says.
+/// Server for WebSocket clients (RFC 6455), including browsers. Connections carry whole messages.
+/// The class Admission decides which clients may connect.
 ///
 /// | limit                              | value          | beyond it                     |
 /// |------------------------------------|----------------|-------------------------------|
 /// | request for a WebSocket            | 8 KiB, in 10 s | closed                        |
 /// | message of a client                | 1 MiB          | closed, 1009                  |
-/// | messages of all, not yet whole     | 64 MiB         | closed, 1013                  |
-/// | what a client says in a second     | InputRate      | it is not read for a while    |
-/// | messages to a client, not taken yet| 1,024 or 4 MiB | closed, 1013                  |
-/// | bytes to a client, not taken yet   | 256 KiB        | what it says is not read      |
-/// | silence of a client                | 15 s           | pinged; after 30 s it is gone |
+/// | incomplete messages of all clients | 64 MiB         | closed, 1013                  |
+/// | input of a client per second       | InputRate      | not read for a while          |
+/// | unsent messages to a client        | 1,024 or 4 MiB | closed, 1013                  |
+/// | unsent bytes to a client           | 256 KiB        | its input is not read         |
+/// | silence of a client                | 15 s           | ping; closed after 30 s       |
 /// | connections                        | 500            | see below                     |
 ///
-/// One connection more takes the place of the oldest that is not let in yet. If all are, it is
-/// closed at once.
+/// Beyond 500 connections, a new connection replaces the oldest one that is not admitted yet. If
+/// there is none, the new connection is closed at once.
 ///
-/// The longest message that waits for a client does not count in those 4 MiB.
+/// The longest queued message of a client does not count in the limit of 4 MiB.
 class WebSockets {
   public:
-    using Connection = Doors::Connection;
-    static constexpr Connection first = 1U << 31U;  ///< those of Doors are below
+    using Connection = Listeners::Connection;
+    /// Least number of a WebSocket connection; TCP and Unix connections have smaller numbers.
+    static constexpr Connection first = 1U << 31U;
 
-    /// How long clients are waited for.
-    struct Patience {
-        std::chrono::milliseconds for_request = std::chrono::seconds(10);
-        /// For anything that a client sends; after half of it a ping asks for something.
-        std::chrono::milliseconds for_silence = std::chrono::seconds(30);
+    /// Timeouts after which clients are disconnected.
+    struct Timeouts {
+        std::chrono::milliseconds request = std::chrono::seconds(10);
+        /// Largest silence of a client; a ping is sent after half of it.
+        std::chrono::milliseconds silence = std::chrono::seconds(30);
     };
 
-    /// @param doors  in whose wait() everything happens; they have to live longer
-    explicit WebSockets(Doors& doors) : WebSockets(doors, Patience{}) {}
-    WebSockets(Doors& doors, Patience patience);
+    /// @param listeners  its wait() also runs this server; must outlive this object
+    explicit WebSockets(Listeners& listeners) : WebSockets(listeners, Timeouts{}) {}
+    WebSockets(Listeners& listeners, Timeouts timeouts);
     ~WebSockets();
     WebSockets(const WebSockets&) = delete;
     WebSockets& operator=(const WebSockets&) = delete;
 
-    /// Listens for clients, whose users are told of each message as it is whole.
-    /// @param address  port 0: any that is free
+    /// Listens for clients. @param users  handlers, called once for each complete message
+    /// @param address  address of this machine; port 0: any free port
     /// @return the address with the port
-    /// @throws RunError if it is in use, or none of this machine
-    Address listen(const Address& address, Doors::Streams users);
-    /// Sentence with the token, for the person who started this: who comes in at an address by it.
-    std::string invitation(const Address& own) const;
-    /// Text that clients have to know, as Admission has it.
+    /// @throws RunError if the address is in use, or not an address of this machine
+    Address listen(const Address& address, Listeners::Streams users);
+    /// Sentence for the user with the token that clients of the address `own` need.
+    std::string token_notice(const Address& own) const;
+    /// Token that clients from other machines or sites need, see Admission.
     const std::string& token() const;
     bool listens() const;
 
-    /// Sends a message: a text, or bytes.
+    /// Sends a text message to a client; the second function sends a binary message.
     void send(Connection to, std::string_view text);
     void send_binary(Connection to, std::string_view bytes);
-    /// Closes a connection once all is out. It is told as closed, but not by this call.
+    /// Closes a connection once all data is sent. The handler `closed` is called later, not by this
+    /// call.
     void close(Connection which);
-    /// Says goodbye to all once all is out, waits for their answers, at most so long, and closes
-    /// everything. Nobody is told of that.
+    /// Sends a close frame to every client once all data is sent, waits for the replies, at most
+    /// `most`, and closes all connections. No handler is called.
     void close(std::chrono::milliseconds most);
 
   private:

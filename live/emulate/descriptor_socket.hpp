@@ -7,16 +7,15 @@
 
 namespace rovernet {
 
-/// Message between processes of this machine that carries a descriptor; or a text, if there is
-/// none to carry.
+/// Message between processes of this machine that contains a file descriptor, or only a text.
 struct DescriptorMessage {
-    int descriptor = -1;  ///< whoever receives it owns it
+    int descriptor = -1;  ///< file descriptor, owned by the receiver; -1: none
     std::string text = {};
 };
 
-/// Sends a message over a Unix socket. @return whether it was taken
+/// Sends a message over a Unix socket. @return whether it was sent
 bool send_descriptor(int socket, const DescriptorMessage& message);
-/// Receives one; nothing if the other end has gone.
+/// Receives a message from a Unix socket; none if the peer has closed the socket.
 std::optional<DescriptorMessage> receive_descriptor(int socket);
 
 }  // namespace rovernet

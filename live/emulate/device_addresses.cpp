@@ -87,7 +87,7 @@ class DeviceAddresses {
     void check_host(const Addressed& each, Network4 network);
     void tell_outsiders();
 
-    /// Made addresses are given to nobody else: a second one is in the file.
+    /// Generated addresses are unique, so that a duplicate is an address in the file.
     template <class Key>
     static void check_unique(std::map<Key, const Addressed>& known, const Key& key,
                              const Addressed& each, const Location& place,
@@ -158,7 +158,7 @@ void DeviceAddresses::check_host(const Addressed& each, Network4 network) {
                     each.device.robot, what));
 }
 
-/// Tells of the first robot whose network leaves out others.
+/// Adds a notice about the first robot whose network excludes other robots.
 void DeviceAddresses::tell_outsiders() {
     std::set<std::pair<std::uint32_t, std::uint32_t>> seen;  // networks: first address, mask
     for (const Member& from : members_) {

@@ -8,16 +8,16 @@
 
 namespace rovernet {
 
-/// Checks the addresses that the robots' network devices get, given or made, before anything is
-/// built: a label is enough for a table, but not for the kernel.
+/// Checks the addresses of the robots' network devices, given or generated, before devices are
+/// made. The kernel needs valid addresses, while link tables accept any text.
 ///
-/// A mac is that of a single device (IEEE 802-2014, 8.2), an ip that of a single host (RFC 1122,
-/// 3.2.1.3), a netmask has its ones first (RFC 950), and an ip is neither the address of its
-/// network nor its broadcast address (networks of 31 bits have neither: RFC 3021). No two robots
-/// have the same. Robots that are outside of each other's network are told, as programs reach them
-/// by routes of their own only; and addresses that were made and cannot be used.
+/// A mac must be a unicast address (IEEE 802-2014, 8.2), an ip a unicast address (RFC 1122,
+/// 3.2.1.3), and a netmask a prefix of ones (RFC 950). An ip must not be the network or broadcast
+/// address (networks of 31 bits have neither: RFC 3021). Addresses must be unique. Notices list
+/// robots in different networks, which programs reach only by explicit routes, and unusable
+/// generated addresses.
 /// @return notices
-/// @throws InputError at the first that the file gives wrongly
+/// @throws InputError at the first wrong address in the file
 std::vector<std::string> check_device_addresses(const Scenario& scenario);
 
 }  // namespace rovernet

@@ -10,17 +10,18 @@
 
 namespace rovernet {
 
-/// Hardware address (MAC) as the bytes that stand in a frame.
+/// Hardware address (MAC) as the bytes of a frame.
 /// @param text  "02:00:00:00:00:01"
-/// @return 6 bytes; nothing if the text is no address of a single device
+/// @return 6 bytes; none if the text is no unicast address
 std::optional<std::string> mac_bytes(std::string_view text);
 
-/// Ethernet frames of the robots' network devices: destination, source and type in 14 bytes, then
-/// what goes on air. A frame is carried as it is, and its size on air is without these 14 bytes.
+/// Ethernet frames of the robots' network devices: a header of 14 bytes (destination, source,
+/// type), then the payload. Frames are transported unchanged; the size on air excludes the 14
+/// bytes.
 ///
-/// A broadcast or multicast address is everyone in range. The address of a robot is a unicast to
-/// it, which the access model "csma" acknowledges and repeats. A robot gets the frames to its own
-/// address, to broadcast and to multicast addresses, whoever sent them.
+/// A broadcast or multicast address means everyone in range. The address of a robot means a
+/// unicast, which the access model "csma" acknowledges and retries. A robot gets frames to its own
+/// address and to broadcast and multicast addresses, from any sender.
 class EthernetFormat : public PacketFormat {
   public:
     void begin(const Network& network) override;
@@ -28,8 +29,8 @@ class EthernetFormat : public PacketFormat {
     std::optional<std::string> write(HeardMessage heard) const override;
 
   private:
-    std::map<std::string, NodeId, std::less<>> robots_;  // by address
-    std::vector<std::string> addresses_;                 // of the robots
+    std::map<std::string, NodeId, std::less<>> robots_;  // robots by address
+    std::vector<std::string> addresses_;                 // addresses of the robots
 };
 
 }  // namespace rovernet

@@ -3,6 +3,7 @@
 
 #include "live/emulate/descriptor_socket.hpp"
 #include "live/emulate/members.hpp"
+#include "network/network.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@
 namespace rovernet {
 namespace {
 
-/// Signals that this process waits for: those that a program is sent by kill, and its end.
+/// Signals that this process waits for: signals to forward to the program, and SIGCHLD.
 class Signals {
   public:
     Signals() {
@@ -43,7 +44,7 @@ class Signals {
     Signals(const Signals&) = delete;
     Signals& operator=(const Signals&) = delete;
 
-    /// Lets signals through as before.
+    /// Restores the signal mask.
     void let_through() const { sigprocmask(SIG_SETMASK, &usual_, nullptr); }
     int descriptor() const { return descriptor_.get(); }
     /// The next one; nothing if none waits.
@@ -69,7 +70,7 @@ struct Pipe {
     OwnDescriptor out, in;
 };
 
-/// The new process becomes the program. It writes to `fault` why it cannot.
+/// Executes the program in the new process; writes the error to `fault` on failure.
 [[noreturn]] void become(const RobotNetwork& network, const std::vector<std::string>& words,
                          const Signals& signals, int fault) {
     std::vector<std::string> own = words;
@@ -130,7 +131,7 @@ class Program {
         if (is_sent) kill(process_, static_cast<int>(signal.ssi_signo));
     }
 
-    /// Notes the ends of the program and of what it has left behind.
+    /// Reaps the program and its orphaned descendants.
     void reap() {
         int status = 0;
         for (pid_t ended = 0; (ended = waitpid(-1, &status, WNOHANG)) > 0;) {
@@ -157,7 +158,7 @@ class Program {
         return {status_.value_or(0), true};
     }
 
-    /// Waits until the keeper has ended what goes on, and ends what it could not.
+    /// Waits until the keeper has ended the running processes, and ends the remaining ones.
     void await_keeper() {
         while (receive_descriptor(network_.connection.get())) {
         }

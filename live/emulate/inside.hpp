@@ -8,23 +8,25 @@
 
 namespace rovernet {
 
-/// End of a program that ran with the network of a robot.
+/// Result of a program that ran in the network of a robot.
 struct ProgramEnd {
-    int status;         ///< as waitpid() gives it
-    bool run_ended_it;  ///< it went on when the run ended, and was ended then
+    int status;         ///< exit status of the program, from waitpid()
+    bool run_ended_it;  ///< true: the program was still running when the run ended, and was killed
 };
 
-/// Runs a program with the network of a robot, and waits for its end. Signals to this process are
-/// passed on to it; those of the terminal reach it by themselves.
+/// Runs a program in the network of a robot, and waits for its end. Signals to this process are
+/// forwarded; signals from the terminal reach the program directly.
 ///
-/// When the run ends, however that happens, so do the program and whatever it has started: they
-/// have no network any more (end_processes). The keeper of the run says so; if it cannot, as it was
-/// killed, the connection breaks, and this process ends them.
-/// @param words  of the program, at least one
-/// @throws RunError if it cannot be started
+/// When the run ends for any reason, this process ends the program and its descendants, since they
+/// have no network any more (end_processes). It learns of the end by a message of the keeper, the
+/// process that holds the networks of the run, or, if the keeper was killed, by the broken
+/// connection.
+/// @param words  command line of the program, at least one word
+/// @throws RunError if the program cannot be started
 ProgramEnd run_inside(const RobotNetwork& network, const std::vector<std::string>& words);
 
-/// Ends this process as a program has ended: with its exit code, or by its signal.
+/// Ends this process as a program with the given waitpid() status ended: with the same exit code,
+/// or by the same signal.
 [[noreturn]] void end_like(int status);
 
 }  // namespace rovernet

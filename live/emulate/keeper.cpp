@@ -61,8 +61,9 @@ int enter_new_namespace() {
     return descriptor;
 }
 
-/// Makes the namespaces and sends two descriptors for each, its own and that of its device. It is
-/// a process of its own: in a user namespace the keeper would not know who comes in.
+/// Makes the namespaces, and sends the descriptors of each namespace and its device. This runs in a
+/// separate process, since a keeper inside a user namespace could not identify the users of its
+/// clients.
 [[noreturn]] void run_maker(int keeper, const std::vector<RobotDevice>& robots) {
     try {
         for (const RobotDevice& each : robots) {
@@ -86,14 +87,15 @@ class Keeper {
         polled_.push_back({parent, POLLIN, 0});
     }
 
-    /// Opens the doors. They belong to the network of this process, which everybody is in.
-    void open_doors(const std::vector<RobotDevice>& robots) {
+    /// Opens the listeners in the network namespace of this process, where every process can
+    /// connect.
+    void open_listeners(const std::vector<RobotDevice>& robots) {
         for (const RobotDevice& each : robots) {
-            polled_.push_back({open_door(getppid(), each.robot), POLLIN, 0});
+            polled_.push_back({open_listener(getppid(), each.robot), POLLIN, 0});
         }
     }
 
-    /// Has all namespaces made, and passes the descriptors of their devices on.
+    /// Starts the process that makes all namespaces, and forwards the descriptors of their devices.
     void make(const std::vector<RobotDevice>& robots) {
         int ends[2];
         if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("namespaces");
@@ -126,7 +128,7 @@ class Keeper {
         }
     }
 
-    /// Tells all that the run has ended, and ends whatever goes on in its namespaces.
+    /// Reports the end of the run to all clients, and ends all processes in the namespaces.
     void end() {
         for (std::size_t i = first_client(); i < polled_.size(); ++i) {
             send_descriptor(polled_[i].fd, {.text = run_has_ended});
@@ -146,8 +148,8 @@ class Keeper {
         return message->descriptor;
     }
 
-    void welcome(std::size_t door) {
-        const int client = accept4(polled_[door].fd, nullptr, nullptr, SOCK_CLOEXEC);
+    void welcome(std::size_t listener) {
+        const int client = accept4(polled_[listener].fd, nullptr, nullptr, SOCK_CLOEXEC);
         if (client < 0) {
             std::this_thread::sleep_for(10ms);  // there are too many descriptors
             return;
@@ -155,7 +157,7 @@ class Keeper {
         const auto user = user_behind(client);
         const bool may_enter = user && (*user == geteuid() || *user == 0);
         const DescriptorMessage answer =
-            may_enter ? DescriptorMessage{.descriptor = namespaces_[door - 1], .text = folder_}
+            may_enter ? DescriptorMessage{.descriptor = namespaces_[listener - 1], .text = folder_}
                       : DescriptorMessage{.text = "it is another user's"};
         if (send_descriptor(client, answer) && may_enter) {
             polled_.push_back({client, POLLIN, 0});
@@ -170,13 +172,13 @@ class Keeper {
     }
 
     std::string folder_;
-    std::vector<pollfd> polled_;  // the parent, the doors, then who has come in
+    std::vector<pollfd> polled_;  // parent, listeners, then admitted clients
     std::vector<int> namespaces_;
     NamespaceSet members_;
 };
 
-/// Leaves behind what this process has of its parent: sockets and files stay open as long as
-/// anybody has them, and Ctrl-C at the terminal is for the parent.
+/// Detaches this process from its parent: closes inherited sockets and files, which would otherwise
+/// stay open, and starts a new session, since Ctrl-C at the terminal is for the parent.
 /// @param  parent  socket that it keeps
 /// @return it
 int part_from(int parent) {
@@ -200,7 +202,7 @@ void run_keeper(int socket, const std::vector<RobotDevice>& robots, const std::s
     const int parent = part_from(socket);
     Keeper keeper(parent, folder);
     try {
-        keeper.open_doors(robots);
+        keeper.open_listeners(robots);
         keeper.make(robots);
         keeper.serve();
         keeper.end();

@@ -8,19 +8,19 @@
 
 namespace rovernet {
 
-/// What a keeper sends to all whom it has let in: the run has ended.
+/// Message of the keeper to all admitted clients: the run has ended.
 inline constexpr const char* run_has_ended = "ended";
 
-/// Process that keeps the robots' network namespaces and hands them out at their doors (RobotDoor).
-/// It sends the descriptor of each robot's device to the process for which it works, then serves
-/// until that has gone, however that ends.
+/// Keeper: the process that holds the robots' network namespaces and passes them to clients of
+/// their listeners (RobotListener). It sends the descriptor of each robot's device to the run's
+/// process, then serves clients until that process ends for any reason.
 ///
-/// It lets in root, and the user whose it is. Who is let in gets the namespace and the run's
-/// folder, and keeps the connection, by which he learns that the run has ended. Then the keeper
-/// ends all programs that it finds in the namespaces, whoever has started them.
+/// The keeper admits root and the user of the run. A client gets the namespace and the run's
+/// folder, and keeps the connection, which reports the end of the run. At that end the keeper kills
+/// all programs in the namespaces.
 ///
-/// @param socket  to the process for which it works
-/// @param folder  of the run's results
+/// @param socket  socket to the run's process
+/// @param folder  folder of the run's results
 [[noreturn]] void run_keeper(int socket, const std::vector<RobotDevice>& robots,
                              const std::string& folder);
 

@@ -21,9 +21,9 @@ std::unique_ptr<Front> packet_front(Front::Carrier carrier) {
     return std::make_unique<PacketFront>(std::make_unique<Format>(), std::move(carrier));
 }
 
-FrontDoor::Ports udp_ports(Address own, const Network& network) {
+FrontListeners::Ports udp_ports(Address own, const Network& network) {
     check_udp_ports(own, network.size());
-    FrontDoor::Ports ports;
+    FrontListeners::Ports ports;
     for (NodeId n{0}; n.index() < network.size(); ++n.value) {
         ports.push_back(std::make_unique<UdpPort>(own, network.name(n)));
         if (own.port != 0) ++own.port;
@@ -31,8 +31,8 @@ FrontDoor::Ports udp_ports(Address own, const Network& network) {
     return ports;
 }
 
-FrontDoor::Ports tap_ports(const Network& network, const std::string& folder,
-                           const std::function<bool()>& go_on) {
+FrontListeners::Ports tap_ports(const Network& network, const std::string& folder,
+                                const std::function<bool()>& go_on) {
     std::vector<RobotDevice> robots;
     for (const Device& device : devices(network)) {
         const NodeId robot{static_cast<std::uint32_t>(robots.size())};
@@ -42,7 +42,7 @@ FrontDoor::Ports tap_ports(const Network& network, const std::string& folder,
                           .mac = mac_bytes(device.mac).value()});
     }
     const auto namespaces = std::make_shared<Namespaces>(std::move(robots), folder, go_on);
-    FrontDoor::Ports ports;
+    FrontListeners::Ports ports;
     for (std::size_t i = 0; i < namespaces->robots().size(); ++i) {
         ports.push_back(std::make_unique<TapPort>(namespaces, i));
     }
@@ -51,7 +51,7 @@ FrontDoor::Ports tap_ports(const Network& network, const std::string& folder,
 
 }  // namespace
 
-FrontDoor tap_devices(const std::string& folder, std::function<bool()> go_on) {
+FrontListeners tap_devices(const std::string& folder, std::function<bool()> go_on) {
     return {.entries = {},
             .make = packet_front<EthernetFormat>,
             .open_ports = [folder, go_on = std::move(go_on)](const Network& network) {
@@ -68,7 +68,7 @@ void check_udp_ports(const Address& first, std::size_t robots) {
                     first.text(), robots, first.port, after_last - first.port));
 }
 
-FrontDoor udp_relay(const Address& first) {
+FrontListeners udp_relay(const Address& first) {
     return {.entries = {},
             .make = packet_front<RelayFormat>,
             .open_ports = [first](const Network& network) { return udp_ports(first, network); }};

@@ -11,20 +11,20 @@
 
 namespace rovernet {
 
-/// Where the relay's first port is.
+/// Default address of the UDP port of the first robot.
 inline constexpr std::string_view relay_address = "127.0.0.1:7100";
 
-/// Door for programs that send datagrams (RelayFormat): the first robot's port is at `first`, the
-/// next one's at the next. With port 0 each has any that is free.
-FrontDoor udp_relay(const Address& first);
-/// Checks that there are ports for so many robots, before anything is made.
+/// UDP listeners for programs that send datagrams (RelayFormat): the first robot has the port of
+/// `first`, the next robot the next port. With port 0 each robot has any free port.
+FrontListeners udp_relay(const Address& first);
+/// Checks that there are enough port numbers for all robots.
 /// @throws std::invalid_argument
 void check_udp_ports(const Address& first, std::size_t robots);
 
-/// Door for programs that use the network as ever: each robot has a network namespace, and in it a
-/// TAP device with its addresses (EthernetFormat, Namespaces).
-/// @param folder  of the run's results, by which programs find it
-/// @param go_on   asked while the devices are made; false ends that
-FrontDoor tap_devices(const std::string& folder, std::function<bool()> go_on);
+/// Network devices for unmodified programs: each robot has a network namespace with a TAP device
+/// that has its addresses (EthernetFormat, Namespaces).
+/// @param folder  folder of the run's results, by which programs find the run
+/// @param go_on   called while the devices are made; returning false stops making them
+FrontListeners tap_devices(const std::string& folder, std::function<bool()> go_on);
 
 }  // namespace rovernet

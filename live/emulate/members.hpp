@@ -9,25 +9,25 @@
 
 namespace rovernet {
 
-/// Numbers of network namespaces, by which the kernel tells one from another.
+/// Set of network namespaces, identified by their numbers in the kernel (device and inode).
 class NamespaceSet {
   public:
-    /// @param descriptor  of a namespace
+    /// @param descriptor  open file descriptor of a namespace
     void add(int descriptor);
-    /// Processes whose network is one of these, as far as this one may know; not itself.
+    /// Processes in the namespaces, as far as visible to this process; without this process.
     std::vector<pid_t> members() const;
 
   private:
     std::set<std::pair<dev_t, ino_t>> numbers_;
 };
 
-/// Processes that this one has started, those that these have started, and so on.
+/// Descendants of this process: its children, their children, and so on.
 std::vector<pid_t> descendants();
 
-/// Ends processes, and those that they start meanwhile: by SIGTERM, after one second by SIGHUP (a
-/// shell at a terminal passes over SIGTERM), after two by SIGKILL. Returns once none is left, or
-/// none that ends.
-/// @param find  those that are there now
+/// Ends processes, including processes that they start meanwhile: by SIGTERM, after 1 s by SIGHUP
+/// (an interactive shell ignores SIGTERM), after 2 s by SIGKILL. Returns once no process is left,
+/// or only processes that cannot be killed.
+/// @param find  function that lists the current processes
 void end_processes(const std::function<std::vector<pid_t>()>& find);
 
 }  // namespace rovernet

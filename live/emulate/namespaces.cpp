@@ -50,7 +50,11 @@ void Namespaces::receive_devices(const std::function<bool()>& go_on) {
         if (!go_on()) throw Interrupted();
         if (is_there <= 0) continue;
         const auto message = receive_descriptor(keeper_socket_);
-        if (!message) throw RunError("the keeper of the namespaces has ended");
+        if (!message) {
+            throw RunError(
+                "the process that holds the robots' network namespaces has died; start rovernet "
+                "emulate again");
+        }
         if (message->descriptor < 0) throw RunError(message->text);
         devices_.push_back(message->descriptor);
     }

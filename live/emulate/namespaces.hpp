@@ -11,27 +11,27 @@
 
 namespace rovernet {
 
-/// Network namespaces, one for each robot, with its TAP device in it. A user who may not make them
-/// gets a user namespace around them, in which that is allowed.
+/// Network namespaces, one for each robot, each with a TAP device. For unprivileged users a user
+/// namespace is created first, in which this is allowed.
 ///
-/// They belong to a process of their own, the keeper (run_keeper), so that this one stays where it
-/// is. The keeper hands a namespace to this user's processes that ask (RobotNetwork). It ends when
-/// this process does, however that ends, and the programs in the namespaces before it: then nothing
-/// is left.
+/// A separate process, the keeper (run_keeper), holds the namespaces, so that this process stays in
+/// its own network. The keeper passes a namespace to processes of this user on request
+/// (RobotNetwork). When this process ends for any reason, the keeper ends the programs in the
+/// namespaces, then itself, so that nothing is left behind.
 class Namespaces {
   public:
-    /// @param folder  of the run's results, by which programs find it
-    /// @param go_on   asked now and then; false: it is not waited for any more
+    /// @param folder  folder of the run's results, by which programs find the run
+    /// @param go_on   called now and then; returning false stops the setup
     /// @throws RunError if namespaces or devices cannot be made; Interrupted
     Namespaces(std::vector<RobotDevice> robots, const std::string& folder,
                const std::function<bool()>& go_on);
-    /// Waits for the end of the programs in them.
+    /// Ends the programs in the namespaces, and waits for them.
     ~Namespaces();
     Namespaces(const Namespaces&) = delete;
     Namespaces& operator=(const Namespaces&) = delete;
 
     const std::vector<RobotDevice>& robots() const { return robots_; }
-    /// Descriptor of a robot's TAP device, which the caller then owns.
+    /// Descriptor of a robot's TAP device; the caller becomes its owner.
     int take_device(std::size_t robot);
 
   private:

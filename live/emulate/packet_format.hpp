@@ -11,10 +11,10 @@
 
 namespace rovernet {
 
-/// Reason why a packet is not sent.
+/// Reason why a packet is rejected.
 enum class PacketFault {
-    malformed,            ///< its bytes make no sense
-    unknown_destination,  ///< no other robot has that address
+    malformed,            ///< the bytes are no valid packet
+    unknown_destination,  ///< no other robot has the destination address
 };
 
 /// Format of the packets between a robot's programs and its radio.
@@ -22,13 +22,14 @@ class PacketFormat {
   public:
     virtual ~PacketFormat() = default;
 
-    /// Learns the robots' addresses, before any packet.
-    /// @throws std::invalid_argument for one that is none
+    /// Sets the robots' addresses, before the first packet.
+    /// @throws std::invalid_argument for an invalid address
     virtual void begin(const Network&) = 0;
-    /// Message that a packet from a robot's programs asks for.
+    /// Converts a packet from a robot's programs into a message to send.
     virtual std::variant<SendCommand, PacketFault> read(NodeId from,
                                                         std::string_view packet) const = 0;
-    /// Packet in which a robot's programs get what it heard; nothing if it is not for them.
+    /// Converts a received message into a packet for the robot's programs; none if the message is
+    /// not for them.
     virtual std::optional<std::string> write(HeardMessage heard) const = 0;
 };
 

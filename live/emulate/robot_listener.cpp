@@ -24,18 +24,18 @@
 namespace rovernet {
 namespace {
 
-constexpr std::string_view door_name = "rovernet/";
-constexpr int door_type = SOCK_SEQPACKET | SOCK_CLOEXEC;  // whole messages
+constexpr std::string_view socket_prefix = "rovernet/";
+constexpr int socket_type = SOCK_SEQPACKET | SOCK_CLOEXEC;  // whole messages
 
 /// Abstract Unix address.
-class DoorAddress {
+class ListenerAddress {
   public:
-    explicit DoorAddress(const RobotDoor& door) {
+    explicit ListenerAddress(const RobotListener& listener) {
         const std::string name =
-            fmt::format("{}{}{}/{}", door_name, door.run, door.mark, door.robot);
+            fmt::format("{}{}{}/{}", socket_prefix, listener.run, listener.mark, listener.robot);
         if (name.size() >= sizeof address_.sun_path) {
             throw RunError(
-                fmt::format("robot {}: the name is too long for its namespace", door.robot));
+                fmt::format("robot {}: the name is too long for its namespace", listener.robot));
         }
         address_.sun_family = AF_UNIX;
         std::memcpy(address_.sun_path + 1, name.data(), name.size());
@@ -49,24 +49,24 @@ class DoorAddress {
     socklen_t size_;
 };
 
-/// A door of the text "PID/ROBOT" or "PID.NUMBER/ROBOT".
-std::optional<RobotDoor> read_door(std::string_view text) {
-    RobotDoor door{};
+/// Parses the name of a listener, "PID/ROBOT" or "PID.NUMBER/ROBOT".
+std::optional<RobotListener> read_listener(std::string_view text) {
+    RobotListener listener{};
     const std::size_t slash = text.find('/');
     if (slash == text.npos) return std::nullopt;
     const char* const end = text.data() + slash;
-    const auto [rest, error] = std::from_chars(text.data(), end, door.run);
+    const auto [rest, error] = std::from_chars(text.data(), end, listener.run);
     if (error != std::errc{} || (rest != end && *rest != '.')) return std::nullopt;
-    door.mark.assign(rest, end);
-    door.robot = text.substr(slash + 1);
-    return door;
+    listener.mark.assign(rest, end);
+    listener.robot = text.substr(slash + 1);
+    return listener;
 }
 
 }  // namespace
 
-int RobotDoor::listen() const {
-    const DoorAddress address(*this);
-    const int socket = ::socket(AF_UNIX, door_type, 0);
+int RobotListener::listen() const {
+    const ListenerAddress address(*this);
+    const int socket = ::socket(AF_UNIX, socket_type, 0);
     constexpr int waiting = 64;
     if (socket >= 0 && bind(socket, address.get(), address.size()) == 0 &&
         ::listen(socket, waiting) == 0) {
@@ -78,9 +78,9 @@ int RobotDoor::listen() const {
     return -1;
 }
 
-std::optional<int> RobotDoor::enter() const {
-    const DoorAddress address(*this);
-    const int socket = ::socket(AF_UNIX, door_type | SOCK_NONBLOCK, 0);
+std::optional<int> RobotListener::connect_to() const {
+    const ListenerAddress address(*this);
+    const int socket = ::socket(AF_UNIX, socket_type | SOCK_NONBLOCK, 0);
     if (socket >= 0 && connect(socket, address.get(), address.size()) == 0) return socket;
     const int error = errno;
     if (socket >= 0) close(socket);
@@ -88,32 +88,33 @@ std::optional<int> RobotDoor::enter() const {
     return std::nullopt;
 }
 
-int open_door(pid_t run, const std::string& robot) {
-    RobotDoor door{run, "", robot};
+int open_listener(pid_t run, const std::string& robot) {
+    RobotListener listener{run, "", robot};
     constexpr int most_tries = 100;
     for (int i = 0; i < most_tries; ++i) {
-        const int socket = door.listen();
+        const int socket = listener.listen();
         if (socket >= 0) return socket;
         if (errno != EADDRINUSE) break;
         std::uint32_t number = 0;  // one that nobody can take beforehand
         (void)!getrandom(&number, sizeof number, 0);
-        door.mark = fmt::format(".{}", number);
+        listener.mark = fmt::format(".{}", number);
     }
     throw RunError(
-        fmt::format("door of the namespace of robot {}: {}", robot, std::strerror(errno)));
+        fmt::format("listener for the namespace of robot {}: {}", robot, std::strerror(errno)));
 }
 
-std::vector<RobotDoor> all_doors() {
-    std::set<RobotDoor> doors;
+std::vector<RobotListener> all_listeners() {
+    std::set<RobotListener> listeners;
     std::ifstream sockets("/proc/net/unix");
-    const std::string mark = fmt::format(" @{}", door_name);
+    const std::string mark = fmt::format(" @{}", socket_prefix);
     for (std::string line; std::getline(sockets, line);) {
         const std::size_t place = line.find(mark);
         if (place == line.npos) continue;
-        auto door = read_door(std::string_view(line).substr(place + mark.size()));
-        if (door) doors.insert(std::move(*door));  // who has come in has the same name
+        auto listener = read_listener(std::string_view(line).substr(place + mark.size()));
+        if (listener)
+            listeners.insert(std::move(*listener));  // accepted connections have the same name
     }
-    return {doors.begin(), doors.end()};
+    return {listeners.begin(), listeners.end()};
 }
 
 std::optional<uid_t> user_behind(int socket) {

@@ -8,37 +8,37 @@
 
 namespace rovernet {
 
-/// Door of a robot's namespace: the abstract Unix socket "rovernet/PID/ROBOT", where PID is the
-/// process of the run. It has no file, and goes with its process.
+/// Listener for a robot's namespace: the abstract Unix socket "rovernet/PID/ROBOT", where PID is
+/// the process of the run. It has no file, and vanishes with its process.
 ///
-/// Anybody may take any such name. So whoever comes in by a door asks for the user behind it
-/// (user_behind), and whoever waits there asks for the user who comes. Where a name is taken, the
-/// door is at "rovernet/PID.NUMBER/ROBOT".
-struct RobotDoor {
+/// Any user may bind any such name. So client and server both check the user of the peer
+/// (user_behind). If the name is taken, the listener is at "rovernet/PID.NUMBER/ROBOT".
+struct RobotListener {
     pid_t run;
-    std::string mark;  ///< what stands behind PID: "" or ".NUMBER"
+    std::string mark;  ///< suffix of PID in the socket's name: "" or ".NUMBER"
     std::string robot;
 
-    /// @throws RunError for a name that is too long
+    /// Opens the socket of the listener. @throws RunError for a name that is too long
     int listen() const;
-    /// Comes in. @return the socket; nothing if nobody is there; -1 if too many wait there
-    std::optional<int> enter() const;
+    /// Connects to the listener. @return the socket; none if no process listens; -1 if the
+    /// listener's queue is full
+    std::optional<int> connect_to() const;
 
-    friend auto operator<=>(const RobotDoor&, const RobotDoor&) = default;
+    friend auto operator<=>(const RobotListener&, const RobotListener&) = default;
 };
 
-/// Opens the door of a robot. @return the socket at which who comes in is accepted
+/// Opens the listener of a robot. @return the listening socket
 /// @throws RunError
-int open_door(pid_t run, const std::string& robot);
+int open_listener(pid_t run, const std::string& robot);
 
-/// Doors of all runs on this machine, whoever has opened them.
-std::vector<RobotDoor> all_doors();
+/// Listeners of robots of all runs on this machine, of any user.
+std::vector<RobotListener> all_listeners();
 
-/// User at the other end of a socket, as the kernel says: of an accepted one who comes, of a
-/// connected one who listens there.
+/// User of the peer process of a socket, from the kernel: the client of an accepted socket, the
+/// server of a connected one.
 std::optional<uid_t> user_behind(int socket);
 
-/// Name of a user, for people: "alice (1000)".
+/// Name of a user for messages: "alice (1000)".
 std::string user_name(uid_t user);
 
 }  // namespace rovernet

@@ -3,6 +3,7 @@
 
 #include "live/emulate/descriptor_socket.hpp"
 #include "live/emulate/robot_listener.hpp"
+#include "network/network.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -31,40 +32,40 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// Door that this process has come to.
+/// Robot listener to which this process is connected.
 struct Visit {
-    RobotDoor door;
+    RobotListener listener;
     uid_t owner = 0;
     OwnDescriptor connection;
     std::string folder = {};
     OwnDescriptor space = OwnDescriptor(-1);
 };
 
-/// Goes to doors, whoever is there. Nobody waits long at a door that a stranger keeps full.
-std::vector<Visit> visit(std::vector<RobotDoor> doors) {
-    constexpr Clock::duration patience = 3s, look_every = 5ms;
+/// Connects to listeners of any user, and retries those with a full queue for 3 s at most.
+std::vector<Visit> visit(std::vector<RobotListener> listeners) {
+    constexpr Clock::duration timeout = 3s, look_every = 5ms;
     std::vector<Visit> visits;
     const auto begun = Clock::now();
     for (;;) {
-        std::vector<RobotDoor> full;
-        for (RobotDoor& door : doors) {
-            const auto socket = door.enter();
+        std::vector<RobotListener> full;
+        for (RobotListener& listener : listeners) {
+            const auto socket = listener.connect_to();
             if (!socket) continue;
             if (*socket < 0) {
-                full.push_back(std::move(door));
+                full.push_back(std::move(listener));
                 continue;
             }
             OwnDescriptor connection(*socket);
             const auto owner = user_behind(*socket);
-            if (owner) visits.push_back({std::move(door), *owner, std::move(connection)});
+            if (owner) visits.push_back({std::move(listener), *owner, std::move(connection)});
         }
-        if (full.empty() || Clock::now() - begun > patience) return visits;
-        doors = std::move(full);
+        if (full.empty() || Clock::now() - begun > timeout) return visits;
+        listeners = std::move(full);
         std::this_thread::sleep_for(look_every);
     }
 }
 
-/// Asks for the namespace and the folder of the run. @return whether they came
+/// Requests the namespace and the folder of the run. @return whether both were received
 bool ask(Visit& visit) {
     const int socket = visit.connection.get();
     fcntl(socket, F_SETFL, fcntl(socket, F_GETFL) & ~O_NONBLOCK);
@@ -75,18 +76,18 @@ bool ask(Visit& visit) {
     return true;
 }
 
-/// Finds the run that is meant among those of one user.
+/// Finds the wanted run among the runs of one user.
 class Search {
   public:
     Search(const std::string& robot, const WantedRun& wanted)
         : robot_(robot), wanted_(wanted), user_(wanted.user.value_or(geteuid())) {}
 
     Visit find() {
-        std::vector<RobotDoor> doors = all_doors();
-        std::erase_if(doors, [this](const RobotDoor& each) { return !may_be_meant(each); });
-        std::vector<Visit> found = visit(doors);
+        std::vector<RobotListener> listeners = all_listeners();
+        std::erase_if(listeners, [this](const RobotListener& each) { return !may_be_meant(each); });
+        std::vector<Visit> found = visit(listeners);
         for (const Visit& each : found) {
-            if (each.owner != user_) others_.insert({each.owner, each.door.run});
+            if (each.owner != user_) others_.insert({each.owner, each.listener.run});
         }
         std::erase_if(found, [this](const Visit& each) { return each.owner != user_; });
         const bool was_there = !found.empty();
@@ -100,8 +101,8 @@ class Search {
     }
 
   private:
-    bool may_be_meant(const RobotDoor& door) const {
-        return door.robot == robot_ && door.run == wanted_.process.value_or(door.run);
+    bool may_be_meant(const RobotListener& listener) const {
+        return listener.robot == robot_ && listener.run == wanted_.process.value_or(listener.run);
     }
     bool is_wanted(const std::string& folder) const {
         std::error_code ignored;
@@ -109,7 +110,7 @@ class Search {
     }
 
     static std::string run_text(const Visit& visit) {
-        return fmt::format("--run {} ({})", visit.door.run, folder_text(visit.folder));
+        return fmt::format("--run {} ({})", visit.listener.run, folder_text(visit.folder));
     }
     [[noreturn]] void fail_of_several(const std::vector<Visit>& found) const {
         std::string runs;
@@ -123,16 +124,16 @@ class Search {
         std::set<std::string> names;
     };
     Known known() const {
-        std::vector<RobotDoor> doors = all_doors();
-        std::erase_if(doors, [this](const RobotDoor& each) {
+        std::vector<RobotListener> listeners = all_listeners();
+        std::erase_if(listeners, [this](const RobotListener& each) {
             return each.run != wanted_.process.value_or(each.run);
         });
         Known known;
         std::set<pid_t> seen;
-        for (Visit& each : visit(doors)) {
+        for (Visit& each : visit(listeners)) {
             if (each.owner != user_) continue;
-            known.names.insert(each.door.robot);
-            if (seen.insert(each.door.run).second && ask(each)) {
+            known.names.insert(each.listener.robot);
+            if (seen.insert(each.listener.run).second && ask(each)) {
                 known.runs.push_back(std::move(each));
             }
         }
@@ -149,7 +150,7 @@ class Search {
     std::set<std::pair<uid_t, pid_t>> others_;  // who has such a robot, too
 };
 
-/// What is to be said of the runs of others that have such a robot.
+/// Hint about runs of other users that have such a robot.
 std::string Search::other_users() const {
     if (others_.empty()) return {};
     const auto& [owner, run] = *others_.begin();
@@ -212,7 +213,7 @@ RobotNetwork find_network(const std::string& robot, const WantedRun& wanted) {
         throw std::invalid_argument("--user: only root may enter the runs of another user");
     }
     Visit found = Search(robot, wanted).find();
-    return {robot, found.door.run, std::move(found.folder), std::move(found.space),
+    return {robot, found.listener.run, std::move(found.folder), std::move(found.space),
             std::move(found.connection)};
 }
 

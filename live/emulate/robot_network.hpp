@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-/// Descriptor that is closed with its owner.
+/// File descriptor, closed by the destructor.
 class OwnDescriptor {
   public:
     explicit OwnDescriptor(int descriptor = -1) : value_(descriptor) {}
@@ -24,35 +24,37 @@ class OwnDescriptor {
     int value_;
 };
 
-/// Run that is meant by `rovernet in`, as far as that is said.
+/// Selection of a run for `rovernet in`; empty members match any run.
 struct WantedRun {
     std::optional<pid_t> process = {};
-    std::optional<std::string> folder = {};  ///< of its results
-    /// User whose runs are trusted; none: the one of this process. Whoever hands out a network
-    /// reads and changes all that programs send there.
+    std::optional<std::string> folder = {};  ///< folder of the run's results
+    /// User whose runs are trusted; none: the user of this process. The provider of a network can
+    /// read and change all packets of programs in it.
     std::optional<uid_t> user = {};
 };
 
-/// Network of a robot of a run that is going on.
+/// Network namespace of a robot in a current run, for programs of `rovernet in`.
 struct RobotNetwork {
     std::string robot;
     pid_t run;
-    std::string folder;        ///< of the run's results
-    OwnDescriptor space;       ///< of the namespace
-    OwnDescriptor connection;  ///< to the run: at its end a message comes, or it breaks
+    std::string folder;        ///< folder of the run's results
+    OwnDescriptor space;       ///< file descriptor of the network namespace
+    OwnDescriptor connection;  ///< connection to the run: at its end a message arrives, or the
+                               ///< connection breaks
 };
 
-/// Comes in at a robot's door. Doors of other users than the one that is trusted are passed over.
-/// @throws std::invalid_argument if there is no such robot, or if several runs have one, telling
-///     which there are
-/// @throws RunError if the run ends meanwhile
+/// Connects to a robot's listener, and gets the robot's network namespace. Listeners of untrusted
+/// users are ignored.
+/// @throws std::invalid_argument if no run or several runs have such a robot; the message lists the
+///     candidates
+/// @throws RunError if the run ends in the meantime
 RobotNetwork find_network(const std::string& robot, const WantedRun& wanted);
 
-/// Moves this process, which must have one thread, into a robot's network.
+/// Moves this process, which must have one thread, into a robot's network namespace.
 /// @throws RunError
 void enter_network(const RobotNetwork& network);
 
-/// The folder of a run, as a person at the present folder would write it.
+/// Folder of a run, as a relative path if it lies below the current folder.
 std::string folder_text(const std::string& folder);
 
 }  // namespace rovernet

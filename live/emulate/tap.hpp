@@ -13,23 +13,24 @@ class Namespaces;
 /// Name of a robot's network device in its namespace.
 inline constexpr const char* tap_name = "wlan0";
 
-/// Network device of a robot, as its programs see it.
+/// Network device of a robot, for programs in the robot's network namespace.
 struct RobotDevice {
     std::string robot;
-    std::string ip, netmask;  ///< "10.0.0.1", "255.255.255.0"
-    std::string mac;          ///< its 6 bytes
+    std::string ip, netmask;  ///< IPv4 address and netmask: "10.0.0.1", "255.255.255.0"
+    std::string mac;          ///< hardware address, 6 bytes
 };
 
-/// Makes a TAP device in the network namespace of this process, with the robot's addresses, and
-/// switches it and `lo` on. It is there as long as the descriptor is open.
-/// @return the descriptor, at which Ethernet frames are read and written
+/// Creates a TAP device in the network namespace of this process, sets the robot's addresses, and
+/// brings up the device and `lo`. The device exists as long as the descriptor is open.
+/// @return descriptor for reading and writing Ethernet frames
 /// @throws RunError
 int make_tap(const RobotDevice& device);
 
-/// TAP device of a robot: what its programs send is read here, and what the robot hears is written.
+/// TAP device of a robot: reads the frames that its programs send, and writes the frames that the
+/// robot receives.
 class TapPort : public PacketPort {
   public:
-    /// @param namespaces  of which it takes the device of that number
+    /// @param namespaces  robots' network namespaces, from which the device of `robot` is taken
     TapPort(std::shared_ptr<Namespaces> namespaces, std::size_t robot);
     ~TapPort() override;
     TapPort(const TapPort&) = delete;
@@ -41,7 +42,7 @@ class TapPort : public PacketPort {
     void write(std::string_view frame) override;
 
   private:
-    std::shared_ptr<Namespaces> namespaces_;  // in which it lives
+    std::shared_ptr<Namespaces> namespaces_;  // namespaces that contain the device
     std::size_t robot_;
     int descriptor_;
 };

@@ -9,12 +9,12 @@
 
 namespace rovernet {
 
-/// UDP port of this machine. Packets go to the address that the last one came from.
+/// UDP port of one robot. Packets are sent to the sender of the last received packet.
 class UdpPort : public PacketPort {
   public:
-    /// @param own    with port 0: any that is free
-    /// @param robot  whose port it is
-    /// @throws RunError if it is in use
+    /// @param own    address of the port; port 0: any free port
+    /// @param robot  name of the robot
+    /// @throws RunError if the port is in use
     UdpPort(const Address& own, std::string robot);
     ~UdpPort() override;
     UdpPort(const UdpPort&) = delete;
@@ -30,7 +30,7 @@ class UdpPort : public PacketPort {
     Address where_;
     int socket_ = -1;
     sockaddr_storage peer_{};
-    socklen_t peer_size_ = 0;  // 0: nobody has sent anything yet
+    socklen_t peer_size_ = 0;  // 0: no packet received yet
 };
 
 }  // namespace rovernet

@@ -37,28 +37,21 @@ void AnswerWriter::put_list(const Items& items, PutOne put_one) {
 std::string_view AnswerWriter::welcome(const HelloRequest& hello) {
     const Network& network = session_.network();
     line_.clear();
-    put(R"({"type":"welcome","protocol":1,"version":)");
-    put(to_json_line(Value(version())));
-    put(",\"seed\":");
-    put(scenario_.scenario.seed);
-    put(",\"t_ns\":");
-    put(network.now().time_since_epoch().count());
-    put(",\"step_ns\":");
-    put(hello.step.count());
-    put(",\"end_ns\":");
-    put(session_.end().time_since_epoch().count());
+    put(R"({"type":"welcome","protocol":1,"version":)", to_json_line(Value(version())));
+    put(",\"seed\":", scenario_.scenario.seed);
+    put(",\"t_ns\":", network.now().time_since_epoch().count());
+    put(",\"step_ns\":", hello.step.count());
+    put(",\"end_ns\":", session_.end().time_since_epoch().count());
     put(",\"robots\":{");
     put_list(hello.robots, [&](NodeId robot) {
         const RobotState state = network.robot(robot);
         put(name(robot));
-        put(":{\"id\":");
-        put(std::uint64_t{robot.value});
-        put(",\"radius\":");
-        put(state.radius.value);
+        put(":{\"id\":", std::uint64_t{robot.value});
+        put(",\"radius\":", state.radius.value);
         put(",");
         put_place(state.at);
-        put(",\"heading\":");
-        put(state.heading.value);
+        put(",\"heading\":", state.heading.value);
+        if (hello.observes_scan) put_scanners(robot);
         put("}");
     });
     put("},\"map\":");
@@ -72,42 +65,31 @@ bool AnswerWriter::tells_height(Vec3 at) const {
 }
 
 void AnswerWriter::put_place(Vec3 at) {
-    put("\"x\":");
-    put(at.x);
-    put(",\"y\":");
-    put(at.y);
+    put("\"x\":", at.x);
+    put(",\"y\":", at.y);
     if (!tells_height(at)) return;
-    put(",\"z\":");
-    put(at.z);
+    put(",\"z\":", at.z);
 }
 
 void AnswerWriter::put_map() {
     const Scene& scene = session_.network().scene();
     if (scene.open_field()) return put("null");
     const OccupancyGrid& grid = scene.grid();
-    put("{\"image\":");
     const SceneTable& table = scenario_.scene;
     const bool is_building = !table.floors.empty();
+    put("{\"image\":");
     put(is_building ? to_json_line(Value(table.floors.front().map))
         : table.map ? to_json_line(Value(*table.map))
                     : "null");
-    put(",\"resolution\":");
-    put(grid.cell_width);
-    put(",\"origin\":[");
-    put(grid.origin.x);
-    put(",");
-    put(grid.origin.y);
-    put("],\"columns\":");
-    put(std::int64_t{grid.columns});
-    put(",\"rows\":");
-    put(std::int64_t{grid.rows});
+    put(",\"resolution\":", grid.cell_width);
+    put(",\"origin\":[", grid.origin.x, ",", grid.origin.y, "]");
+    put(",\"columns\":", std::int64_t{grid.columns});
+    put(",\"rows\":", std::int64_t{grid.rows});
     if (is_building) {
         put(",\"floors\":[");
         put_list(table.floors, [&](const FloorTable& floor) {
-            put("{\"height\":");
-            put(floor.height.value);
-            put(",\"image\":");
-            put(to_json_line(Value(floor.map)));
+            put("{\"height\":", floor.height.value);
+            put(",\"image\":", to_json_line(Value(floor.map)));
             put("}");
         });
         put("]");
@@ -120,10 +102,8 @@ std::string_view AnswerWriter::state(const HelloRequest& hello, std::uint64_t nu
                                      const std::vector<HeardMessage>& heard) {
     const Time now = session_.network().now();
     line_.clear();
-    put(R"({"type":"state","n":)");
-    put(number);
-    put(",\"t_ns\":");
-    put(now.time_since_epoch().count());
+    put(R"({"type":"state","n":)", number);
+    put(",\"t_ns\":", now.time_since_epoch().count());
     if (hello.observes_pose && hello.columns) {
         put_columns(hello.robots);
     } else if (hello.observes_pose) {
@@ -141,16 +121,18 @@ std::string_view AnswerWriter::state(const HelloRequest& hello, std::uint64_t nu
         put_list(hello.robots, [&](NodeId robot) { put_neighbors(robot); });
         put("}");
     }
+    if (hello.observes_scan) {
+        put(",\"scan\":{");
+        put_list(hello.robots, [&](NodeId robot) { put_scans(robot); });
+        put("}");
+    }
     put(",\"sent\":[");
     put_list(sent, [&](const SentMessage& each) {
-        put("{\"uid\":");
-        put(each.uid);
-        put(",\"robot\":");
-        put(name(each.robot));
+        put("{\"uid\":", each.uid);
+        put(",\"robot\":", name(each.robot));
         put("}");
     });
-    put("],\"done\":");
-    put_truth(now >= session_.end());
+    put("],\"done\":", truth(now >= session_.end()));
     put("}");
     return line_.text();
 }
@@ -162,75 +144,55 @@ void AnswerWriter::put_robot(NodeId robot) {
     put(name(robot));
     put(":{");
     put_place(at);
-    put(",\"heading\":");
-    put(network.heading(robot).value);
-    put(",\"v\":");
-    put(twist.speed);
-    put(",\"w\":");
-    put(twist.turn_rate);
-    put(",\"on\":");
-    put_truth(network.medium().stations().is_on(robot));
-    put(",\"stalled\":");
-    put_truth(session_.is_stalled(robot));
+    put(",\"heading\":", network.heading(robot).value);
+    put(",\"v\":", twist.speed);
+    put(",\"w\":", twist.turn_rate);
+    put(",\"on\":", truth(network.medium().stations().is_on(robot)));
+    put(",\"stalled\":", truth(session_.is_stalled(robot)));
+    put(",\"no_way\":", truth(session_.has_no_way(robot)));
     put("}");
 }
 
 template <class PutOne>
 void AnswerWriter::put_column(std::string_view key, const std::vector<NodeId>& robots,
                               PutOne put_one) {
-    put("\"");
-    put(key);
-    put("\":[");
+    put(",\"", key, "\":[");
     put_list(robots, put_one);
     put("]");
 }
 
 void AnswerWriter::put_columns(const std::vector<NodeId>& robots) {
     const Network& network = session_.network();
-    put(",\"state\":{");
-    put_column("robots", robots, [&](NodeId robot) { put(std::uint64_t{robot.value}); });
-    put(",");
+    put(",\"state\":{\"robots\":[");
+    put_list(robots, [&](NodeId robot) { put(std::uint64_t{robot.value}); });
+    put("]");
     put_column("x", robots, [&](NodeId robot) { put(network.position(robot).x); });
-    put(",");
     put_column("y", robots, [&](NodeId robot) { put(network.position(robot).y); });
-    put(",");
     if (std::any_of(robots.begin(), robots.end(),
                     [&](NodeId robot) { return tells_height(network.position(robot)); })) {
         put_column("z", robots, [&](NodeId robot) { put(network.position(robot).z); });
-        put(",");
     }
     put_column("heading", robots, [&](NodeId robot) { put(network.heading(robot).value); });
-    put(",");
     put_column("v", robots, [&](NodeId robot) { put(session_.twist(robot).speed); });
-    put(",");
     put_column("w", robots, [&](NodeId robot) { put(session_.twist(robot).turn_rate); });
-    put(",");
     put_column("on", robots,
-               [&](NodeId robot) { put_truth(network.medium().stations().is_on(robot)); });
-    put(",");
-    put_column("stalled", robots, [&](NodeId robot) { put_truth(session_.is_stalled(robot)); });
+               [&](NodeId robot) { put(truth(network.medium().stations().is_on(robot))); });
+    put_column("stalled", robots, [&](NodeId robot) { put(truth(session_.is_stalled(robot))); });
+    put_column("no_way", robots, [&](NodeId robot) { put(truth(session_.has_no_way(robot))); });
     put("}");
 }
 
 void AnswerWriter::put_heard(const HeardMessage& heard) {
-    put("{\"at\":");
-    put(name(heard.at));
-    put(",\"t_ns\":");
-    put(heard.time.time_since_epoch().count());
-    put(",\"from\":");
-    put(name(heard.from));
-    put(",\"last_hop\":");
-    put(name(heard.last_hop));
-    put(",\"hops\":");
-    put(std::int64_t{heard.hops});
-    put(",\"port\":");
-    put(std::uint64_t{heard.port});
+    put("{\"at\":", name(heard.at));
+    put(",\"t_ns\":", heard.time.time_since_epoch().count());
+    put(",\"from\":", name(heard.from));
+    put(",\"last_hop\":", name(heard.last_hop));
+    put(",\"hops\":", std::int64_t{heard.hops});
+    put(",\"port\":", std::uint64_t{heard.port});
     put(",\"rssi\":");
     heard.level ? put(heard.level->value) : put("null");
-    put(",\"noise\":");
-    put(session_.network().medium().stations().noise(heard.at).value);
-    put(",\"data\":\"");
-    put(base64(heard.payload));
+    put(",\"noise\":", session_.network().medium().stations().noise(heard.at).value);
+    put(",\"data\":\"", base64(heard.payload));
     put("\"}");
 }
 
@@ -239,16 +201,47 @@ void AnswerWriter::put_neighbors(NodeId robot) {
     put(name(robot));
     put(":[");
     put_list(network.links(robot, network.now()), [&](const Neighbour& neighbour) {
-        put("{\"name\":");
-        put(name(neighbour.node));
-        put(",\"rssi\":");
-        put(neighbour.level.value);
-        put(",\"noise\":");
-        put(neighbour.noise.value);
-        put(",\"quality\":");
-        put(std::int64_t{neighbour.quality});
+        put("{\"name\":", name(neighbour.node));
+        put(",\"rssi\":", neighbour.level.value);
+        put(",\"noise\":", neighbour.noise.value);
+        put(",\"quality\":", std::int64_t{neighbour.quality});
         put("}");
     });
+    put("]");
+}
+
+/// Range finders of a robot, with the begin and the direction of each beam in the robot's frame.
+void AnswerWriter::put_scanners(NodeId robot) {
+    put(",\"scan\":[");
+    put_list(session_.range_finders(robot), [&](const Scanner& scanner) {
+        put("{\"name\":", to_json_line(Value(scanner.label())));
+        put(",\"kind\":", to_json_line(Value(name_of(scanner.finder.kind))));
+        put(",\"range\":", scanner.finder.range.value);
+        put(",\"beams\":[");
+        const char* between = "";
+        for (std::size_t i = 0; i < scanner.size(); ++i) {
+            const ScannerPose beam = scanner.pose() * scanner.beam(i);
+            put(between);
+            put("[", beam.at.x, ",", beam.at.y, ",", beam.heading.value, "]");
+            between = ",";
+        }
+        put("]}");
+    });
+    put("]");
+}
+
+/// Distances that each range finder of a robot measures now.
+void AnswerWriter::put_scans(NodeId robot) {
+    put(name(robot));
+    put(":[");
+    const char* between = "";
+    for (std::size_t i = 0; i < session_.range_finders(robot).size(); ++i) {
+        put(between);
+        put("[");
+        put_list(session_.scan(robot, i), [&](double metres) { put(metres); });
+        put("]");
+        between = ",";
+    }
     put("]");
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "experiment/session.hpp"
-#include "live/lockstep/answer.hpp"
 #include "live/carriers/request.hpp"
+#include "live/lockstep/answer.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -14,39 +14,39 @@
 
 namespace rovernet {
 
-/// Controller of robots in a lock-step run: one that is there, or one that time waits for.
+/// Controller (external program) of robots in a lock-step run, connected or lost.
 struct Controller {
-    /// Number of whoever carries a controller's lines, never used twice.
+    /// Number of the connection that carries the controller's lines, unique in the run.
     using Connection = std::uint32_t;
     enum class State {
-        owes,         ///< a question: time stands still
-        waits,        ///< for the answer to its step
-        wants_reset,  ///< of the run
-        leaves,       ///< has said bye
+        owes,         ///< the controller's next request is missing: time stands still
+        waits,        ///< the controller waits for the answer to its step
+        wants_reset,  ///< the controller has requested a reset of the run
+        leaves,       ///< the controller has sent "bye"
     };
 
-    /// @param hello  its robots belong to nobody else
+    /// @param hello  request whose robots must not belong to any other controller
     Controller(Connection from, HelloRequest hello);
 
-    /// Begins a run: takes its robots in the session, and owes the first question.
+    /// Starts a run: attaches the controller's robots in the session, and waits for a request.
     void join(Session& session);
 
-    std::optional<Connection> connection;  ///< none: it was lost
+    std::optional<Connection> connection;  ///< connection of the controller; none: lost
     HelloRequest hello;
-    std::vector<NodeId> own;  ///< robots of the hello, in ascending order
-    ClientId client = 0;      ///< in the session
+    std::vector<NodeId> own;  ///< robots of the controller's "hello", in ascending order
+    ClientId client = 0;      ///< id of the controller as a client of the session
     State state = State::owes;
-    Time step_end = start_of_run;          ///< of the step that it waits for
-    std::optional<StepRequest> step = {};  ///< not carried out yet
-    std::uint64_t number = 0;              ///< of its last step
+    Time step_end = start_of_run;          ///< end of the step that the controller requested
+    std::optional<StepRequest> step = {};  ///< step request that is not executed yet
+    std::uint64_t number = 0;              ///< number of the controller's last step
     bool has_stepped = false;
     std::optional<std::uint64_t> reset_seed = {};
-    std::vector<SentMessage> sent = {};  ///< in its last step
-    std::string last_state = {};         ///< for when it comes back
+    std::vector<SentMessage> sent = {};  ///< messages sent in the controller's last step
+    std::string last_state = {};  ///< last "state" line, sent again if the controller reconnects
 };
 
-/// Controllers of a lock-step run, in the order of their hellos. References to one are good until
-/// another one comes or leaves.
+/// Controllers of a lock-step run, in the order of their "hello" requests. References are valid
+/// until a controller joins or leaves.
 class Controllers {
   public:
     using Connection = Controller::Connection;
@@ -58,21 +58,22 @@ class Controllers {
     std::size_t size() const { return all_.size(); }
     bool empty() const { return all_.empty(); }
 
-    /// Controller of a connection; null if it has not said hello.
+    /// Controller at the other end of a connection; null before its "hello".
     Controller* of(Connection connection);
-    /// Controller of that name, whether or not it is lost; null if there is none.
+    /// Controller with this name, connected or lost; null if there is none.
     Controller* named(std::string_view name);
 
     void add(Controller controller) { all_.push_back(std::move(controller)); }
     void remove(Connection connection);
-    /// Takes out those who said bye. @return them, in the order of their first robots
+    /// Removes controllers that sent "bye". @return the removed ones, in the order of their first
+    /// robots
     std::vector<Controller> take_leaving();
 
-    /// Names of those who owe a question.
+    /// Names of controllers whose next request is missing.
     std::vector<std::string> owing() const;
-    /// Whether nobody owes a question, and somebody is there.
+    /// Whether there are controllers, and each of them has sent its next request.
     bool have_all_asked() const;
-    /// Nearest end of a step that one waits for; `never` if none does.
+    /// Earliest end of the steps that controllers requested; `never` if no controller waits.
     Time next_end() const;
 
   private:

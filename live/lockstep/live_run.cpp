@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "live/lockstep/live_run.hpp"
 
+#include "experiment/summary.hpp"
 #include "live/carriers/listeners.hpp"
-#include "live/input_log.hpp"
 #include "live/carriers/web_sockets.hpp"
+#include "live/input_log.hpp"
+#include "traces/fingerprint.hpp"
 
 #include <fmt/format.h>
-
-#include <optional>
 
 namespace rovernet {
 namespace {
@@ -15,29 +15,31 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// Lines of a lock-step that come through doors.
+/// Transport of the lines of a lock-step run by listeners.
 class LiveServer {
   public:
     explicit LiveServer(const LiveOptions& options)
         : options_(options),
           lockstep_(options.lockstep, [this](auto to, auto line) { send(to, line); }),
-          doors_({.line = [this](auto from, auto line) { return lockstep_.receive(from, line); },
-                  .refuse = [this](auto to, const auto& why) { lockstep_.refuse(to, why); },
-                  .closed = [this](auto gone) { lockstep_.lost(gone); }}) {}
+          listeners_(
+              {.line = [this](auto from, auto line) { return lockstep_.receive(from, line); },
+               .refuse = [this](auto to, const auto& why) { lockstep_.refuse(to, why); },
+               .closed = [this](auto gone) { lockstep_.lost(gone); }}) {}
 
     Lockstep& lockstep() { return lockstep_; }
 
     void open() {
-        for (const std::string& command : options_.controllers) doors_.start(command);
-        if (options_.listen) options_.say("listening on " + doors_.listen(*options_.listen).text());
+        for (const std::string& command : options_.controllers) listeners_.start(command);
+        if (options_.listen)
+            options_.say("listening on " + listeners_.listen(*options_.listen).text());
         if (options_.web) listen_web(*options_.web);
         if (options_.unix_path) {
-            doors_.listen_unix(*options_.unix_path);
+            listeners_.listen_unix(*options_.unix_path);
             options_.say("listening on " + *options_.unix_path);
         }
     }
 
-    /// Serves controllers until the run is over or begins anew.
+    /// Serves controllers until the run ends or is reset.
     void serve(InputLog& log) {
         asked_ = Clock::now();
         while (lockstep_.state() == Lockstep::State::runs) {
@@ -48,21 +50,21 @@ class LiveServer {
                 continue;
             }
             tell_missing();
-            doors_.wait(200ms);
-            lose_patience();
-            lose_hope();
+            listeners_.wait(200ms);
+            check_request_timeout();
+            check_missing_controllers();
             log.keep_up();
         }
     }
 
-    /// Ends everything. @return what went wrong
+    /// Ends the run and all connections. @return errors
     std::string close(const RunResult& run) {
         Table metrics;
         append_metrics(metrics, run.metrics);
         lockstep_.tell_end(run.fingerprint, metrics);
         web_.close(400ms);
         const bool is_hurried = !options_.stop.go_on();
-        const auto failed = doors_.close(is_hurried ? 400ms : 10s);
+        const auto failed = listeners_.close(is_hurried ? 400ms : 10s);
         std::string fault = lockstep_.fault();
         if (is_hurried) return fault;
         for (const std::string& each : failed) fault += (fault.empty() ? "" : "; ") + each;
@@ -72,10 +74,10 @@ class LiveServer {
   private:
     /// A line goes to a WebSocket as a message.
     void send(Lockstep::Connection to, std::string_view line) {
-        to < WebSockets::first ? doors_.send(to, line) : web_.send(to, line);
+        to < WebSockets::first ? listeners_.send(to, line) : web_.send(to, line);
     }
     void listen_web(const Address& address) {
-        Doors::Streams users;
+        Listeners::Streams users;
         users.received = [this](auto from, auto line) {
             lockstep_.receive(from, line);
             return std::size_t{1};
@@ -84,7 +86,7 @@ class LiveServer {
         users.has_rate = false;  // each message is answered first
         const Address own = web_.listen(address, std::move(users));
         options_.say("listening on ws://" + own.text());
-        options_.say(web_.invitation(own));
+        options_.say(web_.token_notice(own));
     }
 
     void tell_missing() {
@@ -95,7 +97,7 @@ class LiveServer {
                                  lockstep_.wanted(), present == 1 ? "is" : "are"));
     }
 
-    void lose_patience() {
+    void check_request_timeout() {
         if (!options_.patience || !lockstep_.has_started()) return;
         if (Clock::now() - asked_ < *options_.patience) return;
         const std::chrono::duration<double> patience = *options_.patience;
@@ -105,18 +107,18 @@ class LiveServer {
                         fmt::join(lockstep_.controllers().owing(), ", ")));
     }
 
-    /// Ends a run that cannot begin, as a program has ended without a hello.
-    void lose_hope() {
-        if (lockstep_.has_started() || doors_.listens() || web_.listens()) return;
-        if (doors_.connections() < lockstep_.wanted()) {
+    /// Ends a run that cannot start, since a program has ended before its "hello".
+    void check_missing_controllers() {
+        if (lockstep_.has_started() || listeners_.listens() || web_.listens()) return;
+        if (listeners_.connections() < lockstep_.wanted()) {
             lockstep_.end_run("lost", "a controller has ended before its hello");
         }
     }
 
     const LiveOptions& options_;
     Lockstep lockstep_;
-    Doors doors_;
-    WebSockets web_{doors_};
+    Listeners listeners_;
+    WebSockets web_{listeners_};
     Clock::time_point asked_;
     std::optional<std::size_t> told_present_;
 };

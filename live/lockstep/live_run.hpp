@@ -15,22 +15,22 @@
 
 namespace rovernet {
 
-/// How a scenario is run live: where its controllers come from, and how long they are waited for.
+/// Options of a live lock-step run: how controllers connect, and timeouts.
 struct LiveOptions {
-    std::string folder;                         ///< for the results
-    std::vector<std::string> controllers;       ///< programs to start, by the shell
-    std::optional<Address> listen = {};         ///< for lines by TCP
-    std::optional<Address> web = {};            ///< for WebSockets
-    std::optional<std::string> unix_path = {};  ///< path of a Unix socket
+    std::string folder;                    ///< folder for the results of the run
+    std::vector<std::string> controllers;  ///< programs to start, by the shell
+    std::optional<Address> listen = {};    ///< address at which controllers connect by TCP
+    std::optional<Address> web = {};       ///< address at which controllers connect by WebSocket
+    std::optional<std::string> unix_path = {};  ///< path of a Unix socket for controllers
     Lockstep::Settings lockstep = {};
-    std::optional<std::chrono::nanoseconds> patience = {};  ///< for a question, of real time
+    std::optional<std::chrono::nanoseconds> patience = {};  ///< timeout for a request, in real time
     StopRules stop = {};
-    /// Told what a person should know: addresses, who is waited for.
+    /// Called with notices for the user: addresses, awaited controllers.
     std::function<void(std::string_view)> say = [](std::string_view) {};
 };
 
-/// Runs a scenario whose robots are driven by programs outside, in lock-step. It ends when they
-/// have left, and writes what run_scenario() writes, and the log of inputs.
+/// Runs a scenario in lock-step with external programs that drive its robots. The run ends when
+/// they have left; it writes the files of run_scenario() and the log of inputs.
 /// @throws InputError, RunError, Interrupted; std::invalid_argument for an overlong Unix path
 LiveResult run_live(Scenario scenario, const LiveOptions& options);
 

@@ -2,6 +2,7 @@
 #include "live/lockstep/lockstep.hpp"
 
 #include "experiment/run.hpp"
+#include "experiment/summary.hpp"
 
 #include <fmt/format.h>
 
@@ -52,7 +53,7 @@ bool Lockstep::receive(Connection from, std::string_view line) {
     return true;
 }
 
-/// Lets a controller that was lost go on where it was. @return whether it is one
+/// Reconnects a lost controller. @return whether the name is that of a lost controller
 bool Lockstep::come_back(Connection from, const HelloRequest& hello) {
     Controller* controller = controllers_.named(hello.name);
     if (!controller || controller->connection) return false;
@@ -78,6 +79,12 @@ void Lockstep::check_claims(const HelloRequest& hello) {
         throw RequestError("taken", fmt::format("robots[{}]", i),
                            fmt::format("robot {} is another controller's",
                                        session_->network().name(hello.robots[i])));
+    }
+    const auto measures = [&](NodeId robot) { return !session_->range_finders(robot).empty(); };
+    if (hello.observes_scan && std::ranges::none_of(hello.robots, measures)) {
+        throw RequestError("bad_value", "observe",
+                           "no robot of this hello has a range finder; expected a scan = {...} of "
+                           "one in the scenario");
     }
     const bool is_free =
         !has_started_ && std::none_of(controllers_.begin(), controllers_.end(),
@@ -118,7 +125,7 @@ void Lockstep::start_if_complete() {
     }
 }
 
-/// The controller of a line that asks for something.
+/// Controller that sent a request.
 Controller& Lockstep::asking(Connection from) {
     Controller* controller = controllers_.of(from);
     if (!controller) throw RequestError("hello_first", "type", "expected a hello first");
@@ -143,6 +150,12 @@ void Lockstep::handle(Connection from, StepRequest& step) {
     if (is_done()) {
         throw RequestError("done", "type", "the run is at its end; expected reset or bye");
     }
+    for (const auto& [robot, command] : step.commands) {
+        const auto* place = std::get_if<PlaceCommand>(&command);
+        const std::string why = place ? session_->why_not_at(robot, place->at) : "";
+        if (!why.empty())
+            throw RequestError("no_room", "do." + session_->network().name(robot) + ".place", why);
+    }
     controller.state = Controller::State::waits;
     controller.has_stepped = true;
     controller.number = step.number;
@@ -166,8 +179,8 @@ void Lockstep::handle(Connection from, ByeRequest&) {
     asking(from).state = Controller::State::leaves;
 }
 
-/// Lets go those who said bye, by robot. The last of them end the run.
-void Lockstep::let_go() {
+/// Removes controllers that sent "bye", in the order of robots. The last removal ends the run.
+void Lockstep::remove_leaving() {
     const std::vector<Controller> leaving = controllers_.take_leaving();
     if (leaving.empty()) return;
     for (const Controller& each : leaving) {
@@ -201,7 +214,7 @@ void Lockstep::lost(Connection connection) {
                                       seconds(session_->network().now())));
 }
 
-/// Carries out the commands of those who have asked now, by robot.
+/// Executes the commands of the current requests, in the order of robots.
 void Lockstep::carry_out() {
     std::vector<std::tuple<NodeId, Controller*, const RobotCommand*>> commands;
     for (Controller& each : controllers_) {
@@ -232,7 +245,7 @@ void Lockstep::answer(Controller& controller) {
 
 void Lockstep::advance(const std::function<bool()>& go_on) {
     constexpr std::uint64_t events_a_slice = 256;  // each may reach thousands of robots
-    let_go();
+    remove_leaving();
     if (state_ == State::over) return;
     const Time end = controllers_.next_end();
     if (end == never) {

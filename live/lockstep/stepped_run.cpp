@@ -113,6 +113,10 @@ ScenarioRun& SteppedRun::run() const {
 
 void SteppedRun::command(std::size_t row, RobotCommand command) {
     std::visit([&](const auto& each) { check(each, name(row)); }, command);
+    if (const auto* place = std::get_if<PlaceCommand>(&command)) {
+        const std::string why = session().why_not_at(robots_[row], place->at);
+        if (!why.empty()) throw std::invalid_argument("place: " + why);
+    }
     if (auto* send = std::get_if<SendCommand>(&command)) {
         messages_.emplace_back(row, std::move(*send));
     } else {
@@ -149,7 +153,7 @@ void SteppedRun::carry_out() {
     std::stable_sort(messages_.begin(), messages_.end(), [this](const auto& a, const auto& b) {
         return robots_[a.first] < robots_[b.first];
     });
-    // What a sink commands meanwhile is for the next step.
+    // Commands given by a sink meanwhile belong to the next step.
     movements_.swap(carried_);
     const auto messages = std::exchange(messages_, {});
     auto message = messages.begin();

@@ -6,6 +6,7 @@
 #include "live/input_log.hpp"
 #include "mobility/kept_planners.hpp"
 #include "scenario/scenario.hpp"
+#include "traces/fingerprint.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +20,8 @@
 
 namespace rovernet {
 
-/// Run of a scenario whose robots a program in this process drives, step by step: what Lockstep
-/// does for one controller, without lines. The same commands give the same run through both.
+/// Run of a scenario whose robots are driven step by step by a program in this process: like
+/// Lockstep with one controller, without a text protocol. Equal commands give equal runs with both.
 ///
 ///   SteppedRun run(scenario, {.step = 100ms});
 ///   while (!run.is_done()) {
@@ -32,62 +33,64 @@ namespace rovernet {
 class SteppedRun {
   public:
     struct Settings {
-        /// Names of the robots that it drives, in the order of their rows; none: all robots.
+        /// Names of the driven robots, in the order of the rows of arrays; none: all robots.
         std::optional<std::vector<std::string>> robots = {};
         /// Simulated time of a step [ns], >= shortest_step.
         Duration step = std::chrono::milliseconds{100};
-        /// Folder for results and inputs, as `rovernet live` writes them; none: nothing is written.
+        /// Folder for results and input log, as written by `rovernet live`; none: nothing is
+        /// written.
         std::optional<std::string> folder = {};
-        /// Name of the program in the log of inputs.
+        /// Name of the program in the input log.
         std::string client = "program";
-        /// Adds sinks to the network of the run, and of the run after each reset.
+        /// Function that adds sinks to the network, called for the first run and after each reset.
         std::function<void(Network&)> prepare = {};
     };
 
-    /// Begins the run.
-    /// @throws std::invalid_argument for a setting; InputError, RunError as ScenarioRun
+    /// Starts the run.
+    /// @throws std::invalid_argument for a wrong setting; InputError, RunError as ScenarioRun
     SteppedRun(Scenario scenario, Settings settings);
     ~SteppedRun();
 
-    /// Begins anew. @param seed  none: the same again. @throws InputError, RunError
+    /// Starts the run again. @param seed  none: the same seed. @throws InputError, RunError
     void reset(std::optional<std::uint64_t> seed = {});
 
-    // Commands, which are carried out as the next step begins: by robot, its last movement before
-    // its messages. @throws std::invalid_argument for a number out of its range
+    // Commands, executed at the start of the next step: by robot, first its last movement, then its
+    // messages. @throws std::invalid_argument for a number out of range
 
-    /// @param row  of the robot
+    /// Adds a command for the next step. @param row  index of the robot in robots()
     void command(std::size_t row, RobotCommand command);
-    /// Drives each robot by its row of `velocities`.
-    /// @param velocities  speed [m/s] and turn rate [rad/s] of each robot, by row; a robot whose
-    ///                    two are not a number goes on as it was told
-    /// @param timeout     as that of DriveCommand
+    /// Drives each robot by its pair of numbers in `velocities`.
+    /// @param velocities  speed [m/s] and turn rate [rad/s] of each robot, in the order of
+    /// robots(); two NaNs leave the robot's last command unchanged
+    /// @param timeout     see DriveCommand
     void drive(std::span<const double> velocities, std::optional<Duration> timeout = {});
 
-    /// Carries out what was commanded and runs for a step, or to the scenario's end.
-    /// @param most_events  that are served between two calls of `go_on`
-    /// @param go_on        asked now and then; false ends the step where it is
-    /// @return whether the step was not cut
-    /// @throws RunError if the run is at its end; InputError, RunError as Session::step()
+    /// Executes the commands of this step, and runs for one step or to the end of the scenario.
+    /// @param most_events  events processed between two calls of `go_on`
+    /// @param go_on        called now and then; returning false interrupts the step
+    /// @return whether the step was completed
+    /// @throws RunError if the scenario has ended; InputError, RunError as Session::step()
     bool step(std::uint64_t most_events, const std::function<bool()>& go_on);
-    /// Messages that its robots heard since this was asked last, in order of time, then of robot.
+    /// Fetches the messages that the driven robots received since the last call, in order of time,
+    /// then of robot.
     std::vector<HeardMessage> heard() { return session().heard(client_); }
 
-    /// Robots that it drives, by row.
+    /// Driven robots, in the order of the rows of arrays.
     const std::vector<NodeId>& robots() const { return robots_; }
-    /// x [m], y [m] and heading [rad] of each robot at the end of the last step, one behind the
-    /// other; it stays at its place.
+    /// x [m], y [m] and heading [rad] of each robot at the end of the last step, one robot after
+    /// the other. The array keeps its address.
     std::span<const double> poses() const { return poses_; }
-    /// The scenario is at its end.
+    /// Whether the scenario has reached its end.
     bool is_done() const { return session().network().now() >= session().end(); }
     /// Whether finish() was called, or the last reset failed: only reset() may be called then.
     bool is_over() const { return !run_; }
     const Scenario& scenario() const { return scenario_; }
     Duration step_length() const { return settings_.step; }
     std::string fingerprint() const { return run().fingerprint().text(); }
-    /// @throws RunError if it is over
+    /// Session of the run. @throws RunError if the run is over
     Session& session() const { return run().session(); }
 
-    /// Lets the robots go, which stop, and ends the run where it is. @throws RunError
+    /// Releases the robots, which stop, and ends the run at the current time. @throws RunError
     RunResult finish();
 
   private:
@@ -104,10 +107,10 @@ class SteppedRun {
     std::optional<InputLog> log_;
     ClientId client_ = 0;
     std::vector<NodeId> robots_;
-    std::vector<std::size_t> ascending_;  // rows, by robot
-    // Last movement that was commanded, by row: for the next step, and those that are carried out.
+    std::vector<std::size_t> ascending_;  // rows in ascending order of robots
+    // Last movement command of each row: for the next step, and of the commands being executed.
     std::vector<std::optional<RobotCommand>> movements_, carried_;
-    std::vector<std::pair<std::size_t, SendCommand>> messages_;  // with their rows
+    std::vector<std::pair<std::size_t, SendCommand>> messages_;  // messages with their rows
     std::vector<double> poses_;
     std::uint64_t steps_ = 0;
 };

@@ -3,34 +3,62 @@
 
 #include "sim/error.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace rovernet {
 
-/// Configuration file of a Player server (.cfg), as far as it says which robots of which world are
-/// found where:
+/// Configuration file of a Player server (.cfg), as far as it assigns robots of a world to ports:
 ///
 ///   driver ( name "stage" provides [ "simulation:0" ] worldfile "simple.world" )
 ///   driver ( name "stage" provides [ "6665:position2d:0" "6665:wifi:0" ] model "robot1" )
+///   driver ( name "relay" provides [ "6665:opaque:0" ] )
+///   driver ( name "comdriver" provides [ "6665:opaque:1" ] requires [ "6665:wifi:0" ]
+///            mapping [ "192.168.0.2" 6666 ] )
 ///
-/// Everything else in it is passed over: what runs beside Stage in a Player server does not run
-/// here, but clients may do it.
+/// The comdriver is the driver of the 2007 thesis that added radio to Stage (docs/worlds.md): it
+/// sends messages by radio, and the first byte of a message is the time-to-live. Its mapping gives
+/// the port of the robot with an IP address. Other drivers of a Player server are not supported
+/// here; a notice names them.
 struct PlayerConfig {
-    /// Robot and where its position2d is.
+    /// Entry of a comdriver's mapping: a robot's IP address and port.
+    struct Mapped {
+        std::string ip;
+        std::uint16_t port = 6665;
+    };
+    /// Driver `comdriver` of a robot: radio messages through an `opaque` device.
+    struct Comdriver {
+        std::uint32_t index = 1;  ///< index of the `opaque` device of the comdriver
+        std::vector<Mapped> mapping = {};
+        Location where = {};
+    };
+    /// Robot with the address of its position2d device.
     struct Robot {
         std::string model;
         std::uint16_t port = 6665;
         std::uint32_t index = 0;
         Location where = {};
+        std::optional<Comdriver> comdriver = {};
+        std::optional<std::uint32_t> relay = {};  ///< index of the relay (`opaque` device)
     };
 
-    std::string world;  ///< path, relative to the working directory or from the root
+    std::string world;  ///< path of the world file, absolute or relative to the working directory
     std::vector<Robot> robots;
+    std::vector<std::string> notices = {};  ///< notices to the user, "file:line: text"
+
+    /// Whether messages have a time-to-live as their first byte, since a comdriver is configured.
+    bool has_comdriver() const;
 };
 
-/// Reads such a file. @throws InputError with file, line and column
+/// Reads a Player configuration file. @throws InputError with file, line and column
 PlayerConfig read_player_config(const std::string& path);
+
+/// Notices about comdriver mappings that contradict the robots of the file and their addresses.
+/// @param ips  IP address of each robot, in the order of the file; "" if it has none
+std::vector<std::string> mapping_notices(const PlayerConfig& config,
+                                         const std::vector<std::string>& ips);
 
 }  // namespace rovernet

@@ -12,31 +12,34 @@
 
 namespace rovernet {
 
-/// Time between two data of most devices, and between two answers to clients that pull: Stage's.
+/// Interval between data messages of most devices, and between answers to clients in PULL mode; the
+/// same as in Stage.
 inline constexpr Duration player_tick = std::chrono::milliseconds(100);
 
-/// Device that clients subscribe to, as one interface of Player's. It knows no clients.
+/// Player device of a robot, with one Player interface, to which clients subscribe. The device does
+/// not store its clients.
 ///
-/// A payload that is too short, or makes no sense, is a MalformedMessage: of a request that is
-/// refused, of a command that is ignored.
+/// A payload that is too short or invalid throws MalformedMessage; then a request is refused, and a
+/// command is ignored.
 class PlayerDevice {
   public:
     virtual ~PlayerDevice() = default;
     virtual PlayerInterface interface() const = 0;
 
-    /// Time between two of its data.
+    /// Interval between data messages of the device.
     virtual Duration period() const { return player_tick; }
-    /// Whether each of its data counts. Of others a client is told the newest.
+    /// Whether every data message must be delivered; otherwise clients get the newest one only.
     virtual bool has_events() const { return false; }
-    /// Payloads of its data (subtype 1) at the present time: one, or the events since the last
-    /// call. Called while somebody is subscribed.
+    /// Payloads of data messages (subtype 1) at the current time: one, or one for each event since
+    /// the last call. Called while there are subscribers.
     virtual std::vector<std::string> data() = 0;
-    /// Payload of the answer to a request; nothing: it is refused.
+    /// Payload of the answer to a request; none: the request is refused.
     virtual std::optional<std::string> answer(std::uint32_t subtype, XdrReader payload) = 0;
     virtual void command(std::uint32_t /*subtype*/, XdrReader /*payload*/) {}
-    /// The first client has come, the last one has left.
-    virtual void taken() {}
-    virtual void let_go() {}
+    /// Called when the first client subscribes to the device.
+    virtual void subscribed() {}
+    /// Called when the last client has left the device.
+    virtual void unsubscribed() {}
 };
 
 }  // namespace rovernet

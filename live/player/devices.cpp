@@ -9,9 +9,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <stdexcept>
-#include <utility>
 
 namespace rovernet {
 namespace {
@@ -34,7 +32,7 @@ PlayerDevices::PlayerDevices(Session& session, const std::vector<PlayerPlace>& p
         if (!robot) throw std::invalid_argument("there is no robot " + each.robot);
         by_name[each.robot] = &robots_.emplace_back(session, *robot);
         for (const auto& [interface, number] : range_finders_of(robots_.back())) {
-            std::uint32_t& most = most_[{each.entrance, interface}];
+            std::uint32_t& most = most_[{each.listener, interface}];
             most = std::max(most, number);
         }
     }
@@ -43,12 +41,15 @@ PlayerDevices::PlayerDevices(Session& session, const std::vector<PlayerPlace>& p
 }
 
 void PlayerDevices::add(std::size_t number, const PlayerPlace& at, PlayerRobot& robot) {
-    const auto [name, entrance, index] = at;
-    add(number, entrance, index, std::make_unique<PlayerPosition2d>(robot));
-    add(number, entrance, index, std::make_unique<PlayerWifi>(robot));
+    const std::size_t listener = at.listener;
+    const std::uint32_t index = at.index;
+    const std::uint32_t radio = at.radio.value_or(2 * index + 1);
+    add(number, listener, index, std::make_unique<PlayerPosition2d>(robot));
+    add(number, listener, index, std::make_unique<PlayerWifi>(robot));
     add_range_finders(number, at, robot);
-    add(number, entrance, 2 * index, std::make_unique<PlayerRelay>());
-    add(number, entrance, 2 * index + 1, std::make_unique<PlayerRadio>(robot));
+    add(number, listener, radio, std::make_unique<PlayerRadio>(robot, at.has_ttl));
+    const std::uint32_t relay = at.relay.value_or(2 * index);
+    if (relay != radio) add(number, listener, relay, std::make_unique<PlayerRelay>());
 }
 
 void PlayerDevices::add_range_finders(std::size_t number, const PlayerPlace& at,
@@ -57,21 +58,21 @@ void PlayerDevices::add_range_finders(std::size_t number, const PlayerPlace& at,
     for (std::size_t i = 0; i < robot.session().range_finders(robot.id()).size(); ++i) {
         auto device = std::make_unique<PlayerRangeDevice>(robot, i);
         const PlayerInterface interface = device->interface();
-        const std::uint32_t first = most_[{at.entrance, interface}] * at.index;
+        const std::uint32_t first = most_[{at.listener, interface}] * at.index;
         const std::uint32_t index = first + next[interface]++;
-        add(number, at.entrance, index, std::move(device));
+        add(number, at.listener, index, std::move(device));
     }
 }
 
-void PlayerDevices::add(std::size_t robot, std::size_t entrance, std::uint32_t index,
+void PlayerDevices::add(std::size_t robot, std::size_t listener, std::uint32_t index,
                         std::unique_ptr<PlayerDevice> device) {
     const PlayerAddress address{device->interface(), index};
-    devices_.push_back({entrance, address, robot, std::move(device)});
+    devices_.push_back({listener, address, robot, std::move(device)});
 }
 
-PlacedDevice* PlayerDevices::find(std::size_t entrance, PlayerAddress address) {
+PlacedDevice* PlayerDevices::find(std::size_t listener, PlayerAddress address) {
     const auto found = std::find_if(devices_.begin(), devices_.end(), [&](const auto& each) {
-        return each.entrance == entrance && each.address == address;
+        return each.listener == listener && each.address == address;
     });
     return found == devices_.end() ? nullptr : &*found;
 }

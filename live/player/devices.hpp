@@ -10,56 +10,62 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace rovernet {
 
-/// Where clients find the devices of a robot.
+/// Address at which clients find the Player devices of one robot.
 struct PlayerPlace {
     std::string robot;
-    std::size_t entrance = 0;  ///< among the addresses of the front
-    std::uint32_t index = 0;   ///< of its devices there; of opaque twice that, and one more; of
-                               ///< range finders see PlayerDevices
+    std::size_t listener = 0;  ///< index of the listening address of the Player server
+    /// Index of the robot's devices at its listening address; for range finders see PlayerDevices.
+    std::uint32_t index = 0;
+    std::optional<std::uint32_t> relay = {};  ///< index of the relay (`opaque`); none: 2 `index`
+    /// Index of the robot's radio (`opaque`); none: index of the relay + 1.
+    std::optional<std::uint32_t> radio = {};
+    bool has_ttl = false;  ///< true: the first byte of messages to and from its radio is the TTL
 };
 
-/// Device where clients find it.
+/// Player device with the address at which clients find it.
 struct PlacedDevice {
-    std::size_t entrance;
+    std::size_t listener;
     PlayerAddress address;
-    std::size_t robot;  ///< number of it among the places
+    std::size_t robot;  ///< index of the robot in the list of PlayerPlaces
     std::unique_ptr<PlayerDevice> device;
-    std::vector<Front::Connection> users = {};  ///< in the order in which they came
+    std::vector<Front::Connection> users = {};  ///< subscribed clients, in order of subscription
 };
 
-/// Devices of robots in their places: simulation at the first entrance, and for each robot
-/// position2d, wifi, its range finders, and opaque twice: a relay and its radio.
+/// Devices of all robots: `simulation` at the first listening address, and for each robot
+/// `position2d`, `wifi`, its range finders, and `opaque` twice (relay and radio).
 ///
-/// Where robots of one entrance have at most n lasers, those of a robot with index k are n k,
-/// n k + 1, ...; sonars and rangers likewise.
+/// Laser j of the robot with index k is `laser:(n k + j)`, where n is the largest number of lasers
+/// of a robot at that address. Sonars and rangers are numbered alike.
 class PlayerDevices {
   public:
-    /// @throws std::invalid_argument if there is no robot of a name
+    /// @throws std::invalid_argument if a robot does not exist
     PlayerDevices(Session& session, const std::vector<PlayerPlace>& places);
 
-    /// In their order, which is the same in each run.
+    /// All Player devices, in an order that is the same in each run.
     std::list<PlacedDevice>& all() { return devices_; }
     const std::list<PlacedDevice>& all() const { return devices_; }
-    /// Null if there is none.
-    PlacedDevice* find(std::size_t entrance, PlayerAddress address);
+    /// Player device with this address; null if there is none.
+    PlacedDevice* find(std::size_t listener, PlayerAddress address);
 
   private:
     void add(std::size_t number, const PlayerPlace& at, PlayerRobot& robot);
     void add_range_finders(std::size_t number, const PlayerPlace& at, PlayerRobot& robot);
-    void add(std::size_t robot, std::size_t entrance, std::uint32_t index,
+    void add(std::size_t robot, std::size_t listener, std::uint32_t index,
              std::unique_ptr<PlayerDevice> device);
 
-    /// Entrance and interface.
-    using Doorway = std::pair<std::size_t, PlayerInterface>;
+    /// Index of the listening address, and Player interface.
+    using ListenerInterface = std::pair<std::size_t, PlayerInterface>;
 
-    std::list<PlayerRobot> robots_;          // devices refer to them
-    std::map<Doorway, std::uint32_t> most_;  // range finders of one robot
+    std::list<PlayerRobot> robots_;  // robots, to which devices refer
+    // Largest number of range finders of one robot.
+    std::map<ListenerInterface, std::uint32_t> most_;
     std::list<PlacedDevice> devices_;
 };
 

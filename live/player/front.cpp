@@ -41,7 +41,7 @@ Time next_multiple(Time time, Duration period) {
 
 struct PlayerFront::Client {
     Connection connection = 0;
-    Entrance at{};
+    ListenerId at{};
     PlayerStream stream = {};
     bool pulls = false;
     bool asks = false;  // for data: its round is open
@@ -60,7 +60,7 @@ void PlayerFront::begin(Session& session, const Scenario&) {
     devices_.emplace(session, settings_.places);
 }
 
-void PlayerFront::opened(Connection client, Entrance at) {
+void PlayerFront::opened(Connection client, ListenerId at) {
     clients_[client] = {client, at};
     carrier_.send(client, player_banner());
 }
@@ -154,7 +154,7 @@ std::string PlayerFront::device_list(const Client& client) const {
     XdrWriter addresses;
     std::size_t count = 0;
     for (const PlacedDevice& each : devices_->all()) {
-        if (each.entrance != client.at.number) continue;
+        if (each.listener != client.at.number) continue;
         put_address(addresses, each.address, client.at.port);
         ++count;
     }
@@ -168,7 +168,7 @@ std::optional<std::string> PlayerFront::driver(const Client& client, XdrReader p
     return put_address(out, address, client.at.port).text(driver_name).take();
 }
 
-/// Answers the request to open or close a device, with the device's address in any case.
+/// Answers a request to open or close a device; the answer always has the device's address.
 void PlayerFront::answer_subscription(Client& client, const PlayerMessage& request,
                                       XdrReader payload) {
     const PlayerAddress address = read_address(payload);
@@ -192,7 +192,7 @@ void PlayerFront::join(PlacedDevice& device, Client& client) {
     if (std::find(users.begin(), users.end(), client.connection) != users.end()) return;
     users.push_back(client.connection);
     ++client.subscriptions;
-    if (users.size() == 1) device.device->taken();
+    if (users.size() == 1) device.device->subscribed();
 }
 
 void PlayerFront::leave(PlacedDevice& device, Client& client) {
@@ -201,7 +201,7 @@ void PlayerFront::leave(PlacedDevice& device, Client& client) {
     std::erase_if(deferred_, [&](const Deferred& each) {
         return each.device == &device && each.from == client.connection;
     });
-    if (device.users.empty()) device.device->let_go();
+    if (device.users.empty()) device.device->unsubscribed();
 }
 
 void PlayerFront::tell() {
@@ -212,7 +212,7 @@ void PlayerFront::tell() {
     go_on();
 }
 
-/// Tells those who are to be told of a device now.
+/// Sends the data of a device to the clients that are due.
 void PlayerFront::tell_of(PlacedDevice& device) {
     const bool is_tick = is_multiple(now(), player_tick);
     const bool is_due = is_multiple(now(), device.device->period());
@@ -235,7 +235,7 @@ void PlayerFront::tell_of(PlacedDevice& device) {
     }
 }
 
-/// Keeps a message for the end of the client's round; the oldest makes room.
+/// Queues a message for the client's next PULL answer; drops the oldest one if the queue is full.
 void PlayerFront::hold(Client& client, std::string message) {
     client.held_bytes += message.size();
     client.held.push_back(std::move(message));
@@ -259,7 +259,7 @@ void PlayerFront::end_round(Client& client) {
     client.asks = false;
 }
 
-/// Carries out commands: of those that waited the first robot's first, each client's as they came.
+/// Executes deferred commands in the order of robots, and for each client in the order of arrival.
 void PlayerFront::carry_out_deferred() {
     std::stable_sort(deferred_.begin(), deferred_.end(), [](const Deferred& a, const Deferred& b) {
         return std::pair(a.device->robot, a.from) < std::pair(b.device->robot, b.from);
@@ -274,7 +274,8 @@ void PlayerFront::carry_out_deferred() {
     }
 }
 
-/// In lock-step: all clients that pull have asked, and none is missing at the begin.
+/// Whether, in lock-step, all clients in PULL mode have requested data, and enough clients are
+/// connected.
 bool PlayerFront::everyone_asks() const {
     std::size_t pulling = 0;
     for (const auto& [connection, client] : clients_) {
@@ -285,7 +286,7 @@ bool PlayerFront::everyone_asks() const {
     return pulling >= (has_begun_ ? 1 : settings_.wait_for);
 }
 
-/// Finds out what comes next, after anything has changed.
+/// Updates next() after any change.
 void PlayerFront::go_on() {
     if (settings_.is_lockstep && everyone_asks()) {
         has_begun_ = true;

@@ -14,28 +14,29 @@
 
 namespace rovernet {
 
-/// How robots are shown to Player clients.
+/// Settings of a Player server.
 struct PlayerSettings {
     std::vector<PlayerPlace> places = {};
-    /// Time goes on by one tick once all clients that pull have asked for data. The run ends when
-    /// the last client has left.
+    /// True for lock-step: simulated time advances by 100 ms once all clients in PULL mode have
+    /// requested data. The run ends when the last client has left.
     bool is_lockstep = false;
-    std::size_t wait_for = 1;  ///< clients that pull, with which time begins in lock-step
+    std::size_t wait_for = 1;  ///< number of clients in PULL mode that start time in lock-step
 };
 
-/// Player server, for programs that were written for Player and Stage. docs/live.md has its table
-/// of messages.
+/// Player server, for programs written for Player and Stage. docs/live.md has its table of
+/// messages.
 ///
-/// A client that pulls asks for data and is answered at the next tick: data of each device that it
-/// is subscribed to, then SYNCH. Without any data its round stays open. Others are told unasked.
+/// A client in PULL mode requests data and is answered at the next multiple of 100 ms: data of each
+/// subscribed device, then SYNCH. Without data its request stays open. Clients in PUSH mode get
+/// every message as soon as it is there.
 class PlayerFront : public Front {
   public:
     PlayerFront(PlayerSettings settings, Carrier carrier);
     ~PlayerFront() override;
 
-    /// @throws std::invalid_argument if there is no robot of a name
+    /// @throws std::invalid_argument if a robot does not exist
     void begin(Session& session, const Scenario& scenario) override;
-    void opened(Connection client, Entrance at) override;
+    void opened(Connection client, ListenerId at) override;
     std::size_t received(Connection from, std::string_view bytes) override;
     void closed(Connection gone) override;
     Time next() const override { return next_; }
@@ -45,7 +46,7 @@ class PlayerFront : public Front {
 
   private:
     struct Client;
-    /// Command that waits for all clients to have asked, in lock-step.
+    /// Command of a client that waits, in lock-step, until all clients have requested data.
     struct Deferred {
         PlacedDevice* device;
         Connection from;
@@ -79,7 +80,7 @@ class PlayerFront : public Front {
     std::map<Connection, Client> clients_;
     std::vector<Deferred> deferred_;
     std::size_t deferred_bytes_ = 0;
-    bool has_begun_ = false;  // in lock-step
+    bool has_begun_ = false;  // whether time has started, in lock-step
     Time next_ = never;
 };
 

@@ -9,12 +9,12 @@
 #include <string>
 #include <string_view>
 
-// Messages of Player's protocol, as its clients of versions 2.0 to 3.1 speak it over TCP: 40 bytes
-// of header, then the payload.
+// Messages of the Player protocol over TCP, versions 2.0 to 3.1: 40 bytes of header, then the
+// payload.
 
 namespace rovernet {
 
-/// Kind of a device. Messages may name others.
+/// Interface (kind) of a Player device. Messages may contain further kinds.
 enum class PlayerInterface : std::uint32_t {
     player = 1,
     position2d = 4,
@@ -28,10 +28,10 @@ enum class PlayerInterface : std::uint32_t {
 
 enum class PlayerType : std::uint32_t { data = 1, command, request, ack, sync, nack };
 
-/// Device at one port of the server, as messages name it.
+/// Address of a device at one port of the server, as used in messages.
 struct PlayerAddress {
     PlayerInterface interface;
-    std::uint32_t index;  ///< among the devices of that interface
+    std::uint32_t index;  ///< index among the port's devices with that interface
 
     friend bool operator==(PlayerAddress, PlayerAddress) = default;
 };
@@ -39,43 +39,44 @@ struct PlayerAddress {
 struct PlayerMessage {
     PlayerAddress device;
     PlayerType type;
-    std::uint32_t subtype;  ///< meaning within the interface and type
-    double time = 0;        ///< [s]
+    std::uint32_t subtype;  ///< subtype, whose meaning depends on interface and type
+    double time = 0;        ///< simulated time [s]
     std::uint32_t sequence = 0;
     std::string payload = {};
 };
 
-/// Reads and writes the address of a device in a payload, which has the server's in front of it.
+/// Reads and writes the address of a device in a payload, where the server's address precedes it.
 /// @throws MalformedMessage
 PlayerAddress read_address(XdrReader& payload);
 XdrWriter& put_address(XdrWriter& out, PlayerAddress device, std::uint16_t port);
 
-/// First bytes that a client is sent. It takes them with one call and does not look into them.
+/// Banner: first bytes to a client. Clients read them in one call and ignore their content.
 std::string player_banner();
 
 /// Bytes of a message.
-/// @param port  of this server at which the client is; 0: the message is of no device
+/// @param port  port of this server to which the client is connected; 0: the message belongs to no
+/// device
 std::string encode(const PlayerMessage& message, std::uint16_t port);
 
-/// End of a round of data.
+/// Message SYNCH, which ends the data that answer a request of a client in PULL mode.
 std::string player_round_end();
-/// Word to a client that takes too little: so many messages to it are lost.
+/// Message to a client that does not read fast enough. @param lost  number of lost messages
 std::string player_overflow(std::size_t lost);
 
-/// Messages in the bytes that a client sends.
+/// Parser of the byte stream of a client into messages.
 class PlayerStream {
   public:
-    /// Longest payload [bytes].
+    /// Longest payload of a message [bytes].
     static constexpr std::size_t longest = std::size_t{1} << 20U;
 
     void add(std::string_view bytes) { input_ += bytes; }
-    /// The next message; nothing if it is not whole yet.
-    /// @throws MalformedMessage if it is too long: nothing after it can be read
+    /// Next message of the client; none if it is not complete yet.
+    /// @throws MalformedMessage if the message is too long; later messages cannot be read then
     std::optional<PlayerMessage> next();
 
   private:
     std::string input_;
-    std::size_t taken_ = 0;  // of the input
+    std::size_t taken_ = 0;  // bytes of the input already parsed
 };
 
 }  // namespace rovernet

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "live/player/opaque.hpp"
 
+#include <algorithm>
+
 namespace rovernet {
 namespace {
 
 constexpr std::uint32_t opaque_bytes = 1;    // the only command
 constexpr std::size_t most_on_air = 65'535;  // [bytes] of a message
+
+/// Lowers the TTL in the first byte of a payload by the hops that the message crossed.
+void lower_ttl(std::string& payload, int hops) {
+    if (payload.empty()) return;
+    const int ttl = static_cast<unsigned char>(payload.front());
+    payload.front() = static_cast<char>(std::max(ttl - hops, 0));
+}
 
 }  // namespace
 
@@ -24,7 +33,8 @@ std::vector<std::string> PlayerRelay::data() {
 
 std::vector<std::string> PlayerRadio::data() {
     std::vector<std::string> payloads;
-    for (const HeardMessage& heard : robot_.heard()) {
+    for (HeardMessage& heard : robot_.heard()) {
+        if (has_ttl_) lower_ttl(heard.payload, heard.hops);
         payloads.push_back(XdrWriter().bytes(heard.payload).take());
     }
     return payloads;

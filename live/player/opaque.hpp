@@ -6,7 +6,8 @@
 
 namespace rovernet {
 
-/// opaque, the first: a relay of bytes among the clients of one robot, the sender included.
+/// First `opaque` device of a robot: a relay of bytes between the robot's clients, including the
+/// sender.
 class PlayerRelay : public PlayerDevice {
   public:
     PlayerInterface interface() const override { return PlayerInterface::opaque; }
@@ -14,32 +15,39 @@ class PlayerRelay : public PlayerDevice {
     std::vector<std::string> data() override;
     std::optional<std::string> answer(std::uint32_t, XdrReader) override { return std::nullopt; }
     void command(std::uint32_t subtype, XdrReader payload) override;
-    void let_go() override { data(); }
+    void unsubscribed() override { data(); }
 
   private:
-    static constexpr std::size_t most = 1'024;                        // messages between two data
-    static constexpr std::size_t most_bytes = std::size_t{3} << 20U;  // of them
+    // Largest number of messages between two data messages.
+    static constexpr std::size_t most = 1'024;
+    static constexpr std::size_t most_bytes = std::size_t{3}
+                                              << 20U;  // largest size of these messages
 
     std::vector<std::string> said_;
-    std::size_t bytes_ = 0;  // of all that was said
+    std::size_t bytes_ = 0;  // bytes of all stored messages
 };
 
-/// opaque, the second: bytes by radio. The robot sends them to everyone by the scenario's routing
-/// protocol; what it hears is data.
+/// Second `opaque` device of a robot: messages by radio. Commands are sent to everyone by the
+/// scenario's routing protocol; received messages are data.
+///
+/// With `has_ttl` the device acts like the comdriver of the 2007 thesis that added radio to Stage:
+/// the first byte of a message is its TTL, which each hop decreases by one. A client gets the TTL
+/// after the last hop.
 class PlayerRadio : public PlayerDevice {
   public:
-    explicit PlayerRadio(PlayerRobot& robot) : robot_(robot) {}
+    PlayerRadio(PlayerRobot& robot, bool has_ttl) : robot_(robot), has_ttl_(has_ttl) {}
 
     PlayerInterface interface() const override { return PlayerInterface::opaque; }
     bool has_events() const override { return true; }
     std::vector<std::string> data() override;
     std::optional<std::string> answer(std::uint32_t, XdrReader) override { return std::nullopt; }
     void command(std::uint32_t subtype, XdrReader payload) override;
-    void taken() override { robot_.listen(true); }
-    void let_go() override { robot_.listen(false); }
+    void subscribed() override { robot_.listen(true); }
+    void unsubscribed() override { robot_.listen(false); }
 
   private:
     PlayerRobot& robot_;
+    bool has_ttl_;
 };
 
 }  // namespace rovernet

@@ -6,7 +6,7 @@
 
 namespace rovernet {
 
-/// position2d: where the robot is by its odometry, and how it is driven.
+/// Player device `position2d`: odometry of the robot, and commands to drive it.
 class PlayerPosition2d : public PlayerDevice {
   public:
     explicit PlayerPosition2d(PlayerRobot& robot) : robot_(robot) {}
@@ -15,7 +15,7 @@ class PlayerPosition2d : public PlayerDevice {
     std::vector<std::string> data() override;
     std::optional<std::string> answer(std::uint32_t subtype, XdrReader payload) override;
     void command(std::uint32_t subtype, XdrReader payload) override;
-    void let_go() override { robot_.let_go(); }
+    void unsubscribed() override { robot_.release(); }
 
   private:
     PlayerRobot& robot_;

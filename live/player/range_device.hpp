@@ -3,6 +3,7 @@
 
 #include "live/player/device.hpp"
 #include "live/player/robot.hpp"
+#include "scene/scanner.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -11,14 +12,14 @@
 
 namespace rovernet {
 
-/// Interface that a range finder has, by its kind.
+/// Player interface of a range finder, by its kind.
 PlayerInterface player_interface(const Scanner& scanner);
 
-/// laser, sonar or ranger: a range finder of the robot, whatever its kind. Nothing is measured
-/// unless somebody is told.
+/// Player device `laser`, `sonar` or `ranger`: a range finder of the robot. A scan is computed only
+/// if there are subscribers.
 class PlayerRangeDevice : public PlayerDevice {
   public:
-    /// @param number  of the range finder among those of the robot
+    /// @param number  index of the range finder on the robot, from 0
     PlayerRangeDevice(PlayerRobot& robot, std::size_t number);
 
     PlayerInterface interface() const override;
@@ -34,8 +35,9 @@ class PlayerRangeDevice : public PlayerDevice {
 
     PlayerRobot& robot_;
     std::size_t number_;
-    const Scanner& scanner_;  // of the session
-    Radians first_, last_;    // beams, from the heading of the scanner
+    const Scanner& scanner_;  // owned by the session
+    Radians first_,
+        last_;  // directions of the first and last beam, relative to the heading of the scanner
 };
 
 }  // namespace rovernet

@@ -11,7 +11,7 @@ PlayerRobot::PlayerRobot(Session& session, NodeId robot)
       radius_(session.network().robot(robot).radius.value),
       origin_(pose()) {}
 
-/// Becomes the robot's driver. @return whether it is
+/// Makes this client the robot's driver. @return whether it is
 bool PlayerRobot::take() {
     if (!client_ && !session_.driver(id_)) {
         client_ = session_.attach({id_}, "player");
@@ -26,7 +26,7 @@ void PlayerRobot::carry_out(const RobotCommand& command) {
     session_.carry_out(*client_, id_, command, ++commands_);
 }
 
-void PlayerRobot::let_go() {
+void PlayerRobot::release() {
     if (!is_driven_) return;
     is_driven_ = false;
     if (listens_) {

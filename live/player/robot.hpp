@@ -8,33 +8,35 @@
 
 namespace rovernet {
 
-/// Place and direction in the plane.
+/// Position and heading in the plane.
 struct Pose2d {
-    double x = 0, y = 0;  ///< [m]
-    double heading = 0;   ///< [rad], counter-clockwise from the x axis
+    double x = 0, y = 0;  ///< position [m]
+    double heading = 0;   ///< heading [rad], counter-clockwise from the x axis
 };
 
-/// Robot as the Player devices of it have it in common: what drives it, and its odometry.
+/// Robot state shared by its Player devices: its driver and its odometry.
 class PlayerRobot {
   public:
     PlayerRobot(Session& session, NodeId robot);
 
     NodeId id() const { return id_; }
     Session& session() const { return session_; }
-    double radius() const { return radius_; }  ///< [m]
+    double radius() const { return radius_; }  ///< radius of the robot [m]
 
-    /// Carries out a command, unless another program drives the robot.
+    /// Executes a command for the robot, unless a program of a different protocol drives it.
     void carry_out(const RobotCommand& command);
-    /// Stops, as the last client that drove it has left.
-    void let_go();
-    /// Begins or ends to keep the messages that it hears, unless another program drives the robot.
+    /// Stops the robot, after the last client that drove it has left.
+    void release();
+    /// Starts or stops storing received messages, unless a program of a different protocol drives
+    /// the robot.
     void listen(bool listens);
-    /// Messages that it heard since the last call, while it listens.
+    /// Messages that the robot received since the last call, while listen(true) is in effect.
     std::vector<HeardMessage> heard();
 
-    /// Pose in the world.
+    /// Pose of the robot in the world.
     Pose2d pose() const;
-    /// Pose by odometry, without errors: from where it was when the run began, or as it was set.
+    /// Pose of the robot by odometry, without errors: relative to the pose at the start of the run,
+    /// or as set by set_odometry().
     Pose2d odometry() const;
     void set_odometry(const Pose2d& now);
 
@@ -44,7 +46,7 @@ class PlayerRobot {
     Session& session_;
     NodeId id_;
     double radius_;
-    Pose2d origin_;  // of odometry, in the world
+    Pose2d origin_;  // origin of odometry, in the world
     std::optional<ClientId> client_;
     std::uint64_t commands_ = 0;
     bool is_driven_ = false, listens_ = false;

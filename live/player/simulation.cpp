@@ -42,6 +42,13 @@ PlaceCommand read_place3d(XdrReader& payload) {
     return {{x, y, z}, {payload.f64_within(farthest)}};
 }
 
+/// Puts a robot there; refused where there is no room.
+std::optional<std::string> put(PlayerRobot& robot, const PlaceCommand& place) {
+    if (!robot.session().why_not_at(robot.id(), place.at).empty()) return std::nullopt;
+    robot.carry_out(place);
+    return "";
+}
+
 }  // namespace
 
 std::optional<std::string> PlayerSimulation::answer(std::uint32_t subtype, XdrReader payload) {
@@ -52,8 +59,8 @@ std::optional<std::string> PlayerSimulation::answer(std::uint32_t subtype, XdrRe
     switch (subtype) {
         case tell_pose2d: return answer_pose2d(name, *robot);
         case tell_pose3d: return answer_pose3d(name, *robot);
-        case set_pose2d: robot->carry_out(read_place2d(payload, *robot)); return "";
-        default: robot->carry_out(read_place3d(payload)); return "";
+        case set_pose2d: return put(*robot, read_place2d(payload, *robot));
+        default: return put(*robot, read_place3d(payload));
     }
 }
 

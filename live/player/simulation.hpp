@@ -8,10 +8,10 @@
 
 namespace rovernet {
 
-/// simulation: poses of robots in the world, told and set by name.
+/// Player device `simulation`: reads and sets poses of robots in the world, by name.
 class PlayerSimulation : public PlayerDevice {
   public:
-    /// @param robots  by name
+    /// @param robots  robots of the world, by name
     explicit PlayerSimulation(std::map<std::string, PlayerRobot*, std::less<>> robots)
         : robots_(std::move(robots)) {}
 

@@ -6,7 +6,7 @@
 
 namespace rovernet {
 
-/// wifi: the robots that this one's radio hears, as the link table of a wireless device.
+/// Player device `wifi`: link table of the robot, with the robots in range of its radio.
 class PlayerWifi : public PlayerDevice {
   public:
     explicit PlayerWifi(PlayerRobot& robot) : robot_(robot) {}

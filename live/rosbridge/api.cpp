@@ -32,7 +32,7 @@ void put_member(RosWriter& out, std::string_view key, std::string_view value) {
     out.text(value);
 }
 
-/// A rosapi_msgs/TypeDef.
+/// A rosapi_msgs/TypeDef, without its lists of constants: no type has any.
 void put_definition(RosWriter& out, const RosType& type) {
     const auto members = type.members();
     out.open_object();
@@ -51,8 +51,6 @@ void put_definition(RosWriter& out, const RosType& type) {
             out.text(each.elements ? "[]" : find_type(each.type) ? "{}" : "");
         }
     });
-    put_texts(out, "constnames", {});
-    put_texts(out, "constvalues", {});
     out.close_object();
 }
 
@@ -113,7 +111,6 @@ void RosApi::write(RosWriter& out, const RosCall& call) const {
             out.key("time");
             write_time(out, network.now());
             break;
-        case RosServiceKind::action_servers: put_texts(out, "action_servers", {}); break;
         default: break;
     }
     out.close_object();

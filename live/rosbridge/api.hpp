@@ -6,20 +6,20 @@
 
 namespace rovernet {
 
-/// Services of rosapi, by which ROS clients ask what there is: one node, rovernet, which has all
-/// topics and services.
+/// Services of rosapi, by which ROS clients list topics, services and nodes. There is one node,
+/// rovernet, with all topics and services.
 class RosApi {
   public:
-    /// @param session  has to live as long
+    /// @param session  must outlive this object
     explicit RosApi(Session& session) : session_(session) {}
 
-    /// Writes the answer to a call of a service of rosapi, as an object.
+    /// Writes the result of a call of a rosapi service, as an object.
     void write(RosWriter& out, const RosCall& call) const;
 
   private:
     enum class Direction { in, out, both };
 
-    /// Writes the names of topics of one type, or of all if it is empty.
+    /// Writes a list of names of topics: of one message type, or of all topics if `type` is empty.
     void write_topics(RosWriter& out, std::string_view key, Direction direction,
                       std::string_view type = {}) const;
     void write_types(RosWriter& out) const;

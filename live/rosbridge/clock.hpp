@@ -12,52 +12,52 @@
 
 namespace rovernet {
 
-/// Clock of a run as ROS clients control it: they pause simulated time, let it go on, or let it go
-/// on by steps. It does not run by itself: who serves the run keeps to limit(), and tells the time.
-/// Calls of steps wait here; whoever gets them back answers them.
+/// Control of simulated time by ROS clients: pause, unpause, and steps. The class does not advance
+/// time itself: its caller must not run beyond limit(), and passes the current time. Step calls are
+/// stored here until the step has ended; the caller answers them.
 ///
-/// A client that pauses time or steps holds it. Time goes on when any client unpauses it, or when
-/// the last client that held it has left. A pause and its end overtake all steps: these are over.
+/// A client that pauses or steps blocks time. Time continues when any client unpauses, or when the
+/// last blocking client has left. Pause and unpause end all steps early.
 class RosClock {
   public:
     using Connection = Front::Connection;
 
-    /// Call of a step, which is answered when the step is over.
+    /// Client's call of a step of simulated time, answered when the step has ended.
     struct Step {
         Connection client;
         RosOperation call;
-        Time until;  ///< end of the step, not before the time at which it begins
+        Time until;  ///< simulated time at which the step ends, >= its start
     };
 
-    /// Number of a client's steps that are not over.
+    /// Number of unfinished steps of a client.
     std::size_t steps(Connection client) const;
-    /// Begins a step: time goes on until its end, or until that of a longer one, and stands still.
+    /// Starts a step: time advances until the end of the longest step, then stops.
     void begin(Step step);
-    /// Stops time now, for a client.
-    /// @return calls of steps that it overtakes, the oldest first
+    /// Pauses simulated time now, on behalf of a client.
+    /// @return calls of steps that end early because of this, the oldest first
     std::vector<Step> pause(Connection client, Time now);
-    /// Lets time go on, whoever holds it.
-    /// @return calls of steps that it overtakes, the oldest first
+    /// Lets simulated time continue, even if several clients block it.
+    /// @return calls of steps that end early because of this, the oldest first
     std::vector<Step> unpause();
-    /// A client has left. Its steps are not over, as other clients may wait for the end of the last
-    /// one; its calls are forgotten.
-    /// @return as unpause(), if that lets time go on; none otherwise
+    /// Handles a client that has left. Its steps continue, since other clients may wait for the
+    /// steps' end; its calls are dropped.
+    /// @return as unpause(), if time continues; none otherwise
     std::vector<Step> left(Connection client);
-    /// Ends the steps that do not go on beyond now.
-    /// @return their calls, the oldest first
+    /// Ends the steps whose end is reached at time `now`.
+    /// @return calls of the ended steps, the oldest first
     std::vector<Step> end_steps(Time now);
 
-    /// Whether a step goes on until now, and end_steps() has not ended it yet.
+    /// Whether a step ends at time `now`, and end_steps() has not ended it yet.
     bool is_step_end(Time now) const;
-    /// Time at which the next step ends; `never` if there is none.
+    /// Simulated time at which the next step ends; `never` if there is none.
     Time next() const;
-    /// Time at which the run has to stop; `never` if nobody holds it.
+    /// Simulated time at which the run must stop; `never` if no client blocks time.
     Time limit() const { return limit_; }
 
   private:
-    std::vector<Step> steps_;        // those that are not over
-    std::optional<Time> of_nobody_;  // end of the last step whose client has left
-    std::set<Connection> holders_;   // clients that have paused time, or stepped
+    std::vector<Step> steps_;        // unfinished steps
+    std::optional<Time> of_nobody_;  // last end of the steps of clients that have left
+    std::set<Connection> holders_;   // clients that block time by a pause or a step
     Time limit_ = never;
 };
 

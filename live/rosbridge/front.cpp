@@ -44,7 +44,6 @@ void write_publication(std::string& text, RosEncoding encoding, std::string_view
 struct RosbridgeFront::Client {
     Connection connection = 0;
     std::map<std::string, RosStream> streams = {};  // by topic, as the client wrote it
-    RosPieces pieces = {};
     RosLevel level = RosLevel::error;
     std::set<NodeId> warned = {};  // of robots, that some of their velocity counts for nothing
 };
@@ -59,7 +58,7 @@ void RosbridgeFront::begin(Session& session, const Scenario&) {
     api_.emplace(session);
 }
 
-void RosbridgeFront::opened(Connection client, Entrance) { clients_[client].connection = client; }
+void RosbridgeFront::opened(Connection client, ListenerId) { clients_[client].connection = client; }
 
 void RosbridgeFront::closed(Connection gone) {
     clients_.erase(gone);
@@ -84,7 +83,7 @@ void RosbridgeFront::handle(Client& client, std::string_view message) {
     }
 }
 
-/// Tells a client what is wrong with its last operation.
+/// Sends a client the error of its last operation.
 void RosbridgeFront::refuse(Client& client, const std::string& why) {
     const RosOperation& operation = reader_.operation();
     const bool is_call = operation.name == "call_service";
@@ -176,11 +175,6 @@ void RosbridgeFront::carry_out(Client& client, const RosPublish& request) {
     }
 }
 
-void RosbridgeFront::carry_out(Client& client, const RosFragment& piece) {
-    const auto whole = client.pieces.add(*reader_.operation().id, piece, now());
-    if (whole) handle(client, *whole);
-}
-
 void RosbridgeFront::carry_out(Client& client, RosLevel level) { client.level = level; }
 
 void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
@@ -216,7 +210,7 @@ void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
     });
 }
 
-/// Answers calls of steps that are over, of clients that are still there.
+/// Answers step calls that have ended, of clients that are still connected.
 void RosbridgeFront::answer(const std::vector<RosClock::Step>& over) {
     for (const RosClock::Step& each : over) {
         if (!clients_.contains(each.client)) continue;
@@ -229,18 +223,17 @@ void RosbridgeFront::answer(const std::vector<RosClock::Step>& over) {
     }
 }
 
-/// Sends a message to a subscriber, or holds it back.
+/// Sends a message to a subscriber, or queues it.
 void RosbridgeFront::publish(const Client& client, RosStream& stream, std::string_view message) {
-    stream.take(message, now(), [&, rules = stream.delivery()](std::string_view text) {
-        send(client, rules, text);
+    stream.take(message, now(), [&, encoding = stream.delivery().encoding](std::string_view text) {
+        send(client, encoding, text);
     });
 }
 
 /// Message of a topic as it is now, which is written once for all who get the same.
 const std::string& RosbridgeFront::written(const std::string& name, RosEncoding encoding,
                                            const RosTopic& topic) {
-    const bool is_cbor = encoding == RosEncoding::cbor;
-    const auto [place, is_new] = written_.try_emplace({name, is_cbor});
+    const auto [place, is_new] = written_.try_emplace({name, encoding});
     if (is_new) {
         write_publication(place->second, encoding, name,
                           [&](RosWriter& out) { messages_->write(out, topic); });
@@ -248,19 +241,10 @@ const std::string& RosbridgeFront::written(const std::string& name, RosEncoding 
     return place->second;
 }
 
-/// Sends a message in the encoding and the pieces that its subscriber wants.
-void RosbridgeFront::send(const Client& client, const RosDelivery& rules,
-                          std::string_view message) {
-    if (rules.encoding == RosEncoding::cbor) {
-        return carrier_.send_binary(client.connection, message);
-    }
-    std::string picture;
-    if (rules.encoding == RosEncoding::png) message = picture = in_picture(message);
-    if (!rules.fragment_size || message.size() <= *rules.fragment_size) {
-        return carrier_.send(client.connection, message);
-    }
-    send_in_pieces(message, *rules.fragment_size, std::to_string(pieces_sent_++),
-                   [&](std::string_view piece) { carrier_.send(client.connection, piece); });
+/// Sends a message in its encoding: CBOR as bytes, JSON as text.
+void RosbridgeFront::send(const Client& client, RosEncoding encoding, std::string_view message) {
+    encoding == RosEncoding::cbor ? carrier_.send_binary(client.connection, message)
+                                  : carrier_.send(client.connection, message);
 }
 
 void RosbridgeFront::tell() {
@@ -271,7 +255,7 @@ void RosbridgeFront::tell() {
     go_on();
 }
 
-/// Tells a client what its subscriptions are due now.
+/// Sends a client the messages that are due now.
 void RosbridgeFront::tell(Client& client, const std::vector<HeardMessage>& heard) {
     for (auto& [name, stream] : client.streams) {
         if (!stream.source) continue;
@@ -287,13 +271,13 @@ void RosbridgeFront::tell(Client& client, const std::vector<HeardMessage>& heard
                               [&](RosWriter& out) { messages_->write(out, each); });
             publish(client, stream, buffer_);
         }
-        stream.go_on(now(), [&, rules = stream.delivery()](std::string_view message) {
-            send(client, rules, message);
+        stream.go_on(now(), [&, encoding = stream.delivery().encoding](std::string_view message) {
+            send(client, encoding, message);
         });
     }
 }
 
-/// Finds out what comes next, after anything has changed.
+/// Updates next() after any change.
 void RosbridgeFront::go_on() {
     next_ = robots_->any() ? multiple_after(now(), ros_tick) : never;
     next_ = std::min(next_, clock_.next());

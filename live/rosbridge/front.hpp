@@ -5,7 +5,6 @@
 #include "live/rosbridge/api.hpp"
 #include "live/rosbridge/clock.hpp"
 #include "live/rosbridge/messages.hpp"
-#include "live/rosbridge/packing.hpp"
 #include "live/rosbridge/request.hpp"
 #include "live/rosbridge/robots.hpp"
 #include "live/rosbridge/stream.hpp"
@@ -19,18 +18,18 @@
 
 namespace rovernet {
 
-/// Server of the rosbridge protocol, version 2, for ROS clients such as roslib. docs/live.md has
-/// its topics and services. What it receives and sends are whole messages.
+/// Server of the rosbridge protocol, version 2, for ROS clients such as roslib. docs/live.md lists
+/// its topics and services. It receives and sends whole messages.
 ///
-/// A fault is answered: of a call by its result, of anything else by a status, with the id that the
-/// client gave. The connection goes on.
+/// Errors are answered with the client's id: errors of a call by its result, other errors by a
+/// status message. The connection stays open.
 class RosbridgeFront : public Front {
   public:
     explicit RosbridgeFront(Carrier carrier);
     ~RosbridgeFront() override;
 
     void begin(Session& session, const Scenario& scenario) override;
-    void opened(Connection client, Entrance at) override;
+    void opened(Connection client, ListenerId at) override;
     std::size_t received(Connection from, std::string_view message) override;
     void closed(Connection gone) override;
     Time next() const override { return next_; }
@@ -45,7 +44,6 @@ class RosbridgeFront : public Front {
     void carry_out(Client& client, const RosUnsubscribe& request);
     void carry_out(Client& client, const RosPublish& request);
     void carry_out(Client& client, const RosCall& call);
-    void carry_out(Client& client, const RosFragment& piece);
     void carry_out(Client& client, RosLevel level);
     void carry_out(Client&, RosNothing) {}
 
@@ -59,7 +57,7 @@ class RosbridgeFront : public Front {
     const std::string& written(const std::string& name, RosEncoding encoding,
                                const RosTopic& topic);
     void tell(Client& client, const std::vector<HeardMessage>& heard);
-    void send(const Client& client, const RosDelivery& rules, std::string_view message);
+    void send(const Client& client, RosEncoding encoding, std::string_view message);
     void go_on();
     Time now() const { return session_->network().now(); }
 
@@ -71,10 +69,10 @@ class RosbridgeFront : public Front {
     RosRequestReader reader_;
     std::map<Connection, Client> clients_;
     RosClock clock_;
-    std::string buffer_;  // message that is written
-    // Messages of topics in this tell(), by name as the subscriber wrote it, and whether in CBOR.
-    std::map<std::pair<std::string, bool>, std::string> written_;
-    std::uint64_t pieces_sent_ = 0;
+    std::string buffer_;  // message being written
+    // Messages written in the current tell(), by encoding and by topic name as written by the
+    // subscriber.
+    std::map<std::pair<std::string, RosEncoding>, std::string> written_;
     Time next_ = never;
 };
 

@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-FrontDoor rosbridge_door(const Address& at) {
+FrontListeners rosbridge_listener(const Address& at) {
     return {.entries = {{at, "rosbridge"}},
             .make =
                 [](Front::Carrier carrier) {

@@ -8,10 +8,10 @@
 
 namespace rovernet {
 
-/// Where ROS clients look for a server of rosbridge.
+/// Default address at which ROS clients connect to a rosbridge server.
 inline constexpr std::string_view rosbridge_address = "127.0.0.1:9090";
 
-/// Server of the rosbridge protocol at an address; port 0: any that is free.
-FrontDoor rosbridge_door(const Address& at);
+/// Server of the rosbridge protocol at an address; port 0: any free port.
+FrontListeners rosbridge_listener(const Address& at);
 
 }  // namespace rovernet

@@ -11,7 +11,6 @@
 #include <array>
 #include <chrono>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace rovernet {
@@ -210,7 +209,7 @@ void RosMessages::write_scan(RosWriter& out, NodeId robot, std::size_t number) c
     const RangeFinder& finder = scanner.finder;
     std::vector<float> ranges;
     for (const double range : session_.scan(robot, number)) {
-        // REP 117: what measures nothing says infinity.
+        // REP 117: a beam without an echo has the range infinity.
         ranges.push_back(range < finder.range.value ? static_cast<float>(range)
                                                     : std::numeric_limits<float>::infinity());
     }

@@ -11,21 +11,21 @@
 
 namespace rovernet {
 
-/// Messages of the topics that this server publishes, as they are at the present time.
+/// Writer of the messages of published topics, for the current time.
 ///
-/// Frames: `map` is the world. NAME/odom is where `map` is, as odometry has no errors here.
-/// NAME/base_link is at the robot, with x ahead. A range finder that is elsewhere on the robot, or
-/// looks another way, has a frame of its own, NAME/SCANNER_frame.
+/// Coordinate frames: `map` is the world. NAME/odom equals `map`, since odometry has no errors
+/// here. NAME/base_link is at the robot, with x ahead. A range finder with an offset or a rotation
+/// on the robot has a separate frame, NAME/SCANNER_frame.
 class RosMessages {
   public:
-    /// Both have to live as long.
+    /// Session and robots must outlive this object.
     RosMessages(Session& session, const RosRobots& robots) : session_(session), robots_(robots) {}
 
-    /// Time between two messages of a topic; 0 if it has none.
+    /// Interval between messages of a topic; 0 if the topic is not periodic.
     Duration period(const RosTopic& topic) const;
-    /// Writes the message of a topic, which is neither an input nor `received`.
+    /// Writes the current message of a topic. @param topic  neither an input nor `received`
     void write(RosWriter& out, const RosTopic& topic) const;
-    /// Writes a message that a robot heard, rovernet_msgs/Received.
+    /// Writes a message that a robot received, as rovernet_msgs/Received.
     void write(RosWriter& out, const HeardMessage& heard) const;
 
   private:

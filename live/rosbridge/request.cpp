@@ -6,21 +6,17 @@
 #include "network/network.hpp"
 
 #include <array>
-#include <limits>
 
 namespace rovernet {
 namespace {
 
 constexpr std::size_t longest_text = 256;  // [bytes] of a name, a type, an id
 constexpr std::uint64_t longest_queue = 1'000;
-constexpr std::uint64_t smallest_fragment = 256;  // [bytes]
-constexpr std::uint64_t most_pieces = 64;
 constexpr Range intervals{.low = 0, .high = 1e9, .text = "from 0 to 1e9 ms"};
 constexpr Range step_lengths{
     .low = 0, .high = 1e6, .low_included = false, .text = "above 0 and up to 1e6 s"};
 
-/// Member of an operation, of which keys that are not known are passed over; null is as if it was
-/// not there.
+/// Member of an operation. Unknown keys are ignored, and null counts as missing.
 std::optional<JsonElement> member(const JsonElement& in, std::string_view key) {
     simdjson::dom::element found;
     if (in.object().at_key(key).get(found) != simdjson::SUCCESS) return std::nullopt;
@@ -71,9 +67,8 @@ RosTopic input_of(const JsonElement& operation, Session& session) {
 RosEncoding encoding_of(const JsonElement& compression) {
     const std::string_view name = compression.text();
     if (name == "none") return RosEncoding::json;
-    if (name == "png") return RosEncoding::png;
     if (name == "cbor") return RosEncoding::cbor;
-    compression.fail("bad_value", fmt::format("found \"{}\"; expected none, png or cbor", name));
+    compression.fail("bad_value", fmt::format("found \"{}\"; expected none or cbor", name));
 }
 
 RosSubscribe read_subscribe(const JsonElement& operation, Session& session) {
@@ -91,10 +86,6 @@ RosSubscribe read_subscribe(const JsonElement& operation, Session& session) {
     }
     if (const auto length = member(operation, "queue_length")) {
         delivery.queue_length = length->whole_number(0, longest_queue);
-    }
-    if (const auto size = member(operation, "fragment_size")) {
-        delivery.fragment_size =
-            size->whole_number(smallest_fragment, std::numeric_limits<std::uint32_t>::max());
     }
     if (const auto compression = member(operation, "compression")) {
         delivery.encoding = encoding_of(*compression);
@@ -145,18 +136,6 @@ RosCall read_call(const JsonElement& operation, const Network& network) {
     return {*service, read_arguments(operation, *service, network)};
 }
 
-RosFragment read_fragment(const JsonElement& operation) {
-    const auto data = member(operation, "data"), number = member(operation, "num"),
-               total = member(operation, "total");
-    RosFragment fragment{
-        std::string(needed(data, operation, "data", R"("data":"...")").text()), 0,
-        needed(total, operation, "total", R"("total":2)").whole_number(1, most_pieces)};
-    fragment.number =
-        needed(number, operation, "num", R"("num":0)").whole_number(0, fragment.total - 1);
-    text_of(operation, "id", R"("id":"1")");
-    return fragment;
-}
-
 RosLevel read_level(const JsonElement& operation) {
     const auto level = member(operation, "level");
     const JsonElement& word = needed(level, operation, "level", R"("level":"error")");
@@ -168,12 +147,11 @@ RosLevel read_level(const JsonElement& operation) {
               fmt::format("found \"{}\"; expected {}", word.text(), fmt::join(names, ", ")));
 }
 
-/// Reason why an operation of the protocol is not there; empty if it is.
+/// Reason why an operation of the protocol is not supported; empty if it is.
 std::string_view refusal(std::string_view op) {
-    if (op == "advertise_service" || op == "advertise_action") return "rovernet calls nobody";
-    if (op == "auth") return "this door asks for no password";
+    if (op == "advertise_service" || op == "advertise_action") return "rovernet calls no services";
+    if (op == "auth") return "this server needs no password";
     if (op == "send_action_goal" || op == "cancel_action_goal") return "there are no actions";
-    if (op == "png") return "messages come as JSON text only";
     return {};
 }
 
@@ -202,7 +180,6 @@ RosRequest RosRequestReader::read(std::string_view text, Session& session) {
     }
     if (op == "advertise") check_type(operation, input_of(operation, session));
     if (op == "advertise" || op == "unadvertise") return RosNothing{};
-    if (op == "fragment") return read_fragment(operation);
     if (op == "set_level") return read_level(operation);
     const std::string_view why = refusal(op);
     const JsonElement name = *member(operation, "op");

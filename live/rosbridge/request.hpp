@@ -6,79 +6,72 @@
 #include "live/rosbridge/service.hpp"
 #include "live/rosbridge/topic.hpp"
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 
-// What ROS clients say: the operations of the rosbridge protocol, version 2.
+// Operations (requests) of the rosbridge protocol, version 2.
 
 namespace rovernet {
 
-/// Encoding of the messages of a topic: JSON, JSON as the pixels of a picture, or CBOR.
-enum class RosEncoding { json, png, cbor };
+/// Encoding of the messages of a topic.
+enum class RosEncoding { json, cbor };
 
-/// What one subscription of a client asks for.
+/// Delivery options of one client's subscription to a topic.
 struct RosDelivery {
-    Duration interval = {};        ///< at least, of simulated time, between two messages
-    std::size_t queue_length = 0;  ///< messages that wait for their time; the newest stay
-    std::optional<std::size_t> fragment_size = {};  ///< [bytes] of text at most in one piece
+    Duration interval = {};        ///< least simulated time between two messages to the client
+    std::size_t queue_length = 0;  ///< largest number of queued messages; the oldest are dropped
     RosEncoding encoding = RosEncoding::json;
 };
 
 struct RosSubscribe {
-    std::string topic;               ///< as the client wrote it
-    std::optional<RosTopic> source;  ///< none: nothing is ever published there
+    std::string topic;               ///< topic name as the client wrote it
+    std::optional<RosTopic> source;  ///< topic; none: unknown, so that no message is ever published
     RosDelivery delivery;
 };
-/// For the subscription of this operation's id, or for all of that topic if it has none.
+/// Request to remove the subscription with the request's id, or all subscriptions to the topic if
+/// there is no id.
 struct RosUnsubscribe {
     std::string topic;
 };
-/// An operation that changes nothing: who publishes does not have to say so before.
+/// Request without effect: advertise and unadvertise are not needed here.
 struct RosNothing {};
 struct RosPublish {
     NodeId robot;
     RobotCommand command;
-    std::string warning;  ///< what of the message counts for nothing; may be empty
+    std::string warning;  ///< text naming ignored members of the message; may be empty
 };
 struct RosCall {
     RosService service;
     RosArguments arguments;
 };
-/// Piece of a message that was too long for one.
-struct RosFragment {
-    std::string data;
-    std::size_t number, total;
-};
-/// Level from which on a client wants to be told of events.
+/// Least severity of status messages that a client wants.
 enum class RosLevel { info, warning, error, none };
 
-using RosRequest = std::variant<RosSubscribe, RosUnsubscribe, RosNothing, RosPublish, RosCall,
-                                RosFragment, RosLevel>;
+using RosRequest =
+    std::variant<RosSubscribe, RosUnsubscribe, RosNothing, RosPublish, RosCall, RosLevel>;
 
-/// Name and id of the last operation, for the answer to it, whatever is wrong with the rest.
+/// Name and id of the last request (operation), for its answer, even if the rest is invalid.
 struct RosOperation {
-    std::string name;               ///< "publish"; empty if it had none
-    std::optional<std::string> id;  ///< none if it had none
-    std::string target;             ///< topic, service or action, as the client wrote it
+    std::string name;               ///< name of the operation, "publish"; empty if missing
+    std::optional<std::string> id;  ///< id of the operation, given by the client; none if missing
+    std::string target;             ///< topic, service or action name, as the client wrote it
 };
 
-/// Reader of operations, which keeps its memory. Keys of an operation that it does not know are
-/// passed over; those of a message are not.
+/// Reader of rosbridge operations that reuses its memory. Unknown keys of an operation are ignored;
+/// unknown keys of a message are an error.
 ///
-/// Limits: 32 levels of brackets, names of 256 bytes, 1,000 m/s and 1,000 rad/s, data of 65,535
-/// bytes.
+/// Limits: 32 nesting levels, names of 256 bytes, 1,000 m/s and 1,000 rad/s, data of 65,535 bytes.
 class RosRequestReader {
   public:
     RosRequestReader();
     ~RosRequestReader();
 
-    /// @throws RequestError
+    /// Reads a request. @throws RequestError
     RosRequest read(std::string_view text, Session& session);
-    /// The operation that was read last, or could not be.
+    /// Last operation that was read, valid or not.
     const RosOperation& operation() const { return operation_; }
 
   private:

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-// Services of a run: what ROS clients may call.
+// Services of a run that ROS clients can call.
 
 namespace rovernet {
 
@@ -35,19 +35,19 @@ enum class RosServiceKind {
     subscribers,
     node_details,
     time,
-    action_servers,
 };
 
-/// Service of the world, or one that each robot has.
+/// ROS service of the world, or ROS service that each robot has.
 struct RosServiceType {
     RosServiceKind kind;
-    std::string_view name;  ///< without the leading "/"; of a robot's service what follows its name
+    /// Name of the service without the leading "/"; for a robot's service without the robot's name.
+    std::string_view name;
     std::string_view type;
-    std::string_view argument = {};  ///< name of its only argument, a text; empty: it has none
+    std::string_view argument = {};  ///< name of the only argument, a text; empty: no argument
     bool is_of_robot = false;
 };
 
-inline constexpr std::array<RosServiceType, 21> ros_services = {{
+inline constexpr std::array<RosServiceType, 20> ros_services = {{
     {RosServiceKind::radio_send, "radio/send", "rovernet_msgs/SendMessage", "", true},
     {RosServiceKind::pause, "simulation/pause", "std_srvs/Empty"},
     {RosServiceKind::unpause, "simulation/unpause", "std_srvs/Empty"},
@@ -72,27 +72,26 @@ inline constexpr std::array<RosServiceType, 21> ros_services = {{
     {RosServiceKind::subscribers, "rosapi/subscribers", "rosapi_msgs/Subscribers", "topic"},
     {RosServiceKind::node_details, "rosapi/node_details", "rosapi_msgs/NodeDetails", "node"},
     {RosServiceKind::time, "rosapi/get_time", "rosapi_msgs/GetTime"},
-    {RosServiceKind::action_servers, "rosapi/action_servers", "rosapi_msgs/GetActionServers"},
 }};
 
-/// Service as a client may name it.
+/// ROS service that a client has named.
 struct RosService {
     const RosServiceType* type;
-    NodeId robot = {};  ///< if it is a robot's
+    NodeId robot = {};  ///< robot to which the service belongs, if it belongs to one
 
     RosServiceKind kind() const { return type->kind; }
 };
 
-/// Arguments of a call, as its service has them.
+/// Arguments of a call of a ROS service; the service determines which are used.
 struct RosArguments {
-    std::string text = {};  ///< the only argument of those that have one
+    std::string text = {};  ///< text argument of services with RosServiceType::argument
     std::optional<NodeId> robot = {};
-    std::optional<RobotCommand> command = {};  ///< of that robot
-    Duration time = {};                        ///< that a step goes on
+    std::optional<RobotCommand> command = {};  ///< command for the robot of the service
+    Duration time = {};                        ///< duration of a step of simulated time
 };
 
 class Network;
-/// Service of that name; none if there is none.
+/// ROS service with this name; none if there is none.
 std::optional<RosService> find_service(std::string_view name, const Network& network);
 
 }  // namespace rovernet

@@ -21,10 +21,6 @@ RosDelivery RosStream::delivery() const {
         all.interval = std::min(all.interval, each.interval);
         all.queue_length = std::min(all.queue_length, each.queue_length);
         all.encoding = std::max(all.encoding, each.encoding);
-        if (each.fragment_size) {
-            all.fragment_size =
-                std::min(*each.fragment_size, all.fragment_size.value_or(*each.fragment_size));
-        }
     }
     return all;
 }

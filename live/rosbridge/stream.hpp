@@ -14,35 +14,36 @@
 
 namespace rovernet {
 
-/// Messages of one topic to one client, on behalf of all its subscriptions to it: in the smallest
-/// of their intervals, queues and pieces, and in one encoding. What it holds back, it sends when
-/// the interval is over in simulated time, so that a run is told the same every time: the newest
-/// messages, 256 KiB of them at most.
+/// Messages of one topic to one client, for all its subscriptions to the topic: with the smallest
+/// of their intervals and queue lengths, and one encoding. Messages that come too early are queued,
+/// at most 256 KiB with the newest kept, and sent when the interval has passed in simulated time,
+/// so that every replay sends the same messages.
 class RosStream {
   public:
     using Emit = std::function<void(std::string_view message)>;
 
-    /// Adds a subscription, or replaces that of the same id.
+    /// Adds a subscription of the client, or replaces its subscription with the same id.
     void add(const std::string& id, const RosDelivery& delivery);
     void remove(const std::string& id) { deliveries_.erase(id); }
     std::size_t subscriptions() const { return deliveries_.size(); }
-    /// What its subscriptions come to.
+    /// Combined delivery options of all subscriptions of the client to the topic.
     RosDelivery delivery() const;
 
-    /// Takes a new message: it is sent now, held back or dropped.
+    /// Takes a new message of the topic, and sends, queues or drops it.
     void take(std::string_view message, Time now, const Emit& emit);
-    /// Sends what has been held back for long enough.
+    /// Sends queued messages of the topic that are due.
     void go_on(Time now, const Emit& emit);
-    /// Time of the next message that is held back; `never` if there is none.
+    /// Sending time of the next queued message; `never` if no message is queued.
     Time next() const { return held_.empty() ? never : free_from_; }
 
-    std::optional<RosTopic> source = {};  ///< none: nothing is ever published there
-    Time due = never;                     ///< of the next message of its topic
+    /// Topic of the messages; none: unknown, so that no message is ever published.
+    std::optional<RosTopic> source = {};
+    Time due = never;  ///< simulated time of the topic's next message; `never`: none
 
   private:
     std::string release();
 
-    std::map<std::string, RosDelivery> deliveries_;  // by the subscription's id
+    std::map<std::string, RosDelivery> deliveries_;  // delivery options by subscription id
     std::deque<std::string> held_;
     std::size_t held_bytes_ = 0;
     Time free_from_ = start_of_run;

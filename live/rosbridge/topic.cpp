@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "live/rosbridge/topic.hpp"
 
+#include "scene/scanner.hpp"
+
 #include <algorithm>
 
 namespace rovernet {

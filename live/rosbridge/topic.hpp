@@ -10,11 +10,12 @@
 #include <string_view>
 #include <vector>
 
-// Topics of a run: what ROS clients may subscribe to and publish.
+// Topics of a run, to which ROS clients can subscribe and publish.
 
 namespace rovernet {
 
-/// Time between two looks at what robots have heard. All periods but that of a scan are multiples.
+/// Interval at which messages received by robots are fetched. Periods of topics are multiples of
+/// it, except for scans.
 inline constexpr Duration ros_tick = std::chrono::milliseconds(10);
 
 enum class RosTopicKind {
@@ -31,14 +32,15 @@ enum class RosTopicKind {
     send,
 };
 
-/// Topic of the world, or one that each robot has.
+/// ROS topic of the world, or ROS topic that each robot has.
 struct RosTopicType {
     RosTopicKind kind;
-    std::string_view name;  ///< without the leading "/"; of a robot's topic what follows its name
-    std::string_view type;  ///< of its messages
+    /// Name of the topic without the leading "/"; for a robot's topic without the robot's name.
+    std::string_view name;
+    std::string_view type;  ///< message type of the topic
     bool is_of_robot = true;
-    bool is_input = false;  ///< published by clients
-    /// Time between two messages; 0: one as soon as a client subscribes, or when something happens.
+    bool is_input = false;  ///< true: clients publish to the topic
+    /// Interval between messages; 0: one message on subscription, or one for each event.
     Duration period = {};
 };
 
@@ -57,36 +59,37 @@ inline constexpr std::array<RosTopicType, 11> ros_topics = {{
     {RosTopicKind::send, "radio/send", "rovernet_msgs/Send", true, true},
 }};
 
-/// Type of messages that cmd_vel takes, too.
+/// Message type that the topic cmd_vel accepts besides geometry_msgs/Twist.
 inline constexpr std::string_view stamped_velocity = "geometry_msgs/TwistStamped";
 
-/// Topic as a client may name it.
+/// ROS topic that a client has named.
 struct RosTopic {
     const RosTopicType* type;
-    NodeId robot = {};        ///< if it is a robot's
-    std::size_t scanner = 0;  ///< of a scan: number among the range finders of the robot
+    NodeId robot = {};        ///< robot to which the topic belongs, if it belongs to one
+    std::size_t scanner = 0;  ///< index of the robot's range finder, for a topic `scan`
 
     RosTopicKind kind() const { return type->kind; }
 };
 
-/// Whether a type is that of a topic; "pkg/msg/Type" is "pkg/Type".
+/// Whether a topic has this message type; "pkg/msg/Type" equals "pkg/Type".
 bool is_type_of(const RosTopicType& topic, std::string_view type);
-/// A type as this server writes it: "pkg/Type".
+/// Message type in the form "pkg/Type".
 std::string plain_type(std::string_view type);
-/// A name without its leading "/", which ROS clients give or leave out.
+/// Name without a leading "/", which is optional in ROS names.
 std::string_view plain_name(std::string_view name);
-/// Robot to whose name a "/" and `rest` were added; none if there is no such robot.
+/// Robot in a topic name of the form ROBOT/`rest`; none if there is no such robot.
 std::optional<NodeId> robot_before(std::string_view name, std::string_view rest,
                                    const Network& network);
 
-/// Topic of that name; none if there is none.
+/// ROS topic with this name; none if there is none.
 ///
 /// A robot has a scan for each range finder with evenly spaced beams: "/A/scan" for its first
-/// laser, or for the first of them if it has no laser; "/A/rear/scan" for another, named "rear".
+/// laser, or for its first range finder if it has no laser; "/A/rear/scan" for a range finder named
+/// "rear".
 std::optional<RosTopic> find_topic(std::string_view name, const Session& session);
-/// All topics, by kind and then by robot.
+/// All ROS topics, in order of kind, then of robot.
 std::vector<RosTopic> all_topics(const Session& session);
-/// Name of a topic: "/A/odom".
+/// Name of a ROS topic: "/A/odom".
 std::string name_of(const RosTopic& topic, const Session& session);
 
 }  // namespace rovernet

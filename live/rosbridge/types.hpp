@@ -10,21 +10,21 @@ namespace rovernet {
 
 /// Member of a ROS message: "float64[36] covariance".
 struct RosMember {
-    std::string type;  ///< of one element: "float64"
+    std::string type;  ///< type of one element of the member: "float64"
     std::string name;
-    std::optional<int> elements;  ///< of an array; 0: any number of them; none: it is no array
+    std::optional<int> elements;  ///< number of elements of an array; 0: variable; none: no array
 };
 
-/// Type of messages and its definition: lines of "type name", as in .msg files.
+/// Message type with its definition: lines of "type name", as in .msg files.
 struct RosType {
     std::string_view name, definition;
 
     std::vector<RosMember> members() const;
 };
 
-/// Type of that name, "pkg/Type"; null if this server has no messages of it.
+/// ROS message type with this name, "pkg/Type"; null if this server does not use it.
 const RosType* find_type(std::string_view name);
-/// A type and all that it has inside, itself first, each once.
+/// A ROS message type and all types nested in it, the type itself first, each once.
 std::vector<const RosType*> types_within(const RosType& type);
 
 }  // namespace rovernet

@@ -8,17 +8,17 @@
 
 namespace rovernet {
 
-/// Writer of a ROS message, one value after the other, in the encoding that a subscriber asked for.
+/// Writer of a ROS message, value by value, in JSON or CBOR, as the subscription requests.
 class RosWriter {
   public:
     virtual ~RosWriter() = default;
 
     virtual void open_object() = 0;
     virtual void close_object() = 0;
-    /// List of texts or of objects. Lists of numbers are written by numbers().
+    /// Opens a list of texts or objects. Lists of numbers are written by numbers().
     virtual void open_list() = 0;
     virtual void close_list() = 0;
-    /// Name of the next value, in an object.
+    /// Writes the key of the next value of an object.
     virtual void key(std::string_view name) = 0;
 
     virtual void number(double value) = 0;
@@ -26,18 +26,18 @@ class RosWriter {
     virtual void text(std::string_view value) = 0;
     virtual void truth(bool value) = 0;
     virtual void null() = 0;
-    /// ROS array of bytes: uint8[].
+    /// Writes an array of bytes (ROS type uint8[]).
     virtual void bytes(std::string_view value) = 0;
     virtual void numbers(std::span<const float> values) = 0;
     virtual void numbers(std::span<const double> values) = 0;
     virtual void numbers(std::span<const std::int8_t> values) = 0;
 };
 
-/// Writer of JSON, behind what a text has already. Numbers are the shortest that read back as the
-/// same ones; those that are not finite become null, bytes become base64.
+/// Writer of JSON, which appends to a text. Numbers have the fewest digits that read back as the
+/// same value; numbers that are not finite become null, and bytes become base64.
 class RosJsonWriter final : public RosWriter {
   public:
-    /// @param out  text, which has to live as long
+    /// @param out  text to which JSON is appended; must outlive the writer
     explicit RosJsonWriter(std::string& out) : out_(out) {}
 
     void open_object() override;
@@ -66,7 +66,7 @@ class RosJsonWriter final : public RosWriter {
 /// Writer of CBOR (RFC 8949). Lists of numbers become typed arrays, little-endian (RFC 8746).
 class RosCborWriter final : public RosWriter {
   public:
-    /// @param out  bytes, which have to live as long
+    /// @param out  bytes to which CBOR is appended; must outlive the writer
     explicit RosCborWriter(std::string& out) : out_(out) {}
 
     void open_object() override;

@@ -13,7 +13,7 @@
 namespace rovernet {
 namespace {
 
-/// Columns of places that NAME.params tells; in doubt the waypoints decide.
+/// Possible columns by NAME.params; if it is not clear, the waypoints decide.
 std::vector<PlaceColumns> layouts_of(const std::string& movements) {
     std::string name = movements;
     if (name.ends_with(".gz")) name.resize(name.size() - 3);
@@ -43,6 +43,7 @@ class BonnMotionReader final : public MovementFile::Reader {
     explicit BonnMotionReader(TextSource source) : numbers_(std::move(source)) {
         const auto [columns, count] = columns_of(numbers_, layouts_of(numbers_.source()));
         keep(columns, count);
+        if (layouts_of(numbers_.source()).size() > 1) refuse_track();
         const std::uint64_t legs = times_.size() - robots.size();
         if (legs > 0) notices.push_back(kept_notice(numbers_.source(), legs));
         line_up();
@@ -51,7 +52,7 @@ class BonnMotionReader final : public MovementFile::Reader {
     std::optional<MovementCommand> next() override;
 
   private:
-    /// The next command of a robot.
+    /// Next command of a robot.
     struct Turn {
         Time time;
         std::uint32_t robot;
@@ -62,6 +63,7 @@ class BonnMotionReader final : public MovementFile::Reader {
     }
 
     void keep(PlaceColumns columns, std::uint64_t count);
+    void refuse_track() const;
     void line_up();
     void wait(Turn turn) {
         turns_.push_back(turn);
@@ -104,6 +106,21 @@ void BonnMotionReader::keep(PlaceColumns columns, std::uint64_t count) {
         }
         end = std::max(end, w.time);
     });
+}
+
+/// Refuses a file with the track of one robot in one line per time: it would give many standing
+/// robots. In BonnMotion files robots have one line each, and hardly ever appear one after the
+/// other and stand.
+void BonnMotionReader::refuse_track() const {
+    const bool are_single = times_.size() == robots.size();
+    if (!are_single || !std::is_sorted(times_.begin(), times_.end())) return;
+    if (times_.empty() || times_.front() == times_.back()) return;
+    throw InputError(
+        {.source = numbers_.source()},
+        fmt::format("each of its {} lines has one place, later from line to line: this is a track, "
+                    "with a line for each time; expected a line for each robot, \"time x y\" once "
+                    "or more in it (of a track of one robot: tr '\\n' ' ' < TRACK > FILE)",
+                    robots.size()));
 }
 
 void BonnMotionReader::line_up() {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <tuple>
 
 namespace rovernet {
 namespace {
@@ -16,12 +15,12 @@ using Item = BonnMotionNumbers::Item;
 constexpr std::size_t longest_number = 400;  // [bytes]; "%f" of the largest double has 317
 constexpr std::string_view between_numbers = " \t\r";
 
-/// Puts numbers together to waypoints, in one of the ways to read them.
+/// Combines numbers to waypoints, for one possible set of columns.
 class WaypointLine {
   public:
     explicit WaypointLine(PlaceColumns columns) : columns_(columns) {}
 
-    /// A waypoint if the number completes one that the node does not have yet.
+    /// Waypoint completed by the number, unless it repeats the previous one.
     std::optional<Waypoint> number(const BonnMotionNumbers& n) {
         if (++in_line_ == 1 && empty_line_ > 0) fail_empty(n);
         const int column = column_;
@@ -101,7 +100,7 @@ class WaypointLine {
     std::optional<Waypoint> before_;  ///< of the same node
 };
 
-/// The ways to read the file that it has not contradicted yet.
+/// Possible sets of columns that the file has not contradicted yet.
 class Readings {
   public:
     explicit Readings(const std::vector<PlaceColumns>& candidates) {
@@ -109,7 +108,7 @@ class Readings {
             left_.push_back({columns, WaypointLine(columns)});
         }
     }
-    /// @throws InputError if the item contradicts the last of them
+    /// @throws InputError if the item contradicts the last possible one
     void feed(const BonnMotionNumbers& numbers, Item item) {
         for (std::size_t i = 0; i < left_.size();) {
             try {
@@ -138,7 +137,8 @@ class Readings {
         InputError error;
     };
 
-    /// Fails with the last reading that failed, or with the one that fits the length of the line.
+    /// Throws the error of the possible set that failed last, or of the one that fits the length of
+    /// the line.
     [[noreturn]] void fail(int line, bool at_end_of_line) const {
         const InputError& last = failed_.back().error;
         if (!at_end_of_line || failed_.size() == 1) throw last;
@@ -160,13 +160,14 @@ int BonnMotionNumbers::column() const {
     return static_cast<int>(std::min(source_.taken() - line_start_ + 1, most));
 }
 
-/// A file of one endless line would cost its whole length before anything is said.
+/// Limits the length of a line: a file of one endless line would otherwise be read completely
+/// before an error.
 void BonnMotionNumbers::check_length() const {
     if (source_.taken() - line_start_ <= longest_line) return;
     throw InputError(where_, fmt::format("a line is longer than {} bytes", longest_line));
 }
 
-/// Goes to the next byte that is no blank. False at the end of the file.
+/// Skips to the next byte that is not blank. False at the end of the file.
 bool BonnMotionNumbers::skip_blanks() {
     while (true) {
         const std::string_view text = source_.window();
@@ -178,7 +179,7 @@ bool BonnMotionNumbers::skip_blanks() {
     }
 }
 
-/// Goes to the end of the line.
+/// Skips to the end of the line.
 void BonnMotionNumbers::skip_comment() {
     while (true) {
         const std::string_view text = source_.window();

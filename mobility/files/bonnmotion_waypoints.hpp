@@ -14,24 +14,26 @@
 
 namespace rovernet {
 
-/// The numbers of a BonnMotion file.
+/// Numbers of a BonnMotion file, read one by one.
 class BonnMotionNumbers {
   public:
-    static constexpr std::uint64_t longest_line = 16U << 20;  ///< [bytes]: 500,000 places or so
+    static constexpr std::uint64_t longest_line = 16U << 20;  ///< [bytes]: about 500,000 positions
     enum class Item { number, end_of_line, end_of_file };
 
     explicit BonnMotionNumbers(TextSource source)
         : source_(std::move(source)), where_{.source = source_.name(), .line = 1, .column = 1} {}
 
-    /// Comment lines are left out; every other line, also the last, has its end.
-    /// @throws InputError for what is no finite number, and for a line longer than `longest_line`
+    /// Reads the next number or end of line. Comment lines are skipped; every other line, also the
+    /// last, ends with an end_of_line.
+    /// @throws InputError for text that is not a finite number, and for a line longer than
+    ///         `longest_line`
     Item next();
     void rewind();
 
     double value() const { return value_; }
-    /// The number, or the end of the line, as it is written; valid until the next call of next().
+    /// Text of the number, or of the end of the line; valid until the next call of next().
     Word word() const { return word_; }
-    /// The line of word().
+    /// Place of word() in the file.
     const Location& line() const { return where_; }
     const std::string& source() const { return source_.name(); }
 
@@ -46,13 +48,13 @@ class BonnMotionNumbers {
     TextSource source_;
     Location where_;
     std::uint64_t line_start_ = 0;
-    bool line_ended_ = false;  ///< word() is the end of the line
-    bool in_line_ = false;     ///< the line has begun
+    bool line_ended_ = false;  ///< true if word() is the end of the line
+    bool in_line_ = false;     ///< true if a number of the current line was read
     double value_ = 0;
     Word word_;
 };
 
-/// Columns of a line for each waypoint: time x y, perhaps z, perhaps a status.
+/// Columns of each waypoint in a line: time, x, y, perhaps z, perhaps a status.
 struct PlaceColumns {
     bool z = false;
     bool status = false;
@@ -60,21 +62,21 @@ struct PlaceColumns {
     int width() const { return 3 + (z ? 1 : 0) + (status ? 1 : 0); }
 };
 
-/// A place of a node and the time when it is there.
+/// Position of a node at a time.
 struct Waypoint {
     Time time = {};
-    Vec3 place = {};     ///< [m]
-    bool first = false;  ///< the first of its node
-    int column = 1;      ///< of the time in its line
+    Vec3 place = {};     ///< position [m]
+    bool first = false;  ///< true for the first waypoint of the node
+    int column = 1;      ///< column of the waypoint's time in its line, from 1
 };
 
-/// The first of `candidates` that the whole file agrees with, and how many waypoints there are.
-/// @throws InputError if it agrees with none: tells where the one that fits longest fails
+/// First layout of `candidates` that fits the whole file, and the number of waypoints in the file.
+/// @throws InputError if none fits; it reports the error of the candidate that fits longest
 std::pair<PlaceColumns, std::uint64_t> columns_of(BonnMotionNumbers& numbers,
                                                   const std::vector<PlaceColumns>& candidates);
 
-/// Gives each waypoint of the file to `take`; a repeated one (same time, same place) once.
-/// @throws InputError if a line is no list of waypoints at rising times
+/// Calls take(waypoint) for each waypoint of the file; repeated ones (same time and position) once.
+/// @throws InputError if a line is not a list of waypoints with ascending times
 void read_waypoints(BonnMotionNumbers& numbers, PlaceColumns columns,
                     const std::function<void(const Waypoint&)>& take);
 

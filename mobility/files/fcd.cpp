@@ -7,6 +7,11 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <system_error>
 #include <unordered_set>  // order never observed
 
 namespace rovernet {
@@ -14,7 +19,7 @@ namespace {
 
 using Kind = MovementCommand::Kind;
 
-/// Robots by name. The set holds their indices only.
+/// Robots by name. The set stores only their indices.
 class RobotNames {
   public:
     explicit RobotNames(const std::vector<FileRobot>& robots)
@@ -70,6 +75,7 @@ class FcdReader final : public MovementFile::Reader {
             if (end > last_of_run) end_where = step_where_;
         }
         scanned_ = true;
+        refuse_degrees();
         states_.shrink_to_fit();
         start_over();
         if (skipped_ > 0) {
@@ -81,7 +87,7 @@ class FcdReader final : public MovementFile::Reader {
     std::optional<MovementCommand> next() override;
 
   private:
-    /// A robot in one timestep.
+    /// Robot in one timestep.
     struct Sighting {
         std::uint32_t robot;
         Vec3 at;
@@ -93,6 +99,8 @@ class FcdReader final : public MovementFile::Reader {
     };
 
     void enter_root();
+    void refuse_degrees() const;
+    void compare_speed(const Sighting& now, const State& before);
     void start_over();
     bool read_step();
     void read_robots();
@@ -115,6 +123,9 @@ class FcdReader final : public MovementFile::Reader {
     std::string first_skipped_;
     RobotNames names_{robots};
     std::vector<State> states_;  ///< by robot
+    // Sum of all path lengths by the positions, and by the speeds [m].
+    double length_by_places_ = 0, length_by_speeds_ = 0;
+    bool may_be_degrees_ = true;  ///< no place is beyond 180, 90
 
     std::uint64_t step_ = 0;  ///< number of the current timestep, from 1
     Location step_where_;     ///< its place, if it is later than the longest run
@@ -134,6 +145,53 @@ void FcdReader::enter_root() {
     }
 }
 
+/// Whether the head of SUMO's file has the option switched on.
+bool is_option_on(std::string_view head, std::string_view option) {
+    const std::size_t found = head.find(option);
+    if (found == head.npos) return false;
+    constexpr std::string_view before = "value=\"";
+    const std::size_t begin = head.find(before, found);
+    const std::size_t end = head.find('>', found);
+    if (begin == head.npos || begin > end) return false;
+    const std::string_view rest = head.substr(begin + before.size());
+    std::string value(rest.substr(0, rest.find('"')));
+    for (char& c : value) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    constexpr std::string_view yes[] = {"true", "t", "1", "yes", "y", "on", "x"};
+    return std::find(std::begin(yes), std::end(yes), value) != std::end(yes);
+}
+
+/// Refuses longitudes and latitudes, which would be read as metres.
+void FcdReader::refuse_degrees() const {
+    constexpr double factor = 1000;  // a degree has 111 km, or less along a parallel
+    constexpr double enough = 1;     // [m]
+    const bool is_told = is_option_on(tags_.head_comments(), "fcd-output.geo");
+    const bool is_so = may_be_degrees_ && length_by_speeds_ > enough &&
+                       factor * length_by_places_ < length_by_speeds_;
+    if (!is_told && !is_so) return;
+    throw InputError(
+        {.source = tags_.source()},
+        fmt::format("the places are in degrees: {}; expected metres, as SUMO writes them without "
+                    "--fcd-output.geo",
+                    is_told ? "fcd-output.geo is on, its head says"
+                            : "by its speeds the robots go over a thousand times further"));
+}
+
+/// Adds the path from the previous position to both sums, if the speed is given.
+void FcdReader::compare_speed(const Sighting& now, const State& before) {
+    constexpr double most_x = 180, most_y = 90;
+    if (!(std::abs(now.at.x) <= most_x && std::abs(now.at.y) <= most_y)) may_be_degrees_ = false;
+    if (!may_be_degrees_ || before.step == 0 || before.step + 1 != step_) return;
+    const auto speed = tags_.value("speed");
+    if (!speed) return;
+    double value = 0;
+    const char* stop = speed->text.data() + speed->text.size();
+    if (std::from_chars(speed->text.data(), stop, value).ec != std::errc{} || !(value > 0)) return;
+    length_by_speeds_ += value * seconds(time_ - time_before_);
+    length_by_places_ += distance(now.at, before.at);
+}
+
 void FcdReader::start_over() {
     tags_.rewind();
     enter_root();
@@ -145,7 +203,7 @@ void FcdReader::start_over() {
     for (State& state : states_) state = {};
 }
 
-/// False at the end of the file.
+/// Reads a timestep; false at the end of the file.
 bool FcdReader::read_step() {
     while (true) {
         const auto kind = tags_.next();
@@ -202,6 +260,7 @@ void FcdReader::read_robot() {
         robots[sighting.robot].start = sighting.at;
         robots[sighting.robot].appears = time_;
     }
+    if (!scanned_) compare_speed(sighting, state);
     state.before = state.step;
     state.step = step_;
     state.at = sighting.at;
@@ -230,7 +289,7 @@ std::uint32_t FcdReader::robot_of(Word id) {
     return robot;
 }
 
-/// An element that is none of FCD's.
+/// Skips an element that FCD files do not have.
 void FcdReader::skip_unknown() {
     const auto suggestion =
         did_you_mean(tags_.name(), {"timestep", "vehicle", "person", "container"});
@@ -243,7 +302,7 @@ void FcdReader::skip_unknown() {
     tags_.skip_element();
 }
 
-/// Command of a robot from the timestep before to this one.
+/// Command of a robot between the previous timestep and this one.
 std::optional<MovementCommand> FcdReader::goes_on(const Sighting& before) const {
     const State& state = states_[before.robot];
     MovementCommand command{

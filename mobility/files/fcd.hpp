@@ -7,13 +7,13 @@
 
 namespace rovernet {
 
-/// Reads SUMO's floating car data (--fcd-output) in metres: <timestep>s with <vehicle>s, <person>s
-/// and <container>s, whose ids are the robots' names.
+/// Reads SUMO's floating car data (--fcd-output) in metres: <timestep> elements with <vehicle>,
+/// <person> and <container> elements, whose ids are the names of the robots.
 ///
-/// A robot goes straight from its place in one timestep to that in the next, which it reaches at
-/// the next one's time. One that the next timestep does not have vanishes at the time of its last;
-/// it may come back. Those of the last timestep stay. Angles and speeds are not looked at: they
-/// follow from the places.
+/// A robot moves straight from its position in one timestep to that in the next, where it arrives
+/// at the next timestep's time. A robot that is missing in the next timestep disappears at its last
+/// one; it may reappear. Robots of the last timestep remain. Angles and speeds are ignored: they
+/// follow from the positions.
 /// @throws InputError
 std::unique_ptr<MovementFile::Reader> read_fcd(TextSource source, MovementSyntax syntax);
 

@@ -13,7 +13,7 @@
 namespace rovernet {
 namespace {
 
-/// The first byte that is neither blank nor in a comment, and its place; 0 if there is none.
+/// First byte that is neither blank nor in a comment, and its place; 0 if there is none.
 struct FirstByte {
     char byte = 0;
     Location where;

@@ -13,48 +13,49 @@
 
 namespace rovernet {
 
-/// Command of a movement file to one robot.
+/// Command for one robot in a movement file.
 struct MovementCommand {
     enum class Kind : std::uint8_t {
-        appear,  ///< is at `to` from now on, its radio on
-        go,      ///< goes straight to `to` at `speed`; 0 stops it where it is
-        reach,   ///< goes straight to `to`, which it reaches at `arrival`
-        vanish,  ///< is gone: its radio off
+        appear,  ///< robot is at `to` from now on, with its radio on
+        go,      ///< robot moves straight to `to` at `speed`; speed 0 stops it
+        reach,   ///< robot moves straight to `to`, where it arrives at `arrival`
+        vanish,  ///< robot is absent from now on, with its radio off
     };
     Time time;
     std::uint32_t robot;  ///< index into MovementFile::robots()
     Kind kind;
-    Vec3 to = {};       ///< [m]
-    double speed = 0;   ///< [m/s], >= 0
-    Time arrival = {};  ///< > time
+    Vec3 to = {};       ///< goal, or position at which the robot appears [m]
+    double speed = 0;   ///< speed [m/s], >= 0, for `go`
+    Time arrival = {};  ///< time of arrival, after `time`, for `reach`
 };
 
-/// End of the longest run, of 1e9 s: a file that goes on after it can be played in part only.
+/// End of the longest run, 1e9 s; a file that continues after it can only be played in part.
 inline constexpr Time last_of_run = start_of_run + Duration{1'000'000'000'000'000'000};
 
-/// A robot that a movement file names.
+/// Robot named in a movement file.
 struct FileRobot {
     std::string
-        name;    ///< "n0" for node_(0) of ns-2 and for the first line of BonnMotion; SUMO's id
-    Vec3 start;  ///< [m] where it first is
+        name;  ///< "n0" for node_(0) of ns-2 and for the first line of BonnMotion; for SUMO the id
+    Vec3 start;  ///< first position of the robot [m]
     Time appears = start_of_run;
 };
 
-/// Strictness with which a movement file is read.
+/// Handling of invalid lines in a movement file.
 enum class MovementSyntax {
-    strict,    ///< a line that means nothing is an error
-    tolerant,  ///< a line that means nothing is left out, with one notice for all
+    strict,    ///< an invalid line is an error
+    tolerant,  ///< invalid lines are skipped, with one notice for all
 };
 
-/// A file of movements, read command by command in order of time.
+/// File of movements, read command by command in order of time.
 ///
-/// ns-2 movement files (setdest), BonnMotion's .movements and .movements.gz (2-D and 3-D, told from
-/// the file NAME.params beside it, or else from the number of columns), SUMO's FCD XML. The first
-/// bytes decide the kind, not the name. A file in order of time is read as it goes, in memory
-/// proportional to its robots; any other keeps at most 40 bytes a leg and says so in a notice.
+/// Formats: ns-2 movement files (setdest), BonnMotion's .movements and .movements.gz (2-D or 3-D by
+/// the file NAME.params beside it, otherwise by the number of columns), SUMO's FCD XML. The format
+/// is recognised by the first bytes, not by the name. A file in order of time is streamed, with
+/// memory proportional to the number of robots; any other file needs up to 40 bytes per leg, and a
+/// notice reports it.
 class MovementFile {
   public:
-    /// Reads the file through once: every mistake in it shows now.
+    /// Reads the whole file once, so that all its errors are reported now.
     /// @throws InputError with file, line and column
     explicit MovementFile(const std::string& path, MovementSyntax syntax = MovementSyntax::strict);
     ~MovementFile();
@@ -63,12 +64,13 @@ class MovementFile {
 
     const std::vector<FileRobot>& robots() const;
     const std::vector<std::string>& notices() const;
-    /// Time at which the last command ends.
+    /// Time at which the last command of the file ends.
     Time end() const;
-    /// Place of that command in the file; the whole file unless it ends after the longest run.
+    /// Place of the last command in the file, if end() is after last_of_run; otherwise only the
+    /// file's name.
     const Location& end_where() const;
 
-    /// The next command, in order of time, then as in the file; none at the end.
+    /// Next command, in order of time, then of position in the file; empty at the end.
     std::optional<MovementCommand> next();
 
     struct Reader;

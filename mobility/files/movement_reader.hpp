@@ -4,14 +4,13 @@
 #include "files/text_source.hpp"
 #include "mobility/files/movement_file.hpp"
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace rovernet {
 
-/// Reader of one kind of file, for MovementFile. When it is made, it has read the file through.
+/// Reader of one file format, for MovementFile. Its construction reads the whole file once.
 struct MovementFile::Reader {
     virtual ~Reader() = default;
     virtual std::optional<MovementCommand> next() = 0;
@@ -19,13 +18,13 @@ struct MovementFile::Reader {
     std::vector<FileRobot> robots;
     std::vector<std::string> notices;
     Time end = start_of_run;
-    Location end_where = {};  ///< set if `end` is after last_of_run
+    Location end_where = {};  ///< place of the last command; only set if `end` is after last_of_run
 };
 
-/// The notice that says that `legs` legs of a file are in memory.
+/// Text of the notice that `legs` legs of a file are stored in memory.
 std::string kept_notice(const std::string& file, std::uint64_t legs);
 
-/// @throws InputError, always: the file is not the one that was read before
+/// @throws InputError, always: the file has changed since it was first read
 [[noreturn]] void fail_changed(const std::string& file);
 
 }  // namespace rovernet

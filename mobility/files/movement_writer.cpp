@@ -13,7 +13,7 @@
 namespace rovernet {
 namespace {
 
-/// A leg as it was gone: until its end, the next leg or the end of all.
+/// Leg as actually travelled: until its end, the next leg or the end of the file.
 struct Piece {
     Time start;
     Time end;
@@ -22,7 +22,7 @@ struct Piece {
     bool jump = false;  ///< the piece before ended elsewhere
 };
 
-/// The pieces of a track until `end`, without gaps.
+/// Pieces of a track until `end`, without gaps.
 std::vector<Piece> pieces_of(const Track& track, Time end) {
     constexpr double rounding = 1e-6;  // [m]
     if (track.legs.empty()) {
@@ -53,7 +53,7 @@ std::vector<Piece> pieces_of(const Track& track, Time end) {
     return pieces;
 }
 
-/// The smallest box around the tracks.
+/// Bounding box of the tracks.
 struct Box {
     Vec3 low;
     Vec3 high;
@@ -92,7 +92,7 @@ void append(std::string& text, fmt::format_string<Values...> format, Values&&...
     fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
 }
 
-/// Comment for somebody who gives the file to ns-2.
+/// Appends a comment with the field size for ns-2.
 void append_field(std::string& text, const Box& box) {
     append(text,
            "# ns-2 stops at a target outside of its field: load_flatgrid {:.0f} {:.0f} or more\n",
@@ -124,7 +124,7 @@ std::vector<Departure> departures_of(std::span<const Track> tracks, Time end) {
     return departures;
 }
 
-/// Stops the node and puts it there: in ns-2 a motion goes on towards its old target otherwise.
+/// Stops the node and moves it: otherwise ns-2 would continue its motion to the old target.
 void append_jump(std::string& text, const Departure& d) {
     const Vec3 at = d.piece.from;
     const std::string time = text_of(d.time);

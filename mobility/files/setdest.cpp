@@ -13,7 +13,7 @@
 namespace rovernet {
 namespace {
 
-/// Course of a node until its next command.
+/// Motion of a node until its next command.
 struct Course {
     Time start;
     Vec3 from;  ///< [m] at `start`
@@ -43,7 +43,7 @@ Course standing(Time time, Vec3 at) { return {time, at, at.x, at.y, 0}; }
 
 double& component(Vec3& v, std::uint8_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// A scheduled line in memory.
+/// Scheduled line stored in memory.
 struct KeptLine {
     Time time;
     double x;
@@ -98,7 +98,7 @@ class SetdestReader final : public MovementFile::Reader {
     MovementCommand follow(std::uint32_t robot, const SetdestLine& line);
     MovementCommand unkept(const KeptLine& kept);
 
-    /// The robot of the current line; none if it is not known.
+    /// Robot of the current line; empty if it is not known.
     std::uint32_t robot() const {
         return line_.node < robot_of_.size() ? robot_of_[line_.node] : none;
     }
@@ -125,7 +125,7 @@ void SetdestReader::skip(const InputError& error) {
     if (skipped_++ == 0) first_skipped_ = error.what();
 }
 
-/// Reads on until a line says something. False at the end.
+/// Reads lines until one is not empty. False at the end.
 bool SetdestReader::next_line() {
     while (const auto text = lines_.next()) {
         if (!tolerant_) {
@@ -154,7 +154,7 @@ std::uint32_t SetdestReader::known_robot() {
     return robot;
 }
 
-/// Robots are in the order in which the file names them, for now.
+/// Reads the file once; robots are in the order in which the file names them.
 void SetdestReader::scan() {
     while (next_line()) {
         const std::uint32_t robot = known_robot();
@@ -231,7 +231,7 @@ MovementCommand SetdestReader::follow(std::uint32_t robot, const SetdestLine& li
             .speed = line.speed};
 }
 
-/// Follows all the commands, for where the last ones end.
+/// Simulates all commands, to find their ends.
 void SetdestReader::replay() {
     start_over();
     while (next()) continue;
@@ -242,8 +242,8 @@ void SetdestReader::note_end() {
     for (const Course& course : courses_) end = std::max(end, course.arrival());
 }
 
-/// Finds the line of the command that ends last: the last one of the robot that arrives then, or
-/// any of that time.
+/// Finds the line of the command that ends last: the last command of the robot that arrives then,
+/// or the last command of that time.
 void SetdestReader::find_end() {
     lines_.rewind();
     Time latest_so_far = start_of_run;

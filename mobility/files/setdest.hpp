@@ -7,12 +7,13 @@
 
 namespace rovernet {
 
-/// Reads an ns-2 movement file: places, scheduled setdest and scheduled places of node_(0) to
-/// node_(9999999). setdest means what it means in ns-2: straight from where the node then is to
-/// (x, y) at the speed, where it stops; z stays; speed 0 stops it at once. A scheduled `set X_`
-/// (Y_, Z_) puts the node there and ends its motion.
+/// Reads an ns-2 movement file: positions, scheduled setdest and scheduled positions of node_(0) to
+/// node_(9999999). setdest works as in ns-2: the node moves straight from its position at that time
+/// to (x, y) at the given speed and stops there; z is constant; speed 0 stops it at once. A
+/// scheduled `set X_` (Y_, Z_) moves the node there at once and ends its motion.
 ///
-/// A file whose scheduled lines are in order of time is streamed, wherever its places stand.
+/// A file whose scheduled lines are in order of time is streamed; unscheduled positions may be
+/// anywhere in it.
 /// @throws InputError
 std::unique_ptr<MovementFile::Reader> read_setdest(TextSource source, MovementSyntax syntax);
 

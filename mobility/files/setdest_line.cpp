@@ -13,7 +13,7 @@ namespace {
 
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// The words of a line up to its comment and the `;` at its end.
+/// Words of a line up to its comment and the `;` at its end.
 class Words {
   public:
     Words(std::string_view line, const Location& where) : line_(line), where_(where) {
@@ -33,7 +33,7 @@ class Words {
         at_ += word.text.size();
         return word;
     }
-    /// Takes what stands between the quotes as the rest of the line.
+    /// Continues with the text between the quotes as the rest of the line.
     void unquote() {
         const Word first = peek();
         if (!first.text.starts_with('"')) fail_at(where_, first, "a command in quotes (\")");
@@ -69,7 +69,7 @@ std::uint8_t axis_of(Word word, const Words& words) {
     words.fail(word, "X_, Y_ or Z_", {"X_", "Y_", "Z_"});
 }
 
-/// A command to a node; `line` has its time already.
+/// Parses a command to a node; `line` already has its time.
 void parse_command(Words& words, const Location& where, bool scheduled, SetdestLine& line) {
     line.node = node_number(words.next(), where);
     const Word verb = words.next();

@@ -9,24 +9,24 @@
 
 namespace rovernet {
 
-/// Line of an ns-2 movement file.
+/// Parsed line of an ns-2 movement file.
 struct SetdestLine {
     enum class Kind : std::uint8_t {
-        nothing,  ///< blank, a comment, or a command to ns-2's object god
-        place,    ///< `$node_(i) set X_ v`: before the run
+        nothing,  ///< blank line, comment, or command to ns-2's object god
+        place,    ///< `$node_(i) set X_ v`: position before the run
         jump,     ///< `$ns_ at T "$node_(i) set X_ v"`
         setdest,  ///< `$ns_ at T "$node_(i) setdest x y speed"`
     };
     Kind kind = Kind::nothing;
     std::uint32_t node = 0;
     Time time = {};
-    std::uint8_t axis = 0;  ///< axis of `place` and `jump`: 0 = X_, 1 = Y_, 2 = Z_
-    double x = 0;           ///< [m]; of `place` and `jump`: the coordinate
-    double y = 0;           ///< [m]
-    double speed = 0;       ///< [m/s]
+    std::uint8_t axis = 0;  ///< coordinate that `place` or `jump` sets: 0 = X_, 1 = Y_, 2 = Z_
+    double x = 0;           ///< goal [m]; for `place` and `jump` the value of the coordinate
+    double y = 0;           ///< goal [m]
+    double speed = 0;       ///< speed [m/s]
 };
 
-/// @throws InputError if the line means nothing
+/// Parses a line of an ns-2 movement file. @throws InputError if the line is invalid
 SetdestLine parse_setdest_line(std::string_view line, const Location& where);
 
 }  // namespace rovernet

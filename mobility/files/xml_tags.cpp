@@ -24,7 +24,7 @@ bool begins_name(char c) {
     return is_name_byte(c) && !(c >= '0' && c <= '9') && c != '.' && c != '-';
 }
 
-/// The name at the begin of `text`; empty if there is none.
+/// Name at the start of `text`; empty if there is none.
 std::string_view name_in(std::string_view text) {
     std::size_t n = 0;
     if (!text.empty() && begins_name(text[0])) {
@@ -37,7 +37,7 @@ std::size_t skip_blanks(std::string_view text, std::size_t at) {
     return std::min(text.find_first_not_of(blanks, at), text.size());
 }
 
-/// Past the `>` that ends the tag at the begin of `text`; npos if it is not there yet.
+/// Position after the `>` that ends the tag at the start of `text`; npos if it is not read yet.
 std::size_t past_tag(std::string_view text) {
     for (std::size_t i = 1; i < text.size(); ++i) {
         if (text[i] == '>') return i + 1;
@@ -48,7 +48,7 @@ std::size_t past_tag(std::string_view text) {
     return text.npos;
 }
 
-/// The code point that `&...;` stands for, without its & and ;. Nothing if it stands for none.
+/// Code point of `&...;`, given without its & and ;. Empty if it is invalid.
 std::optional<char32_t> code_point(std::string_view reference) {
     if (reference == "lt") return U'<';
     if (reference == "gt") return U'>';
@@ -85,7 +85,7 @@ void append_utf8(std::string& text, char32_t c) {
 
 }  // namespace
 
-/// `text`, a part of the window's tag, as a word; where() is then its line.
+/// Part of the window's tag as a word; sets where() to its line.
 Word XmlTags::word_at(std::string_view text) {
     const std::string_view before(source_.window().data(),
                                   static_cast<std::size_t>(text.data() - source_.window().data()));
@@ -101,7 +101,7 @@ Word XmlTags::word_at(std::string_view text) {
     return {text, static_cast<int>(std::min(column, most))};
 }
 
-/// `found` is a part of the window; up to its first blank it is shown.
+/// Throws the error for `found`, a part of the window, shown up to its first blank.
 void XmlTags::fail(std::string_view found, std::string_view expected) {
     const Word word = word_at(found.substr(0, found.find_first_of(blanks, 1)));  // sets where_
     fail_at(where_, word, expected);
@@ -116,7 +116,7 @@ void XmlTags::advance(std::size_t bytes) {
     source_.take(bytes);
 }
 
-/// Past `end`, which must come; not before `from` bytes.
+/// Skips past `end`, which must follow, at least `from` bytes ahead.
 void XmlTags::skip_past(std::string_view end, std::size_t from) {
     where_.column = word_at(source_.window()).column;
     const Location begin = where_;
@@ -133,7 +133,16 @@ void XmlTags::skip_past(std::string_view end, std::size_t from) {
     }
 }
 
-/// Goes to the next tag of an element. False at the end of the file.
+/// Stores the start of the comment at the window's start, if no element was before it.
+void XmlTags::keep_head_comment() {
+    constexpr std::size_t most = 64 * 1024;
+    if (had_root_ || head_comments_.size() >= most) return;
+    source_.ensure(most);
+    const std::string_view text = source_.window().substr(0, most);
+    head_comments_ += text.substr(0, text.find("-->"));
+}
+
+/// Moves to the next tag of an element. False at the end of the file.
 bool XmlTags::find_tag() {
     while (true) {
         const std::size_t n = source_.window().find_first_not_of(blanks);
@@ -147,6 +156,7 @@ bool XmlTags::find_tag() {
         const std::string_view text = source_.window();
         if (text.front() != '<') fail(text.substr(0, text.find('<')), "a tag (<)");
         if (text.starts_with(comment)) {
+            keep_head_comment();
             skip_past("-->", comment.size());
         } else if (text.starts_with("<?")) {
             skip_past("?>", 2);
@@ -158,7 +168,7 @@ bool XmlTags::find_tag() {
     }
 }
 
-/// The whole tag that begins the window.
+/// Complete tag at the window's start.
 std::string_view XmlTags::tag() {
     while (true) {
         const std::size_t n = past_tag(source_.window());
@@ -229,7 +239,7 @@ void XmlTags::parse_open(std::string_view text) {
     open_.emplace_back(name_);
 }
 
-/// The attribute that begins at `at`; returns its end.
+/// Parses the attribute at `at`; returns its end.
 std::size_t XmlTags::parse_attribute(std::string_view text, std::size_t at) {
     const std::string_view name = name_in(text.substr(at));
     if (name.empty()) fail(text.substr(at), "an attribute, \"/>\" or \">\"");
@@ -285,6 +295,7 @@ void XmlTags::rewind() {
     line_ = 1;
     line_start_ = length_ = 0;
     empty_ = had_root_ = false;
+    head_comments_.clear();
     open_.clear();
 }
 

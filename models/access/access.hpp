@@ -13,23 +13,22 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-// The port of access models: how nodes get access to the medium. A model is settings with a name
-// and make_access(), and an Access that runs it for all nodes; the Mac of the network implements
-// Air for it. test/extend/added/models/access/one_slot.hpp is a small one.
+// Interface of access models, which determine when nodes may transmit. A model consists of settings
+// with a name and make_access(), and of an Access that serves all nodes; the Mac of the network
+// implements Air for it. test/extend/added/models/access/one_slot.hpp is a small one.
 //
 //     send(frame)  -->  its queue  -->  access_timer  -->  on_timer  -->  Air::transmit
 //                                                                    -->  Air::sent, or Air::lost
 
 namespace rovernet {
 
-/// Takes the frames for `next_hop` out of a queue but for the first, which is being sent: what
-/// Access::take does in a model with a queue. The order of both parts stays.
+/// Removes the frames for `next_hop` from a queue, except its first frame, which is in
+/// transmission; implements Access::take for models with a queue. The order of the frames is kept.
 inline std::vector<QueuedFrame> take_waiting(std::vector<QueuedFrame>& queue, NodeId next_hop) {
     if (queue.empty()) return {};
     const auto taken = std::stable_partition(
@@ -40,98 +39,97 @@ inline std::vector<QueuedFrame> take_waiting(std::vector<QueuedFrame>& queue, No
     return frames;
 }
 
-/// Functions that an access model may call. The MAC layer implements them.
+/// Functions that an access model may call; implemented by the MAC layer.
 class Air {
   public:
-    /// Time of the event that is served.
+    /// Time of the current event.
     virtual Time now() const = 0;
-    /// Puts a frame on air now. Stations sense it from within the call, see Access::sensed.
-    /// @return when it ends at its sender
+    /// Transmits a frame now. Access::sensed is called from within the call.
+    /// @return end of the frame at its sender
     virtual Time transmit(const AirFrame& frame) = 0;
-    /// Time that a frame is on air [ns]. That of an ACK for everyone is the longest of any ACK.
+    /// Airtime of a frame [ns]. For an ACK to `everyone`: the longest airtime any ACK can have
+    /// (used for EIFS).
     virtual Duration airtime(const AirFrame& frame) const = 0;
-    /// Size of a frame on air [bytes], what access adds included.
+    /// Size of a frame on air [bytes], including the bytes that the access model adds.
     virtual std::uint32_t bytes(const AirFrame& frame) const = 0;
-    /// Calls the model's on_timer(node, tag) at `at`. There is no way back: keep the time that
-    /// counts, and compare.
+    /// Sets a timer that calls the model's on_timer(node, tag) at `at`. A timer cannot be
+    /// cancelled: store the valid time and compare.
     virtual void access_timer(NodeId node, Time at, std::uint32_t tag) = 0;
-    /// Uniform draw in (0, 1) of the node's own access, its `index`-th.
+    /// Uniform draw in (0, 1), the `index`-th of this node for channel access.
     virtual double access_draw(NodeId node, std::uint64_t index) const = 0;
-    /// Tells of the end of a frame that send() was given: it was sent, and answered if it had to
-    /// be. Exactly one of sent() and lost() is called for each.
+    /// Reports the end of a frame passed to send(): it was transmitted, and acknowledged if
+    /// required. Each frame causes exactly one call of sent() or lost().
     virtual void sent(const QueuedFrame& frame) = 0;
-    /// Tells of the end of a frame: it was given up. The MAC makes a record of it.
+    /// Reports the end of a frame that was dropped. The MAC emits a record of it.
     virtual void lost(const QueuedFrame& frame, DropReason reason) = 0;
 
   protected:
     ~Air() = default;
 };
 
-/// Access model at work: one object for all nodes of a Network, which has their queues and states.
-/// The functions that are not pure have a default for models that need no more.
+/// Access model of a Network: one object with the queues and states of all nodes. Functions that
+/// are not pure virtual have a default for simple models.
 ///
-/// A model that listens is told of every frame at every station that senses it: when energy comes
-/// and goes as it is sent, and whether it was received when it ends.
+/// A listening model (carrier sensing) is notified of every frame at every station that senses it:
+/// of its times when it starts, and whether it was received when it ends.
 class Access {
   public:
-    /// Models are owned by their Mac.
+    /// Destructor; the Mac owns the model.
     virtual ~Access() = default;
 
-    /// Adds the next node.
+    /// Adds the node with the next id.
     virtual void add() {}
-    /// Takes a frame to send from its sender; Air::sent or Air::lost tells of its end.
+    /// Accepts a frame from its sender; it ends with a call of Air::sent or Air::lost.
     virtual void send(Air& air, const QueuedFrame& frame) = 0;
-    /// Serves a timer that was set by Air::access_timer.
+    /// Serves a timer set by Air::access_timer.
     virtual void on_timer(Air& /*air*/, NodeId /*node*/, std::uint32_t /*tag*/) {}
-    /// Takes the frames for `next_hop` out of the node's queue, but for one that is being sent.
-    /// They count as neither sent nor lost: the routing protocol sends them another way.
+    /// Removes the frames for `next_hop` from the node's queue, except a frame in transmission.
+    /// They count as neither sent nor lost: the routing protocol sends them on another path.
     virtual std::vector<QueuedFrame> take(NodeId /*node*/, NodeId /*next_hop*/) { return {}; }
-    /// Takes note that the node was switched off: all in its queue is lost.
+    /// Clears the queue of a node that was switched off; its frames are lost.
     virtual void switch_off(Air& /*air*/, NodeId /*node*/) {}
 
-    /// Whether frames wait for their turn. Saturated traffic needs that: otherwise nothing would
-    /// hold it back.
+    /// Whether frames wait in a queue. Saturated traffic needs a queue: otherwise sending would be
+    /// unlimited.
     virtual bool queues() const { return true; }
-    /// Whether stations listen: they are told what they sense and what they receive, and a unicast
-    /// that nobody answers is repeated.
+    /// Whether stations listen: sensed(), received() and missed() are called, and a unicast without
+    /// an acknowledgement is repeated.
     virtual bool listens() const { return false; }
-    /// Takes note of nodes that will sense a frame that goes on air now, and from when until when.
-    /// For models that listen, as are the next three.
+    /// Called when a frame starts, with the nodes that sense it and the times between which they
+    /// do. Only for listening models, like the next three functions.
     virtual void sensed(Air& /*air*/, std::span<const Sensing> /*nodes*/) {}
-    /// Takes note that a frame ended at `node` and was received.
+    /// Called when a frame ended at `node` and was received.
     virtual void received(Air& /*air*/, NodeId /*node*/, const AirFrame& /*frame*/) {}
-    /// Takes note that a frame ended at `node`, which could decode it, and was lost.
-    /// @param locked  the receiver had begun to receive it, see Reception::locked
+    /// Called when a frame ended at `node`, which could have decoded it, and was lost.
+    /// @param locked  the receiver had locked onto the frame, see Reception::locked
     virtual void missed(Air& /*air*/, NodeId /*node*/, bool /*locked*/) {}
-    /// Whether `frame` repeats one that `node` has already. It is asked once for each unicast
-    /// received, and may remember that.
+    /// Whether `frame` repeats a frame that `node` already has. It is called once for each received
+    /// unicast, and may update the node's state.
     virtual bool is_repeated(NodeId /*node*/, const AirFrame& /*frame*/) { return false; }
 
-    /// Bytes that access adds to a message.
+    /// Bytes that the access model adds to a message.
     virtual std::uint32_t header() const { return 0; }
-    /// Bit rate at which a frame goes.
-    /// @param sender    rate of its radio
-    /// @param receiver  rate of the receiver's radio if the frame is for one node, else that of the
-    /// sender
+    /// Bit rate of a frame.
+    /// @param sender    bit rate of the sender's radio
+    /// @param receiver  bit rate of the receiver's radio for a unicast, otherwise the sender's
     virtual BitRate rate(const AirFrame& /*frame*/, BitRate sender, BitRate /*receiver*/) const {
         return sender;
     }
-    /// Bit rates, beside those of the radios, at which frames may go; the reception model checks
-    /// them.
+    /// Bit rates of the model's frames, in addition to those of the radios; the reception model
+    /// checks them.
     virtual std::span<const BitRate> own_rates() const { return {}; }
-    /// Physical layer that its frames go by: how long they are on air, and how likely their bits
-    /// are right.
+    /// Physical layer of the model's frames: airtimes and bit error rates.
     virtual Phy phy() const { return Wifi{}; }
 };
 
-/// Settings of an access model: they name it and make it.
+/// Settings of an access model: its name, and a function that creates it.
 template <class T>
 concept MakesAccess = std::copyable<T> && requires(const T& settings) {
     { T::name } -> std::convertible_to<std::string_view>;
     { settings.make_access() } -> std::same_as<std::unique_ptr<Access>>;
 };
 
-/// Settings of any access model, held by value. NetworkSettings::access is one:
+/// Settings of any access model, stored by value. NetworkSettings::access is one:
 ///
 ///   Network network({.access = Aloha{}});
 class AccessModel {
@@ -141,10 +139,11 @@ class AccessModel {
         : name_(T::name),
           make_([settings = std::move(settings)] { return settings.make_access(); }) {}
 
-    /// Name of the model, as in files.
+    /// Name of the model in scenario files.
     std::string_view name() const { return name_; }
 
-    /// Model for one Network. @throws std::invalid_argument if a setting is out of its range
+    /// Creates the model for one Network. @throws std::invalid_argument if a setting is out of its
+    /// range
     std::unique_ptr<Access> make_access() const { return make_(); }
     /// Whether stations listen, see Access::listens.
     bool listens() const { return make_access()->listens(); }
@@ -152,7 +151,7 @@ class AccessModel {
     Phy phy() const { return make_access()->phy(); }
 
   private:
-    // Name of the settings, and a function that makes their model.
+    // Name of the settings, and the function that creates their model.
     std::string_view name_;
     std::function<std::unique_ptr<Access>()> make_;
 };

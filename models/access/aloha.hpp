@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-// Pure and slotted ALOHA: the simplest access that has a queue. In code:
+// Pure and slotted ALOHA: the simplest access model with a queue. In code:
 //
 //     Network network({.access = Aloha{.slot = 1ms}});
 
@@ -18,29 +18,31 @@ namespace rovernet {
 struct Aloha {
     static constexpr std::string_view name = "aloha";
 
-    /// Slot [ns]: frames begin at its multiples (slotted ALOHA); 0: at once (pure ALOHA).
+    /// Slot [ns]: frames start at multiples of it (slotted ALOHA); 0: at once (pure ALOHA).
     Duration slot{0};
-    /// Frames that wait at a node at most, the one that is next included; one more is dropped.
+    /// Largest number of frames waiting at a node, including the frame to be sent next; further
+    /// frames are dropped.
     std::uint32_t queue = 50;
 
-    /// Model at work, for one Network.
+    /// Creates the access model for one Network.
     std::unique_ptr<Access> make_access() const;
 };
 
-/// Access model "aloha": a frame goes on air at once, or with the next slot, whatever others do;
-/// only a node's own frames wait for one another.
+/// Access model "aloha": a frame is transmitted at once, or in the next slot, without carrier
+/// sensing; it only waits for earlier frames of the same node.
 ///
-///   pure      |==1==|==2==|   |==3==|       a frame that comes in the meantime waits for the last
-///   slotted   |==1==|   |==2==|   |==3==|   frames begin at multiples of the slot
+///   pure      |==1==|==2==|   |==3==|       a frame during another starts at its end
+///   slotted   |==1==|   |==2==|   |==3==|   frames start at multiples of the slot
 ///
-/// A unicast is sent once: nobody acknowledges it. With many senders of total load G, in frames per
-/// frame time, a share of e^-2G gets through, slotted e^-G; bench/aloha.hpp measures that.
+/// A unicast is sent once, without an acknowledgement. With many senders of total load G, in frames
+/// per frame time, the fraction of frames received is e^-2G, slotted e^-G; bench/aloha.hpp measures
+/// it.
 ///
 /// Source: N. Abramson, The ALOHA system, AFIPS 1970; L. Roberts, ALOHA packet system with and
 /// without slots and capture, 1975.
 class AlohaAccess final : public Access {
   public:
-    /// @param settings  as they were given
+    /// @param settings  settings, as given
     explicit AlohaAccess(const Aloha& settings) : settings_(settings) {}
 
     void add() override { stations_.emplace_back(); }
@@ -50,17 +52,17 @@ class AlohaAccess final : public Access {
     void switch_off(Air& air, NodeId node) override;
 
   private:
-    /// State of one node.
+    /// State of one node: its queue, and the end of its last frame.
     struct Station {
-        /// End of its own last frame.
+        /// End of the node's last frame: the next one starts no earlier.
         Time free_from = start_of_run;
-        /// Frames that wait; the first has a timer.
+        /// Frames that wait at the node; a timer is set for the first.
         std::vector<QueuedFrame> queue = {};
     };
     // Sets the timer for the first frame of the queue.
     void expect(Air& air, NodeId node);
 
-    // Settings as they were given.
+    // Settings, as given.
     Aloha settings_;
     // Stations by node.
     std::vector<Station> stations_;

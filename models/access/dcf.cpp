@@ -3,7 +3,6 @@
 
 #include "sim/fields.hpp"
 
-#include <algorithm>
 #include <functional>
 
 namespace rovernet {
@@ -47,18 +46,20 @@ void Dcf::send(Air& air, const QueuedFrame& frame) {
     if (at(node).state == State::idle) contend(air, node);
 }
 
-/// Asks for the medium, for the first frame of the queue.
+/// Starts contention for the first frame of the queue.
 void Dcf::contend(Air& air, NodeId node) {
     Station& s = at(node);
     const Time now = air.now();
     s.state = State::contending;
     s.fresh = false;
-    // The backoff after its last frame may still be under way.
+    // The backoff after the last frame may still be running.
     if (!(s.backing_off && backoff(node).grant() > now)) {
-        if (backoff(node).is_busy(now)) {
-            draw_backoff(air, node, now);
+        const bool is_busy = backoff(node).is_busy(now);
+        const Time from = is_busy ? now : now + settings_.timing.difs;
+        if (is_busy || !settings_.immediate_access) {
+            draw_backoff(air, node, from);
         } else {
-            backoff(node).begin(0, now + settings_.timing.difs);
+            backoff(node).begin(0, from);
             s.fresh = true;
         }
     }
@@ -84,7 +85,7 @@ void Dcf::on_timer(Air& air, NodeId node, std::uint32_t tag) {
     if (s.timer != air.now() || contends != (tag == access)) return;  // another took its place
     s.timer = never;
     if (tag == answer) {
-        // A frame that is arriving may be the answer.
+        // A frame that is arriving may be the response.
         if (listening_[node.index()].on_air_until > air.now())
             return set_timer(air, node, listening_[node.index()].on_air_until, answer);
         return answer_missing(air, node);
@@ -113,7 +114,7 @@ AirFrame Dcf::control_frame(NodeId from, NodeId to, AirFrame::Kind kind) {
     return control;
 }
 
-/// Sends the first frame of the queue, or asks its receiver first.
+/// Transmits the first frame of the queue, or an RTS for it.
 void Dcf::transmit_head(Air& air, NodeId node) {
     const AirFrame data = data_frame(node);
     const NodeId to = data.frame.next_hop;
@@ -134,7 +135,7 @@ void Dcf::transmit_data(Air& air, NodeId node) {
     await(air, node, transmit(air, data), State::awaiting_ack);
 }
 
-/// Puts a frame on air; returns when it ends.
+/// Transmits a frame; returns its end.
 Time Dcf::transmit(Air& air, const AirFrame& frame) {
     const Time end = air.transmit(frame);
     backoff(frame.frame.sender).energy(air.now(), end);
@@ -142,7 +143,7 @@ Time Dcf::transmit(Air& air, const AirFrame& frame) {
     return end;
 }
 
-/// Waits for the answer to what ends at `end`.
+/// Sets the timer for the response to a frame that ends at `end`.
 void Dcf::await(Air& air, NodeId node, Time end, State state) {
     const WifiTiming& t = settings_.timing;
     at(node).state = state;
@@ -162,8 +163,8 @@ void Dcf::answer_missing(Air& air, NodeId node) {
     set_timer(air, node, backoff(node).grant(), access);
 }
 
-/// Ends the work on the first frame of the queue: it was sent, or lost for a reason. A backoff
-/// begins behind it, whether or not there is another frame.
+/// Ends the work on the first frame of the queue: it was sent, or lost with a reason. A backoff
+/// follows, with or without another frame.
 void Dcf::finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason) {
     Station& s = at(node);
     const QueuedFrame done = s.queue.front();
@@ -212,7 +213,7 @@ void Dcf::reserve(NodeId node, Time from, Time until) {
     backoff(node).energy(from, until);
 }
 
-/// Answers a frame for this node that has ended.
+/// Handles a frame for this node that has ended, and answers it.
 void Dcf::answer_to(Air& air, NodeId node, const AirFrame& frame) {
     Station& s = at(node);
     const NodeId from = frame.frame.sender;
@@ -236,7 +237,7 @@ void Dcf::answer_to(Air& air, NodeId node, const AirFrame& frame) {
     }
 }
 
-/// Sends `frame` after a SIFS, whatever the medium is like.
+/// Schedules `frame` after a SIFS, without carrier sensing.
 void Dcf::respond(Air& air, NodeId node, const AirFrame& frame) {
     const Time begin = air.now() + settings_.timing.sifs;
     at(node).response = frame;

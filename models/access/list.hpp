@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Access models: how nodes get access to the medium, in the order of their cost.
-//   none   a frame goes on air at once
-//   aloha  a node's own frames wait for one another
-//   csma   nodes listen, as in Wi-Fi
-// Include this to choose one in code; scenario/access_table.hpp has their words.
+// Access models: they determine when nodes may transmit. In the order of their cost:
+//   none   a frame is transmitted at once
+//   aloha  a frame waits for earlier frames of its node
+//   csma   nodes sense the carrier, as in Wi-Fi
+// Include this to choose a model in code; scenario/tables/access_table.hpp has their names in
+// files.
 #include "models/access/aloha.hpp"
-#include "models/access/dcf.hpp"
+#include "models/access/csma.hpp"
 #include "models/access/no_access.hpp"

@@ -3,22 +3,22 @@
 
 #include "models/access/access.hpp"
 
-// No access control: what a network does unless settings say otherwise.
+// No access control, the default of a network.
 
 namespace rovernet {
 
-/// Access model "none": a frame goes on air at once, even over one of the same node. Nothing waits,
-/// nobody listens, and a unicast is sent once. The default, and the lightest load on the computer:
-/// what interferes is left to the reception model.
+/// Access model "none": a frame is transmitted at once, even during another frame of the same node.
+/// There are no queues, no carrier sensing and no retransmissions. The default, and the fastest to
+/// simulate: interference is left to the reception model.
 struct NoAccess {
-    /// Word in files.
+    /// Name of the model in scenario files.
     static constexpr std::string_view name = "none";
 
-    /// Model at work, for one Network.
+    /// Creates the access model for one Network.
     std::unique_ptr<Access> make_access() const { return std::make_unique<AtOnce>(); }
 
   private:
-    // Model at work: it needs no state.
+    // Access model without state.
     class AtOnce final : public Access {
       public:
         void send(Air& air, const QueuedFrame& frame) override {

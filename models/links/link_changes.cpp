@@ -21,20 +21,20 @@ using namespace std::chrono_literals;
 
 constexpr Duration instant = 1ns;
 
-/// The link has one state at `before` and the other at `after`.
+/// Interval between two states: the link has one state at `before` and the other at `after`.
 struct Bracket {
     Time before;
     Time after;
 };
 
-/// The time `s` seconds after `begin`, not outside begin ... end.
+/// Time `s` seconds after `begin`, limited to begin ... end.
 Time time_within(Time begin, double s, Time end) {
     if (!(s > 0)) return begin;
     if (s >= seconds(end - begin)) return end;
     return std::min(end, begin + Duration{std::llround(s * 1e9)});
 }
 
-/// A time in which both ends move straight, and how; t = 0 is its begin.
+/// Time interval in which both ends move straight, and their motions; t = 0 is its start.
 struct Piece {
     Time begin;
     Time end;
@@ -53,24 +53,25 @@ struct Piece {
     }
 };
 
-/// The search for the next change of one link.
+/// Search for the next change of one link.
 class Search {
   public:
     Search(const Medium& medium, const Legs& legs, const WallPassages& walls, NodeId from,
-           NodeId to, const LinkSearch& settings)
+           NodeId to, const LinkSearch& settings, std::int64_t most_looks)
         : medium_(medium),
           legs_(legs),
           walls_(walls),
           from_(from),
           to_(to),
           settings_(settings),
+          most_looks_(most_looks),
           reach_(medium.stations()
                      .model(from)
                      .reach(link_budget(medium.stations().radio(from), medium.stations().radio(to)),
                             medium.stations().radio(from).frequency)
                      .value) {}
 
-    std::optional<Time> next_change(Time after, Time until);
+    LinkOutlook outlook(Time after, Time until);
 
   private:
     bool is_up(Time t) const { return medium_.links().is_up(from_, to_, t, legs_); }
@@ -86,7 +87,7 @@ class Search {
     std::optional<Bracket> by_distance(const Piece& piece) const;
     Bracket about(Bracket bracket, const Piece& piece) const;
     std::optional<Bracket> by_walls(const Piece& piece) const;
-    std::optional<Bracket> by_samples(const Piece& piece) const;
+    std::optional<Bracket> by_samples(const Piece& piece);
     struct Look {
         Time time;
         double margin;  // [dB]
@@ -101,12 +102,14 @@ class Search {
     const NodeId from_;
     const NodeId to_;
     const LinkSearch& settings_;
-    const double reach_;  // [m] beyond it the link is down
-    bool up_ = false;     // at the begin of the search
-    bool exact_ = false;  // a change can be found to the nanosecond
+    const std::int64_t most_looks_;
+    const double reach_;                  // [m] beyond it the link is down
+    bool up_ = false;                     // at the begin of the search
+    bool exact_ = false;                  // a change can be found to the nanosecond
+    std::optional<Time> last_look_ = {};  // of a search that has had all its looks
 };
 
-/// A hair more than the model's reach, for rounding.
+/// Factor slightly above 1 on the model's reach, for rounding.
 constexpr double slack = 1 + 1e-9;
 
 bool Search::out_of_reach(Time t) const {
@@ -119,7 +122,7 @@ StraightMotion Search::motion(NodeId node, Time t) const {
     return {medium_.stations().antenna(node, t, legs_), t < leg.end ? leg.velocity : Vec3{}};
 }
 
-/// The ends in an order of their own, so that the way back has its changes at the same times.
+/// The two ends in a fixed order, so that the opposite link changes at the same times.
 Piece Search::piece(Time begin, Time end) const {
     const auto values = [](const StraightMotion& m) {
         return std::tie(m.from.x, m.from.y, m.from.z, m.velocity.x, m.velocity.y, m.velocity.z);
@@ -129,24 +132,25 @@ Piece Search::piece(Time begin, Time end) const {
     return piece;
 }
 
-/// by_distance, by_walls or unknown: the pair is one and the same.
+/// Shape: by_distance, by_walls or unknown, because there is only one pair.
 LossShape Search::shape(const Piece& piece) const {
     const LossShape shape = medium_.links().shape(from_, to_, piece.begin, legs_);
     const bool clear = shape == LossShape::by_walls && walls_.empty();
     return clear || shape == LossShape::by_pair ? LossShape::by_distance : shape;
 }
 
-std::optional<Time> Search::next_change(Time after, Time until) {
+LinkOutlook Search::outlook(Time after, Time until) {
     up_ = is_up(after);
     std::array<Time, 3> ends{std::min(legs_.leg(from_).end, until),
                              std::min(legs_.leg(to_).end, until), until};
     std::sort(ends.begin(), ends.end());
     for (const Time end : ends) {
         if (end <= after) continue;
-        if (const auto change = change_in(piece(after, end))) return change;
+        if (const auto change = change_in(piece(after, end))) return {change, *change};
+        if (last_look_) return {std::nullopt, *last_look_};
         after = end;
     }
-    return std::nullopt;
+    return {std::nullopt, until};
 }
 
 std::optional<Time> Search::change_in(const Piece& all) {
@@ -163,13 +167,14 @@ std::optional<Time> Search::change_in(const Piece& all) {
             found = here == LossShape::by_walls ? by_walls(*piece) : by_samples(*piece);
         }
     }
+    if (last_look_) return std::nullopt;
     if (!found && looked < all.end && (up_ || !out_of_reach(all.end)) && is_up(all.end) != up_)
         found = Bracket{looked, all.end};
     if (!found) return std::nullopt;
     return bisect(*found);
 }
 
-/// The part of a piece outside which the link is down; none if there is no such part.
+/// Part of a piece within reach, outside which the link is down; empty if there is none.
 std::optional<Piece> Search::in_reach(const Piece& all) const {
     if (up_ || !std::isfinite(reach_)) return all;
     if (all.speed() == Vec3{}) {
@@ -195,7 +200,7 @@ std::optional<Bracket> Search::by_distance(const Piece& piece) const {
     return std::nullopt;
 }
 
-/// Narrowed to about the time at which the model says that its reach ends.
+/// Bracket narrowed around the time at which the model's reach ends.
 Bracket Search::about(Bracket bracket, const Piece& piece) const {
     const auto passage = range_crossing(piece.apart(), piece.speed(), reach_);
     if (!passage) return bracket;
@@ -208,7 +213,7 @@ Bracket Search::about(Bracket bracket, const Piece& piece) const {
     return bracket;
 }
 
-std::optional<Bracket> Search::by_samples(const Piece& piece) const {
+std::optional<Bracket> Search::by_samples(const Piece& piece) {
     constexpr std::int64_t looks_per_step = 65536;
     Time before = piece.begin;
     Duration step = settings_.min_dwell;
@@ -216,6 +221,10 @@ std::optional<Bracket> Search::by_samples(const Piece& piece) const {
         const Time t = piece.end - before > step ? before + step : piece.end;
         if (is_up(t) != up_) return Bracket{before, t};
         before = t;
+        if (looks == most_looks_ && before < piece.end) {
+            last_look_ = before;
+            return std::nullopt;
+        }
         if (looks % looks_per_step == 0 && step < Duration::max() / 2) step *= 2;
     }
     return std::nullopt;
@@ -231,7 +240,7 @@ std::optional<Bracket> Search::by_walls(const Piece& piece) const {
 
     Time before = piece.begin;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-        // On a corner itself a line of sight may be as before it, as after it, or neither.
+        // Exactly at a corner a line of sight may be as before it, as after it, or neither.
         const Time first = cuts[i] + instant, last = cuts[i + 1] - instant;
         if (first > last) continue;
         const Look begin{first, margin(first)};
@@ -243,7 +252,7 @@ std::optional<Bracket> Search::by_walls(const Piece& piece) const {
     return std::nullopt;
 }
 
-/// A change in a time in which the loss is smooth, and at whose beginning there is none.
+/// Change in an interval in which the loss is smooth, and at whose start there is none.
 std::optional<Bracket> Search::between_passages(Look first, Time last) const {
     constexpr int most_halvings = 20;
     if (first.time == last) return std::nullopt;
@@ -261,7 +270,7 @@ std::optional<Bracket> Search::smooth_change(Look p, Look q, Duration least) con
         return ends_changed ? std::optional<Bracket>({p.time, q.time}) : std::nullopt;
     const Look m{middle, margin(middle)};
     if (changed(m.margin)) return Bracket{p.time, m.time};
-    // Between the three a parabola through them exceeds the nearest by bend / 8 at most.
+    // Between the three samples a parabola through them exceeds the nearest by at most bend / 8.
     const double bend = std::abs(p.margin - 2 * m.margin + q.margin);
     const double clear = std::min({std::abs(p.margin), std::abs(m.margin), std::abs(q.margin)});
     if (clear >= safety * (bend - rounding))
@@ -270,7 +279,7 @@ std::optional<Bracket> Search::smooth_change(Look p, Look q, Duration least) con
     return smooth_change(m, q, least);
 }
 
-/// The first time of the new state, for one change in the bracket.
+/// First time of the new state, for one change in the bracket.
 Time Search::bisect(Bracket bracket) const {
     const Duration tolerance = exact_ ? instant : settings_.tolerance;
     while (bracket.after - bracket.before > tolerance) {
@@ -282,16 +291,23 @@ Time Search::bisect(Bracket bracket) const {
 
 }  // namespace
 
-std::optional<Time> next_link_change(const Medium& medium, const Legs& legs,
-                                     const WallPassages& walls, NodeId from, NodeId to, Time after,
-                                     Time until, const LinkSearch& search) {
+LinkOutlook look_ahead(const Medium& medium, const Legs& legs, const WallPassages& walls,
+                       NodeId from, NodeId to, Time after, Time until, const LinkSearch& search,
+                       std::int64_t most_looks) {
     if (search.tolerance < instant || search.min_dwell < instant)
         throw std::invalid_argument("LinkSearch: tolerance and min_dwell must be at least 1 ns");
     if (until == never) until -= instant;  // at `never` itself a leg without end has ended
     if (from == to || until <= after || !medium.stations().is_on(from) ||
         !medium.stations().is_on(to) || !medium.stations().may_link(from, to))
-        return std::nullopt;
-    return Search(medium, legs, walls, from, to, search).next_change(after, until);
+        return {std::nullopt, until};
+    return Search(medium, legs, walls, from, to, search, most_looks).outlook(after, until);
+}
+
+std::optional<Time> next_link_change(const Medium& medium, const Legs& legs,
+                                     const WallPassages& walls, NodeId from, NodeId to, Time after,
+                                     Time until, const LinkSearch& search) {
+    constexpr std::int64_t all = std::numeric_limits<std::int64_t>::max();
+    return look_ahead(medium, legs, walls, from, to, after, until, search, all).change;
 }
 
 std::optional<Time> next_link_change(const Medium& medium, const Legs& legs, const Scene& scene,

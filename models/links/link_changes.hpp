@@ -7,10 +7,11 @@
 #include "sim/legs.hpp"
 #include "sim/time.hpp"
 
+#include <cstdint>
 #include <optional>
 
-// Changes of links, found ahead of time: roots of equations where the loss goes by distance, a
-// guided search where it does not. LinkWatch of the network asks for each pair after each new leg.
+// Prediction of link changes: as roots of equations if the loss depends on distance, by a guided
+// search otherwise. LinkWatch of the network calls it for each pair after each new leg.
 //
 //     const auto change = next_link_change(medium, legs, scene, a, b, now, legs.leg(a).end, {});
 //     if (change) ...  // at *change the link is up if it was down, and the reverse
@@ -20,29 +21,47 @@ namespace rovernet {
 class Medium;
 class Scene;
 
-/// The first time in (after, until] at which the link from `from` to `to` is not what it is at
-/// `after`, on the legs as they are now; none if there is no such time. Neither leg may end before
-/// `until` other than by coming to rest. Who is on and may link does not change meanwhile.
+/// First time in (after, until] at which the link from `from` to `to` is in another state than at
+/// `after`, on the current legs; empty if there is none. A leg may end before `until` only by
+/// coming to rest. The radios must not be switched or change their network in this time.
 ///
-/// The state is LinkLosses::is_up at whole nanoseconds, and it is the new one at the time returned.
-/// Where the link would be down without any wall (Propagation::reach) nothing is looked at.
-/// - By distance: exact to the nanosecond; a state of less than a nanosecond may be missed. About
-///   45 looks at the link, often 8; none for a pair that stays out of reach.
-/// - By walls: a jump of the loss comes a nanosecond or so late (WallPassages tell where to look),
-///   other changes up to `tolerance`. With k corners passed about 4 k looks, more where the loss
-///   bends near the budget: a time between passages is halved until its ends and its middle are
-///   farther from the budget than 16 times what a parabola through them could add in between.
-/// - Unknown: a look each `min_dwell`, then as by walls; from the 65536th look on the step doubles
-///   every 65536 looks, so that no search is endless.
+/// The state is LinkLosses::is_up at whole nanoseconds; it is the new state at the returned time. A
+/// pair that is out of range even without walls (Propagation::reach) is not sampled.
+/// - By distance: exact to the nanosecond; a state shorter than a nanosecond may be missed. At most
+///   about 45 samples of the link, often 8; none for a pair that stays out of range.
+/// - By walls: a jump of the loss is found about a nanosecond late (WallPassages return the times
+///   to sample), other changes up to `tolerance` late. With k corners passed, about 4 k samples,
+///   more where the loss bends near the budget: an interval between passages is halved until the
+///   losses at its ends and middle differ from the budget by more than 16 times the amount that a
+///   parabola through them could add in between.
+/// - Unknown: a sample every `min_dwell`, then as for walls; from the 65536th sample on the step
+///   doubles every 65536 samples, so that every search ends.
 ///
-/// @param walls  of the medium's scene; may be empty if the sender's model is not by walls
+/// @param walls  walls of the medium's scene; may be empty unless the sender's model depends on
+///               walls
 /// @throws std::invalid_argument if a duration of `search` is < 1 ns
 std::optional<Time> next_link_change(const Medium& medium, const Legs& legs,
                                      const WallPassages& walls, NodeId from, NodeId to, Time after,
                                      Time until, const LinkSearch& search);
 
-/// As above; collects the walls' corners first, if it needs them. For many searches keep a
-/// WallPassages.
+/// Result of a search for a link change: its time, or the time up to which there is none.
+struct LinkOutlook {
+    /// Time of the next change; empty if none was found up to `until`.
+    std::optional<Time> change;
+    /// End of the time span that was searched.
+    Time until;
+};
+
+/// Search as next_link_change(), limited to `most_looks` samples for a propagation model of unknown
+/// shape. A search continued from LinkOutlook::until uses the same sample times as one in a single
+/// call.
+/// @param most_looks  >= 1
+LinkOutlook look_ahead(const Medium& medium, const Legs& legs, const WallPassages& walls,
+                       NodeId from, NodeId to, Time after, Time until, const LinkSearch& search,
+                       std::int64_t most_looks);
+
+/// Search as next_link_change() with WallPassages, which this function makes itself, if needed. For
+/// many searches, reuse a WallPassages instead.
 std::optional<Time> next_link_change(const Medium& medium, const Legs& legs, const Scene& scene,
                                      NodeId from, NodeId to, Time after, Time until,
                                      const LinkSearch& search);

@@ -7,13 +7,14 @@
 
 namespace rovernet {
 
-/// Precision with which link changes are looked for: [links] of a scenario. Both bounds are for
-/// models whose changes cannot be computed; the others are exact to the nanosecond.
+/// Precision of the search for link changes: keys of [links] in a scenario file. Both values are
+/// for models whose changes cannot be computed; other models are exact to the nanosecond.
 struct LinkSearch {
-    /// Error [ns] of the time of a change behind walls, >= 1 ns.
+    /// Largest error [ns] of the time of a link change by walls, >= 1 ns.
     Duration tolerance{1'000'000};
-    /// Duration [ns] below which states of a link may be missed, for models of unknown shape; >= 1
-    /// ns. Halving it doubles the looks.
+    /// Time [ns], >= 1 ns: a link that is up or down for less may be missed if the propagation
+    /// model is sampled, because it does not state how its loss depends on the distance
+    /// (LossShape).
     Duration min_dwell{100'000'000};
 };
 

@@ -7,9 +7,9 @@
 namespace rovernet {
 namespace {
 
-/// A number as the unevaluated sum of two doubles, good to about 1e-31 of it.
-/// Source: T. J. Dekker, A floating-point technique for extending the available precision,
-/// Numerische Mathematik 18, 1971.
+/// Number as the unevaluated sum of two doubles, with a relative precision of about 1e-31. Source:
+/// T. J. Dekker, A floating-point technique for extending the available precision, Numerische
+/// Mathematik 18, 1971.
 struct Doubled {
     double high;
     double low = 0;
@@ -44,7 +44,7 @@ Doubled exact_dot(Vec3 p, Vec3 q) {
     return product(p.x, q.x) + product(p.y, q.y) + product(p.z, q.z);
 }
 
-/// |p x q|^2.
+/// Squared magnitude of the cross product: |p x q|^2.
 Doubled squared_cross(Vec3 p, Vec3 q) {
     const Doubled x = product(p.y, q.z) - product(p.z, q.y);
     const Doubled y = product(p.z, q.x) - product(p.x, q.z);
@@ -54,7 +54,7 @@ Doubled squared_cross(Vec3 p, Vec3 q) {
 
 double largest(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
-/// p 2^-exponent.
+/// Vector p 2^-exponent.
 Vec3 scaled(Vec3 p, int exponent) {
     return {std::ldexp(p.x, -exponent), std::ldexp(p.y, -exponent), std::ldexp(p.z, -exponent)};
 }
@@ -64,7 +64,7 @@ Vec3 scaled(Vec3 p, int exponent) {
 std::optional<Passage> range_crossing(Vec3 r, Vec3 v, double R) {
     const double length = std::max(largest(r), R), speed = largest(v);
     if (!(R > 0 && speed > 0 && std::isfinite(length) && std::isfinite(speed))) return std::nullopt;
-    // Everything near 1, so that no square leaves the range of a double.
+    // All numbers are scaled to near 1, so that no square exceeds the range of a double.
     const int metre = std::ilogb(length), metre_per_second = std::ilogb(speed);
     const Vec3 p = scaled(r, metre), w = scaled(v, metre_per_second);
     const double range = std::ldexp(R, -metre);

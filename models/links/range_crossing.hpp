@@ -5,25 +5,25 @@
 
 #include <optional>
 
-// When two robots that move straight are within a range of one another. It is what makes link
-// changes of models that go by distance exact.
+// Times at which two robots on straight paths enter and leave a range. They make link changes exact
+// for models that depend on distance.
 
 namespace rovernet {
 
-/// Time during which something that moves straight is within a range.
+/// Time interval in which a straight motion is within a range.
 struct Passage {
-    /// Begin [s].
+    /// Time of entering the range [s].
     double enter;
-    /// End [s], > enter.
+    /// Time of leaving the range [s], > enter.
     double leave;
 };
 
-/// Time during which |r + v t| < R, for relative position r [m] and velocity v [m/s]; none if
-/// never, always, or if it only touches.
+/// Interval in which |r + v t| < R, for relative position r [m] and velocity v [m/s]; empty if this
+/// is never or always true, or if the path only touches the circle.
 ///
-/// The ends are roots of a quadratic, found without cancellation: the discriminant and the constant
-/// term are summed in doubled precision, and the smaller root comes from the product of both.
-/// Lengths and speeds may have any size. None if a number is not finite.
+/// The ends are roots of a quadratic, computed without cancellation: the discriminant and the
+/// constant term are summed in double-double precision, and the smaller root is computed from the
+/// product of the roots. Lengths and speeds may have any size. Empty if a number is not finite.
 std::optional<Passage> range_crossing(Vec3 r, Vec3 v, double R);
 
 }  // namespace rovernet

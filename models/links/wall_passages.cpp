@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double corners_per_tile = 4;
-/// Roots are kept this generously: by this share of a segment beyond its ends.
+/// Tolerance for roots: fraction of a segment by which they may lie beyond its ends.
 constexpr double beyond = 1e-6;
 
 double cross(Vec3 p, Vec3 q) { return p.x * q.y - p.y * q.x; }
@@ -24,7 +24,7 @@ Vec3 cross_3d(Vec3 p, Vec3 q) {
 
 Vec3 flat(Vec3 p) { return {p.x, p.y, 0}; }
 
-/// Within a segment, as the share of it at which a point lies.
+/// Whether a point at this fraction lies within the segment.
 bool within(double share) { return share >= -beyond && share <= 1 + beyond; }
 
 struct Interval {
@@ -55,8 +55,8 @@ Box box_of(const std::array<Vec3, 4>& corners) {
     return box;
 }
 
-/// Visits the real roots of a t^2 + b t + c. Two that rounding may have joined and lost count as
-/// one, so that a line of sight which just touches is not missed.
+/// Visits the real roots of a t^2 + b t + c. Two roots that rounding may have merged count as one,
+/// so that a line of sight which just touches is not missed.
 template <class Visit>
 void visit_roots(double a, double b, double c, Visit visit) {
     constexpr double noise = 1e-9;
@@ -68,7 +68,7 @@ void visit_roots(double a, double b, double c, Visit visit) {
     if (q != 0) visit(c / q);
 }
 
-/// Where the segments p0-p1 and q0-q1 meet inside both; none if they are parallel.
+/// Intersection of the segments p0-p1 and q0-q1; empty if they are parallel or do not intersect.
 std::optional<Vec3> meeting_point(Vec3 p0, Vec3 p1, Vec3 q0, Vec3 q1) {
     const Vec3 p = p1 - p0, q = q1 - q0, between = q0 - p0;
     const double turn = cross(p, q);
@@ -85,7 +85,7 @@ void add_meeting_points(const WallRectangle& p, const WallRectangle& q, std::vec
                 out.push_back(*point);
 }
 
-/// Rectangles of one material on several maps may overlap, and count as one.
+/// Rectangles of one material on several maps may overlap, and then count as one wall.
 void add_meeting_points(const std::vector<WallRectangle>& rectangles, std::vector<Vec3>& out) {
     std::vector<std::pair<Box, std::size_t>> boxes;
     for (const WallRectangle& r : rectangles) boxes.push_back({box_of(r.corners), boxes.size()});
@@ -99,7 +99,7 @@ void add_meeting_points(const std::vector<WallRectangle>& rectangles, std::vecto
                 add_meeting_points(rectangles[p->second], rectangles[q->second], out);
 }
 
-/// Narrows first ... last [s] to when start + t speed lies in low ... high.
+/// Limits first ... last [s] to the times at which start + t speed lies in low ... high.
 void clip(double start, double speed, double low, double high, double& first, double& last) {
     if (speed == 0) {
         if (!(start >= low && start <= high)) last = -infinity;
@@ -112,7 +112,7 @@ void clip(double start, double speed, double low, double high, double& first, do
 
 }  // namespace
 
-/// A line of sight that moves, and the ground that it sweeps.
+/// Moving line of sight, and the area that it sweeps.
 struct WallPassages::Sight {
     StraightMotion a, b;
     double duration;
@@ -126,7 +126,7 @@ struct WallPassages::Sight {
 
     bool holds(double t) const { return t > 0 && t < duration; }
 
-    /// The x that it sweeps where y is in `slab`: of the hull of its ends.
+    /// Range of x that it sweeps where y is in `slab`, from the convex hull of its ends.
     Interval x_range(Interval slab) const {
         Interval x;
         for (std::size_t i = 0; i < 4; ++i)
@@ -141,7 +141,7 @@ struct WallPassages::Sight {
         return x;
     }
 
-    /// The times at which the line through both ends passes over a point of the map.
+    /// Visits the times at which the line through both ends passes over a point of the map.
     template <class Visit>
     void visit_passages(Vec3 corner, Visit visit) const {
         const Vec3 w = corner - a.from, span = b.from - a.from, turn = b.velocity - a.velocity;
@@ -154,7 +154,7 @@ struct WallPassages::Sight {
                     });
     }
 
-    /// The times at which it passes the level edge e0-e1.
+    /// Visits the times at which the line of sight passes the horizontal edge e0-e1.
     template <class Visit>
     void visit_edge(Vec3 e0, Vec3 e1, Visit visit) const {
         const Vec3 edge = e1 - e0, a0 = a.from - e0, b0 = b.from - e0;
@@ -207,7 +207,7 @@ void WallPassages::sort_into_tiles() {
     for (const Vec3 p : corners_) box.add(p);
     const double width = box.x.high - box.x.low, height = box.y.high - box.y.low;
     const auto n = static_cast<double>(corners_.size());
-    // However long and thin the map is, there are no more tiles than a few per corner.
+    // For any shape of the map there are at most a few tiles per corner.
     tile_ = std::max({std::sqrt(width * height * corners_per_tile / n), std::max(width, height) / n,
                       std::numeric_limits<double>::min()});
     low_ = {box.x.low, box.y.low, 0};

@@ -8,12 +8,12 @@
 #include <cstddef>
 #include <vector>
 
-// Where to look for changes of links behind walls. Between two passages the loss is smooth, so that
-// a few looks decide whether the link changes in between.
+// Times at which links behind walls may change. Between two such times the loss is smooth, so a few
+// samples show whether the link changes between them.
 
 namespace rovernet {
 
-/// Point that moves straight: at(t) = from + t velocity.
+/// Point on a straight motion: at(t) = from + t velocity.
 struct StraightMotion {
     /// Position at t = 0 [m].
     Vec3 from = {};
@@ -23,66 +23,69 @@ struct StraightMotion {
     Vec3 at(double t) const { return from + t * velocity; }
 };
 
-/// Times at which a moving line of sight may begin or cease to cross a wall, or cross it by other
-/// faces. In between, the length inside each wall is a smooth function of time.
+/// Times at which a moving line of sight may start or stop crossing a wall, or cross other faces of
+/// it. Between these times, the length inside each wall is a smooth function of time.
 ///
 /// At such a time the line of sight passes a corner of a wall, or a point where the edges of two
 /// overlapping walls meet; or one of its ends passes a wall's edge; or, for walls of finite height,
-/// it passes an edge of the top or an end passes the height of the top; likewise for the bottom of
-/// a wall on an upper floor, and for ceilings. The first and the third are roots of quadratics.
+/// it passes an edge of the top, or an end passes the height of the top. Bottoms of walls on upper
+/// floors and ceilings are handled like tops. The corner and top-edge times are roots of
+/// quadratics.
 ///
-/// It is built once for a scene; n rectangles take O(n log n) and memory of about 150 bytes each.
+/// Built once for a scene; n rectangles take O(n log n) time and about 150 bytes each.
 class WallPassages {
   public:
-    /// Passages of no walls.
+    /// Empty set, for a scene without walls.
     WallPassages() = default;
-    /// @param scene  outlives this
+    /// @param scene  must outlive this
     explicit WallPassages(const Scene& scene);
 
     /// Whether there are no walls and no ceilings.
     bool empty() const { return corners_.empty() && levels_.empty(); }
 
-    /// Appends the times [s] in (0, duration) for the line of sight from `a` to `b`: in no order,
-    /// some more than once, and some at which nothing changes. It takes a look at the corners in
-    /// the tiles that the line of sight sweeps (about four each), and, where it may pass above
-    /// walls, at all walls of finite height.
+    /// Appends the times [s] in (0, duration) at which the line of sight from `a` to `b` may start
+    /// or stop crossing a wall: unsorted, some repeated, and some without a change. It checks the
+    /// corners in the tiles that the line of sight sweeps (about four each), and all walls of
+    /// finite height if the line of sight may pass above walls.
     void times(const StraightMotion& a, const StraightMotion& b, double duration,
                std::vector<double>& out) const;
 
   private:
-    // Level end of a wall, its top or its bottom.
+    // Horizontal end face of a wall: its top or its bottom.
     struct End {
-        /// Corners at their height [m].
+        /// Corners of the wall's top or bottom, at its height [m].
         std::array<Vec3, 4> corners;
     };
-    // Line of sight as it moves, for one call of times().
+    // Moving line of sight, for one call of times().
     struct Sight;
 
     // Collects the corners of a layer of walls, and the points where their edges meet.
     void collect(const std::vector<WallRectangle>& rectangles);
-    // Sorts the corners into tiles.
+    // Sorts the corners by tile.
     void sort_into_tiles();
     // Appends the times at which the line of sight passes corners.
     void pass_corners(const Sight& sight, std::vector<double>& out) const;
-    // Appends the times at which an end passes an edge of a wall that stands at height z [m].
+    // Appends the times at which an end of the line of sight, at height z [m], passes an edge of a
+    // wall.
     void pass_edges(const StraightMotion& end, double z, double duration,
                     std::vector<double>& out) const;
-    // Appends the times at which the line of sight, or an end, passes tops, bottoms or ceilings.
+    // Appends the times at which the line of sight, or one of its ends, passes tops, bottoms or
+    // ceilings.
     void pass_levels(const Sight& sight, std::vector<double>& out) const;
 
     const Scene* scene_ = nullptr;
     // Corners, z = 0, by tile, row by row.
     std::vector<Vec3> corners_;
-    // Place of the first corner of each tile; one more than tiles.
+    // Index of the first corner of each tile; one entry more than tiles.
     std::vector<std::size_t> first_;
     std::vector<End> ends_;
     // Heights of tops, bottoms and ceilings [m], ascending, each once.
     std::vector<double> levels_;
-    // Heights of which each is below all tops of a storey [m], one for each storey.
+    // One height [m] for each storey, below all tops of its walls.
     std::vector<double> feet_;
     // Lower left corner of the tiles [m].
     Vec3 low_ = {};
-    // Side of a tile [m], and number of tiles along each axis.
+    // Side of a tile [m], and number of tiles in each direction.
     double tile_ = 1;
     int columns_ = 0;
     int rows_ = 0;

@@ -4,7 +4,6 @@
 #include "models/propagation/shadowed_range.hpp"
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -70,7 +69,7 @@ std::optional<Arrival> Arrivals::within_reach(const Emission& frame, double d2, 
 }
 
 Dbm Arrivals::level(const Arrival& arrival, NodeId to) const {
-    // Distance and pair decide the level: it is the link's, whichever frame it is of.
+    // Distance and pair determine the level, which is the same for all frames of the link.
     const Vec3 there{std::sqrt(arrival.squared_distance), 0, 0};
     const Db lost{links_.mean(arrival.from, to, {}, there, arrival.begin, 0,
                               Db{std::numeric_limits<double>::infinity()})};

@@ -6,8 +6,8 @@ namespace rovernet {
 Db Candidates::compute_losses(const Propagation& model, LinkBatch link, NodeId from,
                               PairCache& cache, Db beyond) {
     asked_.clear();
-    const Db most = give_up_ + beyond;
-    const Db give_up = at_rest_ > 0 ? cache.open(from, most) : most;
+    const Db most = cutoff_ + beyond;
+    const Db cutoff = at_rest_ > 0 ? cache.open(from, most) : most;
     std::size_t known = 0;
     for (std::uint32_t i = 0; i < all_.size(); ++i) {
         const double* const kept = all_[i].rests ? cache.find(all_[i].node) : nullptr;
@@ -18,16 +18,16 @@ Db Candidates::compute_losses(const Propagation& model, LinkBatch link, NodeId f
             asked_.push_back(i);
         }
     }
-    if (asked_.empty()) return give_up;
-    ask(model, link, give_up);
-    if (known == at_rest_ || !cache.renew(at_rest_)) return give_up;
+    if (asked_.empty()) return cutoff;
+    ask(model, link, cutoff);
+    if (known == at_rest_ || !cache.renew(at_rest_)) return cutoff;
     for (const Candidate& c : all_) {
         if (c.rests) cache.keep(c.node, c.loss_db);
     }
-    return give_up;
+    return cutoff;
 }
 
-void Candidates::ask(const Propagation& model, LinkBatch link, Db give_up) {
+void Candidates::ask(const Propagation& model, LinkBatch link, Db cutoff) {
     positions_.clear();
     keys_.clear();
     for (const std::uint32_t i : asked_) {
@@ -37,7 +37,7 @@ void Candidates::ask(const Propagation& model, LinkBatch link, Db give_up) {
     loss_db_.resize(asked_.size());
     link.to = positions_;
     link.to_keys = keys_;
-    model.loss(link, give_up, loss_db_);
+    model.loss(link, cutoff, loss_db_);
     for (std::size_t k = 0; k < asked_.size(); ++k) all_[asked_[k]].loss_db = loss_db_[k];
 }
 

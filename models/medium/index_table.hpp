@@ -12,34 +12,36 @@
 
 namespace rovernet {
 
-/// Node and where it is: what a query of a NeighbourIndex looks at.
+/// Node and position, as stored in a NeighbourIndex for queries.
 struct IndexEntry {
-    /// Position [m] where its leg begins; where it is if it does not move.
+    /// Position [m] of the node at the start of its leg; current position if the node does not
+    /// move.
     Vec3 from;
     NodeId node;
-    /// Label that NeighbourIndex::add() was given.
+    /// Number that the caller passed to NeighbourIndex::add() with the node.
     std::uint32_t label : 31;
-    /// It moves at some time of its leg.
+    /// True if the node moves during its leg.
     std::uint32_t moves : 1;
 };
 
-/// Table of nodes in a NeighbourIndex: their entries, and apart from these what only nodes that
-/// move need.
+/// Table of nodes in a NeighbourIndex: their entries, and a separate list of motions that only
+/// moving nodes need.
 struct IndexTable {
     struct Motion {
         Vec3 velocity;
         Time start, end;
     };
     std::vector<IndexEntry> entries;
-    /// Motions of the entries; none as long as nobody moves.
+    /// Velocity and times of the entries' legs, by index of the entry; empty while no node moves.
     std::vector<Motion> motions;
 
-    /// Writes entry `i`, from a leg or from another table.
+    /// Writes entry `i` of the table, from a leg or from another table.
     void put(std::size_t i, NodeId node, std::uint32_t label, const Leg& leg);
     void put(std::size_t i, const IndexEntry& entry, const Motion& motion);
-    /// Motion of entry `i`.
+    /// Velocity and times of the leg of entry `i`; zero if the node does not move.
     Motion motion(std::size_t i) const { return entries[i].moves ? motions[i] : Motion{}; }
-    /// Position of entry `i` [m]: as `legs` have it, without looking there while its leg lasts.
+    /// Position [m] at `t` of the node of entry `i`. Uses the copy of the leg kept here; reads
+    /// `legs` only after that leg has ended.
     Vec3 position(std::size_t i, Time t, const Legs& legs) const {
         const IndexEntry& e = entries[i];
         if (!e.moves) return e.from;

@@ -11,7 +11,6 @@ LinkBatch LinkLosses::batch(NodeId from, Vec3 origin, Time t, std::uint64_t fram
             .from = origin,
             .to = {},
             .from_key = stations_.key(from),
-            .to_keys = {},
             .scene = &settings_.scene_at(t),
             .floor_height = settings_.floor_height,
             .seed = settings_.seed,
@@ -60,25 +59,25 @@ Db LinkLosses::path_loss(NodeId from, NodeId to, Time t, const Legs& legs) const
 }
 
 double LinkLosses::of_frame(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t,
-                            std::uint64_t frame, Db give_up) const {
-    const Db most = give_up + most_fade();
+                            std::uint64_t frame, Db cutoff) const {
+    const Db most = cutoff + most_fade();
     const auto known = recent_.find({from, to, here, there, &settings_.scene_at(t)}, most);
     return faded(known ? *known : mean(from, to, here, there, t, frame, most), from, to, here,
                  there, frame);
 }
 
 double LinkLosses::mean(NodeId from, NodeId to, Vec3 here, Vec3 there, Time t, std::uint64_t frame,
-                        Db give_up) const {
+                        Db cutoff) const {
     const std::uint64_t key = stations_.key(to);
     LinkBatch link = batch(from, here, t, frame);
     link.to = {&there, 1};
     link.to_keys = {&key, 1};
     double db = 0;
-    stations_.model(from).loss(link, give_up, {&db, 1});
+    stations_.model(from).loss(link, cutoff, {&db, 1});
     return db;
 }
 
-/// Loss [dB] that a frame sees; the local mean has no frame.
+/// Path loss of a frame [dB]; equal to the local mean if there is no frame.
 double LinkLosses::faded(double loss_db, NodeId from, NodeId to, Vec3 here, Vec3 there,
                          std::uint64_t frame) const {
     if (!fades_ || frame == 0) return loss_db;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The largest finite x >= 0 for which holds(x), which is true up to some x and false beyond;
-/// negative if there is none. Non-negative numbers are in the order of their bits.
+/// Largest finite x >= 0 with holds(x), which is true up to some x and false beyond; negative if
+/// there is none. Non-negative floating-point numbers are ordered like their bits.
 template <class Predicate>
 double last_that(Predicate holds) {
     if (!holds(0.0)) return -1;
@@ -29,13 +29,7 @@ double last_that(Predicate holds) {
 
 double loss_at(const Propagation& model, Hertz frequency, double distance) {
     assert(model.shape() == LossShape::by_distance);
-    const Vec3 to{distance, 0, 0};
-    const std::uint64_t nobody = 0;
-    const LinkBatch link{
-        .frequency = frequency, .from = {}, .to = {&to, 1}, .to_keys = {&nobody, 1}};
-    double loss = 0;
-    model.loss(link, Db{infinity}, {&loss, 1});
-    return loss;
+    return model.loss_to({distance, 0, 0}, {.frequency = frequency, .from = {}});
 }
 
 double largest_squared_distance(const Propagation& model, Hertz frequency, Db budget) {

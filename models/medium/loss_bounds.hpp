@@ -3,27 +3,27 @@
 
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-// Levels that need not be computed: where two frames overlap, mostly one is much stronger.
+// Bounds of levels, for comparisons without computing them: if two frames overlap, usually one is
+// much stronger.
 
 namespace rovernet {
 
-/// Bounds of a loss that never falls with the distance, for when it need not be known exactly: the
-/// loss at a few distances, each computed when it is first needed.
+/// Bounds of a path loss that never decreases with distance: the exact loss at a few distances,
+/// each computed when first needed.
 ///
 /// A comparison of two levels that differ by more than the bounds needs no logarithm. RadioKinds
-/// has one for each kind of station; Medium::is_stronger asks it.
+/// has one for each kind of station; Arrivals::is_stronger uses it.
 ///
 ///   const auto [low, high] = bounds.at(d2, [&](double d) { return loss_at(model, f, d); });
 class LossBounds {
   public:
-    /// Values between which a loss lies.
+    /// Bounds of a path loss.
     struct Bounds {
-        /// Bounds [dB].
+        /// Lower and upper bound [dB].
         double low, high;
     };
 
@@ -32,7 +32,7 @@ class LossBounds {
     /// @param loss_at           loss [dB] at a distance [m]
     template <class LossAt>
     Bounds at(double squared_distance, LossAt loss_at) {
-        // Non-negative numbers are in the order of their bits.
+        // Non-negative floating-point numbers are ordered like their bits.
         const std::uint64_t cell = std::bit_cast<std::uint64_t>(squared_distance) >> shift;
         if (cell < first || cell >= first + cells) return {-infinity, infinity};
         if (edges_.empty()) edges_.resize(cells + 1, unknown);
@@ -42,16 +42,16 @@ class LossBounds {
   private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    // Margin [dB], more than the rounding of any loss.
+    // Margin [dB], larger than the rounding error of any loss.
     static constexpr double rounding = 1e-9;
-    // Bits that the number of a cell leaves out: there are 64 cells of equal width between 1 m^2
+    // Number of low bits that a cell number omits: there are 64 cells of equal width between 1 m^2
     // and 2 m^2, and between any power of two and the next, up to 131 km.
     static constexpr int shift = 46;
-    // Number of the first cell, which begins at 1 m^2, and of cells.
+    // Number of the first cell, which begins at 1 m^2, and number of cells.
     static constexpr std::uint64_t first = std::bit_cast<std::uint64_t>(1.0) >> shift;
     static constexpr std::uint64_t cells = 34 * 64;
 
-    // Loss where a cell begins [dB].
+    // Loss at the beginning of a cell [dB].
     template <class LossAt>
     double edge(std::uint64_t number, LossAt loss_at) {
         double& edge = edges_[number - first];
@@ -60,7 +60,7 @@ class LossBounds {
         return edge;
     }
 
-    // Losses where cells begin [dB]; not a number: not computed yet.
+    // Losses at the beginnings of cells [dB]; NaN if not computed yet.
     std::vector<double> edges_;
 };
 

@@ -16,7 +16,7 @@ std::shared_ptr<const Fades> fades_of(const MediumSettings& settings) {
     return std::make_shared<Fades>(settings.fading, settings.seed, settings.replication);
 }
 
-/// Stays where it is until its leg is replaced.
+/// Whether the node rests until its leg is replaced.
 bool rests(const Leg& leg, Time t) { return leg.velocity == Vec3{} && t < leg.end; }
 
 }  // namespace
@@ -37,7 +37,8 @@ void Medium::add(const Radio& radio, std::uint64_t key, const Propagation& propa
     cells_chosen_ = false;
 }
 
-/// Cells as wide as the reach of the median station: most queries then look at nine of them.
+/// Sets the cell size of the index to the reach of the median station: most queries then visit nine
+/// cells.
 void Medium::choose_cells() {
     std::vector<std::pair<double, std::size_t>> reaches;
     for (Kind k = 0; k < stations_.kinds().size(); ++k) {
@@ -53,7 +54,7 @@ void Medium::choose_cells() {
     cells_chosen_ = true;
 }
 
-/// Makes the index about `from` at `t`.
+/// Prepares the index for queries about `from` at `t`.
 void Medium::look_from(NodeId from, Time t, const Legs& legs) {
     if (!cells_chosen_) {
         stations_.measure(legs);
@@ -64,8 +65,8 @@ void Medium::look_from(NodeId from, Time t, const Legs& legs) {
     origin_.z += stations_.kinds().height(stations_.kind(from));
 }
 
-/// For the index: calls use(entry, antenna, squared distance and, if the index tells it, place) for
-/// those within reach that are on and may link.
+/// Visitor for the index: calls use(entry, antenna, squared distance and, if the index returns it,
+/// place) for nodes within reach that are on and may have a link.
 template <class Use>
 auto Medium::within(NodeId from, double reach2, Use use) const {
     return [=, this, mine = stations_.kind(from)](const Entry& e, Vec3 p, auto... place) {
@@ -83,11 +84,11 @@ void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use
     index_.visit(origin_, std::sqrt(std::max(reach2, 0.0)), t, legs, within(from, reach2, use));
 }
 
-/// Finds the nodes that a signal of `from` is strong enough for: in found_ those who can decode it,
-/// in sensors_ the others.
+/// Finds the nodes at which a signal of `from` is strong enough: nodes that can decode it go into
+/// found_, the others into sensors_.
 void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame) {
     const std::tuple search{from, strength, t, changes_};
-    // A message is sent where it was asked for; but that had no fade.
+    // Repeated search: Sent::reachable has just found the same nodes. Only frames that fade differ.
     if (std::exchange(last_, search) == search && !links_.fades()) return;
     found_.clear();
     sensors_.clear();
@@ -115,15 +116,15 @@ void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& l
           });
 }
 
-/// As find_in_range(), of stations that are all of one kind and so in one network, for those that
-/// decode.
+/// Search as find_in_range(), for stations of one kind and therefore one network, and for nodes
+/// that can decode.
 void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
     look_from(from, t, legs);
     const Kind mine = stations_.kind(from);
     const double range2 = stations_.kinds().squared_range(mine, mine, Strength::decodable);
     const auto places = index_.near(origin_, std::sqrt(std::max(range2, 0.0)), t);
     Found* next = found_.room(places.size() + index_.apart());
-    // Copies, which nothing that is written here can change.
+    // Copies, which the compiler knows to be constant in the loop.
     const auto visit = [&next, from, range2, origin = origin_,
                         height = stations_.kinds().height(mine),
                         switches = Stations::Switches(stations_)](const Entry& e, Vec3 p) {
@@ -149,11 +150,11 @@ void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& l
             return stations_.kinds().table(mine, e.label, s).in_range(d2, bits);
         };
         if (!in_range(strength)) return;
-        // Who can decode it senses it, too.
+        // A node that can decode a frame also senses it.
         const bool decodes = strength == Strength::decodable || in_range(Strength::decodable);
         (decodes ? found_ : sensors_).put({e.node, d2}, true);
     };
-    // Their draws rule out most before anything else about them is looked at.
+    // The draws exclude most nodes before any other check.
     if (std::exchange(shares_of_bin_, index_.bins()) != index_.bins()) share_draws();
     const FirstLook& look = stations_.kinds().first_look(mine, strength);
     const auto passes = [share, &look, shares = shares_.data()](std::uint32_t place,
@@ -219,7 +220,7 @@ std::span<const Medium::Found> Medium::find_sensors(NodeId from, Time start, Tim
     return sensors_.kept();
 }
 
-/// Tells when a frame that ends at `end` ends at those found.
+/// Computes the end, at each node found, of a frame that ends at `end` at its sender.
 void Medium::tell_arrivals(Time end, Receivers& out) const {
     const std::span<const Found> found = found_.kept();
     out.sieved.clear();

@@ -10,7 +10,7 @@
 #include "models/medium/stations.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/radio.hpp"
-#include "models/variation/fading.hpp"
+#include "models/variation/fades.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/record.hpp"
@@ -25,26 +25,26 @@
 
 namespace rovernet {
 
-/// Medium between radios: who hears a transmission, and when. The transmitter's propagation model
-/// rules. Everything about a frame is fixed at its start: who is on, where everybody is, at what
-/// level, and the scene between them.
+/// Radio medium: determines the receivers of a transmission, and the times of reception. The
+/// transmitter's propagation model applies. Everything about a frame is fixed at its start: which
+/// nodes are on, their positions, levels, and the scene.
 ///
-/// Its parts answer for themselves: stations() who is there, links() what one link loses,
-/// arrivals() how a frame arrives at one node. Times must not decrease from one search to the next.
+/// Its parts are public: stations() has the radios, links() the losses of single links, arrivals()
+/// the frames at single nodes. Times must not decrease from one search to the next.
 class Medium {
   public:
     using Settings = MediumSettings;
 
-    /// Makes an empty medium; stations are added to it.
-    /// @throws std::invalid_argument if its shadowing or fading has a parameter out of its range
+    /// Creates an empty medium; stations are added later.
+    /// @throws std::invalid_argument if a shadowing or fading parameter is out of its range
     explicit Medium(const Settings& settings);
-    /// Copies are forbidden: the parts refer to each other.
+    /// Not copyable, because the parts refer to each other.
     Medium(const Medium&) = delete;
     Medium& operator=(const Medium&) = delete;
 
-    /// Settings as they were given.
+    /// Settings of the medium, as given.
     const Settings& settings() const { return settings_; }
-    /// Its stations: radios, models, and who is on.
+    /// Stations: radios, propagation models, and which nodes are on.
     const Stations& stations() const { return stations_; }
     /// Losses, levels and margins of single links.
     const LinkLosses& links() const { return links_; }
@@ -52,21 +52,23 @@ class Medium {
     const Arrivals& arrivals() const { return arrivals_; }
     Arrivals& arrivals() { return arrivals_; }
 
-    /// Adds the next node, as Stations::add(); the model must work in the scene, too.
+    /// Adds the next node, as Stations::add(); the propagation model must also work in the medium's
+    /// scene.
     void add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
-    /// Makes room for `nodes` nodes.
+    /// Reserves memory for `nodes` nodes.
     void reserve(std::size_t nodes) {
         stations_.reserve(nodes);
         index_.reserve(nodes);
     }
-    /// Prefetches the state of `node`, the sender of the next event; node 0 if that event has none.
+    /// Prefetches the state of `node`, the sender of the next event; node 0 if the next event has
+    /// no sender.
     void prefetch(NodeId node) const {
         stations_.prefetch(node);
         index_.prefetch(node);
     }
-    /// Prefetches what position() takes.
+    /// Prefetches the data for position().
     void prefetch_position(NodeId node) const { index_.prefetch(node); }
-    /// Takes note that the node's leg has been replaced.
+    /// Updates the medium after the node's leg was replaced.
     void moved(NodeId node, const Legs& legs) {
         ++changes_;
         index_.moved(node, legs);
@@ -78,46 +80,47 @@ class Medium {
         ++changes_;
         stations_.switch_radio(node, on);
     }
-    /// Number of changes so far: of legs, and of nodes added or switched.
+    /// Number of changes so far: of legs, of switches, and of nodes added.
     std::uint64_t changes() const { return changes_; }
-    /// Position of a node [m]: as `legs` have it, and near in memory if its neighbours sent lately.
+    /// Position of a node [m], equal to that in `legs`, from memory that is cached if the node's
+    /// neighbours transmitted recently.
     Vec3 position(NodeId node, Time t, const Legs& legs) const {
         return index_.position_of(node, t, legs);
     }
 
-    /// Node that was found by a search.
+    /// Node found in a search for receivers or hearers.
     struct Found {
         NodeId node;
-        /// Squared distance between the antennas [m^2].
+        /// Squared distance to the transmitter's antenna [m^2].
         double squared_distance;
     };
 
     /// Receivers of a frame.
     struct Receivers {
-        /// Ends of the frame at the first and the last of them, if there are any.
+        /// Times at which the frame ends at the first and at the last receiver, if there are any.
         Time first, last;
-        /// Receptions in no order.
+        /// Receptions of the frame, unsorted.
         Sieve<Reception> sieved;
         std::span<Reception> all() const { return sieved.kept(); }
     };
-    /// Finds the nodes that hear `from` when it sends at `start`.
-    /// @param end  of the frame at the transmitter
+    /// Finds the nodes that can decode a frame of `from` that starts at `start`.
+    /// @param end  end of the frame at the transmitter
     void find_receivers(NodeId from, Time start, Time end, const Legs& legs, Receivers& out);
-    /// Finds the same, and the nodes that only sense the frame: these are returned in no order,
-    /// good until the next call.
+    /// Finds the receivers as find_receivers(), and returns the nodes that only sense the frame,
+    /// unsorted, valid until the next call.
     std::span<const Found> find_sensors(NodeId from, Time start, Time end, const Legs& legs,
                                         Receivers& out);
     /// Position of the sender's antenna in the last search for receivers [m].
     Vec3 origin() const { return origin_; }
-    /// Distance of its farthest receiver [m].
+    /// Distance of the farthest receiver in the last search [m].
     double heard_within();
 
-    /// Nodes that hear `from` at `t`; good until the next call.
+    /// Nodes that hear `from` at `t`; valid until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
         find(from, Strength::decodable, t, legs, 0);
         return found_.kept();
     }
-    /// Whether `to` is one of those that hear `from` at `t`: looks at that one link.
+    /// Whether `to` hears `from` at `t`; checks only this link.
     bool hears(NodeId from, NodeId to, Time t, const Legs& legs);
 
   private:
@@ -125,29 +128,29 @@ class Medium {
     using Kind = Stations::Kind;
 
     Medium(const Settings& settings, const std::shared_ptr<const Fades>& fades);
-    // Chooses cells as wide as the reach of the median station: most queries then look at nine of
-    // them.
+    // Sets the cell size of the index to the reach of the median station, so that most queries
+    // visit nine cells.
     void choose_cells();
-    // Searches for the nodes that a signal of `from` is strong enough for, in the way that the
-    // Decision of its kind says: in found_ those who can decode it, in sensors_ the others.
+    // Finds the nodes at which a signal of `from` is strong enough, by the Decision of its kind:
+    // nodes that can decode it go into found_, the others into sensors_.
     void find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame);
-    // Searches by the distance alone.
+    // Search by distance alone.
     void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
-    // Searches as find_in_range() among stations of one kind, for those who can decode.
+    // Search as find_in_range() among stations of one kind, for nodes that can decode.
     void find_alike(NodeId from, Time t, const Legs& legs);
-    // Searches by the distance and the draw of each pair.
+    // Search by distance and the draw of each pair.
     void find_in_table(NodeId from, Strength strength, Time t, const Legs& legs);
-    // Searches by asking the model for the losses of those within reach.
+    // Search by the model's losses of all nodes within reach.
     void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs,
                        std::uint64_t frame);
-    // Computes when a frame that ends at `end` ends at those who were found.
+    // Computes the end, at each node found, of a frame that ends at `end` at its sender.
     void tell_arrivals(Time end, Receivers& out) const;
-    // Makes the index ready for queries about `from` at `t`.
+    // Prepares the index for queries about `from` at `t`.
     void look_from(NodeId from, Time t, const Legs& legs);
-    // Fills shares_.
+    // Fills shares_ with the contributions of all nodes.
     void share_draws();
-    // Visitor of the index: calls use(entry, antenna, squared distance and, if the index tells it,
-    // place) for nodes within reach that are on and may link.
+    // Visitor for the index: calls use(entry, antenna, squared distance and, if the index returns
+    // it, place) for nodes within reach that are on and may have a link.
     template <class Use>
     auto within(NodeId from, double reach2, Use use) const;
     // Visits the nodes within reach.
@@ -155,26 +158,26 @@ class Medium {
     void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
 
     Settings settings_;
-    // Draws of links, where tables decide.
+    // Random draws of pairs, for Decision::by_table.
     PairDraws draws_;
     Stations stations_;
     LinkLosses links_;
     Arrivals arrivals_;
-    // Changes so far.
+    // Number of changes so far.
     std::uint64_t changes_ = 0;
-    // Nodes by their places, and losses of pairs at rest.
+    // Index of nodes by position, and path losses of pairs at rest.
     NeighbourIndex index_;
     PairCache pairs_;
-    // Scene that the losses of pairs are in.
+    // Scene of the losses in pairs_.
     const Scene* pairs_of_ = nullptr;
-    // Shares of draws_, by place in the index, if tables decide; number of the index's bin that
-    // they belong to.
+    // Contributions of nodes to draws_, by place in the index, for Decision::by_table; and the
+    // number of index bins at which they were computed.
     std::vector<std::uint64_t> shares_;
     std::uint64_t shares_of_bin_ = 0;
-    // Whether the index knows how wide its cells are.
+    // Whether the cell size of the index was set.
     bool cells_chosen_ = false;
 
-    // Search that found_ is of: from, strength, time and changes_; then what is under work.
+    // Parameters of the last search (from, strength, time, changes_); then its temporary data.
     std::optional<std::tuple<NodeId, Strength, Time, std::uint64_t>> last_;
     Vec3 origin_;
     // Results of the last search.

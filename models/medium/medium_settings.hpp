@@ -12,7 +12,7 @@
 #include <optional>
 #include <span>
 
-// What a medium needs to know of its network. World makes it of NetworkSettings.
+// Settings of the medium, which World makes from NetworkSettings.
 
 namespace rovernet {
 
@@ -20,23 +20,24 @@ class Scene;
 
 /// Settings of a Medium.
 struct MediumSettings {
-    /// Scene with its walls; not null; outlives the medium.
+    /// Scene with its walls; not null; must outlive the medium.
     const Scene* scene = nullptr;
-    /// Scenes that follow it, in ascending order of time; they outlive the medium.
+    /// Scenes that later replace `scene`, in ascending order of time; they must outlive the medium.
     std::span<const SceneChange> scene_changes = {};
     /// Height of one storey [m], see LinkBatch.
     Meters floor_height = no_storeys;
-    /// A frame arrives distance / c after it is sent; otherwise at once.
+    /// True: a frame arrives distance / c after it is sent; false: at once.
     bool propagation_delay = true;
-    /// Losses of pairs at rest are kept (PairCache), instead of computing them again with every
+    /// True: losses of pairs at rest are cached (PairCache); false: they are computed for every
     /// frame.
     bool keep_losses = true;
-    /// Every pair is looked at, without the grid, and no losses are kept: for tests.
+    /// Test mode: every pair is checked, without the grid and without cached losses.
     bool all_pairs = false;
-    /// Cut of interference [dB]: frames interfere down to so much below the sensitivity (but not to
-    /// more than 10 dB below the noise floor); none: only those that are sensed do.
+    /// Cut-off of interference [dB]: a frame interferes if it is weaker than the sensitivity by at
+    /// most this ratio, and weaker than the noise floor by at most 10 dB; empty: only sensed frames
+    /// do.
     std::optional<Db> interference_cut = std::nullopt;
-    /// Shadowing over all propagation models; they have no random part of their own then.
+    /// Shadowing, added to all propagation models; the models must have no random part then.
     Shadowing shadowing = {};
     /// Fading of all frames.
     Fading fading = {};
@@ -44,7 +45,7 @@ struct MediumSettings {
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
 
-    /// Scene at `t`.
+    /// Scene of the medium at `t`.
     const Scene& scene_at(Time t) const {
         const SceneChange* change = scene_changes.empty() ? nullptr : last_change(scene_changes, t);
         return change ? *change->scene : *scene;

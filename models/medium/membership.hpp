@@ -3,22 +3,21 @@
 
 #include <cstdint>
 
-// Networks of radios (essid, channel and frequency), of which a gate lets in its own only.
+// Networks of radios (essid, channel and frequency); a gate admits only radios of its own network.
 
 namespace rovernet {
 
-/// Network of a radio, as numbers that are equal where the settings are. Comparing them costs less
-/// than comparing names. RadioKinds gives the numbers.
+/// Network of a radio, as numbers that are equal if the settings are. Comparing numbers is faster
+/// than comparing names. RadioKinds assigns the numbers.
 struct Membership {
-    /// Number of its essid; 0: any.
+    /// Number of the network's name (essid); 0: any.
     std::uint32_t essid;
-    /// Number of its channel and its frequency, together.
+    /// Number of the combination of channel and frequency.
     std::uint32_t channel;
-    /// It has links within its network only.
+    /// True if the radio only has links within its network.
     bool gated;
 
-    /// Whether two radios may have a link: the gate of one is open, or they share a network. The
-    /// gate of one alone keeps nobody out.
+    /// Whether two radios may have a link: they share a network, or one of them is not gated.
     static bool match(const Membership& a, const Membership& b) {
         return !a.gated || !b.gated ||
                (a.channel == b.channel && (a.essid == b.essid || !a.essid || !b.essid));

@@ -11,7 +11,7 @@ namespace {
 
 double length(Vec3 v) { return std::sqrt(dot(v, v)); }
 
-/// The extent of a set of coordinates.
+/// Range of a set of coordinates.
 struct Extent {
     double low = 0, high = 0;
     void take(double x) {
@@ -22,11 +22,11 @@ struct Extent {
 
 constexpr double far = 1e30;  // [m] from everything, and a number in single precision
 
-/// Share of the nodes that may be kept apart, and a few always.
+/// Number of nodes that may be stored separately: a fraction, and always a few.
 std::size_t few(std::size_t nodes) { return nodes / 64 + 16; }
 
-/// The speed [m/s] above which a node is kept apart: that of the fastest, unless only a few are
-/// more than four times as fast as all others.
+/// Speed [m/s] above which a node is stored separately: that of the fastest node, unless only a few
+/// nodes are more than four times as fast as all others.
 double choose_top_speed(std::vector<double> speeds) {
     if (speeds.empty()) return 0;
     const double fastest = *std::max_element(speeds.begin(), speeds.end());
@@ -99,8 +99,8 @@ std::span<std::uint32_t> NeighbourIndex::look_around(Vec3 centre, double reach) 
 template std::span<std::uint32_t> NeighbourIndex::look_around<false>(Vec3, double);
 template std::span<std::uint32_t> NeighbourIndex::look_around<true>(Vec3, double);
 
-/// Makes the first `count` of distance2_ the least that they may be now, wherever the nodes went
-/// since they were binned.
+/// Replaces the first `count` values of distance2_ by lower bounds of the current squared
+/// distances, for any motion since the nodes were binned.
 float* NeighbourIndex::distances_at_least(std::size_t count, Vec3 centre, double radius, Time t) {
     const double most = (slack(t) + rounding(centre, radius + slack(t))) * (1 + 1e-6);
     const auto off = static_cast<float>(std::min(most, far));
@@ -113,20 +113,20 @@ float* NeighbourIndex::distances_at_least(std::size_t count, Vec3 centre, double
     return at_least;
 }
 
-/// For what look_around() finds; returns for how much.
+/// Allocates memory for the results of look_around(); returns its size.
 std::size_t NeighbourIndex::make_room(std::size_t places) {
     near_.resize(2 * places);
     distance2_.resize(2 * places);
     return near_.size();
 }
 
-/// Moves a node out of its cell, where an entry that is nowhere remains.
+/// Removes a node from its cell, which keeps an unused entry, and stores it separately.
 void NeighbourIndex::keep_apart(NodeId node, const Leg& leg) {
     x_[place_[node.index()]] = std::numeric_limits<float>::quiet_NaN();
     apart_.put(add_apart(node), node, label(node), leg);
 }
 
-/// Returns the place in apart_ that it makes for the node.
+/// Creates the node's entry in apart_; returns its index.
 std::size_t NeighbourIndex::add_apart(NodeId node) {
     const std::size_t place = apart_.entries.size();
     place_[node.index()] = is_apart | static_cast<std::uint32_t>(place);
@@ -134,8 +134,8 @@ std::size_t NeighbourIndex::add_apart(NodeId node) {
     return place;
 }
 
-/// All nodes, from now on in this table only: in the order of the cells that they were in, so that
-/// sorting them anew moves them little. Nodes of unknown places come as they were added.
+/// Moves all nodes into one table, in the order of their former cells, so that sorting them again
+/// moves few. Nodes of unknown positions are in the order of their addition.
 IndexTable NeighbourIndex::take_all(const Legs& legs) {
     IndexTable all = std::exchange(binned_, {});
     if (stale_) {
@@ -156,7 +156,8 @@ IndexTable NeighbourIndex::take_all(const Legs& legs) {
     return all;
 }
 
-/// At most two cells a node: columns and rows as the nodes need them, or fewer, which wrap around.
+/// Makes a grid of at most two cells per node: with the columns and rows that the nodes need, or
+/// fewer, which wrap around.
 void NeighbourIndex::lay_grid(const IndexTable& all, Time t, const Legs& legs) {
     Extent x, y;
     for (std::size_t i = 0; i < all.entries.size(); ++i) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "models/medium/index_table.hpp"
+#include "models/medium/wrapped_axis.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/time.hpp"
-#include "models/medium/wrapped_axis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,39 +17,40 @@
 
 namespace rovernet {
 
-/// Index of nodes by their places: who is near a place, found in a grid of cells by their legs.
+/// Spatial index of nodes: finds nodes near a place by a grid of cells.
 ///
-/// Entries lie in the order of their cells, row by row, each with a copy of its node's leg. A query
-/// looks at one range of entries in each row, so that cells are narrow. Entries stay in the cells
-/// where they were binned while queries look as much wider as the fastest of them can have moved
-/// since. A query bins anew once that is a tenth of a cell and as many entries have been looked at
-/// as there are. Nodes much faster than the others and those that jump are kept apart and looked at
-/// by every query. The grid wraps around: its memory is bounded wherever the nodes are.
+/// Entries are stored in the order of their cells, row by row, each with a copy of its node's leg.
+/// A query reads one range of entries in each row, so cells are narrow. Entries stay in the cells
+/// of their last binning; queries search a wider radius, by the distance that the fastest entry can
+/// have moved since. A query bins all nodes again once that distance is a tenth of a cell and as
+/// many entries have been read as there are nodes. Nodes much faster than the others, and nodes
+/// that jump, are stored separately and checked by every query. The grid wraps around: its memory
+/// is bounded for any positions.
 class NeighbourIndex {
   public:
     using Entry = IndexEntry;
 
-    /// Place of no entry.
+    /// Index that stands for no entry of entries().
     static constexpr std::uint32_t nowhere = 0xffffffff;
 
-    /// Adds the next node.
+    /// Adds the next node, with a number that queries return.
     void add(std::uint32_t label);
-    /// Makes room for `nodes` nodes.
+    /// Reserves memory for `nodes` nodes.
     void reserve(std::size_t nodes) { place_.reserve(nodes); }
-    /// Takes note that the node's leg has been replaced.
+    /// Updates the index after the node's leg was replaced.
     void moved(NodeId node, const Legs& legs);
-    /// Sets the height of the cells [m]; best about the radius of most queries.
+    /// Sets the height of the grid's cells [m]; best near the radius of most queries.
     void set_cell_size(double size) {
         stale_ = stale_ || size != wanted_cell_;
         wanted_cell_ = size;
     }
 
-    /// Bins the nodes anew if it is time to; to be called before visit() and visit_if().
+    /// Sorts the nodes into cells again if necessary; must precede visit() and visit_if().
     void refresh(Time t, const Legs& legs) {
         if (is_stale(t)) bin(t, legs);
     }
-    /// Position of the node [m]: as `legs` have it, and near in memory if its neighbours were
-    /// looked at.
+    /// Position of the node [m], equal to that in `legs`, from memory that is cached if its
+    /// neighbours were visited recently.
     Vec3 position_of(NodeId node, Time t, const Legs& legs) const {
         if (stale_) [[unlikely]]
             return legs.position(node, t);
@@ -58,14 +59,15 @@ class NeighbourIndex {
                                 : binned_.position(place, t, legs);
     }
     void prefetch(NodeId node) const { __builtin_prefetch(place_.data() + node.index()); }
-    /// Places of the entries() that are within `radius` [m] of `centre` at `t`, and some others;
-    /// good until the next such call. `t` must not decrease from call to call.
+    /// Indices into entries() of nodes within `radius` [m] of `centre` at `t`, and possibly of some
+    /// more; valid until the next call. `t` must not decrease from call to call.
     std::span<const std::uint32_t> near(Vec3 centre, double radius, Time t) {
         return look_around<false>(centre, radius + slack(t));
     }
-    /// Number of nodes that are kept apart (too fast, or just jumped): every query looks at them.
+    /// Number of nodes stored separately (too fast, or just jumped): every query checks them.
     std::size_t apart() const { return apart_.entries.size(); }
-    /// Calls visit(entry, position) for the nodes kept apart and the entries at `places`.
+    /// Calls visit(entry, position) for the nodes stored separately, and for the entries at the
+    /// indices `places`.
     template <class Visit>
     void visit(std::span<const std::uint32_t> places, Time t, const Legs& legs, Visit visit) const {
         visit_apart(t, legs, visit);
@@ -76,16 +78,16 @@ class NeighbourIndex {
             for (const std::uint32_t i : places) visit(entries[i], binned_.position(i, t, legs));
         }
     }
-    /// Calls visit(entry, position) for every node that is within `radius` [m] of `centre` at `t`,
-    /// and for some others, in no order to rely on. `t` must not decrease from call to call.
+    /// Calls visit(entry, position) for every node within `radius` [m] of `centre` at `t`, and
+    /// possibly for some more, in any order. `t` must not decrease from call to call.
     template <class Visit>
     void visit(Vec3 centre, double radius, Time t, const Legs& legs, Visit visit) {
         this->visit(near(centre, radius, t), t, legs, visit);
     }
 
-    /// Calls visit(entry, position, place) as above, but of the entries() only for those for which
-    /// passes(place, at_least) holds; the squared distance [m^2] between entry and centre, heights
-    /// aside, is no less than that. The place of nodes kept apart is `nowhere`.
+    /// Calls visit(entry, position, place) like visit(), but only for entries with passes(place,
+    /// at_least); place: index into entries(), `nowhere` for nodes stored separately; at_least:
+    /// lower bound of the squared horizontal distance [m^2] between entry and centre.
     template <class Passes, class Visit>
     void visit_if(Vec3 centre, double radius, Time t, const Legs& legs, Passes passes,
                   Visit visit) {
@@ -93,7 +95,7 @@ class NeighbourIndex {
         const float* const at_least = distances_at_least(places.size(), centre, radius, t);
         std::size_t passed = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            // Without a branch: it would be mispredicted for most that pass.
+            // Without a branch, which would often be mispredicted.
             const std::uint32_t place = places[passed] = places[i];
             passed += passes(place, at_least[i]);
         }
@@ -102,13 +104,14 @@ class NeighbourIndex {
             visit(binned_.entries[i], binned_.position(i, t, legs), i);
         }
     }
-    /// Nodes in the order of their cells, but for those kept apart; good until the next bin.
+    /// Nodes in the order of their cells, without those stored separately; valid until refresh()
+    /// sorts them again.
     std::span<const Entry> entries() const { return binned_.entries; }
-    /// Number of times that the nodes were binned.
+    /// Number of times that the nodes were sorted into cells.
     std::uint64_t bins() const { return bins_; }
 
   private:
-    // Bit of a place in apart_.
+    // Bit that marks a place in apart_.
     static constexpr std::uint32_t is_apart = 0x80000000;
 
     template <class Visit>
@@ -117,38 +120,38 @@ class NeighbourIndex {
             visit(apart_.entries[i], apart_.position(i, t, legs));
         }
     }
-    /// How far nodes may have gone since they were binned.
+    /// Largest distance that nodes may have moved since they were sorted into cells.
     struct Drift {
         Time since = start_of_run;
-        /// Top speed of the entries [m/s]; in [m/ns], and a little more.
+        /// Top speed of the nodes [m/s]; and in [m/ns], rounded up.
         double top_speed = 0;
         double top_speed_per_ns = 0;
-        /// Sum of what legs did not continue exactly [m].
+        /// Sum of position jumps between consecutive legs [m].
         double jumped = 0;
 
-        /// Distance that a node may be from where it was binned [m].
+        /// Largest distance of a node from its position when it was sorted into a cell [m].
         double at(Time t) const {
             return top_speed_per_ns * static_cast<double>((t - since).count()) + jumped;
         }
     };
     double slack(Time t) const { return drift_.at(t); }
-    // Whether it is time to bin the nodes anew.
+    // Whether the nodes have to be binned again.
     bool is_stale(Time t) const {
         return stale_ || apart_.entries.size() > allowed_apart_ ||
                (looked_at_ > place_.size() && slack(t) > 0.1 * rows_.width());
     }
-    /// Bound [m] on what is lost of a coordinate around `centre` in single precision.
+    /// Bound on the rounding error [m] of a coordinate around `centre` in single precision.
     static double rounding(Vec3 centre, double reach) {
         return 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + reach);
     }
-    /// Entries that were binned within `reach` [m] of `centre`, and some others; how far off into
-    /// distance2_, if that is wanted.
+    /// Finds the entries sorted into cells within `reach` [m] of `centre`, and possibly some more;
+    /// writes their squared distances into distance2_, if requested.
     template <bool distances_too>
     std::span<std::uint32_t> look_around(Vec3 centre, double reach);
-    // Least squared distances [m^2] that the entries found may have now, wherever they went since
-    // they were binned.
+    // Lower bounds of the current squared distances [m^2] of the entries found, for any motion
+    // since they were binned.
     float* distances_at_least(std::size_t count, Vec3 centre, double radius, Time t);
-    // Makes room for what look_around() finds. @return for how much
+    // Allocates memory for the results of look_around(). @return size of the memory
     std::size_t make_room(std::size_t places);
 
     // Cell of a place.
@@ -156,40 +159,39 @@ class NeighbourIndex {
         return rows_.cell_at(p.y) * columns_.cells() + columns_.cell_at(p.x);
     }
     std::uint32_t label(NodeId node) const { return labels_.empty() ? 0 : labels_[node.index()]; }
-    // Moves a node out of its cell, where an entry that is nowhere remains.
+    // Removes a node from its cell, which keeps an unused entry, and stores it separately.
     void keep_apart(NodeId node, const Leg& leg);
-    // Adds an entry to apart_. @return its place
+    // Adds an entry to apart_. @return its index
     std::size_t add_apart(NodeId node);
     // Sorts all nodes into cells by counting.
     void bin(Time t, const Legs& legs);
-    // All nodes, in the order of the cells that they were in, so that sorting them anew moves them
-    // little.
+    // Returns all nodes in the order of their former cells, so that sorting them again moves few.
     IndexTable take_all(const Legs& legs);
-    // Lays a grid of at most two cells a node.
+    // Makes a grid of at most two cells per node.
     void lay_grid(const IndexTable& all, Time t, const Legs& legs);
 
-    // Labels by node; none as long as all are 0.
+    // Labels by node; empty while all are 0.
     std::vector<std::uint32_t> labels_;
     // Entries in the order of their cells.
     IndexTable binned_;
-    // Places where they were binned [m].
+    // Positions at the last binning [m].
     std::vector<float> x_, y_;
-    // Memory that begins with what look_around() found.
+    // Memory for the results of look_around().
     std::vector<std::uint32_t> near_;
-    // Memory that begins with how far each was binned from the query [m^2].
+    // Memory for the squared distances between query and binned positions [m^2].
     std::vector<float> distance2_;
-    // First entry of each cell; one more than there are cells.
+    // Index of the first entry of each cell; one more than cells.
     std::vector<std::uint32_t> first_;
-    // Place of each node in binned_, or in apart_.
+    // Index of each node in binned_, or in apart_.
     std::vector<std::uint32_t> place_;
     IndexTable apart_;
     WrappedAxis columns_, rows_;
-    // Height of the cells that was asked for [m].
+    // Requested height of the cells [m].
     double wanted_cell_ = 1;
     Drift drift_;
-    // Entries and cells that were looked at since then.
+    // Number of entries and cells visited since then.
     std::size_t looked_at_ = 0;
-    // Nodes that may be kept apart until all are binned anew.
+    // Number of nodes that may be stored separately before all are binned again.
     std::size_t allowed_apart_ = 0;
     std::uint64_t bins_ = 0;
     bool stale_ = true;

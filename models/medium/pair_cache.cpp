@@ -21,17 +21,17 @@ void PairCache::make_room(NodeId node) {
     if (node.index() >= nodes_.size()) nodes_.resize(node.index() + 1);
 }
 
-Db PairCache::open(NodeId from, Db give_up) {
+Db PairCache::open(NodeId from, Db cutoff) {
     make_room(from);
     from_ = from;
     Node& mine = nodes_[from.index()];
-    if (give_up > mine.give_up) mine.pairs.clear();
-    if (mine.pairs.empty()) mine.give_up = give_up;
-    // What other rows left in `place` does no harm: find() looks who is there.
+    if (cutoff > mine.cutoff) mine.pairs.clear();
+    if (mine.pairs.empty()) mine.cutoff = cutoff;
+    // Values of `place` for other rows are harmless: find() checks which node is there.
     for (std::uint32_t i = 0; i < mine.pairs.size(); ++i) {
         nodes_[mine.pairs[i].to.index()].place = i;
     }
-    return mine.give_up;
+    return mine.cutoff;
 }
 
 bool PairCache::renew(std::size_t pairs) {

@@ -8,43 +8,44 @@
 #include <cstdint>
 #include <vector>
 
-// Losses of robots at rest, for models that are costly to ask: a ray through a map.
+// Cache of path losses between robots at rest, for costly models such as ray tracing on a map.
 
 namespace rovernet {
 
-/// Path losses of pairs of nodes, kept while neither of them moves.
+/// Path losses of pairs of nodes, kept while both nodes rest.
 ///
-/// Pairs are ordered, since the transmitter's model rules. Each transmitter has a row: the
-/// receivers at rest that were within its reach when it last found one that the row did not know.
-/// The row goes when the transmitter's leg is replaced; a loss in it is void once the receiver's
-/// leg is. Who rests is for the caller to say: a network in motion keeps nothing and pays nothing.
+/// Pairs are ordered, because the transmitter's model applies. Each transmitter has a row: the
+/// receivers at rest that were within its reach when a receiver was last missing in the row. The
+/// row is removed when the transmitter's leg is replaced; a loss in it becomes void when the
+/// receiver's leg is replaced. The caller determines which nodes rest: a network in motion stores
+/// nothing.
 ///
-/// A row takes 16 bytes a pair. Once the cache holds as many pairs as it may, those that are kept
-/// stay and others are not kept. Candidates use it, for one transmitter at a time:
+/// A row takes 16 bytes per pair. Once the cache is full, stored pairs remain and further pairs are
+/// not stored. Candidates use it, for one transmitter at a time:
 ///
 ///   open(from)                 find(to) for each receiver at rest
 ///   renew(n), keep(to, loss)   if one was not found
 class PairCache {
   public:
-    /// Pairs that it may hold by default: 64 MiB.
+    /// Default limit of the number of stored pairs: they take 64 MiB.
     static constexpr std::size_t default_most_pairs = std::size_t{1} << 22;
 
-    /// @param most_pairs  pairs that it may hold
+    /// @param most_pairs  largest number of stored pairs
     explicit PairCache(std::size_t most_pairs = default_most_pairs) : most_pairs_(most_pairs) {}
 
-    /// Takes note that the node's leg has been replaced: its losses are void.
+    /// Discards the node's losses after its leg was replaced.
     void moved(NodeId node) {
         if (node.index() < nodes_.size()) forget(node);
     }
-    /// Forgets all losses: the scene between the nodes has changed.
+    /// Discards all losses after a scene change.
     void forget_all();
 
-    /// Makes find(), renew() and keep() be about a transmitter, which rests. Discards losses that
-    /// were computed with a smaller cut-off than `give_up` [dB].
-    /// @return cut-off [dB] for losses that are stored from now on; >= give_up
-    Db open(NodeId from, Db give_up);
-    /// Loss [dB] to `to`, which rests, or null. If it is more than open() returned it says no more
-    /// than that.
+    /// Selects a transmitter at rest for find(), renew() and keep(). Discards losses that were
+    /// computed with a smaller cut-off than `cutoff` [dB].
+    /// @return cut-off [dB] for losses stored from now on; >= cutoff
+    Db open(NodeId from, Db cutoff);
+    /// Path loss [dB] from the selected transmitter to `to`, which rests; null if it is not stored.
+    /// A loss above the result of open() is only a lower bound.
     const double* find(NodeId to) const {
         if (to.index() >= nodes_.size()) return nullptr;
         const Node& node = nodes_[to.index()];
@@ -53,46 +54,49 @@ class PairCache {
         const Pair& pair = pairs[node.place];
         return pair.version == node.version ? &pair.loss_db : nullptr;
     }
-    /// Empties the row, for so many pairs. @return false if that is more than there is room for
+    /// Removes the losses of the selected transmitter, and reserves space for `pairs` receivers.
+    /// @return false if there is not enough space
     bool renew(std::size_t pairs);
-    /// Adds a pair to the renewed row; `to` rests, and is not in the row.
+    /// Stores the loss [dB] from the selected transmitter to `to`, which must rest, after renew();
+    /// once.
     void keep(NodeId to, double loss_db);
 
-    /// Pairs that there is memory for now.
+    /// Number of pairs for which memory is allocated.
     std::size_t pairs() const { return pairs_; }
 
   private:
     // Receiver in a row, and the loss to it.
     struct Pair {
         NodeId to;
-        /// Version of the receiver's leg at that time.
+        /// Number of the receiver's leg for which the loss was computed.
         std::uint32_t version;
         double loss_db;
     };
-    // Row of a node as transmitter, and its state as receiver.
+    // Row of a node as a transmitter, and its state as a receiver.
     struct Node {
-        /// Number of its legs so far.
+        /// Number of legs of the node so far.
         std::uint32_t version = 0;
-        /// Place in the open row, if it is the node that is there.
+        /// Index of the node among the receivers of the selected transmitter, if that receiver is
+        /// this node.
         std::uint32_t place = 0;
         std::vector<Pair> pairs = {};
-        /// Cut-off at which the losses of the row may have been given up.
-        Db give_up{};
+        /// Cut-off [dB] of the losses from this transmitter: larger losses are only lower bounds.
+        Db cutoff{};
     };
 
-    // Discards the row of a node, and makes its losses in other rows void.
+    // Discards the row of a node, and invalidates its losses in other rows.
     void forget(NodeId node);
-    // Gives back the memory of a row.
+    // Frees the memory of a row.
     void release(Node& node);
-    // Makes room for what is known of a node.
+    // Allocates the state of a node.
     void make_room(NodeId node);
 
-    // Pairs that it may hold, and that it has memory for.
+    // Largest number of pairs, and number of pairs with memory.
     std::size_t most_pairs_;
     std::size_t pairs_ = 0;
-    // Transmitter that the cache is open for.
+    // Transmitter selected by open().
     NodeId from_{};
-    // Rows by node, up to the last that has one or was moved.
+    // Rows by node, as long as needed for the last node that has one or moved.
     std::vector<Node> nodes_;
 };
 

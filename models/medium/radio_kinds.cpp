@@ -7,10 +7,10 @@
 namespace rovernet {
 namespace {
 
-/// More kinds of radios than this are not compared with each other for being alike.
+/// Largest number of kinds that are compared with a new radio.
 constexpr std::size_t most_compared = 64;
 
-/// The place of `value` in `list`, added if it is not there yet.
+/// Index of `value` in `list`; the value is appended if it is missing.
 template <class T>
 std::uint32_t number_of(std::vector<T>& list, const T& value) {
     const auto found = std::find(list.begin(), list.end(), value);
@@ -60,7 +60,7 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
     heights_matter_ = heights_matter_ || propagation.is_bounded_by_height();
     directional_ = directional_ || radio.is_directional();
     varies_ = varies_ || directional_;
-    // All match as long as all have the same network, or none is gated.
+    // All match while all have the same network, or none is gated.
     const bool gated = kinds_.back().membership.gated;
     gated_ = gated_ || (gated && (essids_.size() > 2 || channels_.size() > 1));
     const Radio sender{.power = Dbm{0}, .antenna_gain = Db{0}, .cable_loss = Db{0}};
@@ -110,7 +110,7 @@ double RadioKinds::squared_reach(Kind from, Strength strength) {
     return reach2;
 }
 
-/// For what a kind needs to know of each of the others.
+/// Extends the lists of a kind for all other kinds.
 void RadioKinds::make_room(Kind from) {
     Alike& mine = kinds_[from];
     mine.prepared_for = kinds_.size();

@@ -4,12 +4,12 @@
 #include "models/medium/medium.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace rovernet {
 namespace {
 
-/// Stays where it is until its leg is replaced, with its antenna in one direction if that counts.
+/// Whether the node rests until its leg is replaced, with a constant antenna direction if that
+/// matters.
 bool rests(const Leg& leg, bool by_heading) {
     return leg.velocity == Vec3{} && leg.from == leg.to && !(by_heading && leg.turning != 0);
 }
@@ -82,7 +82,7 @@ void Reachability::search(const Now& now) {
     }
 }
 
-/// Reaches nodes by the links that reached them last, as far as those are up.
+/// Marks nodes reached by their stored links, if these are still up.
 void Reachability::follow_parents(const Now& now) {
     for (NodeId n{0}; n.index() < parents_.size(); ++n.value) {
         path_.clear();
@@ -100,7 +100,7 @@ void Reachability::follow_parents(const Now& now) {
     }
 }
 
-/// Makes open_ the nodes that are on and not reached.
+/// Lists the nodes that are on and not reached in open_.
 void Reachability::list_open(const Now& now) {
     open_.clear();
     for (NodeId n{0}; n.index() < parents_.size(); ++n.value) {
@@ -108,12 +108,12 @@ void Reachability::list_open(const Now& now) {
     }
 }
 
-/// Reaches those that hear a node that is reached.
+/// Marks the nodes that hear a reached node.
 void Reachability::expand(const Now& now, NodeId node) {
     ++searches_;
     const auto take = [&](NodeId to) {
         if (state(to) == State::reached) return;
-        // A robot that the sender reaches keeps its other parent: that link may last longer.
+        // A robot reached by the sender keeps its other parent, because that link may last longer.
         if (node != now.from || parents_[to.index()] == to) parents_[to.index()] = node;
         reach(to);
     };
@@ -129,8 +129,8 @@ void Reachability::expand(const Now& now, NodeId node) {
     }
 }
 
-/// Looks from the nodes that are not reached, where links go both ways: a part of the network that
-/// hears nobody who is reached is cut off.
+/// Searches from nodes that are not reached, if all links are bidirectional: a component that hears
+/// no reached node is not reachable.
 void Reachability::look_back(const Now& now) {
     for (const NodeId first : open_) {
         if (state(first) == State::reached || state(first) == State::cut) continue;
@@ -157,7 +157,7 @@ void Reachability::look_back(const Now& now) {
     }
 }
 
-/// `reached` reaches `node`: turns the links from `first` to it around.
+/// Makes `reached` the parent of `node`, and reverses the stored links from `first` to `node`.
 void Reachability::join(NodeId reached, NodeId node, NodeId first) {
     NodeId parent = reached;
     for (;;) {

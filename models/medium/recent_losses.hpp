@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -15,31 +14,31 @@ namespace rovernet {
 
 class Scene;
 
-/// Losses that were computed last, one for each pair of a sender and a receiver: who judges a frame
-/// when it has ended needs the losses with which its receivers were found when it began.
+/// Cache of the last path losses, one for each pair of sender and receiver: a frame is judged at
+/// its end with the losses computed in the search for its receivers at its start.
 ///
-/// It holds 1024 pairs; of two that share a slot the later one. A loss is found again for the same
-/// places to the last bit in the same scene, so that it is what the model would answer.
+/// It stores up to 1024 pairs; if two pairs share a slot, the later one is kept. A loss is found
+/// only for exactly the same positions in the same scene, so it equals the model's result.
 class RecentLosses {
   public:
     /// Link from one antenna to another.
     struct Link {
         NodeId from, to;
-        Vec3 here, there;              ///< antennas [m]
-        const Scene* scene = nullptr;  ///< scene between them
+        Vec3 here, there;              ///< positions of both antennas [m]
+        const Scene* scene = nullptr;  ///< scene with the walls between the antennas
         friend bool operator==(const Link&, const Link&) = default;
     };
 
-    /// Takes note of a loss [dB]; above `give_up` it says no more than that.
-    void keep(const Link& link, Db give_up, double loss_db) {
+    /// Stores the path loss [dB] of a link; a value above `cutoff` is only a lower bound.
+    void keep(const Link& link, Db cutoff, double loss_db) {
         if (!slots_) slots_ = std::make_unique<Slots>();
-        (*slots_)[slot(link)] = {link, give_up.value, loss_db};
+        (*slots_)[slot(link)] = {link, cutoff.value, loss_db};
     }
-    /// Loss [dB] of the link, if it is known; above `give_up` it says no more than that.
-    std::optional<double> find(const Link& link, Db give_up) const {
+    /// Path loss [dB] of the link, if it is stored; a value above `cutoff` is only a lower bound.
+    std::optional<double> find(const Link& link, Db cutoff) const {
         if (!slots_) return std::nullopt;
         const Known& known = (*slots_)[slot(link)];
-        const bool tells = known.loss_db <= known.give_up || give_up.value <= known.give_up;
+        const bool tells = known.loss_db <= known.cutoff || cutoff.value <= known.cutoff;
         return tells && known.link == link ? std::optional(known.loss_db) : std::nullopt;
     }
 
@@ -47,7 +46,7 @@ class RecentLosses {
     static constexpr std::size_t size = 1024;
     struct Known {
         Link link{};
-        double give_up = 0, loss_db = 0;  // [dB]
+        double cutoff = 0, loss_db = 0;  // [dB]
     };
     using Slots = std::array<Known, size>;
     static std::size_t slot(const Link& link) {

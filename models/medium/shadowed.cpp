@@ -38,8 +38,8 @@ Shadowed Shadowed::median() const {
     return median;
 }
 
-void Shadowed::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
-    base_.loss(links, give_up + most(), out_db);
+void Shadowed::loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
+    base_.loss(links, cutoff + most(), out_db);
     constexpr double cut = Shadowing::cut_sigmas;
     for (std::size_t i = 0; i < out_db.size(); ++i) {
         const double x =

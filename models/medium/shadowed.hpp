@@ -2,7 +2,7 @@
 #pragma once
 
 #include "models/propagation/propagation.hpp"
-#include "models/variation/shadowing.hpp"
+#include "models/variation/shadowing_field.hpp"
 #include "sim/random.hpp"
 #include "sim/units.hpp"
 
@@ -13,39 +13,43 @@
 
 namespace rovernet {
 
-/// Propagation model with shadowing over it: L = max(0, L_model + X), see Shadowing. Medium makes
-/// one of each model that it is given if its settings have shadowing; whoever asks for a loss then
-/// gets it with X.
+/// Propagation model with added shadowing: L = max(0, L_model + X), see Shadowing. Medium makes one
+/// from each of its models if its settings have shadowing with sigma > 0; all losses then include
+/// X.
 ///
 ///   const Propagation model = Shadowed(Friis{}, {.model = ShadowingModel::link}, seed, 0);
 class Shadowed {
   public:
     static constexpr std::string_view name = "shadowed";
 
-    /// @param base  model without a random part of its own
-    /// @throws std::invalid_argument if it has one, or a setting is out of its range
+    /// @param base  model without a random part
+    /// @throws std::invalid_argument if it has a random part, or a setting is out of its range
     Shadowed(Propagation base, const Shadowing& shadowing, std::uint64_t seed,
              std::uint32_t replication);
 
-    /// Model without the shadowing.
+    /// Propagation model without the shadowing.
     const Propagation& base() const { return base_; }
+    const Shadowing& shadowing() const { return shadowing_; }
 
     /// Fills out_db[i] [dB] for the i-th receiver.
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
-    /// Distance [m] beyond which the loss is more than `loss`, with the luckiest X.
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
+    /// Distance [m] beyond which the loss is more than `loss`, even for the most favourable
+    /// shadowing.
     Meters reach(Db loss, Hertz frequency, Meters highest) const {
         return base_.reach(loss + most(), frequency, highest);
     }
     void check_frequency(Hertz frequency) const { base_.check_frequency(frequency); }
     void check_scene(const Scene& scene) const { base_.check_scene(scene); }
-    /// Shape of the base, for each pair of robots; with a field: unknown.
+    /// Shape of the loss: by_pair if the base's is by_distance, otherwise the base's; `unknown`
+    /// with a shadowing field.
     LossShape shape() const;
-    /// Model without draws of pairs. A field stays: it is the same for all robots.
+    /// Model without the shadowing of pairs of robots. A shadowing field remains, because it is the
+    /// same for all robots.
     Shadowed median() const;
     bool is_random() const { return !field_ && shadowing_.sigma > Db{0}; }
 
   private:
-    // Most that X takes off a loss, and a hair for rounding.
+    // Largest reduction of a loss by X, plus a margin for rounding.
     Db most() const { return {Shadowing::cut_sigmas * shadowing_.sigma.value + 1e-9}; }
 
     Propagation base_;

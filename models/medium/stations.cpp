@@ -17,7 +17,8 @@ Stations::Stations(const MediumSettings& settings, std::optional<Db> most_fade)
 }
 
 Propagation Stations::shadowed(const Propagation& model) {
-    if (shadowing_.model == ShadowingModel::none || model.as<Shadowed>()) return model;
+    const bool is_none = shadowing_.model == ShadowingModel::none || shadowing_.sigma.value == 0;
+    if (is_none || model.as<Shadowed>()) return model;
     for (const auto& [plain, with_shadowing] : shadowed_) {
         if (plain == model) return with_shadowing;
     }
@@ -64,8 +65,7 @@ Pose Stations::pose(NodeId node, Time t, const Legs& legs) const {
     return {antenna(node, t, legs), Radians{legs.leg(node).heading_at(t)}};
 }
 
-/// Takes note of how high the antennas of nodes `begin` to `end` get on their legs, if heights
-/// matter.
+/// Updates the largest antenna height for the legs of nodes `begin` to `end`, if heights matter.
 void Stations::measure(std::size_t begin, std::size_t end, const Legs& legs) {
     if (!kinds_.heights_matter()) return;
     for (std::size_t i = begin; i < end; ++i) {

@@ -20,10 +20,10 @@
 
 namespace rovernet {
 
-/// Stations of a medium, by node: the radio of each, the model of what it transmits, and whether it
-/// is on. Where they stand is in Legs.
+/// Stations of a medium, by node: radio, propagation model of its transmissions, and on/off state.
+/// Positions are in Legs.
 class Stations {
-    // Node: its radio, its kind, and whether it is on.
+    // Node with its radio, its kind, and its on/off state.
     struct Station {
         // Index into radios_.
         std::uint32_t radio;
@@ -34,17 +34,17 @@ class Stations {
   public:
     using Kind = RadioKinds::Kind;
 
-    /// Makes an empty list. `most_fade` is the gain of the luckiest fade; none: frames do not fade.
-    /// @throws std::invalid_argument if the settings' shadowing has a parameter out of its range
+    /// Creates an empty list. `most_fade` is the largest gain by fading; empty: frames do not fade.
+    /// @throws std::invalid_argument if a shadowing parameter of the settings is out of its range
     Stations(const MediumSettings& settings, std::optional<Db> most_fade);
 
     /// Adds the next node. @return its kind
-    /// @param key          of the robot, for random draws
-    /// @param propagation  model of what it transmits; with the shadowing of the settings over it
+    /// @param key          key of the robot, for random draws
+    /// @param propagation  model of its transmissions; shadowing of the settings is added
     /// @throws std::invalid_argument if a radio parameter is out of its range, or the model cannot
     /// work at the radio's frequency
     Kind add(const Radio& radio, std::uint64_t key, const Propagation& propagation);
-    /// Makes room for `nodes` nodes.
+    /// Reserves memory for `nodes` nodes.
     void reserve(std::size_t nodes) { keys_.reserve(nodes); }
     /// Number of nodes.
     std::size_t size() const { return keys_.size(); }
@@ -55,35 +55,35 @@ class Stations {
     void switch_radio(NodeId node, bool on);
     /// Whether a node's radio is on.
     bool is_on(NodeId node) const { return all_are_on() || stations_[node.index()].on; }
-    /// Whether no node is off.
+    /// Whether all nodes are on.
     bool all_are_on() const { return off_ == 0; }
     /// Number of nodes that are on.
     std::size_t on() const { return keys_.size() - off_; }
 
-    /// Whether all are of one kind, with antennas that have no direction: links go both ways then.
+    /// Whether all stations are of one kind, with isotropic antennas: all links are then
+    /// bidirectional.
     bool all_are_alike() const { return kinds_.size() == 1 && !is_directional(); }
-    /// Whether some antenna is directional: then headings count.
+    /// Whether any antenna is directional, so that headings affect links.
     bool is_directional() const { return kinds_.is_directional(); }
-    /// Kind of a node; where all are alike, without a look at the station.
+    /// Kind of a node; read without memory access if all nodes are of one kind.
     Kind kind(NodeId node) const {
         return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
     }
-    /// What the stations of a kind have in common; it computes more when it is asked.
+    /// Data that all stations of a kind share; some of it is computed on first use.
     const RadioKinds& kinds() const { return kinds_; }
     RadioKinds& kinds() { return kinds_; }
 
-    /// Key of the robot, as add() was given it.
+    /// Key of the robot, as passed to add().
     std::uint64_t key(NodeId node) const { return keys_[node.index()]; }
     /// Radio of a node, with its labels and addresses.
     const Radio& radio(NodeId node) const {
         return radios_.size() == 1 ? radios_.front() : radios_[stations_[node.index()].radio];
     }
-    /// Model that rules what `node` transmits.
+    /// Propagation model of transmissions of `node`.
     const Propagation& model(NodeId node) const { return kinds_.model(kind(node)); }
     /// Noise floor of a node's receiver [dBm].
     Dbm noise(NodeId node) const { return kinds_.noise(kind(node)); }
-    /// Whether the gates of both let them have a link: one of them is open, or they share a
-    /// network.
+    /// Whether the gates of both nodes allow a link: one of them is open, or they share a network.
     bool may_link(NodeId a, NodeId b) const { return kinds_.may_link(kind(a), kind(b)); }
 
     /// Height of a node's antenna above the robot's z [m].
@@ -98,16 +98,16 @@ class Stations {
             return std::pair{pose(from, t, legs), pose(to, t, legs)};
         });
     }
-    /// Takes note of how high the antenna of `node` gets on its leg, if heights matter and
-    /// measure() has looked at it before.
+    /// Updates the largest antenna height for a new leg of `node`, if heights matter and measure()
+    /// has included the node before.
     void moved(NodeId node, const Legs& legs) {
         if (node.index() < measured_) measure(node.index(), node.index() + 1, legs);
     }
-    /// Takes note of the heights of all that were added since it was called last: to be called
-    /// before the reach of a kind is asked for.
+    /// Updates the largest antenna height for all nodes added since the last call; must be called
+    /// before the reach of a kind is queried.
     void measure(const Legs& legs) { measure(measured_, keys_.size(), legs); }
 
-    /// Switches of all nodes as they are now, in two words: for loops that write to memory.
+    /// On/off states of all nodes through one stored pointer, for loops that write to memory.
     class Switches {
       public:
         explicit Switches(const Stations& stations)
@@ -119,28 +119,28 @@ class Stations {
     };
 
   private:
-    // Lists the stations that are not listed yet: they are as the first one, and on.
+    // Creates the list of stations, which all equal the first one so far and are on.
     void list_stations();
-    // Model with the shadowing of the settings over it; the same for copies of one handle.
+    // Model with the shadowing of the settings; copies of one handle share the result.
     Propagation shadowed(const Propagation& model);
     void measure(std::size_t begin, std::size_t end, const Legs& legs);
 
-    // Shadowing over all models, and the draws of this run.
+    // Shadowing of all models; below it seed and replication of its draws.
     Shadowing shadowing_;
     std::uint64_t seed_;
     std::uint32_t replication_;
     // Keys of robots, by node.
     std::vector<std::uint64_t> keys_;
-    // Stations by node; none as long as all are alike and on.
+    // Stations by node; empty while all are equal and on.
     std::vector<Station> stations_;
-    // Radios that differ.
+    // Distinct radios.
     std::vector<Radio> radios_;
-    // Nodes that are off.
+    // Number of nodes that are off.
     std::size_t off_ = 0;
     RadioKinds kinds_;
-    // Models as they were given, and with shadowing, if there is some.
+    // Models as given, and with added shadowing, if there is any.
     std::vector<std::pair<Propagation, Propagation>> shadowed_;
-    // Nodes whose heights the kinds know, if heights matter.
+    // Number of nodes included in the largest antenna height.
     std::size_t measured_ = 0;
 };
 

@@ -3,22 +3,21 @@
 
 namespace rovernet {
 
-/// Strength of a signal: what it is strong enough for, strongest first.
+/// Strength of a signal at a station, by its effect there; strongest first.
 ///
-/// - decodable: its frame is received, if nothing interferes
+/// - decodable: the frame is received, without interference
 /// - detectable: the station senses that the medium is busy
-/// - interfering: it interferes with other frames
+/// - interfering: the frame interferes with other frames
 enum class Strength { decodable, detectable, interfering };
 
-/// Way in which it is decided for whom a signal is strong enough: the cheapest that its model
-/// allows. All three agree with the loss to the last bit; they differ in what a look at a pair
-/// costs.
+/// Method by which the receivers of a signal are determined: the fastest that its model allows. All
+/// three give exactly the same result as the loss; they differ in the time for a pair.
 enum class Decision {
-    /// By the distance alone.
+    /// Receivers are determined by distance alone.
     by_range,
-    /// By the distance and a draw of the pair.
+    /// Receivers are determined by distance and the shadowing draw of the pair.
     by_table,
-    /// By asking the model for the loss.
+    /// Receivers are determined by the loss that the model computes.
     by_loss,
 };
 

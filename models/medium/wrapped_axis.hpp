@@ -6,23 +6,23 @@
 #include <cstddef>
 #include <cstdint>
 
-// Grids of bounded memory over an unbounded plane:
+// Axis of a grid with bounded memory over an unbounded plane:
 //
 //     const WrappedAxis axis(100, 64);          // 64 cells of 100 m
-//     axis.cell_at(50) == axis.cell_at(6450);   // one round further
+//     axis.cell_at(50) == axis.cell_at(6450);   // one period of 6400 m further
 //     axis.near(10, 150).count() == 4;          // cells from -140 m to 160 m
 
 namespace rovernet {
 
-/// Axis of a grid whose cells wrap around: a fixed number of cells of equal width serves the whole
-/// line, cell c standing for every interval c, c + cells, c + 2 cells ...
+/// Axis of a grid whose cells wrap around: a fixed number of cells of equal width covers the whole
+/// line; cell c represents the intervals c, c + cells, c + 2 cells ...
 ///
-/// So a grid needs no bounds and never grows, wherever robots go. Intervals that are far apart may
-/// share a cell: a query has to check what it finds. Two axes make a grid, as in the index of the
-/// medium (NeighbourIndex) and that of the frames on air (OnAir).
+/// So a grid needs no bounds and never grows, wherever robots move. Distant intervals may share a
+/// cell: a query has to check its results. Two axes form a grid, as in the index of the medium
+/// (NeighbourIndex) and in the index of frames on air (OnAir).
 class WrappedAxis {
   public:
-    /// @param width  of a cell [m], > 0
+    /// @param width  width of a cell [m], > 0
     /// @param cells  number of cells, > 0
     explicit WrappedAxis(double width = 1, std::size_t cells = 1)
         : width_(width), per_meter_(1 / width), cells_(cells) {}
@@ -32,26 +32,26 @@ class WrappedAxis {
     /// Number of cells.
     std::size_t cells() const { return cells_; }
 
-    /// Cell of the coordinate `x` [m], 0 ... cells() - 1.
+    /// Cell of the coordinate `x` [m], in 0 ... cells() - 1.
     std::size_t cell_at(double x) const { return wrapped(unwrapped(x)); }
 
-    /// Cells of a query: one row [begin, end), and a second one [0, wrapped_end) where they wrap
-    /// around.
+    /// Cells of a query: one range [begin, end), and a second one [0, wrapped_end) if the cells
+    /// wrap around.
     struct Cells {
         std::size_t begin, end, wrapped_end;
 
-        /// Number of cells, in both rows.
+        /// Number of cells in both ranges.
         std::size_t count() const { return end - begin + wrapped_end; }
-        /// Calls use(begin, end) for each row that has cells.
+        /// Calls use(begin, end) for each range that is not empty.
         template <class Use>
         void each(Use use) const {
             use(begin, end);
             if (wrapped_end > 0) use(std::size_t{0}, wrapped_end);
         }
     };
-    /// Cells that may hold coordinates from `centre` - `reach` to `centre` + `reach` [m], each
-    /// once; `reach` may be infinite. A margin for rounding is added, so that none is missed. A
-    /// range longer than the axis is all cells, once.
+    /// Cells for coordinates from `centre` - `reach` to `centre` + `reach` [m], each cell once;
+    /// `reach` may be infinite. A margin for rounding is added, so that no cell is missed. An
+    /// interval longer than the axis gives all cells.
     Cells near(double centre, double reach) const {
         const double rounding = 1e-9 * (std::abs(centre) + reach);
         const std::int64_t first = unwrapped(centre - reach - rounding);
@@ -62,17 +62,17 @@ class WrappedAxis {
     }
 
   private:
-    // Number of cells from the origin [cells] from which on all positions share the last cell.
+    // Distance from the origin [cells] beyond which all positions share the last cell.
     static constexpr double far = 1e15;
 
-    // Number of the interval that `x` [m] lies in, counted from the origin.
+    // Number of the interval that contains `x` [m], counted from the origin.
     std::int64_t unwrapped(double x) const {
         return static_cast<std::int64_t>(std::floor(std::min(far, std::max(-far, x * per_meter_))));
     }
-    // Cell that stands for an interval.
+    // Cell of an interval.
     std::size_t wrapped(std::int64_t cell) const {
         const auto n = static_cast<std::int64_t>(cells_);
-        // Most intervals are their own cell: a division would take longer than all else here.
+        // Most intervals need no division, which would take longer than all other work here.
         const std::int64_t rest = cell >= 0 && cell < n ? cell : cell % n;
         return static_cast<std::size_t>(rest < 0 ? rest + n : rest);
     }

@@ -26,9 +26,9 @@ double dqpsk(double S) {
     return scale / std::sqrt(x) * math::exp(-two_minus_root * x);
 }
 
-// P / erfc(b / 2) in three pieces of b, -1 ... 1 from end to end; Chebyshev, relative error 4e-12.
-// It goes to 7, for 14 neighbours that each win with erfc(b / 2) / 2, and is there to 2e-15 at b
-// = 21.
+// Approximation of P / erfc(b / 2) in three pieces of b, -1 ... 1 from end to end; Chebyshev,
+// relative error 4e-12. It tends to 7, for 14 neighbours that each win with erfc(b / 2) / 2, and
+// equals it to 2e-15 at b = 21.
 constexpr double piece_1 = 6, piece_2 = 12, piece_3 = 21;
 constexpr std::array<double, 21> error_over_erfc_0_to_6{
     0x1.ec7a8cb4a3448p+1,  0x1.0437aa313238dp+2,  -0x1.a75dce157421dp-4,  -0x1.bdef9ea12e268p+0,
@@ -56,17 +56,17 @@ double error_over_erfc(double b) {
     return 7;
 }
 
-// Of 16 bi-orthogonal signals with b^2 = Es / N0.
+// Symbol error probability of 16 bi-orthogonal signals with b^2 = Es / N0.
 double symbol_error(double b) { return error_over_erfc(b) * math::erfc(b / 2); }
 
-// log of the probability that one of the 4 bits of a symbol is right.
+// Logarithm of the probability that one of the 4 bits of a symbol is right.
 double log_bit_success(double b) { return math::log1p(-symbol_error(b)) / 4; }
 
 double cck_log_success(Modulation modulation, double S) {
     return log_bit_success(std::sqrt((modulation == Modulation::cck_11 ? 8 : 16) * S));
 }
 
-// An error in a share of an uncoded symbol's bits: share / 2 erfc(sqrt(S / spread)).
+// Bit error probability of an uncoded constellation: share / 2 erfc(sqrt(S / spread)).
 struct Constellation {
     double spread;
     double share;
@@ -80,8 +80,8 @@ double uncoded(const Constellation& c, double S) {
     return 0.5 * c.share * math::erfc(std::sqrt(S / c.spread));
 }
 
-// Wrong bits on all wrong paths of weight d, d + step, d + 2 step ... over 2 k, where k bits enter
-// the code at a time. The last 0 of two of them makes their number odd.
+// Numbers of wrong bits on all wrong paths of weight d, d + step, d + 2 step ..., divided by 2 k,
+// where k bits enter the code at a time. The last 0 in two of the lists makes their length odd.
 constexpr std::array<double, 9> weights_1_2{36 / 2.0,      211 / 2.0,      1404 / 2.0,
                                             11633 / 2.0,   77433 / 2.0,    502690 / 2.0,
                                             3322763 / 2.0, 21292910 / 2.0, 134365911 / 2.0};
@@ -100,7 +100,7 @@ constexpr std::array<double, 11> weights_3_4{42 / 6.0,
                                              428005675 / 6.0,
                                              0};
 
-// D^2 for the uncoded bit error p.
+// Squared D for the uncoded bit error probability p.
 double squared_bhattacharyya(double p) { return 4 * p * (1 - p); }
 
 double rate_1_2(double p) {
@@ -120,7 +120,7 @@ double rate_3_4(double p) {
     return D2 * D2 * D * math::polynomial(weights_3_4, D);
 }
 
-// May be above 1.
+// Bit error rate by the equations; may be above 1.
 double unclamped(Modulation modulation, double S) {
     switch (modulation) {
         case Modulation::dsss_1: return dbpsk(S);
@@ -149,10 +149,6 @@ std::optional<Modulation> modulation_of(BitRate rate) {
     return static_cast<Modulation>(found - all_rates.begin());
 }
 
-Hertz bandwidth_of(Modulation modulation) {
-    return modulation < Modulation::ofdm_6 ? Hertz{22e6} : Hertz{20e6};
-}
-
 double bit_error_rate(Modulation modulation, double sinr) {
     if (!(sinr > 0)) return guess;
     return std::min(unclamped(modulation, sinr), guess);
@@ -166,7 +162,7 @@ double log_success(Modulation modulation, double sinr) {
 
 Db certain_sinr(Modulation modulation) {
     constexpr double most_bits = 8 * 0x1p32;
-    // So much less than 1 rounds to 1.
+    // A value that is below 1 by this rounds to 1.
     constexpr double nothing = -0x1p-55;
     static const auto certain = [] {
         std::array<Db, all_rates.size()> out;
@@ -186,6 +182,5 @@ Db certain_sinr(Modulation modulation) {
 }
 
 double success(double log_success_sum) { return math::exp(log_success_sum); }
-double frame_error_rate(double log_success_sum) { return -math::expm1(log_success_sum); }
 
 }  // namespace rovernet

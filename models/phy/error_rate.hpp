@@ -7,13 +7,13 @@
 #include <optional>
 #include <span>
 
-// Error rates of IEEE 802.11b, a and g. The physical layer Wifi is made of them. A frame of n bits
-// at one ratio gets through with probability success(n log_success(modulation, sinr)).
+// Error rates of IEEE 802.11b, a and g, used by the physical layer Wifi. A frame of n bits at a
+// constant ratio is received with probability success(n log_success(modulation, sinr)).
 
 namespace rovernet {
 
-/// Modulation and coding of IEEE 802.11, named after its bit rate [Mb/s]: of 802.11b, 22 MHz wide,
-/// and of 802.11a and g, 20 MHz wide.
+/// Modulation and coding of IEEE 802.11, named after its bit rate [Mb/s]: 802.11b with 22 MHz
+/// bandwidth, and 802.11a and g with 20 MHz.
 enum class Modulation : std::uint8_t {
     /// DBPSK, Barker sequence.
     dsss_1,
@@ -44,17 +44,14 @@ enum class Modulation : std::uint8_t {
 /// Bit rates [bit/s] of the modulations, in their order.
 std::span<const BitRate> modulated_rates();
 /// Modulation of a bit rate: 1, 2, 5.5, 11 Mb/s are DSSS and CCK; 6, 9, 12, 18, 24, 36, 48, 54 Mb/s
-/// are OFDM; nothing for other rates.
+/// are OFDM; empty for other rates.
 std::optional<Modulation> modulation_of(BitRate rate);
 
-/// Bandwidth [Hz] of its receiver, in which noise and interference count: 22 or 20 MHz.
-Hertz bandwidth_of(Modulation modulation);
-
-/// Probability that a bit is wrong behind white Gaussian noise, 0 ... 0.5; relative error against
-/// its equation below 1e-10.
+/// Bit error probability in white Gaussian noise, 0 ... 0.5; relative error of the computation
+/// below 1e-10.
 ///
-/// Never above 0.5, the error of a guess: the equations of DSSS 2 and OFDM pass it at low S, where
-/// they are no longer valid. Bits are independent, and S holds for all of them: no fading within.
+/// Limited to 0.5, the error of a guess: the equations of DSSS 2 and OFDM exceed it at low S, where
+/// they are not valid. Bits are independent and have the same S: no fading within a frame.
 /// DSSS 1: e^(-22 S) / 2. J. G. Proakis, Digital Communications, 4th ed., eq. 5.2-69.
 /// DSSS 2: (sqrt 2 + 1) / sqrt(8 pi sqrt 2 x) e^(-(2 - sqrt 2) x) with x = 11 S. G. Ferrari and
 ///   G. E. Corazza, Electronics Letters 40(20), 2004, eq. 8.
@@ -71,20 +68,17 @@ Hertz bandwidth_of(Modulation modulation);
 ///   IEEE Comm. Letters 3(11), 1999, for rate 1/2; D. Haccoun and G. Begin, IEEE Trans. Comm.
 ///   37(11), 1989, for 2/3 and 3/4.
 ///
-/// @param  sinr  S, signal over interference and noise [-] in bandwidth_of(modulation); the result
-///               is 0.5 unless it is > 0
+/// @param  sinr  S, signal over interference and noise [-] in the receiver's bandwidth: 22 MHz for
+///               DSSS and CCK, 20 MHz for OFDM; the result is 0.5 unless it is > 0
 double bit_error_rate(Modulation modulation, double sinr);
 
-/// Natural logarithm of the probability that a bit is right, log(0.5) ... 0. It adds up over bits
-/// and over chunks of different sinr, and keeps its digits where the bit error rate is below 1e-16.
+/// Natural logarithm of the probability that a bit is right, log(0.5) ... 0. It can be summed over
+/// bits and over chunks of different sinr, and is accurate for bit error rates below 1e-16.
 double log_success(Modulation modulation, double sinr);
 
-/// Signal to noise ratio [dB] from which on the success() of any number of bits up to 2^35 is 1.
+/// Smallest signal to noise ratio [dB] at which success() is 1 for any number of bits up to 2^35.
 Db certain_sinr(Modulation modulation);
 
-/// Probability that all bits are right, from the sum of their log_success: e to its power.
+/// Probability that all bits are right, from the sum of their log_success: e^sum.
 double success(double log_success_sum);
-/// Probability that some bit is wrong: 1 - success, with all its digits.
-double frame_error_rate(double log_success_sum);
-
 }  // namespace rovernet

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <utility>
 
-// The port of physical layers: what bits cost on air. The access model chooses one for its frames;
-// the MAC asks it for airtimes, reception model "sinr" for error rates. A layer in which no bit is
-// ever wrong:
+// Interface of physical layers: airtimes and bit error rates. The access model chooses one for its
+// frames; the MAC uses it for airtimes, reception model "sinr" for error rates. A layer without bit
+// errors:
 //
 //     struct Ideal {
 //         static constexpr std::string_view name = "ideal";
@@ -30,18 +30,18 @@
 
 namespace rovernet {
 
-/// Modulation and coding: its number among those of a physical layer.
+/// Modulation and coding, as a number within a physical layer.
 enum class Coding : std::uint8_t {};
 
-/// Physical layer: how long frames are on air, and how likely their bits are right. A plain struct
-/// whose functions are pure.
+/// Physical layer: airtimes of frames, and probabilities that their bits are right. A plain struct
+/// with pure functions.
 ///
-/// - `airtime(preamble, rate, bytes)`: time [ns] that `bytes` are on air behind a preamble [ns]
-/// - `rates()`: bit rates [bit/s] whose error rates are known
-/// - `coding(rate)`: the coding of such a rate; nothing for another rate
-/// - `log_success(coding, sinr)`: natural logarithm of the probability that a bit is right, at this
-///   ratio of signal to interference and noise [-], which holds for the whole bit
-/// - `certain_sinr(coding)`: from this ratio on, a frame of any length is right
+/// - `airtime(preamble, rate, bytes)`: time on air [ns] of a preamble [ns] and `bytes`
+/// - `rates()`: bit rates [bit/s] with known error rates
+/// - `coding(rate)`: coding of such a rate; empty for another rate
+/// - `log_success(coding, sinr)`: natural logarithm of the probability that a bit is right, for a
+///   ratio of signal to interference and noise [-] that is constant during the bit
+/// - `certain_sinr(coding)`: smallest ratio [dB] at which a frame of any length is right
 template <class T>
 concept PhysicalLayer = std::copyable<T> &&
     requires(const T& phy, Duration preamble, BitRate rate, std::uint32_t bytes, Coding coding,
@@ -54,11 +54,11 @@ concept PhysicalLayer = std::copyable<T> &&
     { phy.certain_sinr(coding) } -> std::same_as<Db>;
 };
 
-/// Any physical layer, held by value and shared between its copies. Access::phy answers one; the
-/// channel and the judges of receptions get it from there.
+/// Physical layer of any type, stored by value and shared between copies. Access::phy returns one;
+/// the channel and the judges of receptions use it.
 class Phy {
   public:
-    /// Takes a layer of any type.
+    /// Stores a layer of any type.
     /// @throws std::invalid_argument if a parameter is out of its range
     template <class T>
     requires(!std::same_as<T, Phy> && PhysicalLayer<T>) Phy(T phy)
@@ -66,24 +66,24 @@ class Phy {
 
     /// Name of the layer.
     std::string_view name() const { return self_->name(); }
-    /// Time [ns] that `bytes` are on air, the preamble included.
+    /// Time on air [ns] of `bytes`, including the preamble.
     Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const {
         return self_->airtime(preamble, rate, bytes);
     }
-    /// Bit rates [bit/s] whose error rates are known.
+    /// Bit rates [bit/s] with known error rates.
     std::span<const BitRate> rates() const { return self_->rates(); }
-    /// Coding of a rate; nothing if its error rates are not known.
+    /// Coding of a rate; empty if its error rates are not known.
     std::optional<Coding> coding(BitRate rate) const { return self_->coding(rate); }
-    /// Natural logarithm of the probability that a bit is right. Sums over bits, and over chunks of
-    /// different sinr [-], tell of frames.
+    /// Natural logarithm of the probability that a bit is right. For a frame, sum it over bits and
+    /// over chunks of different sinr [-].
     double log_success(Coding coding, double sinr) const {
         return self_->log_success(coding, sinr);
     }
-    /// Ratio [dB] from which on a frame of any length is right.
+    /// Smallest ratio [dB] at which a frame of any length is right.
     Db certain_sinr(Coding coding) const { return self_->certain_sinr(coding); }
 
   private:
-    // Functions of a layer, whatever its type.
+    // Functions of a layer of any type.
     struct Concept {
         virtual ~Concept() = default;
         virtual std::string_view name() const = 0;
@@ -93,7 +93,7 @@ class Phy {
         virtual double log_success(Coding, double) const = 0;
         virtual Db certain_sinr(Coding) const = 0;
     };
-    // Layer of a type, its parameters checked.
+    // Layer of type T, with checked parameters.
     template <class T>
     struct Holder final : Concept {
         explicit Holder(T p) : phy(std::move(p)) {

@@ -3,21 +3,21 @@
 
 #include "models/propagation/propagation_model.hpp"
 
-// The simplest propagation: geometry instead of physics.
+// Unit disc, the simplest propagation model: geometry without physics.
 
 namespace rovernet {
 
-/// Unit disc: 0 dB up to the range, the range itself included; 1000 dB beyond it.
+/// Unit disc: loss of 0 dB within the range, the range itself included, and 1000 dB beyond it.
 ///
-/// It is decided on distance, never on decibels. There are no levels: use it for geometry, not for
-/// margins, and not with reception model "sinr".
+/// A link is decided by distance, not by decibels. There are no signal levels: use it for geometry,
+/// not for link margins, and not with reception model "sinr".
 ///
-/// `rovernet loss disc range=50 --distance 50,51` prints 0 dB and 1000 dB.
+/// `rovernet loss disc range=50 --distance 50,51` prints "in range" and "out of range".
 ///
-/// Source: the 2007 thesis's "simple" model; link iff d <= range.
+/// Source: the 2007 thesis (docs/worlds.md), model "simple"; link iff d <= range.
 struct Disc {
     static constexpr std::string_view name = "disc";
-    /// Loss beyond the range [dB]: more than any radio overcomes.
+    /// Loss beyond the range [dB], larger than any link budget.
     static constexpr double outside_db = 1000;
 
     /// Radius of the disc [m], >= 0; there is no default.
@@ -35,7 +35,7 @@ struct Disc {
     }
 
     /// Fills out_db[i] [dB], 0 or outside_db, for the i-th receiver.
-    void loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+    void loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
         const double R2 = range.value * range.value;
         for (std::size_t i = 0; i < out_db.size(); ++i) {
             out_db[i] = squared_distance(links.from, links.to[i]) <= R2 ? 0 : outside_db;

@@ -12,21 +12,21 @@
 
 namespace rovernet {
 
-/// Floors between the antennas of a link. A floor costs either what its ceiling is made of, or what
-/// the model says, never both.
+/// Floors between the antennas of a link. The loss of a floor is either that of its ceiling's
+/// material or the model's, never both.
 struct FloorsBetween {
-    /// Floors that cost what the model says [-], a whole number.
+    /// Number of floors whose loss the propagation model determines [-], a whole number.
     double of_model = 0;
-    /// Loss of the others [dB].
+    /// Loss of the other floors, by the materials of their ceilings [dB].
     double loss_db = 0;
 };
 
-/// Counter of the floors of a batch's links. In a scene of several storeys they are its ceilings,
-/// whose losses are computed once; in another all are the model's, one every `floor_height`, if
-/// that is given, and a thousand at most.
+/// Counter of the floors crossed by a batch's links. In a scene of several storeys the floors are
+/// its ceilings, whose losses are computed once. In other scenes there is a floor every
+/// `floor_height`, if that is given, with the model's loss; at most 1000.
 class FloorCounter {
   public:
-    /// @param links  outlive this
+    /// @param links  batch of links; must outlive this
     explicit FloorCounter(const LinkBatch& links) : links_(links) {
         if (!links.scene) return;
         for (const Material& ceiling : links.scene->storeys().ceilings()) {
@@ -36,7 +36,7 @@ class FloorCounter {
         }
     }
 
-    /// Floors between the antennas of the i-th link.
+    /// Floors between the antennas of link i of the batch.
     FloorsBetween between(std::size_t i) const {
         const double here = links_.from.z, there = links_.to[i].z;
         FloorsBetween floors;
@@ -62,7 +62,7 @@ class FloorCounter {
     }
 
     const LinkBatch& links_;
-    // What each ceiling counts, from the lowest; none if there is one storey.
+    // Floors counted for each ceiling, from the lowest; empty if there is one storey.
     std::vector<FloorsBetween> ceilings_;
 };
 

@@ -15,8 +15,8 @@ namespace rovernet {
 ///
 ///   20 log10(4 pi d f / c)
 ///
-/// It is negative below d = c / (4 pi f), where it means nothing. Other models take it as their
-/// loss at a reference distance.
+/// It is negative below d = c / (4 pi f), where it is not valid. Other models use it as their loss
+/// at a reference distance.
 ///
 /// Source: H. T. Friis, A note on a simple transmission formula, Proc. IRE 34(5), 1946.
 inline double free_space_db(double d, Hertz f) {
@@ -25,9 +25,9 @@ inline double free_space_db(double d, Hertz f) {
 
 /// Free space (Friis):  L(d) = max(0, 20 log10(4 pi d f / c)), and 0 dB at d = 0.
 ///
-/// Valid in the far field, d > max(lambda, 2 D^2 / lambda), with nothing between or near the
-/// antennas. It leaves out ground, walls and every obstacle. The default model. At 2450 MHz
-/// `rovernet loss friis` prints
+/// Valid in the far field, d > max(lambda, 2 D^2 / lambda), without objects between or near the
+/// antennas. It neglects ground, walls and all obstacles. The default model. At 2450 MHz `rovernet
+/// loss friis` prints
 ///
 ///   1 m   40.23 dB
 ///   10 m  60.23 dB
@@ -46,7 +46,7 @@ struct Friis {
     }
 
     /// Fills out_db[i] [dB] for the i-th receiver.
-    void loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+    void loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
         for (std::size_t i = 0; i < out_db.size(); ++i) {
             out_db[i] = std::max(0.0, free_space_db(links.distance(i), links.frequency));
         }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace rovernet {
 namespace {
@@ -23,7 +22,7 @@ struct CoefficientRow {
     double N;
 };
 
-// ITU-R P.1238, table 2; ranges of frequency stand at their middle.
+// ITU-R P.1238, table 2; a range of frequencies is represented by its middle.
 constexpr std::array coefficients{
     CoefficientRow{Environment::residential, 1900, 28},
     CoefficientRow{Environment::residential, 2400, 28},
@@ -64,7 +63,7 @@ constexpr std::array floor_losses{
     FloorRow{Environment::commercial, 1900, by_formula, 6, 0, 0, 3},
 };
 
-/// Row of the environment that is nearest in log frequency; null if none is within widest_ratio.
+/// Row of the environment with the nearest frequency by ratio; null if none is within widest_ratio.
 template <class Row, std::size_t n>
 const Row* nearest_row(const std::array<Row, n>& rows, Environment environment, double mhz) {
     const Row* best = nullptr;
@@ -145,7 +144,7 @@ Meters ItuIndoor::reach(Db loss, Hertz f) const {
     return itu_indoor_reach(loss, f, coefficient_at(*this, f.value / 1e6));
 }
 
-void ItuIndoor::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+void ItuIndoor::loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
     const double mhz = links.frequency.value / 1e6;
     const double N = coefficient_at(*this, mhz);
     const auto* row = environment ? nearest_row(floor_losses, *environment, mhz) : nullptr;

@@ -28,7 +28,7 @@ const Row& row_of(Site site, bool clear) {
     return rows[static_cast<std::size_t>(site)][clear ? 0 : 1];
 }
 
-/// A row's loss over distance [m], whose part of the frequency is computed once.
+/// Loss of a row as a function of distance [m]; the frequency term is computed once.
 class Curve {
   public:
     Curve(const Row& row, Hertz f) : slope_(10 * row.a), at_1_m_(row.at_1_m(f)) {}
@@ -67,7 +67,7 @@ Meters ItuSiteGeneral::reach(Db loss, Hertz f) const {
     return reach;
 }
 
-void ItuSiteGeneral::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+void ItuSiteGeneral::loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
     const Curve clear(row_of(site, true), links.frequency);
     const Curve blocked(row_of(site, false), links.frequency);
     const auto is_clear = [&](Vec3 to) {

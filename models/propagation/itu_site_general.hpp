@@ -8,38 +8,38 @@
 
 namespace rovernet {
 
-/// Kind of indoor site in ITU-R P.1238-11: it gives the coefficients of the equation.
+/// Kind of indoor site in ITU-R P.1238-11, which determines the coefficients.
 enum class Site { office, corridor, industrial };
-/// Words of `site` in files.
+/// Names of the values of `site` in scenario files.
 template <>
 struct EnumNames<Site> {
     static constexpr std::array<std::string_view, 3> values = {"office", "corridor", "industrial"};
 };
 
-/// Line of sight between two antennas: whether it is clear of walls.
+/// Line of sight between two antennas: whether no wall obstructs it.
 enum class LineOfSight {
-    /// As the scene's walls say; clear on an open field.
+    /// From the scene's walls; always clear on an open field.
     map,
     yes,
     no,
 };
-/// Words of `los` in files.
+/// Names of the values of `los` in scenario files.
 template <>
 struct EnumNames<LineOfSight> {
     static constexpr std::array<std::string_view, 3> values = {"map", "yes", "no"};
 };
 
-/// Site-general path loss indoors [dB] after ITU-R P.1238-11, the median, held at its value at 1 m
-/// below, never negative:
+/// Site-general indoor path loss [dB] by ITU-R P.1238-11, the median; below 1 m it is fixed at its
+/// value at 1 m; never negative:
 ///
 ///   L(d) = 10 a log10 d + b + 10 g log10 f      (f in GHz, d in m)
 ///
-/// a, b and g are those of the kind of site, with and without line of sight. Valid for d of 2 to 27
-/// m (office; corridor 160 m, industrial 101 m), without line of sight from 4 m on, between
-/// terminals on one floor.
+/// a, b and g depend on the kind of site and on the line of sight. Valid for d from 2 to 27 m
+/// (office; corridor 160 m, industrial 101 m), without line of sight from 4 m on, between terminals
+/// on one floor.
 ///
-/// Walls are inside the coefficients: what stands in the way, a wall or a ceiling, only decides
-/// which row holds, so that the loss jumps where a wall comes between. The Recommendation's
+/// The coefficients include walls: a wall or a ceiling in the path only selects the row of the
+/// table, so the loss jumps when a wall obstructs the line of sight. The Recommendation's standard
 /// deviation of 3 to 9 dB is left to shadowing.
 ///
 /// In an office with line of sight, at 2450 MHz, `rovernet loss itu_site_general` prints
@@ -51,9 +51,9 @@ struct EnumNames<LineOfSight> {
 struct ItuSiteGeneral {
     static constexpr std::string_view name = "itu_site_general";
 
-    /// Kind of site.
+    /// Kind of indoor site, which selects the coefficients.
     Site site = Site::office;
-    /// Line of sight: looked up in the map, or given for all links.
+    /// Line of sight: from the map, or fixed for all links.
     LineOfSight los = LineOfSight::map;
 
     static constexpr auto fields() {
@@ -67,14 +67,14 @@ struct ItuSiteGeneral {
         return los == LineOfSight::map ? LossShape::unknown : LossShape::by_distance;
     }
 
-    /// Checks a frequency that some radio sends at.
-    /// @throws std::invalid_argument outside of the site's range, 0.3 or 0.625 to 70 or 83 GHz
+    /// Checks a radio's frequency.
+    /// @throws std::invalid_argument outside the site's range, from 0.3 or 0.625 to 70 or 83 GHz
     void check_frequency(Hertz f) const;
 
-    /// Distance [m] beyond which the loss is more than `loss`, whatever stands in the way.
+    /// Distance [m] beyond which the loss is more than `loss`, for any obstruction.
     Meters reach(Db loss, Hertz f) const;
     /// Fills out_db[i] [dB] for the i-th receiver.
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 };
 
 }  // namespace rovernet

@@ -13,18 +13,17 @@
 
 #include <tuple>
 
-// The list of propagation models: a new one is a header and a line here.
+// List of propagation models: a new model is a header and a line here.
 
 namespace rovernet {
 
-/// Propagation models that scenario files know by name, in the order of their detail. A model that
-/// is added here is read, checked, printed, documented, tested for conformance and swept: all of
-/// that follows from its fields(). `rovernet compare` takes the last of those that it compares as
-/// the most detailed one.
+/// Propagation models that scenario files can name, in the order of detail. For a model in this
+/// list the reader, range checks, printing, documentation, conformance tests and sweeps follow from
+/// its fields(). `rovernet compare` uses the last of its models as the most detailed one.
 using PropagationModels = std::tuple<Disc, Friis, TwoRay, ItuIndoor, LogDistance, ItuSiteGeneral,
                                      MultiWall, Raytrace2007, Rays>;
 
-/// Calls `visit.template operator()<Model>()` for each listed model, in that order:
+/// Calls `visit.template operator()<Model>()` for each listed model, in this order:
 ///
 ///   for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
 template <class Visitor>

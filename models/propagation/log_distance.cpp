@@ -20,7 +20,7 @@ Meters LogDistance::reach(Db loss, Hertz f) const {
     return {more < 0 ? 0 : d0 * math::exp10(more / (10 * exponent))};
 }
 
-void LogDistance::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+void LogDistance::loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
     const ShadowedLoss at = shadowed_loss(links.frequency);
     if (sigma.value == 0) {
         for (std::size_t i = 0; i < out_db.size(); ++i) out_db[i] = at(links.distance(i), 0);

@@ -15,7 +15,7 @@ constexpr Meters thinnest_heavy_wall{0.1};
 
 double at_1_m(const MultiWall& model, Hertz f) { return free_space_db(1, f) + model.excess.value; }
 
-/// k^e for a whole number of floors k > 0.
+/// Power k^e for a number of floors k > 0.
 double power(double k, double e) { return math::exp2(e * math::log2(k)); }
 
 double floors_db(const MultiWall& model, double k) {
@@ -23,12 +23,12 @@ double floors_db(const MultiWall& model, double k) {
     return model.floor_loss.value * power(k, (k + 2) / (k + 1) - model.floor_saving);
 }
 
-/// Rate of a material where walls that follow the model take `usual`.
+/// Loss rate of a material; `usual` for a material without a loss of its own.
 WallRate rate_with(const Material& material, Hertz f, Db usual) {
     return material.follows_model() ? WallRate{usual.value, 0} : wall_rate(material, f, 0);
 }
 
-/// The rates of the scene's materials where walls that follow the model take `usual`.
+/// Loss rates of the scene's materials; `usual` for materials without a loss of their own.
 std::vector<WallRate> rates_with(const LinkBatch& links, Db usual) {
     std::vector<WallRate> rates;
     for (const Material& material : links.scene->materials())
@@ -49,7 +49,7 @@ Db MultiWall::wall_loss(const Wall& wall, const Material& material, Hertz f) con
     return {rate.per_crossing + rate.per_metre * wall.length};
 }
 
-void MultiWall::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+void MultiWall::loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
     const double at_1 = at_1_m(*this, links.frequency);
     const WallRates walls{rates_with(links, light_wall), rates_with(links, heavy_wall),
                           thinnest_heavy_wall};
@@ -60,11 +60,11 @@ void MultiWall::loss(const LinkBatch& links, Db give_up, std::span<double> out_d
         const double way = at_1 + 10 * exponent * math::log10(std::max(links.distance(i), 1.0)) +
                            (floors_db(*this, floors.of_model) + floors.loss_db);
         out_db[i] = std::max(0.0, way);
-        if (way > give_up.value) continue;
+        if (way > cutoff.value) continue;
         constexpr double slack = 1e-9;  // [dB] more than rounding takes
         out_db[i] =
             std::max(0.0, way + links.scene->wall_loss(links.from, links.to[i], walls,
-                                                       give_up.value - way + slack, scratch));
+                                                       cutoff.value - way + slack, scratch));
     }
 }
 

@@ -7,20 +7,21 @@
 
 namespace rovernet {
 
-/// Multi-wall path loss [dB], for d >= 1 m, held at its value at 1 m below, never negative:
+/// Multi-wall path loss [dB], for d >= 1 m; below 1 m it is fixed at its value at 1 m; never
+/// negative:
 ///
 ///   L = L0 + 10 n log10 d + sum over the walls crossed + Lf k^((k + 2) / (k + 1) - b),
-///   with L0 = free space at 1 m + excess, and k floors between the antennas.
+/// with L0 = free space at 1 m + excess, and k floors between the antennas.
 ///
-/// A wall takes what its material says. A wall whose material follows the model takes `light_wall`
-/// or `heavy_wall`, by its drawn thickness where the ray's middle in it lies: below 10 cm it is
-/// light. A wall counts once, however it is drawn and at whatever angle it is crossed, see
-/// Scene::walls(). A ceiling of a scene of several storeys takes what its material says, or else
-/// counts in k; in another scene k counts the storeys of [scene] floor_height, if that is given.
-/// The sum does not grow with the angle at which a wall is crossed, unless its material has a rate
-/// per metre. The loss jumps where a wall comes between, and where the thickness under the ray's
-/// middle passes 10 cm. Reflection and diffraction are left out: behind many walls the loss is an
-/// upper estimate.
+/// The loss of a wall is that of its material. A wall whose material has no loss of its own has
+/// `light_wall` or `heavy_wall`: it is light if its drawn thickness at the middle of the ray inside
+/// it is below 10 cm. A wall counts once, however it is drawn and at any angle of crossing, see
+/// Scene::walls(). A ceiling in a scene of several storeys has the loss of its material, or else
+/// counts in k; in other scenes k counts the storeys of [scene] floor_height, if that is given. The
+/// wall loss does not grow with the angle of crossing, unless the material has a loss per metre.
+/// The loss jumps where a wall obstructs the ray, and where the thickness at the ray's middle
+/// passes 10 cm. Reflection and diffraction are neglected: behind many walls the loss is an upper
+/// estimate.
 ///
 /// With the defaults at 2450 MHz `rovernet loss multi_wall` prints
 ///
@@ -36,15 +37,15 @@ struct MultiWall {
 
     /// Path loss exponent n [-], > 0; 2 free space.
     double exponent = 2;
-    /// Loss at 1 m beyond that of free space [dB]; may be negative.
+    /// Loss at 1 m in addition to free space [dB]; may be negative.
     Db excess{0};
     /// Loss of a wall thinner than 10 cm [dB], >= 0.
     Db light_wall{3.4};
-    /// Loss of a thicker wall [dB], >= 0.
+    /// Loss of a wall of 10 cm or more [dB], >= 0.
     Db heavy_wall{6.9};
     /// Loss of one floor, Lf [dB], >= 0.
     Db floor_loss{18.3};
-    /// Saving b [-], from 0 to 1, by which further floors take less than the first.
+    /// Exponent b [-], from 0 to 1, by which further floors have less loss than the first.
     double floor_saving = 0.46;
 
     static constexpr auto fields() {
@@ -65,11 +66,11 @@ struct MultiWall {
 
     LossShape shape() const { return LossShape::by_walls; }
 
-    /// Distance [m] beyond which the loss is more than `loss`: without walls and floors.
+    /// Distance [m] beyond which the loss is more than `loss`, for any walls and floors.
     Meters reach(Db loss, Hertz f) const;
     /// Fills out_db[i] [dB] for the i-th receiver; walls and floors come from the batch.
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
-    /// What one wall takes of that [dB]. @param material  the wall's
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
+    /// Loss of one crossed wall [dB]. @param material  material of the wall
     Db wall_loss(const Wall& wall, const Material& material, Hertz f) const;
 };
 

@@ -14,24 +14,23 @@
 #include <string_view>
 #include <utility>
 
-// The handle of propagation models. A Network has one for all robots, and each robot may have its
-// own:
+// Handle of propagation models. A Network has one for all robots, and each robot may have its own:
 //
 //     Network network({.propagation = LogDistance{.exponent = 3}});
 //     network.add({.name = "A", .propagation = Friis{}});
 
 namespace rovernet {
 
-/// Any propagation model, held by value and shared between its copies (models do not change).
-/// Robots, tables and the medium have one; what the model does not know of itself has a safe answer
-/// here.
+/// Propagation model of any type, stored by value and shared between copies (models are immutable).
+/// Used by robots, tables and the medium; for optional functions that a model lacks it returns safe
+/// defaults.
 ///
 ///   const Propagation model = LogDistance{.exponent = 3, .sigma = Db{0}};
 ///   model.reach(Db{90}, 2450_MHz);  // [m] beyond which more than 90 dB are lost
 ///   model.shape();                  // LossShape::by_distance
 class Propagation {
   public:
-    /// Height that bounds nothing.
+    /// Bound on antenna heights for reach() that means: no bound.
     static constexpr Meters anything{std::numeric_limits<double>::infinity()};
 
     /// @throws std::invalid_argument if a parameter is out of its range
@@ -39,47 +38,59 @@ class Propagation {
     requires(!std::same_as<T, Propagation> && PropagationModel<T>) Propagation(T model)
         : self_(std::make_shared<Holder<T>>(std::move(model))) {}
 
-    /// Name of the model, as in files.
+    /// Name of the model in scenario files.
     std::string_view name() const { return self_->name(); }
     /// Losses of a batch [dB], see PropagationModel.
-    /// @param give_up  loss [dB] above which a value need not be right, only above it
+    /// @param cutoff  loss [dB] above which a value need not be exact, but must stay above it
     /// @param out_db   one for each receiver
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
-        self_->loss(links, give_up, out_db);
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
+        self_->loss(links, cutoff, out_db);
     }
-    /// Distance [m] beyond which the loss is more than `loss`; infinite if the model does not bound
-    /// it.
-    /// @param highest  height that no antenna's z exceeds [m]
+    /// Loss [dB] of one link.
+    /// @param link    all of the link but its receiver
+    /// @param to      position of the receiver's antenna [m]
+    /// @param to_key  key of the receiver
+    double loss_to(Vec3 to, LinkBatch link, std::uint64_t to_key = 0) const {
+        link.to = {&to, 1};
+        link.to_keys = {&to_key, 1};
+        double db = 0;
+        loss(link, Db{std::numeric_limits<double>::infinity()}, {&db, 1});
+        return db;
+    }
+    /// Distance [m] beyond which the loss is more than `loss`; infinite if the model has no bound.
+    /// @param highest  upper bound [m] on z of all antennas
     Meters reach(Db loss, Hertz frequency, Meters highest = anything) const {
         return self_->reach(loss, frequency, highest);
     }
-    /// Whether its bound takes the heights of the antennas, see BoundedByHeight.
+    /// Whether reach() depends on antenna heights, see BoundedByHeight.
     bool is_bounded_by_height() const { return self_->is_bounded_by_height(); }
     /// Checks a frequency. @throws std::invalid_argument if the model cannot work with it
     void check_frequency(Hertz frequency) const { self_->check_frequency(frequency); }
     /// Checks a scene. @throws std::invalid_argument if the model cannot work in it
     void check_scene(const Scene& scene) const { self_->check_scene(scene); }
-    /// Shape of the loss while the ends of a link move.
+    /// Shape of the loss when the ends of a link move.
     LossShape shape() const { return self_->shape(); }
-    /// Loss to build a ShadowedRange of; nothing if the model is not a ShadowedModel.
+    /// Loss as a function of distance and shadowing draw, for a ShadowedRange; empty if the model
+    /// is not a ShadowedModel.
     std::optional<ShadowedLoss> shadowed_loss(Hertz frequency) const {
         return self_->shadowed_loss(frequency);
     }
-    /// Whether each pair of nodes draws a part of its loss.
+    /// Whether the loss has a random part for each pair of nodes.
     bool is_random() const { return self_->is_random(); }
-    /// Model without its random part; this one if it has none.
+    /// Model without its random part; the same model if it has none.
     Propagation median() const { return is_random() ? self_->median() : *this; }
-    /// Model inside if it is a T, or null.
+    /// Model as type T; null if it is of another type.
     template <class T>
     const T* as() const {
         const auto* holder = dynamic_cast<const Holder<T>*>(self_.get());
         return holder ? &holder->model : nullptr;
     }
-    /// Whether both are copies of one handle; the medium keeps one table entry for them.
+    /// Whether both objects are copies of one Propagation and share its model; the medium stores
+    /// the model once.
     friend bool operator==(const Propagation&, const Propagation&) = default;
 
   private:
-    // Functions of the model inside, whatever its type; what it lacks is answered safely by Holder.
+    // Functions of a model of any type; Holder adds safe defaults for missing ones.
     struct Concept {
         virtual ~Concept() = default;
         virtual std::string_view name() const = 0;
@@ -91,28 +102,28 @@ class Propagation {
         virtual LossShape shape() const = 0;
         virtual std::optional<ShadowedLoss> shadowed_loss(Hertz) const = 0;
         virtual bool is_random() const = 0;
-        /// Asked only of a model that is random.
+        /// Model without its random part; only called for a random model.
         virtual Propagation median() const = 0;
     };
-    // Model of a type. A function that the model does not have gets the answer that is right for
-    // any: an infinite reach, an unknown shape, no shadowing.
+    // Model of type T. Missing functions get defaults that are valid for any model: infinite reach,
+    // unknown shape, no shadowing.
     template <class T>
     struct Holder final : Concept {
-        /// Parameters are checked once, here.
+        /// Stores the model and checks its parameters.
         explicit Holder(T m) : model(std::move(m)) {
             if constexpr (Described<T>) check_fields(model, T::name);
         }
         std::string_view name() const override { return T::name; }
-        void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const override {
-            model.loss(links, give_up, out_db);
+        void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const override {
+            model.loss(links, cutoff, out_db);
         }
-        /// The most that the model knows of its range.
+        /// Bound of the range by the model's own reach(); infinite if it has none.
         Meters reach(Db loss, Hertz frequency, [[maybe_unused]] Meters highest) const override {
             if constexpr (BoundedByHeight<T>) return model.reach(loss, frequency, highest);
             if constexpr (BoundedModel<T>) return model.reach(loss, frequency);
             return anything;
         }
-        /// Known at compile time.
+        /// True if T is BoundedByHeight.
         bool is_bounded_by_height() const override { return BoundedByHeight<T>; }
         void check_frequency(Hertz frequency) const override {
             if constexpr (FrequencyCheckedModel<T>) model.check_frequency(frequency);

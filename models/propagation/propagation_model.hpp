@@ -13,13 +13,13 @@
 #include <span>
 #include <string_view>
 
-// The port of propagation models: the loss of a link in dB. A model is a plain struct with a name
-// and one pure function; whatever else it knows of itself (its range, its shape) makes links
-// cheaper to find. Antennas, gains and powers are not its business: Medium adds them.
+// Interface of propagation models: the path loss of a link in dB. A model is a plain struct with a
+// name and one pure function; optional functions (range, shape) speed up the search for links.
+// Antennas, gains and powers are not part of it: Medium adds them.
 //
 //     struct FreeSpace {
 //         static constexpr std::string_view name = "free_space";
-//         void loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+//         void loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
 //             for (std::size_t i = 0; i < out_db.size(); ++i)
 //                 out_db[i] = std::max(0.0, free_space_db(links.distance(i), links.frequency));
 //         }
@@ -27,116 +27,117 @@
 
 namespace rovernet {
 
-/// Links from one transmitter to its receivers: all that a propagation model may know.
+/// Links from one transmitter to its receivers: the complete input of a propagation model.
 ///
-/// A propagation model is a pure function of places and keys: its losses are kept for robots at
-/// rest. Time and frame are for what varies behind it.
+/// A propagation model is a pure function of positions and keys, because losses of robots at rest
+/// are cached. Time and frame are for fading, which varies and is not cached.
 struct LinkBatch {
     /// Frequency of the transmitter [Hz].
     Hertz frequency;
-    /// Position of its antenna [m].
+    /// Position of the transmitter's antenna [m].
     Vec3 from;
     /// Positions of the receivers' antennas [m].
-    std::span<const Vec3> to;
+    std::span<const Vec3> to = {};
     /// Key of the transmitter, for random draws.
     std::uint64_t from_key = 0;
-    /// Keys of the receivers, as many as `to`.
-    std::span<const std::uint64_t> to_keys;
+    /// Keys of the receivers; same size as `to`.
+    std::span<const std::uint64_t> to_keys = {};
     /// Scene with its walls; never null in a Network.
     const Scene* scene = nullptr;
-    /// Height of one storey [m], in a scene that has no floors of its own; no_storeys: antennas are
-    /// on one storey at all heights.
+    /// Height of one storey [m], in a scene without storeys; no_storeys: all antennas are on one
+    /// storey.
     Meters floor_height = no_storeys;
     /// Seed and replication of random draws.
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
-    /// Time at which the frame begins, or the link is looked at.
+    /// Time at which the frame begins, or for which the link is evaluated.
     Time at = start_of_run;
-    /// Key of the frame, for random draws; 0: the local mean of the link.
+    /// Key of the frame, for random draws; 0 for the local mean of the link.
     std::uint64_t frame = 0;
 
     /// Number of links.
     std::size_t size() const { return to.size(); }
-    /// Distance between the antennas of the i-th link [m], in three dimensions.
+    /// Distance between the antennas of link i [m], in three dimensions.
     double distance(std::size_t i) const { return rovernet::distance(from, to[i]); }
 };
 
-/// Path loss model: a plain struct with one pure function over a batch.
+/// Path loss model: a plain struct with one pure function over a batch of links.
 ///
-/// `loss` fills out_db[i] [dB] for the i-th receiver, same size as the batch; finite and never
-/// negative, the same in both directions. It may stop working on a link once its loss exceeds
-/// `give_up`, and leave any value above `give_up` there. Every copy of the model answers alike, in
-/// any order and at any time.
+/// `loss` fills out_db[i] [dB] for receiver i, same size as the batch; finite, never negative, and
+/// equal in both directions. Once a loss exceeds `cutoff`, the model may stop the computation and
+/// return any value above `cutoff`. All copies of the model return equal results, in any order and
+/// at any time.
+/// Example: examples/own_model.cpp.
 template <class T>
 concept PropagationModel = std::copy_constructible<T> &&
-    requires(const T& model, const LinkBatch& links, Db give_up, std::span<double> out_db) {
+    requires(const T& model, const LinkBatch& links, Db cutoff, std::span<double> out_db) {
     { T::name } -> std::convertible_to<std::string_view>;
-    model.loss(links, give_up, out_db);
+    model.loss(links, cutoff, out_db);
 };
 
-/// Model that bounds its own range: beyond `reach(loss, frequency)` [m] its loss is more than
-/// `loss`. For other models every robot is looked at.
+/// Model with a bounded range: beyond `reach(loss, frequency)` [m] its loss is more than `loss`.
+/// Without this bound every robot is checked.
 template <class T>
 concept BoundedModel = requires(const T& model, Db loss, Hertz frequency) {
     { model.reach(loss, frequency) } -> std::same_as<Meters>;
 };
 
-/// Model that bounds its range by the heights of the antennas: beyond that no loss between two
-/// whose z is at most `highest` [m] is as little as `loss`.
+/// Model whose range bound depends on antenna heights: beyond `reach` its loss is more than `loss`
+/// between any two antennas with z <= `highest` [m].
 template <class T>
 concept BoundedByHeight = requires(const T& model, Db loss, Hertz frequency, Meters highest) {
     { model.reach(loss, frequency, highest) } -> std::same_as<Meters>;
 };
 
-/// Shape of the loss while the ends of a link move. It decides how links are found, and where their
-/// changes are looked for.
+/// Shape of the loss when the ends of a link move. It determines how receivers and link changes are
+/// searched for.
 enum class LossShape {
-    /// Function of the distance between the antennas alone, which never falls.
+    /// Non-decreasing function of the distance between the antennas.
     by_distance,
-    /// Function of the distance for each pair of nodes, which never falls.
+    /// Non-decreasing function of the distance, a different one for each pair of nodes.
     by_pair,
-    /// Function of the distance as long as both antennas keep their heights, which never falls.
+    /// Non-decreasing function of the distance while both antennas keep their heights.
     by_heights,
-    /// Function of the distance, except that walls add to it: it jumps where the line of sight
-    /// passes a wall's corner, and is smooth elsewhere.
+    /// Function of the distance plus the losses of walls: it jumps where the line of sight passes a
+    /// wall's corner, and is smooth elsewhere.
     by_walls,
-    /// Anything.
+    /// Any function of the positions.
     unknown,
 };
-/// Shape between antennas that move at these velocities [m/s]; it is never by_heights.
+/// Shape of the loss while the antennas move with velocities a and b [m/s]; never by_heights.
 constexpr LossShape shape_in_motion(LossShape shape, Vec3 a, Vec3 b) {
     if (shape != LossShape::by_heights) return shape;
     return a.z == 0 && b.z == 0 ? LossShape::by_distance : LossShape::unknown;
 }
 
-/// Model that knows its shape; others are `unknown`.
+/// Model with a known shape; others are `unknown`.
 template <class T>
 concept ShapedModel = requires(const T& model) {
     { model.shape() } -> std::same_as<LossShape>;
 };
 
 /// Model whose loss, at each frequency, is a ShadowedLoss of the antennas' distance and the pair's
-/// own one of the shadowing_draws(): then a ShadowedRange decides links as `loss` does.
+/// draw in shadowing_draws(); a ShadowedRange then decides links exactly like `loss`.
 template <class T>
 concept ShadowedModel = requires(const T& model, Hertz frequency) {
     { model.shadowed_loss(frequency) } -> std::same_as<ShadowedLoss>;
 };
 
-/// Model with a random part for each pair of nodes, which tells the same model without it; with
-/// nothing random, an equal model. Pictures of coverage show the median, as they have no pairs.
+/// Model with a random part for each pair of nodes; median() returns the model without it (an equal
+/// model if nothing is random). Pictures of coverage show the median, because they have no pairs.
 template <class T>
 concept RandomModel = requires(const T& model) {
     { model.median() } -> std::same_as<T>;
     { model.is_random() } -> std::same_as<bool>;
 };
 
-/// Model that cannot work with every frequency, and says so by std::invalid_argument.
+/// Model valid only at some frequencies; check_frequency throws std::invalid_argument for others.
 template <class T>
 concept FrequencyCheckedModel = requires(const T& model, Hertz frequency) {
     model.check_frequency(frequency);
 };
 
-/// Model that cannot work in every scene, and says so by std::invalid_argument.
+/// Model valid only in some scenes; check_scene throws std::invalid_argument for others.
 template <class T>
 concept SceneCheckedModel = requires(const T& model, const Scene& scene) {
     model.check_scene(scene);

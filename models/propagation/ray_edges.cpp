@@ -16,29 +16,27 @@ using std::numbers::pi;
 
 constexpr double in_plane = 1e-9;  // [m] from a face's plane: rounding
 
-Vec3 flat(Vec3 p) { return {p.x, p.y, 0}; }
-double cross(Vec3 a, Vec3 b) { return a.x * b.y - a.y * b.x; }
 Vec3 direction(const Face& f) { return {-f.normal.y, f.normal.x, 0}; }
 
 /// Angle from one direction to another [rad], counter-clockwise, -pi to pi.
-double turn(Vec3 from, Vec3 to) { return math::atan2(cross(from, to), dot(from, to)); }
-/// Turn counter-clockwise, 0 to 2 pi.
+double turn(Vec3 from, Vec3 to) { return math::atan2(cross_in_plan(from, to), dot(from, to)); }
+/// Counter-clockwise angle between two directions, 0 to 2 pi.
 double angle(Vec3 from, Vec3 to) {
     const double a = turn(from, to);
     return a < 0 ? a + 2 * pi : a;
 }
 
-/// Corners of an edge that the ends of a way around it see: of both, the one nearer to the way.
-/// Nothing if an end sees none.
+/// Corners of an edge that are visible from the two ends of a path around it; of two, the one
+/// nearer to the path. Empty if an end sees none.
 std::optional<std::pair<std::size_t, std::size_t>> corners_seen(const WallEdge& edge,
                                                                 const Face& before,
                                                                 const Face& behind, Vec3 a,
                                                                 Vec3 b) {
     const Vec3 across = edge.corners[1] - edge.corners[0];
-    // Past the line through both corners, away from the wall, both can be seen.
+    // Both corners are visible from beyond the line through them, on the side away from the wall.
     const bool several = dot(across, across) > 0;
     const auto sees_both = [&](Vec3 p) {
-        return several && cross(across, flat(p) - edge.corners[0]) <= in_plane;
+        return several && cross_in_plan(across, in_plan(p) - edge.corners[0]) <= in_plane;
     };
     const auto corner_of = [&](Vec3 p) -> std::optional<std::size_t> {
         if (before.in_front(p) >= -in_plane) return 0;
@@ -48,7 +46,7 @@ std::optional<std::pair<std::size_t, std::size_t>> corners_seen(const WallEdge& 
     const bool free_a = sees_both(a), free_b = sees_both(b);
     auto at_a = corner_of(a), at_b = corner_of(b);
     if (free_a && free_b) {
-        const auto by = [&](Vec3 c) { return distance(flat(a), c) + distance(c, flat(b)); };
+        const auto by = [&](Vec3 c) { return distance(in_plan(a), c) + distance(c, in_plan(b)); };
         at_a = at_b = by(edge.corners[0]) <= by(edge.corners[1]) ? 0 : 1;
     } else if (free_a) {
         at_a = at_b;
@@ -59,11 +57,11 @@ std::optional<std::pair<std::size_t, std::size_t>> corners_seen(const WallEdge& 
     return std::pair{*at_a, *at_b};
 }
 
-/// The way by two corners of a body that is on its left, as a pair of edges.
+/// Path by two corners of a body on its left, as a pair of edges.
 EdgePair pair_of(Vec3 from, Vec3 first, Vec3 last, Vec3 to, double along) {
     const auto bend = [](Vec3 p, Vec3 q, Vec3 r) {
         const double longer = distance(p, q) + distance(q, r) - distance(p, r);
-        return std::copysign(std::max(0.0, longer), cross(q - p, r - q));
+        return std::copysign(std::max(0.0, longer), cross_in_plan(q - p, r - q));
     };
     return {.before = distance(from, first),
             .along = along,
@@ -76,7 +74,7 @@ EdgePair turned_round(const EdgePair& pair) {
     return {pair.after, pair.along, pair.before, pair.last, pair.first};
 }
 
-/// A pair in plan as one whose way rises, and is longer by a factor.
+/// Pair of edges for the three-dimensional path, which is longer than the path in plan by a factor.
 EdgePair scaled(const EdgePair& pair, double longer) {
     return {pair.before * longer, pair.along * longer, pair.after * longer, pair.first / longer,
             pair.last / longer};
@@ -136,7 +134,7 @@ void RayEdges::add_outline(std::span<const Face> outline, std::size_t first, dou
     link_edges(first_edge, outline, first);
 }
 
-/// Links the edges of an outline, the last ones, with their neighbours and faces.
+/// Connects the last edges, those of one outline, with their neighbours and faces.
 void RayEdges::link_edges(std::size_t first_edge, std::span<const Face> outline,
                           std::size_t first) {
     for (std::size_t e = first_edge; e < edges_.size(); ++e) {
@@ -163,22 +161,23 @@ void RayEdges::find_crossed(std::span<const std::size_t> faces,
     }
 }
 
-bool RayEdges::is_end(std::size_t short_side, std::size_t long_side) const {
-    if (of_face_.empty()) return false;
-    const std::size_t e = of_face_[short_side].between;
-    return e != no_edge && (edges_[e].before == long_side || edges_[e].behind == long_side) &&
-           faces_[edges_[e].before].opposite(faces_[edges_[e].behind]);
+std::size_t RayEdges::edge_of(std::size_t f, std::size_t g) const {
+    if (of_face_.empty()) return no_edge;
+    for (const std::size_t e : {of_face_[f].before, of_face_[f].behind, of_face_[f].between})
+        if (e != no_edge && is_of(g, e)) return e;
+    return no_edge;
 }
 
-std::optional<WayAround> RayEdges::around(const WallEdge& edge, Vec3 a, Vec3 b) const {
+std::optional<WayAround> RayEdges::around(std::size_t number, Vec3 a, Vec3 b) const {
+    const WallEdge& edge = edges_[number];
     const Face &before = faces_[edge.before], &behind = faces_[edge.behind];
     const auto corners = corners_seen(edge, before, behind, a, b);
     if (!corners) return std::nullopt;
     const auto [at_a, at_b] = *corners;
-    WayAround way{{edge.corners[at_a], edge.corners[at_b]}, {}, 0, 0};
-    const double to_edge = distance(flat(a), way.corners[0]);
+    WayAround way{{number, number}, {edge.corners[at_a], edge.corners[at_b]}, {}, 0, 0};
+    const double to_edge = distance(in_plan(a), way.corners[0]);
     const double along = distance(way.corners[0], way.corners[1]);
-    const double from_edge = distance(way.corners[1], flat(b));
+    const double from_edge = distance(way.corners[1], in_plan(b));
     const double plan = to_edge + along + from_edge, rise = b.z - a.z;
     if (!(to_edge > 0 && from_edge > 0)) return std::nullopt;
     way.length = std::sqrt(plan * plan + rise * rise);
@@ -191,12 +190,13 @@ std::optional<WayAround> RayEdges::around(const WallEdge& edge, Vec3 a, Vec3 b) 
     e.before = share * way.length;
     e.after = way.length - e.before;
     e.n = edge.n;
-    // From that face on which the corner lies: so no rounding takes it behind the face.
+    // Measured from the face that contains the corner, so that rounding cannot put the corner
+    // behind it.
     const auto direction_of = [&](Vec3 p, std::size_t corner) {
-        const Vec3 from_corner = flat(p) - edge.corners[corner];
+        const Vec3 from_corner = in_plan(p) - edge.corners[corner];
         const double phi =
             corner == 0 ? angle(edge.back, from_corner) : angle(from_corner, direction(behind));
-        // In the plane of the face, rounding takes it to either side.
+        // In the plane of the face, rounding may give either side.
         const double from_face = 2 * pi - phi < 1e-6 ? 0 : phi;
         return corner == 0 ? from_face : edge.n * pi - from_face;
     };
@@ -205,46 +205,40 @@ std::optional<WayAround> RayEdges::around(const WallEdge& edge, Vec3 a, Vec3 b) 
     const auto open = [&](double phi) { return phi >= 0 && phi <= edge.n * pi; };
     if (!open(e.phi_before) || !open(e.phi_after)) return std::nullopt;
     e.detour = way.detour;
-    set_wall(e, before.length >= behind.length ? before : behind, a, b);
+    set_wall(e, faces_[wall_at(number)], a, b);
     return way;
 }
 
-/// Corners from an edge forward to where the straight path passes through the body again; none if
-/// that is not reached.
-std::vector<RayEdges::Corner> RayEdges::corners_past(std::size_t first,
-                                                     std::span<const CrossedAt> crossed,
-                                                     std::vector<std::size_t>& passed) const {
+/// Appends the corners from an edge forward to the edge where the straight path leaves the body;
+/// false if that is not reached.
+bool RayEdges::corners_past(std::size_t first, std::span<const CrossedAt> crossed,
+                            std::vector<EdgeCorner>& out) const {
     constexpr std::size_t most = 16;
-    std::vector<Corner> out;
     bool whole = crossed[first].before;  // else the way begins between the corners
-    for (std::size_t e = first; out.size() < most;) {
+    for (std::size_t e = first, n = 0; n < most; n += 2) {
         const WallEdge& edge = edges_[e];
-        passed.push_back(e);
         if (whole || edge.thin) out.push_back({edge.corners[0], e});
-        if (crossed[e].between && whole && !edge.thin) return out;
+        if (crossed[e].between && whole && !edge.thin) return true;
         out.push_back({edge.corners[1], e});
-        if (crossed[e].behind || (crossed[e].between && whole)) return out;
+        if (crossed[e].behind || (crossed[e].between && whole)) return true;
         whole = true;
         e = edge.next;
         if (e == no_edge || e == first) break;
     }
-    return {};
+    return false;
 }
 
-/// Corners that a string touches which is drawn tight from one point past them to another, with the
-/// body on its left.
-std::vector<RayEdges::Corner> RayEdges::touched(std::span<const Corner> corners, Vec3 from,
-                                                Vec3 to) {
-    std::vector<Corner> out;
+std::vector<EdgeCorner> touched(std::span<const EdgeCorner> corners, Vec3 from, Vec3 to) {
+    std::vector<EdgeCorner> out;
     const auto add = [&](Vec3 next) {
         while (!out.empty()) {
             const Vec3 last = out.back().at;
             const Vec3 before = out.size() > 1 ? out[out.size() - 2].at : from;
-            if (cross(last - before, next - last) > 0) return;
+            if (cross_in_plan(last - before, next - last) > 0) return;
             out.pop_back();
         }
     };
-    for (const Corner& corner : corners) {
+    for (const EdgeCorner& corner : corners) {
         add(corner.at);
         out.push_back(corner);
     }
@@ -252,20 +246,34 @@ std::vector<RayEdges::Corner> RayEdges::touched(std::span<const Corner> corners,
     return out;
 }
 
+std::optional<std::size_t> TautString::touches(const EdgeCorner& corner) const {
+    for (std::size_t i = 0; i < touched.size(); ++i)
+        if (touched[i].edge == corner.edge && distance(touched[i].at, corner.at) == 0) return i;
+    return std::nullopt;
+}
+
 std::optional<WayAround> RayEdges::around_body(std::size_t first,
                                                std::span<const CrossedAt> crossed, Vec3 a, Vec3 b,
-                                               std::vector<std::size_t>& passed) const {
-    const std::vector<Corner> corners = corners_past(first, crossed, passed);
-    if (corners.empty()) return std::nullopt;
-    // Forward, the body is on the left, and its corners in the way are on the right of the line.
-    const Vec3 in_the_way = edges_[first].corners[crossed[first].before ? 0 : 1];
-    const bool forward = cross(b - a, in_the_way - a) < 0;
-    std::vector<Corner> at = touched(corners, flat(forward ? a : b), flat(forward ? b : a));
+                                               std::vector<EdgeCorner>& corners) const {
+    const std::size_t before = corners.size();
+    if (!corners_past(first, crossed, corners)) {
+        corners.resize(before, EdgeCorner{});
+        return std::nullopt;
+    }
+    // Forward, the body is on the left, and its obstructing corners are on the right of the line.
+    double off = 0;  // of the corner that is farthest from the line
+    for (const EdgeCorner& corner : std::span(corners).subspan(before)) {
+        const double its = cross_in_plan(b - a, corner.at - in_plan(a));
+        if (std::abs(its) > std::abs(off)) off = its;
+    }
+    const bool forward = off < 0;
+    const std::vector<EdgeCorner> at = touched(std::span(corners).subspan(before),
+                                               in_plan(forward ? a : b), in_plan(forward ? b : a));
     if (at.empty()) return std::nullopt;
     const std::size_t e = at.front().edge;
     const bool one = at.back().edge == e && (at.size() == 1 || edges_[e].thin);
     if (!one) return around_corners(at, a, b, forward);
-    auto way = around(edges_[e], a, b);
+    auto way = around(e, a, b);
     if (!way) return way;
     way->edge.shadowed = true;
     join_next_corner(*way, e, true, a, b);
@@ -273,10 +281,10 @@ std::optional<WayAround> RayEdges::around_body(std::size_t first,
 }
 
 /// @param corners  several, that the way touches
-std::optional<WayAround> RayEdges::around_corners(std::span<const Corner> corners, Vec3 a, Vec3 b,
-                                                  bool forward) const {
-    const Vec3 from = flat(forward ? a : b), to = flat(forward ? b : a);
-    // Both corners of a thin edge are one, and the one inside counts.
+std::optional<WayAround> RayEdges::around_corners(std::span<const EdgeCorner> corners, Vec3 a,
+                                                  Vec3 b, bool forward) const {
+    const Vec3 from = in_plan(forward ? a : b), to = in_plan(forward ? b : a);
+    // The two corners of a thin edge count as one; the inner one counts.
     const auto is_thin = [&](std::size_t i) {
         return corners[i].edge == corners[i + 1].edge && edges_[corners[i].edge].thin;
     };
@@ -289,13 +297,14 @@ std::optional<WayAround> RayEdges::around_corners(std::span<const Corner> corner
     if (!(pair.before > 0 && pair.along > 0 && pair.after > 0)) return std::nullopt;
     if (!forward) pair = turned_round(pair);
     const double plan = pair.before + along + pair.after, rise = b.z - a.z;
-    WayAround way{{corners.front().at, corners.back().at}, {}, 0, 0};
-    if (!forward) std::swap(way.corners[0], way.corners[1]);
+    const EdgeCorner &near_a = forward ? corners.front() : corners.back(),
+                     &near_b = forward ? corners.back() : corners.front();
+    WayAround way{{near_a.edge, near_b.edge}, {near_a.at, near_b.at}, {}, 0, 0};
     way.length = std::sqrt(plan * plan + rise * rise);
     way.detour = std::max(0.0, way.length - distance(a, b));
     double height = std::numeric_limits<double>::infinity();
     std::size_t wall = edges_[corners[0].edge].before;
-    for (const Corner& c : corners) {
+    for (const EdgeCorner& c : corners) {
         const WallEdge& edge = edges_[c.edge];
         height = std::min(height, edge.height);
         for (const std::size_t face : {edge.before, edge.behind})
@@ -316,12 +325,12 @@ std::optional<WayAround> RayEdges::around_corners(std::span<const Corner> corner
 std::size_t RayEdges::join_next_corner(WayAround& way, std::size_t e, bool shadowed, Vec3 a,
                                        Vec3 b) const {
     const WallEdge& edge = edges_[e];
-    const Vec3 at = flat(way.corners[0]);
-    const bool one = distance(at, flat(way.corners[1])) == 0;
+    const Vec3 at = in_plan(way.corners[0]);
+    const bool one = distance(at, in_plan(way.corners[1])) == 0;
     if (!one && !edge.thin) return no_edge;
-    // Forward, the body is on the left: so is a corner that is lit, and one in the way is not.
-    const double left = cross(b - a, at - flat(a));
-    // A line through the corner has no side: it goes as the outline does there.
+    // Forward, the body is on the left: a lit corner is on the left, an obstructing one is not.
+    const double left = cross_in_plan(b - a, at - in_plan(a));
+    // For a line through the corner, the direction of the outline there decides.
     const Face &before = faces_[edge.before], &behind = faces_[edge.behind];
     const auto is_in = [&](const Face& face) { return std::abs(face.in_front(a)) <= in_plane; };
     const Vec3 outline = is_in(before)   ? direction(before)
@@ -330,7 +339,7 @@ std::size_t RayEdges::join_next_corner(WayAround& way, std::size_t e, bool shado
                                                (edge.corners[1] - edge.corners[0]);
     const bool along = std::abs(left) <= in_plane * distance(a, b);
     const bool forward = along ? dot(b - a, outline) > 0 : (left > 0) != shadowed;
-    const Vec3 from = flat(forward ? a : b), to = flat(forward ? b : a);
+    const Vec3 from = in_plan(forward ? a : b), to = in_plan(forward ? b : a);
     const double stretch = way.length / (distance(from, at) + distance(at, to));
     const std::size_t corner = distance(at, edge.corners[0]) == 0 ? 0 : 1;
     std::size_t joined = no_edge;

@@ -13,110 +13,148 @@
 
 namespace rovernet {
 
-/// Edge of a wall that sticks out: its free end or a corner, upright, seen in plan.
+/// Point projected into the plane z = 0.
+inline Vec3 in_plan(Vec3 p) { return {p.x, p.y, 0}; }
+/// Cross product in plan: positive if the second vector is to the left of the first.
+inline double cross_in_plan(Vec3 a, Vec3 b) { return a.x * b.y - a.y * b.x; }
+
+/// Convex vertical edge of a wall, seen in plan: a free end or a corner.
 ///
-/// The end of a thin wall has two corners near each other. They are one edge, that of a screen:
-/// else a sheet, a wedge and a brick would throw different shadows. A path goes around it as a
-/// string that is drawn tight: by one of its corners, or by both.
+/// The end of a thin wall has two corners near each other. They form one edge, the edge of a
+/// screen: otherwise a sheet, a wedge and a brick would have different shadows. A path around it is
+/// a taut string that touches one of its corners, or both.
 struct WallEdge {
-    /// Numbers of the faces before and behind the edge, in the order of the outline.
+    /// Indices of the faces before and behind the edge, in the order of the outline.
     std::size_t before, behind;
-    /// Corners [m]: where the face before ends and where the face behind begins.
+    /// Corners of the edge [m]: end of the face before it, and start of the face behind it.
     std::array<Vec3, 2> corners;
     /// Unit vector from the edge along the face before it.
     Vec3 back;
-    /// Angle of the open space over pi [-], above 1 to 2.
+    /// Exterior angle over pi [-], above 1 to 2.
     double n;
     /// Height of the wall [m].
     double height;
-    /// How far from the corners the drawn outline may be [m]; 0 if it runs along cells.
+    /// Largest distance of the drawn outline from the corners [m]; 0 if the outline follows the
+    /// grid.
     double steps;
-    /// Numbers of the edges that share the face before and the face behind; no_edge if none does.
+    /// Indices of the edges that share the face before and the face behind; no_edge if there is
+    /// none.
     std::size_t previous, next;
-    /// Both corners are within a wavelength: they are one.
+    /// True if the wall ends here and is thinner than a wavelength: its two corners count as one
+    /// edge.
     bool thin;
 };
 inline constexpr std::size_t no_edge = static_cast<std::size_t>(-1);
 
-/// Faces at an edge that a straight path passes through.
+/// Corner of an edge.
+struct EdgeCorner {
+    Vec3 at;           ///< position of the corner [m], z = 0
+    std::size_t edge;  ///< index of the corner's edge
+};
+
+/// Corners that a taut string between two points touches, with the bodies on its left.
+std::vector<EdgeCorner> touched(std::span<const EdgeCorner> corners, Vec3 from, Vec3 to);
+
+/// Taut string around bodies, in plan, with the bodies on its left.
+struct TautString {
+    Vec3 from, to;  ///< ends of the string [m], z = 0
+    std::vector<EdgeCorner> touched;
+    std::vector<double> at;  ///< positions [m] of the start, of each touched corner and of the end
+
+    /// Point i of the string: its start, the corners that it touches, and its end.
+    Vec3 point(std::size_t i) const {
+        return i == 0 ? from : i > touched.size() ? to : touched[i - 1].at;
+    }
+    double length() const { return at.back(); }
+    /// Index of a corner among the touched corners.
+    std::optional<std::size_t> touches(const EdgeCorner& corner) const;
+};
+
+/// Faces at an edge that a straight path crosses.
 struct CrossedAt {
     bool before = false, behind = false;
-    bool between = false;  ///< a short face between both
+    bool between = false;  ///< short face between the faces before and behind
     bool any() const { return before || behind || between; }
 };
 
-/// Way around an edge.
+/// Path around an edge.
 struct WayAround {
-    std::array<Vec3, 2> corners;  ///< where it comes to the edge and where it leaves it [m]
-    RayEdge edge;                 ///< with lengths in three dimensions
-    double length;                ///< of the way [m]
-    double detour;                ///< beyond the straight line between the ends [m]
+    std::array<std::size_t, 2> edges;  ///< indices of the edges that it reaches and leaves
+    std::array<Vec3, 2> corners;       ///< corners where it reaches and leaves them [m]
+    RayEdge edge;                      ///< edge data, with lengths in three dimensions
+    double length;                     ///< length of the path around the edge [m]
+    double detour;                     ///< length beyond the straight line between its ends [m]
 };
 
-/// Edges of a scene at one wavelength.
+/// Edges of a scene's walls at one wavelength.
 ///
-/// Faces that are shorter than five wavelengths, and than 0.4 of the outline's longest face, do not
-/// part corners: what stands between the longer faces before and behind is one edge, if the outline
-/// turns left there by more than 20 degrees in all. So the end of a wall is one edge, and a pillar
-/// has its four.
+/// Faces shorter than five wavelengths, and than 0.4 of the outline's longest face, do not separate
+/// corners: everything between the longer faces before and behind is one edge, if the outline turns
+/// left there by more than 20 degrees in total. So the end of a wall is one edge, and a pillar has
+/// four.
 class RayEdges {
   public:
     RayEdges() = default;
-    /// @param faces  outlive the edges
+    /// @param faces  must outlive the edges
     RayEdges(std::span<const Face> faces, double wavelength);
     std::span<const WallEdge> all() const { return edges_; }
 
-    /// The way from a around the edge to b, which rises evenly; nothing if an end lies in the
-    /// wall's side of the edge, or the way passes the edge above the wall.
-    std::optional<WayAround> around(const WallEdge& edge, Vec3 a, Vec3 b) const;
+    /// Path from a around the edge to b, with linearly changing height; empty if an end is on the
+    /// wall's side of the edge, or if the path passes above the wall.
+    std::optional<WayAround> around(std::size_t edge, Vec3 a, Vec3 b) const;
 
-    /// The way from a around a body to b: a string drawn tight over the edges from `first`, where
-    /// the straight path passes through the body, to where it passes through it again. Of more than
-    /// two corners the first and the last count.
-    /// @param crossed  by edge
-    /// @param passed   the edges of the way are appended
-    /// @return nothing if the outline does not turn left all the way, or no corner is in the way
+    /// Path from a around a body to b: a taut string over the edges from `first`, where the
+    /// straight path enters the body, to the edge where it leaves it. Of more than two corners only
+    /// the first and the last count.
+    /// @param crossed  crossed faces, by edge
+    /// @param corners  the path's corners are appended, in the order of the outline
+    /// @return empty if the outline does not turn left all the way, or no corner obstructs the path
     std::optional<WayAround> around_body(std::size_t first, std::span<const CrossedAt> crossed,
-                                         Vec3 a, Vec3 b, std::vector<std::size_t>& passed) const;
+                                         Vec3 a, Vec3 b, std::vector<EdgeCorner>& corners) const;
 
-    /// Joins to a way around one corner of an edge the corner next to it that the way passes, if it
-    /// passes it with a detour of less than `near_edge`: both are then one pair.
-    /// @param shadowed  the edge stands in the straight path
-    /// @return number of the other corner's edge, or no_edge
+    /// Adds the next corner that the path passes to a path around one corner of an edge, if the
+    /// detour by that corner is less than `near_edge`: the two then form one pair.
+    /// @param shadowed  the edge obstructs the straight path
+    /// @return index of the added corner's edge, or no_edge
     std::size_t join_next_corner(WayAround& way, std::size_t edge, bool shadowed, Vec3 a,
                                  Vec3 b) const;
 
-    /// Tells, for each edge, through which of its faces a straight path passes.
-    /// @param faces  that it passes through
+    /// Writes, for each edge, which of its faces a straight path crosses.
+    /// @param faces  faces that the path crosses
     void find_crossed(std::span<const std::size_t> faces, std::vector<CrossedAt>& crossed) const;
 
-    /// Whether a face is part of a wall's end, and another is the wall's side next to it.
-    bool is_end(std::size_t short_side, std::size_t long_side) const;
+    /// Whether a face is before or behind an edge, or between its corners.
+    bool is_of(std::size_t face, std::size_t edge) const {
+        return edges_[edge].before == face || edges_[edge].behind == face ||
+               of_face_[face].between == edge;
+    }
+    /// Index of the longer of the faces before and behind an edge: its wall.
+    std::size_t wall_at(std::size_t edge) const {
+        const WallEdge& e = edges_[edge];
+        return faces_[e.before].length >= faces_[e.behind].length ? e.before : e.behind;
+    }
+    /// Edge to which both faces belong, or no_edge.
+    std::size_t edge_of(std::size_t f, std::size_t g) const;
 
-    /// Edge whose corners a face is between, or no_edge.
+    /// Edge whose corners are on both sides of the face, or no_edge.
     std::size_t edge_with(std::size_t face) const { return of_face_[face].between; }
 
-    /// Whether a way from edge `first` to edge `last` begins or ends at a face.
+    /// Whether a path from edge `first` to edge `last` begins or ends at a face.
     bool is_at(std::size_t face, std::size_t first, std::size_t last) const {
         const EdgesOfFace& of = of_face_[face];
         return of.before == first || of.between == first || of.behind == last || of.between == last;
     }
 
   private:
-    struct Corner {
-        Vec3 at;
-        std::size_t edge;
-    };
-    /// Edges that have a face before, behind and between them.
+    /// Edges of a face: the face is before, behind or between them.
     struct EdgesOfFace {
         std::size_t before = no_edge, behind = no_edge, between = no_edge;
     };
     void add_outline(std::span<const Face> outline, std::size_t first, double shortest);
     void link_edges(std::size_t first_edge, std::span<const Face> outline, std::size_t first);
-    std::vector<Corner> corners_past(std::size_t first, std::span<const CrossedAt> crossed,
-                                     std::vector<std::size_t>& passed) const;
-    static std::vector<Corner> touched(std::span<const Corner> corners, Vec3 from, Vec3 to);
-    std::optional<WayAround> around_corners(std::span<const Corner> corners, Vec3 a, Vec3 b,
+    bool corners_past(std::size_t first, std::span<const CrossedAt> crossed,
+                      std::vector<EdgeCorner>& out) const;
+    std::optional<WayAround> around_corners(std::span<const EdgeCorner> corners, Vec3 a, Vec3 b,
                                             bool forward) const;
 
     std::span<const Face> faces_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/ray_images.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace rovernet {
@@ -21,7 +20,7 @@ RayImages::RayImages(std::span<const Face> faces, Vec3 from, int order, double s
     shared_ = images_.size();
 }
 
-/// Adds the images of the highest order that a receiver sees, in place of another receiver's.
+/// Replaces the images of the highest order by those that a receiver sees.
 void RayImages::add_seen_images(Vec3 receiver) {
     images_.resize(shared_);
     look_from(receiver);
@@ -30,7 +29,7 @@ void RayImages::add_seen_images(Vec3 receiver) {
         add_seen_images_of({images_[i].x, images_[i].y}, static_cast<std::uint32_t>(i));
 }
 
-/// Faces that may reflect to the receiver.
+/// Finds the faces that may reflect to the receiver.
 void RayImages::look_from(Vec3 receiver) {
     sights_.clear();
     bunches_.clear();
@@ -48,7 +47,7 @@ void RayImages::look_from(Vec3 receiver) {
     bunch(0, sights_.size());
 }
 
-/// Parts sights until those of a bunch are few, at the middle of their longer side.
+/// Divides sights until each bunch has few, at the middle of its longer side.
 void RayImages::bunch(std::size_t begin, std::size_t end) {
     if (begin == end) return;
     Vec3 low = sights_[begin].mirrored, high = low;
@@ -72,10 +71,10 @@ void RayImages::bunch(std::size_t begin, std::size_t end) {
     bunch(middle, end);
 }
 
-/// Adds the images of the highest order in faces that reflect to the receiver.
+/// Adds the images of the highest order, for faces that reflect to the receiver.
 void RayImages::add_seen_images_of(Vec3 at, std::uint32_t parent) {
     for (const Bunch& bunch : bunches_) {
-        // What the face reflects to the receiver comes straight towards the mirrored receiver.
+        // A ray that the face reflects to the receiver runs straight to the mirrored receiver.
         const auto misses = [&](const Line& line) {
             return line.at(bunch.centre.x, bunch.centre.y) < -(bunch.radius + 2 * slack);
         };
@@ -91,7 +90,8 @@ void RayImages::add_seen_images_of(Vec3 at, std::uint32_t parent, std::span<cons
     for (const Sight& sight : sights) {
         const double front = sight.front.at(at.x, at.y);
         if (!(front > slack)) continue;
-        // The point of reflection divides the way along the face as the distances in front of it.
+        // The point of reflection divides the path along the face in the ratio of the distances in
+        // front of it.
         const double whole = front + sight.receiver_front;
         const double point =
             sight.along.at(at.x, at.y) * sight.receiver_front + sight.receiver_along * front;
@@ -105,7 +105,7 @@ void RayImages::add_images_of(Vec3 at, std::uint32_t parent) {
         if (faces_[face].in_front(at) > slack) add_image(at, parent, face);
 }
 
-/// Adds the image in a face, if the beam falls on the face.
+/// Adds the image in a face, if the beam hits the face.
 void RayImages::add_image(Vec3 at, std::uint32_t parent, std::uint32_t number) {
     const Face& face = faces_[number];
     const Vec3 along = face.to - face.from;
@@ -121,7 +121,7 @@ void RayImages::add_image(Vec3 at, std::uint32_t parent, std::uint32_t number) {
         if (first > last) return;
     }
     const Vec3 image = at - 2 * face.in_front(at) * face.normal;
-    // The wall and the image are on the left of the face: the beam is on the left of its beginning.
+    // The wall and the image are on the left of the face; so the beam is on the left of its start.
     const auto side = [&](Vec3 through, double sign) {
         const Vec3 d = through - image;
         const double scale = sign / std::sqrt(d.x * d.x + d.y * d.y);

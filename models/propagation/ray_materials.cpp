@@ -13,7 +13,7 @@ namespace rovernet {
 namespace {
 constexpr double db_per_neper = 8.685889638065037;
 
-/// Loss of a power [dB], finite.
+/// Loss of a power ratio [dB], finite.
 double decibels(double power) {
     constexpr double least = 1e-300;
     return -10 * math::log10(std::max(power, least));
@@ -67,7 +67,7 @@ double RayMaterials::least_reflection_loss(std::size_t material, double cosine) 
     return entries_[material].least[static_cast<std::size_t>(64 * cosine)];
 }
 
-/// Field behind the wall at an edge over that without it [-].
+/// Field behind the wall at an edge, relative to the field without it [-].
 math::Complex RayMaterials::through(const RayEdge& edge) const {
     const double cosine = std::clamp(edge.cosine, grazing, 1.0);
     const RayFactor wall = crossed(edge.material, edge.thickness, cosine, edge.thickness / cosine);
@@ -79,15 +79,23 @@ RayFactor RayMaterials::around(const RayEdge& edge, RayDiffraction by, bool mirr
     const auto at_most_1 = [](math::Complex field) {
         return RayFactor{field / std::max(1.0, std::sqrt(std::norm(field))), 0};
     };
+    const double kept_out = std::sqrt(std::max(0.0, 1 - std::norm(T)));
+    if (edge.field && edge.shadowed) return at_most_1(kept_out * *edge.field);
+    if (edge.field) {
+        // Phase of the field, with the power that passes through the wall or around it.
+        const double past = std::max(std::norm(*edge.field), 1e-300);
+        const double through_wall = std::norm(T);
+        return at_most_1(std::sqrt((through_wall + (1 - through_wall) * past) / past) *
+                         *edge.field);
+    }
     if (by == RayDiffraction::knife_edge) {
-        const double kept_out = std::sqrt(std::max(0.0, 1 - std::norm(T)));
         if (edge.pair) return at_most_1(kept_out * pair_field(*edge.pair, wavelength_));
         const double nu = 2 * std::sqrt(edge.detour / wavelength_);
         const double loss = knife_edge_loss_p526_db(edge.shadowed ? nu : -nu);
         return {kept_out * math::phasor(-std::numbers::pi / 4), loss / db_per_neper};
     }
     if (edge.pair) {
-        // Beside the straight path, what the pair takes from it.
+        // Beside the straight path: loss caused by the pair.
         const math::Complex field = pair_field(*edge.pair, wavelength_);
         return at_most_1((1.0 - T) * (edge.shadowed ? field : field - 1.0));
     }
@@ -109,7 +117,7 @@ RayFactor RayMaterials::around(const RayEdge& edge, RayDiffraction by, bool mirr
     lit.direct = !edge.shadowed;
     const math::Complex D =
         wedge_coefficient(path, 2 * std::numbers::pi / wavelength_, {L}, faces, lit);
-    // No way around an edge is stronger than one of its length in the open.
+    // A path around an edge is at most as strong as a free path of the same length.
     return at_most_1(D / std::sqrt(L));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/propagation/ray_path.hpp"
+#include "models/propagation/rays.hpp"
 #include "scene/materials/material.hpp"
 #include "scene/materials/slab.hpp"
 #include "sim/complex_math.hpp"
@@ -13,54 +14,55 @@
 
 namespace rovernet {
 
-/// What a wall makes of the field of a path: its factor is `field` times e^-decay.
+/// Factor of a wall on the field of a path: `field` times e^-decay.
 struct RayFactor {
     math::Complex field;
-    /// [Np], >= 0: apart from the field, which metal would make 0.
+    /// Decay [Np], >= 0; separate from the field, which would be 0 for metal.
     double decay;
 
-    double loss() const;  ///< [dB], finite
+    double loss() const;  ///< loss of the wall for the path [dB], finite
 };
 
-/// Losses of a wave that meets a slab [dB]: of what passes through it, and of what it reflects.
+/// Losses of a wave at a slab [dB]: of the transmitted wave, and of the reflected wave.
 struct HitLosses {
     double crossing, reflection;
 };
 
-/// Largest thickness of a wall whose material is not given: no wall of a building is thicker than
-/// half a metre. What is drawn so is furniture, a pillar or a shaft, which is not solid.
+/// Upper limit for the thickness of a wall without a given material: no wall of a building is
+/// thicker. Thicker drawn objects are furniture, pillars or shafts, which are not solid.
 inline constexpr Meters thickest_default_wall{0.5};
 
 /// Coefficients of a scene's materials at one frequency.
 ///
-/// A material of ITU-R P.2040 is a slab of its own thickness, at the path's angle, in the
-/// polarisation TE. One that follows the model is a slab of the model's `wall`, as thick as it is
-/// drawn, at most `thickest_default_wall`, or takes its `wall_loss`. One that gives decibels takes
-/// those from what passes, whatever the angle, without a turn of the phase, and reflects all but
-/// the model's `reflection_loss`, with a turn by half a wave.
+/// A material of ITU-R P.2040 is a slab of its own thickness, at the path's angle, in TE
+/// polarisation. A material without a loss of its own is a slab of the model's `wall` material with
+/// the drawn thickness, at most `thickest_default_wall`, or has the loss `wall_loss`. A material
+/// with a loss in decibels attenuates the transmitted wave by that loss at any angle, without a
+/// phase shift, and reflects with the model's `reflection_loss` and a phase shift of pi.
 class RayMaterials {
   public:
-    /// @param wall_loss  of a crossing of a wall that follows the model; none: it is a slab of
-    /// `wall`
+    /// @param wall_loss  loss of crossing a wall whose material has none; empty: it is a slab of
+    ///                   `wall`
     RayMaterials(const std::vector<Material>& materials, Hertz frequency, ItuMaterial wall,
                  std::optional<Db> wall_loss, Db reflection_loss);
     RayFactor factor(const RayHit& hit) const;
-    /// The material is a slab: what it takes depends on thickness and angle, not on a length.
+    /// Whether the material is a slab: its loss depends on thickness and angle, not on the length
+    /// inside.
     bool is_slab(std::size_t material) const { return entries_[material].slab.has_value(); }
-    /// Losses of a slab: those of the factors of such hits, to rounding.
+    /// Losses of a slab, equal to those of factor(), except for rounding.
     HitLosses losses_at_slab(std::size_t material, double thickness, double cosine) const;
-    /// Loss that no reflection by the material at that angle falls short of [dB].
+    /// Lower bound of the loss [dB] of any reflection by the material at that angle.
     double least_reflection_loss(std::size_t material, double cosine) const;
-    /// Field around an edge over that in free space at the way's length.
+    /// Field around an edge, relative to free space at the same path length.
     ///
-    /// knife_edge: J(nu) by P.526, nu = 2 sqrt(detour / lambda), of that part of the power which
-    /// the wall does not let through. utd: D sqrt((s + s') / (s s')), with the wall's own
+    /// knife_edge: J(nu) of P.526, nu = 2 sqrt(detour / lambda), applied to the part of the power
+    /// that the wall does not transmit. utd: D sqrt((s + s') / (s s')), with the wall's
     /// transmission into its shadow, and its reflection if `mirrors`. A pair of edges:
     /// pair_field(). At most 1.
-    /// @param mirrors  paths that faces reflect are added with their phases
+    /// @param mirrors  reflected paths are added with their phases
     RayFactor around(const RayEdge& edge, RayDiffraction by, bool mirrors) const;
-    /// Loss of a straight path that passes an edge on its lit side [dB], with knife edges: up to
-    /// 6 dB beside one edge, of that part of the power which its wall would not let through.
+    /// Loss of a straight path that passes an edge on its lit side [dB], for knife edges: up to 6
+    /// dB at one edge, applied to the part of the power that the wall does not transmit.
     double beside_edge(const RayEdge& edge) const;
 
   private:
@@ -70,10 +72,10 @@ class RayMaterials {
 
   private:
     struct Entry {
-        std::optional<Slab> slab;         // or decibels
-        std::optional<double> thickness;  // [m], instead of the drawn one
-        double thickest;                  // [m], of the drawn one
-        std::array<double, 65> least;     // loss of reflection [dB], by cosine * 64
+        std::optional<Slab> slab;         // empty for a material with a loss in decibels
+        std::optional<double> thickness;  // fixed thickness [m], instead of the drawn one
+        double thickest;                  // upper limit of the drawn thickness [m]
+        std::array<double, 65> least;     // smallest loss of reflection [dB], by cosine * 64
         double per_crossing, per_metre;   // [dB], [dB/m]
 
         double slab_thickness(double drawn) const {
@@ -82,7 +84,7 @@ class RayMaterials {
     };
     double wavelength_;
     std::vector<Entry> entries_;
-    double mirror_;  // reflection of materials that give decibels
+    double mirror_;  // reflection coefficient of materials with a loss in decibels
 };
 
 }  // namespace rovernet

@@ -16,16 +16,14 @@ constexpr double touching = 1e-9;  // [m]
 
 bool is_first(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) <= std::tie(b.x, b.y, b.z); }
 
-/// Nearest multiple of a step that is a power of two, so that the walls of a room, which a path
-/// meets at few angles, have few of them in spite of rounding.
+/// Nearest multiple of a step that is a power of two. A path meets the walls of a room at few
+/// angles; rounding keeps their number small.
 double rounded(double x, double step) { return std::floor(x / step + 0.5) * step; }
 double cosine_of(double x) { return rounded(std::clamp(std::abs(x), grazing, 1.0), 0x1p-36); }
 double thickness_of(double x) { return rounded(std::max(x, 0.0), 0x1p-34); }
 
-Vec3 in_plan(Vec3 p) { return {p.x, p.y, 0}; }
-
-/// The part of a leg from p to q beside a slanting face at one end, where the steps of its outline
-/// are [m].
+/// Length of the part of a leg from p to q that runs among the outline steps of a slanting face at
+/// one end [m].
 double among_steps(const Face& face, Vec3 p, Vec3 q) {
     if (face.deviation == 0) return 0;
     const double leaving = std::abs(dot(q - p, face.normal));
@@ -73,8 +71,8 @@ void RayTracer::trace(Vec3 to, const RayLimit* limit, RayPaths& out) {
     out.paths.resize(kept);
 }
 
-/// Collects the paths that images propose and that exist, the strongest first as far as is known,
-/// in an order that is the same in both directions.
+/// Collects the existing paths among those that the images propose, strongest first as far as
+/// known, in an order that is the same in both directions.
 void RayTracer::propose(Vec3 to, const RayLimit* limit) {
     candidates_.clear();
     const bool forward = a_ == from_;
@@ -91,7 +89,7 @@ void RayTracer::propose(Vec3 to, const RayLimit* limit) {
     });
 }
 
-/// Finds the path by these faces; nothing if it does not exist.
+/// Computes the path by these faces; empty if it does not exist.
 std::optional<RayTracer::Candidate> RayTracer::plan(std::span<const std::uint32_t> chain,
                                                     const RayLimit* limit) {
     mirrored_.assign(1, in_plan(a_));
@@ -122,7 +120,8 @@ std::optional<RayTracer::Candidate> RayTracer::plan(std::span<const std::uint32_
     return path;
 }
 
-/// Fills in all points of a path but the last, from that back; false if one is not on its face.
+/// Computes all points of a path except the last, backwards from the last; false if a point is not
+/// on its face.
 /// @param flat  length of the path in plan [m]
 bool RayTracer::place(std::span<const std::uint32_t> chain, double flat,
                       std::span<Vec3> points) const {
@@ -146,7 +145,7 @@ bool RayTracer::place(std::span<const std::uint32_t> chain, double flat,
     return true;
 }
 
-/// Adds the path with the walls in its way, unless it is too faint.
+/// Adds the path with the walls that it crosses, unless it is too weak.
 void RayTracer::add(const Candidate& path, const RayLimit* limit, RayPaths& out) {
     Draft draft{out, limit, out.all_hits.size(), out.all_edges.size(), path.free_space};
     draft.whole_ends = path.count == 0;
@@ -154,7 +153,7 @@ void RayTracer::add(const Candidate& path, const RayLimit* limit, RayPaths& out)
     const auto points = std::span(points_).subspan(path.first_point, path.count + 2);
     for (const RayHit& hit : reflections)
         if (limit) draft.loss += loss_of(hit, limit->materials);
-    // The reflection by a face that the straight path grazes is in the field of the face's edges.
+    // The reflection by a grazed face is part of the field of the face's edges.
     for (const GrazedFace& grazed : grazed_)
         if (path.count == 1 &&
             (reflections[0].face == grazed.face ||
@@ -182,7 +181,7 @@ bool RayTracer::is_faint(const Draft& draft) const {
     return draft.limit && draft.loss > best_ + draft.limit->faintest;
 }
 
-/// Keeps the path whose hits and edges were collected, or drops them.
+/// Adds the path with its collected hits and edges to the result, or discards them.
 void RayTracer::finish(const Draft& draft, bool bright, double length) {
     std::vector<RayHit>& hits = draft.out.all_hits;
     std::vector<RayEdge>& edges = draft.out.all_edges;
@@ -197,7 +196,7 @@ void RayTracer::finish(const Draft& draft, bool bright, double length) {
                                edges.size() - draft.first_edge});
 }
 
-/// Loss of a hit [dB]; those of a few slabs are remembered.
+/// Loss of a hit [dB]; results for a few slabs are cached.
 double RayTracer::loss_of(const RayHit& hit, const RayMaterials& materials) {
     if (!materials.is_slab(hit.material)) return materials.factor(hit).loss();
     const auto is_this = [&](const KnownSlab& known) {
@@ -213,7 +212,7 @@ double RayTracer::loss_of(const RayHit& hit, const RayMaterials& materials) {
     return hit.kind == RayHit::Kind::reflection ? known->losses.reflection : known->losses.crossing;
 }
 
-/// The reflection by a face of what comes from p and meets it at q.
+/// Reflection by a face of a ray from p to q.
 RayHit RayTracer::reflection(Vec3 p, Vec3 q, std::uint32_t number) const {
     const Face& face = faces_[number];
     const double length = distance(q, p);
@@ -222,8 +221,8 @@ RayHit RayTracer::reflection(Vec3 p, Vec3 q, std::uint32_t number) const {
             cosine_of(cosine),        0};
 }
 
-/// Appends the walls that a leg passes, but for its first `begin` and last `end` metres; false if
-/// the path is too faint.
+/// Appends the walls that a leg crosses, except within its first `begin` and last `end` metres;
+/// false if the path becomes too weak.
 bool RayTracer::pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft) {
     crossed_.clear();
     scene_.crossings(p, q, crossings_);
@@ -236,7 +235,7 @@ bool RayTracer::pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft) {
         c.exit = std::min(c.exit, length - end);
         if (c.exit - c.entry <= touching) continue;
         if (cut) c.length = c.exit - c.entry;
-        const auto hit = crossing(c, p, along, draft.whole_ends);
+        const auto hit = crossing(c, p, along, draft);
         if (!hit) continue;
         draft.out.all_hits.push_back(*hit);
         if (!draft.limit) continue;
@@ -246,31 +245,50 @@ bool RayTracer::pass(Vec3 p, Vec3 q, double begin, double end, Draft& draft) {
     return true;
 }
 
-/// The wall of a crossing, as its faces have it; nothing if the path only touches steps of a face.
-/// @param whole_ends  a path that clips the end of a wall passes through the whole wall
-std::optional<RayHit> RayTracer::crossing(const Crossing& c, Vec3 from, Vec3 along,
-                                          bool whole_ends) {
-    auto entry = scene_.faces()->at(from + c.entry * along, c.material);
-    auto exit = scene_.faces()->at(from + c.exit * along, c.material);
+/// Whether a line passes through the corner at which the lines of two faces intersect, and not
+/// beside it, where only the drawn outline may stick out.
+bool RayTracer::is_clipped(std::size_t entry, std::size_t exit, Vec3 from, Vec3 along) const {
+    const Face &f = faces_[entry], &g = faces_[exit];
+    const double in = -dot(along, f.normal), out = dot(along, g.normal);
+    if (!(in > 0 && out > 0)) return true;
+    return f.in_front(from) / in < -g.in_front(from) / out;
+}
+
+/// Wall of a crossing, by its faces; empty if the path only touches the steps of faces.
+std::optional<RayHit> RayTracer::crossing(const Crossing& c, Vec3 from, Vec3 along, Draft& draft) {
+    const auto entry = scene_.faces()->at(from + c.entry * along, c.material);
+    const auto exit = scene_.faces()->at(from + c.exit * along, c.material);
     RayHit hit{RayHit::Kind::crossing, no_face, c.material, c.length, 1, c.length};
     if (!entry && !exit) return hit;
     if (entry == exit) return std::nullopt;
+    for (const std::size_t e : draft.beside)
+        if (e != no_edge && (!entry || edges_.is_of(*entry, e)) &&
+            (!exit || edges_.is_of(*exit, e)))
+            return std::nullopt;
+    const std::size_t corner = entry && exit ? edges_.edge_of(*entry, *exit) : no_edge;
+    if (corner != no_edge && !is_clipped(*entry, *exit, from, along)) return std::nullopt;
+    // A drawn outline may be clipped twice at one corner.
+    if (corner != no_edge && draft.whole_ends) {
+        if (corner == draft.clipped) return std::nullopt;
+        draft.clipped = corner;
+    }
     for (const auto& face : {entry, exit})
         if (face) crossed_.push_back(*face);
-    // A long side of a wall tells its direction better than its end does.
+    // The direction of a wall is more accurate from its long side than from its end.
     const auto longer = [&](std::size_t f, std::size_t g) {
         return std::tie(faces_[f].length, g) > std::tie(faces_[g].length, f);
     };
     hit.face = !exit || (entry && longer(*entry, *exit)) ? *entry : *exit;
+    const bool whole = draft.whole_ends && corner != no_edge;
+    if (whole) hit.face = edges_.wall_at(corner);
     const Face& face = faces_[hit.face];
     hit.cosine = cosine_of(dot(along, face.normal));
     hit.thickness = thickness_of(c.length * hit.cosine);
-    if (entry && exit && faces_[*entry].opposite(faces_[*exit])) {
+    if (!whole && entry && exit && faces_[*entry].opposite(faces_[*exit])) {
         const Vec3 middle = from + ((c.entry + c.exit) / 2) * along;
         hit.thickness =
             thickness_of(-faces_[*entry].in_front(middle) - faces_[*exit].in_front(middle));
-    } else if (whole_ends && entry && exit &&
-               edges_.is_end(*entry == hit.face ? *exit : *entry, hit.face)) {
+    } else if (whole) {
         hit.thickness = thickness_of(face.thickness);
     }
     return hit;

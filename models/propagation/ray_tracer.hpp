@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/propagation/edges/edge_row.hpp"
 #include "models/propagation/ray_edges.hpp"
 #include "models/propagation/ray_images.hpp"
 #include "models/propagation/ray_materials.hpp"
 #include "models/propagation/ray_path.hpp"
+#include "models/propagation/rays.hpp"
 #include "scene/scene.hpp"
 #include "sim/geometry.hpp"
 #include "sim/units.hpp"
@@ -18,86 +20,92 @@
 
 namespace rovernet {
 
-/// Limit to the paths that are worth their time.
+/// Limits that exclude paths which are too weak to matter.
 struct RayLimit {
     const RayMaterials& materials;
     Hertz frequency;
-    /// Paths are left out that lose this much more than the strongest one [dB].
+    /// Largest loss of a path relative to the strongest path [dB]; weaker paths are left out.
     double faintest;
-    /// How paths go around edges, and whether reflected paths are added with their phases.
+    /// Method for paths around edges, and whether reflected paths are added with their phases.
     RayDiffraction diffraction = RayDiffraction::none;
     bool coherent = false;
 };
 
-/// Finds the paths from one sender to its receivers, by images.
+/// Finds the paths from one sender to its receivers, by the method of images.
 ///
-/// The paths are planned in plan, and rise evenly from one antenna to the other: walls are upright,
-/// and floors and ceilings do not reflect. A reflection at a height where the face has ended does
-/// not happen. A path passes through every wall that stands in its way.
+/// Paths are found in plan, and their height changes linearly from one antenna to the other: walls
+/// are vertical, and floors and ceilings do not reflect. A reflection above the end of the face is
+/// left out. A path passes through every wall that it meets.
 ///
-/// With edges, paths go around one body each: around the ends of the walls that stand in the
-/// straight path, around both edges of a body that is wide, and around edges that it passes on the
-/// other side with a detour of less than 2.25 wavelengths. One more path goes around each body in
-/// the straight path that takes more than that.
+/// With edges, there are paths around one body each: around the ends of the walls that obstruct the
+/// straight path, around both edges of a wide body, and around edges on the lit side with a detour
+/// of less than 2.25 wavelengths. Further paths go around several bodies in the straight path on
+/// one side: around all of them, and around those whose transmission loss exceeds the loss of the
+/// path around them.
 ///
-/// With edges, the straight path that clips the end of a wall passes through the whole wall, as the
-/// path around that end has it.
+/// With edges, a path that crosses the corner of a wall passes through the whole wall, to agree
+/// with the path around that corner. A corner is the intersection of the lines of two faces, also
+/// where the drawn outline differs from it.
 ///
-/// Walls are what is drawn, except where a path comes from a slanting face: the steps of the
-/// outline that the face stands for are no walls, neither to the path that the face reflects nor to
-/// one that touches them and leaves by the same face.
+/// Walls are as drawn, with one exception: for a path reflected by a slanting face, and for a path
+/// that touches the face and leaves on the same side, the steps of the face's outline are no walls.
 ///
-/// All numbers of a path are the same to the last bit in both directions: images only propose it;
-/// its points are computed from that end which comes first by its coordinates.
+/// All numbers of a path are exactly the same in both directions: its points are computed from the
+/// end that comes first by its coordinates.
 class RayTracer {
   public:
-    /// @param scene  outlives the tracer
-    /// @param order  most reflections
+    /// @param scene       must outlive the tracer
+    /// @param order       largest number of reflections
     /// @param wavelength  [m]; shorter faces do not reflect
-    /// @param edges  paths go around edges, too
-    /// @param few  few receivers will be asked for: it takes less time
+    /// @param edges       also find paths around edges
+    /// @param few         faster for few receivers, see RayImages
     RayTracer(const Scene& scene, Vec3 from, int order, double wavelength, bool edges = false,
               bool few = false);
 
-    /// Fills `out` with the paths to a receiver.
-    /// @param limit  null: all paths; else the strongest and those that are within the limit
+    /// Writes the paths to a receiver into `out`.
+    /// @param limit  null: all paths; otherwise the strongest path and those within the limit
     void trace(Vec3 to, const RayLimit* limit, RayPaths& out);
-    /// Losses of the last link's paths [dB], in their order; only with a limit.
+    /// Losses of the last link's paths [dB], in their order; only valid with a limit.
     std::span<const double> losses() const { return losses_; }
 
   private:
-    /// Path whose walls are not looked for yet.
+    /// Path found, before its wall crossings are computed.
     struct Candidate {
-        double length;             // [m]
-        std::size_t first_point;   // its points, from end to end: two more than reflections
-        std::size_t first, count;  // its reflections
+        double length;  // [m]
+        // Index of its first point; the path has two more points than reflections.
+        std::size_t first_point;
+        std::size_t first, count;  // range of its reflections
         double free_space = 0;     // loss without walls [dB]
-        double least_loss = 0;     // that and the least that reflections take [dB]
+        double least_loss = 0;     // free-space loss plus a lower bound for the reflections [dB]
     };
-    /// Path whose walls are being looked for.
+    /// Path whose wall crossings are being computed.
     struct Draft {
         RayPaths& out;
         const RayLimit* limit;
-        std::size_t first;        // of its hits
-        std::size_t first_edge;   // of its edges
-        double loss;              // so far [dB], reflections included
-        bool whole_ends = false;  // of walls, as the ways around them have it
+        std::size_t first;        // index of its first hit
+        std::size_t first_edge;   // index of its first edge
+        double loss;              // loss so far [dB], including reflections
+        bool whole_ends = false;  // walls at its ends count as a whole, as on paths around them
+        std::size_t clipped = no_edge;  // last edge whose wall it passes through as a whole
+        // Edges at the start and at the end of the current leg: the leg does not cross their faces.
+        std::array<std::size_t, 2> beside = {no_edge, no_edge};
     };
-    /// Slab that a wave met at an angle. A path meets walls side by side and square to one another:
-    /// with few of these.
+    /// Losses of a slab for a material, thickness and angle. The walls of a path are mostly
+    /// parallel or perpendicular, so a few such entries are enough.
     struct KnownSlab {
         std::size_t material;
         double thickness, cosine;
         HitLosses losses;
     };
-    /// Way around one body in the straight path, and on which side of that it goes.
+    /// Detour around one wall or obstacle that is in or beside the straight line from the
+    /// transmitter to the receiver, and whether it passes on the left.
     struct BodyWay {
-        std::size_t first, last;  // edges, in the order of the outline
+        std::size_t first_corner, corners;  // range of its corners, in the order of the outline
         WayAround way;
         bool left;
     };
-    /// Face that the straight path grazes, or those between the corners of an edge, and the share
-    /// of the reflection in the edges' field.
+    /// Face that the straight path grazes, or face between the corners of an edge, and the fraction
+    /// of its reflection in the edges' field.
     struct GrazedFace {
         std::size_t face, edge;
         double share;
@@ -106,11 +114,34 @@ class RayTracer {
     std::optional<Candidate> plan(std::span<const std::uint32_t> chain, const RayLimit* limit);
     bool place(std::span<const std::uint32_t> chain, double flat, std::span<Vec3> points) const;
     void add(const Candidate& path, const RayLimit* limit, RayPaths& out);
+    void add_clipped(const RayLimit* limit, RayPaths& out);
     void add_diffracted(const RayLimit* limit, RayPaths& out);
-    void add_around(const WayAround& way, double steps, const RayLimit* limit, RayPaths& out);
+    void add_around(const WayAround& way, std::span<const RayEdge> beside, const RayLimit* limit,
+                    RayPaths& out);
+    void bend(const RayEdge& edge, Draft& draft);
+    void follow(const RayPath& straight, const WayAround& way, const RayLimit* limit,
+                RayPaths& out);
+    bool pass_leg(Vec3 p, std::size_t at_p, Vec3 q, std::size_t at_q, Draft& draft);
     void add_around_edge(std::size_t edge, const RayLimit* limit, RayPaths& out);
+    std::span<const EdgeCorner> corners_of(const BodyWay& body) const {
+        return std::span(corners_).subspan(body.first_corner, body.corners);
+    }
+    TautString string_around(std::span<const BodyWay* const> bodies, bool left) const;
+    std::optional<RowCorner> beside(const TautString& string, const EdgeCorner& corner,
+                                    std::size_t body) const;
+    std::vector<EdgeCorner> corners_near(const BodyWay& body) const;
+    std::vector<RowCorner> row_of(const TautString& string,
+                                  std::span<const BodyWay* const> side) const;
+    std::vector<RayEdge> edges_past(const TautString& string, std::span<const BodyWay* const> side,
+                                    double longer) const;
     void add_around_bodies(bool left, const RayLimit* limit, RayPaths& out);
-    void pass_beside(std::size_t edge, const RayLimit* limit, RayPaths& out);
+    bool takes_more_than_its_way(const BodyWay& body, const RayLimit* limit, const RayPaths& out);
+    void add_row(const TautString& string, std::span<const BodyWay* const> side, bool left,
+                 const RayLimit* limit, RayPaths& out);
+    void pass_beside(std::size_t edge);
+    void add_beside(bool left, const RayLimit* limit, RayPaths& out);
+    bool is_left(Vec3 p) const;
+    void sort_along(std::vector<const BodyWay*>& side, bool left) const;
     double loss_of(const RayHit& hit, const RayMaterials& materials);
     bool is_near(const WallEdge& edge, double detour) const;
     RayHit reflection(Vec3 p, Vec3 q, std::uint32_t face) const;
@@ -118,7 +149,8 @@ class RayTracer {
     static double free_space(double length, Hertz f);
     bool is_faint(const Draft& draft) const;
     void finish(const Draft& draft, bool bright, double length);
-    std::optional<RayHit> crossing(const Crossing& c, Vec3 from, Vec3 along, bool whole_ends);
+    std::optional<RayHit> crossing(const Crossing& c, Vec3 from, Vec3 along, Draft& draft);
+    bool is_clipped(std::size_t entry, std::size_t exit, Vec3 from, Vec3 along) const;
     std::span<const RayHit> reflections_of(const Candidate& c) const {
         return std::span(reflections_).subspan(c.first, c.count);
     }
@@ -129,23 +161,24 @@ class RayTracer {
     double wavelength_;
     RayImages images_;
     RayEdges edges_;
-    // Ends of the link that is traced, the first by its coordinates first; then its state:
+    // Ends of the link, ordered by coordinates; the members below are the state of the current
+    // link.
     Vec3 a_, b_;
     double best_ = 0;  // loss of the strongest path so far [dB]
     std::vector<double> losses_;
     std::vector<Candidate> candidates_;
-    std::vector<RayHit> reflections_;  // of the candidates
-    std::vector<Vec3> points_;         // of the candidates
+    std::vector<RayHit> reflections_;  // reflections of all candidates
+    std::vector<Vec3> points_;         // points of all candidates
     std::vector<std::uint32_t> chain_;
     std::vector<Vec3> mirrored_;
     std::vector<Crossing> crossings_;
-    std::vector<std::size_t> crossed_;  // faces of the last leg's walls
-    std::vector<CrossedAt> at_edge_;    // by edge: faces in the way of the straight path
-    std::vector<char> done_;            // by edge: a way has it
-    std::vector<BodyWay> bodies_;       // ways around single bodies in the straight path
-    std::vector<std::size_t> passed_;
+    std::vector<std::size_t> crossed_;  // faces of the walls crossed by the last leg
+    std::vector<CrossedAt> at_edge_;    // by edge: faces that the straight path crosses
+    std::vector<char> done_;            // by edge: a path around it was found
+    std::vector<BodyWay> bodies_;       // paths around single bodies in the straight path
+    std::vector<EdgeCorner> corners_;   // corners of the paths in bodies_
     std::vector<GrazedFace> grazed_;
-    std::array<KnownSlab, 6> known_{};  // the last ones, of the same materials
+    std::array<KnownSlab, 6> known_{};  // last results, for the same materials
     std::size_t next_known_ = 0;
 };
 

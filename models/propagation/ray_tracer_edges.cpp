@@ -3,22 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <tuple>
+#include <numbers>
 #include <vector>
 
-// Ways around edges and bodies.
+// Paths around edges and bodies.
 
 namespace rovernet {
 
-/// A way by one of the edge's corners is longer than the straight path by less than this [m], in
-/// plan: the corner lies in an ellipse around both ends, or beside it.
+/// Whether the path by one of the edge's corners is longer than the straight path by less than
+/// `detour` [m], in plan: the corner lies in an ellipse around both ends.
 bool RayTracer::is_near(const WallEdge& edge, double detour) const {
-    const Vec3 way = Vec3{b_.x - a_.x, b_.y - a_.y, 0};
+    const Vec3 way = in_plan(b_ - a_);
     const double squared = dot(way, way), length = std::sqrt(squared);
     const double width = detour * (detour + 2 * length) / 4;  // of half the ellipse, squared
     for (const Vec3 corner : edge.corners) {
-        const Vec3 off = corner - Vec3{a_.x, a_.y, 0};
+        const Vec3 off = corner - in_plan(a_);
         const double along = length > 0 ? dot(off, way) / length : 0;
         if (along < -detour / 2 || along > length + detour / 2) continue;
         if (dot(off, off) - along * along <= width) return true;
@@ -26,139 +25,198 @@ bool RayTracer::is_near(const WallEdge& edge, double detour) const {
     return false;
 }
 
-/// Adds the ways around edges; the straight path is the only one so far.
+/// Whether a point is on the left of the straight path, in plan.
+bool RayTracer::is_left(Vec3 p) const { return cross_in_plan(b_ - a_, p - a_) > 0; }
+
+/// Adds the walls whose corners the straight path clips where the drawn outline is cut short, so
+/// that the faces' lines intersect outside it. The straight path is the only path so far.
+void RayTracer::add_clipped(const RayLimit* limit, RayPaths& out) {
+    const Vec3 way = b_ - a_;
+    const double length = distance(a_, b_);
+    const auto side = [&](Vec3 p) { return cross_in_plan(way, p - a_); };
+    for (std::size_t e = 0; e < at_edge_.size(); ++e) {
+        const WallEdge& edge = edges_.all()[e];
+        if (at_edge_[e].any() || edge.steps == 0 || !is_near(edge, near_edge * wavelength_))
+            continue;
+        const Face &before = faces_[edge.before], &behind = faces_[edge.behind];
+        const double s0 = side(edge.corners[0]), s1 = side(edge.corners[1]);
+        const auto crosses = [&](double corner, const Face& face, Vec3 end) {
+            return corner * side(end) < 0 && face.in_front(a_) * face.in_front(b_) < 0;
+        };
+        const bool by_before = crosses(s0, before, before.from),
+                   by_behind = crosses(s1, behind, behind.to), between = s0 * s1 < 0;
+        if (by_before + by_behind + between != 2) continue;
+        const std::size_t face = edges_.wall_at(e);
+        const double cosine =
+            std::clamp(std::abs(dot(way, faces_[face].normal)) / length, grazing, 1.0);
+        const double thickness = faces_[face].thickness;
+        const double share =
+            std::clamp(dot(edge.corners[0] - a_, way) / (length * length), 0.0, 1.0);
+        if (a_.z + share * way.z > edge.height) continue;
+        out.all_hits.push_back({RayHit::Kind::crossing, face, faces_[face].material, thickness,
+                                cosine, thickness / cosine});
+        ++out.paths[0].hits;
+        if (limit) losses_[0] += loss_of(out.all_hits.back(), limit->materials);
+        at_edge_[e] = {by_before, by_behind, between};
+    }
+}
+
+/// Adds the paths around edges; the straight path is the only path so far.
 void RayTracer::add_diffracted(const RayLimit* limit, RayPaths& out) {
     edges_.find_crossed(crossed_, at_edge_);
+    add_clipped(limit, out);
     done_.assign(edges_.all().size(), false);
     bodies_.clear();
-    // Bodies in the way, then what is left of the edges in the way, then edges beside it.
+    corners_.clear();
+    // First bodies that obstruct the path, then other obstructing edges, then edges beside it.
     for (std::size_t e = 0; e < at_edge_.size(); ++e) {
         const CrossedAt& at = at_edge_[e];
         if (!at.before && !at.between) continue;
-        passed_.clear();
-        const auto way = edges_.around_body(e, at_edge_, a_, b_, passed_);
+        const std::size_t first = corners_.size();
+        const auto way = edges_.around_body(e, at_edge_, a_, b_, corners_);
         if (!way) {
-            add_around_edge(e, limit, out);
-            done_[e] = true;
+            corners_.resize(first, EdgeCorner{});
             continue;
         }
-        for (const std::size_t passed : passed_) done_[passed] = true;
-        const Vec3 corner = way->corners[0];
-        const double left = (b_.x - a_.x) * (corner.y - a_.y) - (b_.y - a_.y) * (corner.x - a_.x);
-        bodies_.push_back({passed_.front(), passed_.back(), *way, left > 0});
-        add_around(*way, edges_.all()[e].steps, limit, out);
+        bodies_.push_back({first, corners_.size() - first, *way, is_left(way->corners[0])});
+        for (const EdgeCorner& passed : corners_of(bodies_.back())) done_[passed.edge] = true;
     }
-    for (std::size_t e = 0; e < at_edge_.size(); ++e) {
-        if (done_[e]) continue;
-        if (at_edge_[e].any())
-            add_around_edge(e, limit, out);
-        else
-            pass_beside(e, limit, out);
-    }
+    for (std::size_t e = 0; e < at_edge_.size(); ++e)
+        if (!done_[e] && !at_edge_[e].any()) pass_beside(e);
+    for (const bool left : {false, true}) add_beside(left, limit, out);
+    for (std::size_t e = 0; e < at_edge_.size(); ++e)
+        if (!done_[e] && at_edge_[e].any()) add_around_edge(e, limit, out);
     for (const bool left : {false, true}) add_around_bodies(left, limit, out);
     if (limit && limit->diffraction == RayDiffraction::knife_edge && out.beside)
         losses_[0] += limit->materials.beside_edge(*out.beside);
     if (limit) best_ = *std::min_element(losses_.begin(), losses_.end());
 }
 
-/// Adds the way around an edge in the straight path, whatever else of its body is in the way.
+/// Adds the path around an edge that obstructs the straight path, without regard to the rest of its
+/// body.
 void RayTracer::add_around_edge(std::size_t e, const RayLimit* limit, RayPaths& out) {
-    auto way = edges_.around(edges_.all()[e], a_, b_);
+    auto way = edges_.around(e, a_, b_);
     if (!way) return;
     way->edge.shadowed = true;
     edges_.join_next_corner(*way, e, true, a_, b_);
-    add_around(*way, edges_.all()[e].steps, limit, out);
+    add_around(*way, {}, limit, out);
 }
 
-/// The straight path as it passes an edge that does not stand in its way.
-void RayTracer::pass_beside(std::size_t e, const RayLimit* limit, RayPaths& out) {
+/// Handles a body beside the straight path with an edge near it: the path passes on the edge's lit
+/// side, or a second path leads around its far side.
+void RayTracer::pass_beside(std::size_t e) {
     const WallEdge& edge = edges_.all()[e];
     const double near = near_edge * wavelength_;
     if (!is_near(edge, near)) return;
-    auto way = edges_.around(edge, a_, b_);
+    auto way = edges_.around(e, a_, b_);
     if (!way || way->detour >= near) return;
-    const std::size_t other = edges_.join_next_corner(*way, e, false, a_, b_);
-    if (other != no_edge) {
-        done_[other] = true;
+    const double turned = std::abs(way->edge.phi_after - way->edge.phi_before);
+    way->edge.shadowed = turned > std::numbers::pi * (1 + 1e-12);
+    const std::size_t other = edges_.join_next_corner(*way, e, way->edge.shadowed, a_, b_);
+    const std::size_t first = corners_.size();
+    const auto add = [&](std::size_t number, std::size_t corner) {
+        corners_.push_back({edges_.all()[number].corners[corner], number});
+    };
+    // The neighbours before and behind may be one edge, the other end of a wall: then the joined
+    // corner is the nearer one.
+    const bool other_first =
+        other != no_edge && other != e && other == edge.previous &&
+        (other != edge.next || distance(edges_.all()[other].corners[1], edge.corners[0]) <=
+                                   distance(edge.corners[1], edges_.all()[other].corners[0]));
+    if (other_first) add(other, 1);
+    for (const std::size_t corner : {0, 1}) add(e, corner);
+    if (other != no_edge && other != e && !other_first) add(other, 0);
+    if (other != no_edge) done_[other] = true;
+    if (other != no_edge && !way->edge.shadowed) {
         const double share = mirrored_share(*way->edge.pair, wavelength_);
         grazed_.push_back({other == edge.next       ? edge.behind
                            : other == edge.previous ? edge.before
                                                     : no_face,
                            other == e ? e : no_edge, share});
     }
-    if (!out.beside || way->detour < out.beside->detour) out.beside = way->edge;
-    if (!limit || limit->diffraction == RayDiffraction::utd)
-        add_around(*way, edge.steps, limit, out);
+    // A wall with a lit corner is on one side of the line, and the path leads along the other side.
+    const Vec3 normal = faces_[edge.behind].normal;
+    const Vec3 inward = edge.back + Vec3{-normal.y, normal.x, 0};
+    const bool left = way->edge.shadowed ? is_left(way->corners[0]) : !is_left(a_ + inward);
+    bodies_.push_back({first, corners_.size() - first, *way, left});
 }
 
-void RayTracer::add_around(const WayAround& way, double steps, const RayLimit* limit,
-                           RayPaths& out) {
+/// Adds the effect of the bodies on one side of the straight path to it.
+void RayTracer::add_beside(bool left, const RayLimit* limit, RayPaths& out) {
+    std::vector<const BodyWay*> lit;
+    for (const BodyWay& body : bodies_)
+        if (body.left == left && !body.way.edge.shadowed) lit.push_back(&body);
+    std::vector<RayEdge> row;
+    if (lit.size() > 1) {
+        sort_along(lit, left);
+        row = edges_past(string_around({}, left), lit, 1);
+    }
+    if (row.size() < 2) {
+        for (const BodyWay* body : lit) {
+            const WayAround& way = body->way;
+            if (!out.beside || way.detour < out.beside->detour) out.beside = way.edge;
+            if (!limit || limit->diffraction == RayDiffraction::utd)
+                follow(out.paths[0], way, limit, out);
+        }
+        return;
+    }
+    RayPath& straight = out.paths[0];
+    // The edges of a path must be consecutive: those of the other side move behind the later ones.
+    if (straight.first_edge + straight.edges != out.all_edges.size()) {
+        const auto its = out.edges(straight);
+        const std::vector<RayEdge> kept(its.begin(), its.end());
+        straight.first_edge = out.all_edges.size();
+        out.all_edges.insert(out.all_edges.end(), kept.begin(), kept.end());
+    }
+    for (const RayEdge& edge : row) {
+        out.all_edges.push_back(edge);
+        ++straight.edges;
+        if (limit)
+            losses_[0] += limit->materials.around(edge, limit->diffraction, limit->coherent).loss();
+    }
+}
+
+/// Adds the path around one body, with the walls that it crosses.
+/// @param beside  other bodies that the path passes
+void RayTracer::add_around(const WayAround& way, std::span<const RayEdge> beside,
+                           const RayLimit* limit, RayPaths& out) {
     Draft draft{out, limit, out.all_hits.size(), out.all_edges.size(), 0};
-    out.all_edges.push_back(way.edge);
-    if (limit)
-        draft.loss = free_space(way.length, limit->frequency) +
-                     limit->materials.around(way.edge, limit->diffraction, limit->coherent).loss();
-    // The drawn outline may stick out of the faces near the corner, as far as their lines meet.
-    const double skipped = 3 * steps;
-    const bool bright = !is_faint(draft) && pass(a_, way.corners[0], 0, skipped, draft) &&
-                        pass(way.corners[1], b_, skipped, 0, draft);
+    if (limit) draft.loss = free_space(way.length, limit->frequency);
+    bend(way.edge, draft);
+    for (const RayEdge& edge : beside) bend(edge, draft);
+    const bool bright = !is_faint(draft) &&
+                        pass_leg(a_, no_edge, way.corners[0], way.edges[0], draft) &&
+                        pass_leg(way.corners[1], way.edges[1], b_, no_edge, draft);
     finish(draft, bright, way.length);
 }
 
-/// Adds the path that goes around each body in the straight path, on one side of all, that takes
-/// less so than by passing through it; if they are several. As Epstein and Peterson have it, each
-/// is gone around from the body before it to the one behind it.
-void RayTracer::add_around_bodies(bool left, const RayLimit* limit, RayPaths& out) {
-    const RayPath straight = out.paths[0];
-    const auto hit = [&](std::size_t i) { return out.all_hits[straight.first_hit + i]; };
-    const auto loss_around = [&](const WayAround& way) {
-        return limit->materials.around(way.edge, limit->diffraction, limit->coherent).loss();
-    };
-    std::vector<char> passed(straight.hits, false);  // hits that are gone around
-    std::vector<const BodyWay*> row;
-    for (const BodyWay& body : bodies_) {
-        if (body.left != left) continue;
-        const auto is_its = [&](std::size_t i) {
-            return !passed[i] && hit(i).face != no_face &&
-                   edges_.is_at(hit(i).face, body.first, body.last);
-        };
-        double through = 0;
-        for (std::size_t i = 0; i < straight.hits; ++i)
-            if (is_its(i))
-                through += limit ? loss_of(hit(i), limit->materials)
-                                 : std::numeric_limits<double>::infinity();
-        if (through <= (limit ? loss_around(body.way) : 0)) continue;
-        for (std::size_t i = 0; i < straight.hits; ++i) passed[i] |= is_its(i);
-        row.push_back(&body);
-    }
-    if (row.size() < 2) return;
-    const auto along = [&](const BodyWay* body) { return dot(body->way.corners[0] - a_, b_ - a_); };
-    std::sort(row.begin(), row.end(),
-              [&](const BodyWay* p, const BodyWay* q) { return along(p) < along(q); });
+/// Adds an edge to a path.
+void RayTracer::bend(const RayEdge& edge, Draft& draft) {
+    draft.out.all_edges.push_back(edge);
+    if (const RayLimit* limit = draft.limit)
+        draft.loss += limit->materials.around(edge, limit->diffraction, limit->coherent).loss();
+}
+
+/// Adds the effect of an edge beside the straight path on its field; this path crosses the same
+/// walls.
+void RayTracer::follow(const RayPath& straight, const WayAround& way, const RayLimit* limit,
+                       RayPaths& out) {
     Draft draft{out, limit, out.all_hits.size(), out.all_edges.size(), 0};
-    double length = 0;
-    Vec3 at = a_;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const auto& corners = row[i]->way.corners;
-        const Vec3 next = i + 1 < row.size() ? row[i + 1]->way.corners[0] : b_;
-        length += distance(at, corners[0]) + distance(corners[0], corners[1]);
-        passed_.clear();
-        auto way = edges_.around_body(row[i]->first, at_edge_, at, next, passed_);
-        at = corners[1];
-        if (!way) continue;
-        way->edge.shadowed = true;
-        out.all_edges.push_back(way->edge);
-        if (limit) draft.loss += loss_around(*way);
-    }
-    length += distance(at, b_);
+    if (limit) draft.loss = free_space(way.length, limit->frequency);
+    bend(way.edge, draft);
     for (std::size_t i = 0; i < straight.hits; ++i) {
-        if (passed[i]) continue;
-        const RayHit kept = hit(i);
-        out.all_hits.push_back(kept);
-        if (limit) draft.loss += loss_of(kept, limit->materials);
+        const RayHit hit = out.all_hits[straight.first_hit + i];
+        out.all_hits.push_back(hit);
+        if (limit) draft.loss += loss_of(hit, limit->materials);
     }
-    if (limit) draft.loss += free_space(length, limit->frequency);
-    finish(draft, !is_faint(draft), length);
+    finish(draft, !is_faint(draft), way.length);
+}
+
+/// Appends the walls that a leg crosses, which may begin and end at edges; false if the path
+/// becomes too weak.
+bool RayTracer::pass_leg(Vec3 p, std::size_t at_p, Vec3 q, std::size_t at_q, Draft& draft) {
+    draft.beside = {at_p, at_q};
+    return pass(p, q, 0, 0, draft);
 }
 
 }  // namespace rovernet

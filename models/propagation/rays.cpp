@@ -12,7 +12,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -23,10 +22,10 @@ constexpr std::size_t few_receivers = 8;
 constexpr double faintest_path = 30;   // [dB] below the strongest
 constexpr double deepest_null = 1e-4;  // of the sum of powers
 
-/// Most that a link loses over free space [dB].
+/// Largest loss of a link relative to free space [dB].
 constexpr double most_lost = 200;
 
-/// What the paths together can be stronger than the straight one in free space [dB].
+/// Upper bound on the gain of all paths together relative to the straight path in free space [dB].
 double most_gain(const Rays& model) {
     if (model.order == 0 && model.diffraction == RayDiffraction::none) return 0;
     const double paths = 10 * math::log10(model.max_paths);
@@ -34,7 +33,7 @@ double most_gain(const Rays& model) {
     return paths + (model.diffraction == RayDiffraction::utd ? 10 * math::log10(2) : 0);
 }
 
-/// Adds the paths of one link after the other.
+/// Sums the paths of one link after the other.
 class Summing {
   public:
     Summing(const Rays& model, const RayLimit& limit)
@@ -62,20 +61,23 @@ class Summing {
     }
 
   private:
-    /// The path is added to others by its field.
+    /// Whether the path is added with its phase.
     bool has_phase(const RayPaths& paths, const RayPath& path) const {
         if (model_.sum == RaySum::coherent) return true;
         if (model_.diffraction != RayDiffraction::utd) return false;
-        // Far edges interfere with one another within half a metre: a mean does not show that.
-        const auto edges = paths.edges(path);
-        if (edges.size() > 1) return false;
-        if (!edges.empty() && edges[0].detour >= near_edge * wavelength_) return false;
+        // Distant edges interfere within half a metre, which a mean does not show.
+        int around = 0;
+        for (const RayEdge& edge : paths.edges(path)) {
+            // An edge with a field that is not in the shadow is beside the path.
+            if (edge.field && !edge.shadowed) continue;
+            if (++around > 1 || edge.detour >= near_edge * wavelength_) return false;
+        }
         const auto hits = paths.hits(path);
         return std::none_of(hits.begin(), hits.end(),
                             [](const RayHit& hit) { return hit.kind == RayHit::Kind::reflection; });
     }
 
-    /// Phase of a path, as a field of size 1.
+    /// Phase of a path, as a complex number of magnitude 1.
     math::Complex phase_of(const RayPaths& paths, const RayPath& path) const {
         const double waves = path.length / wavelength_;
         math::Complex phase = math::phasor(-2 * std::numbers::pi * (waves - std::floor(waves)));
@@ -89,7 +91,7 @@ class Summing {
         return phase;
     }
 
-    /// Chooses the strongest paths, and keeps them in their order.
+    /// Selects the strongest paths, and keeps their order.
     void choose(std::span<const double> losses) {
         chosen_.resize(losses.size());
         std::iota(chosen_.begin(), chosen_.end(), std::size_t{0});
@@ -119,7 +121,7 @@ void Rays::check_scene(const Scene& scene) const {
 
 Meters Rays::reach(Db loss, Hertz f) const { return Friis{}.reach(loss + Db{most_gain(*this)}, f); }
 
-void Rays::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+void Rays::loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
     const Hertz f = links.frequency;
     const double wavelength = speed_of_light / f.value, gain = most_gain(*this);
     const RayMaterials materials(links.scene->materials(), f, wall, wall_loss, reflection_loss);
@@ -129,7 +131,7 @@ void Rays::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) co
     RayPaths paths;
     for (std::size_t i = 0; i < out_db.size(); ++i) {
         out_db[i] = std::max(0.0, free_space_db(links.distance(i), f) - gain);
-        if (out_db[i] > give_up.value) continue;
+        if (out_db[i] > cutoff.value) continue;
         if (!tracer)
             tracer.emplace(*links.scene, links.from, order, wavelength,
                            diffraction != RayDiffraction::none,

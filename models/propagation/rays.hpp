@@ -2,7 +2,6 @@
 #pragma once
 
 #include "models/propagation/propagation_model.hpp"
-#include "models/propagation/ray_path.hpp"
 #include "scene/materials/p2040.hpp"
 
 #include <array>
@@ -12,69 +11,83 @@
 
 namespace rovernet {
 
-/// How a model of rays adds the paths of a link.
-enum class RaySum {
-    power,    ///< powers: the mean over places within some wavelengths
-    coherent  ///< fields with their phases: one place, with its fading. The faces of a wall across
-              ///< the cells of a map are some centimetres off: 3 to 5 dB (rms) at 2.4 GHz
+/// Method for diffraction around edges.
+enum class RayDiffraction {
+    none,
+    knife_edge,  ///< edges of opaque screens
+    utd          ///< wedges, by the uniform theory of diffraction
 };
-/// Words of `sum` in files.
+/// Names of the values of `diffraction` in scenario files.
+template <>
+struct EnumNames<RayDiffraction> {
+    static constexpr std::array<std::string_view, 3> values = {"none", "knife_edge", "utd"};
+};
+
+/// Method of adding the paths of a link.
+enum class RaySum {
+    power,    ///< sum of powers: the mean over positions within some wavelengths
+    coherent  ///< sum of fields with phases: the value at one place, with fading. On a map, the
+              ///< faces of a slanting wall are inaccurate by some centimetres: 3 to 5 dB (rms) at
+              ///< 2.4 GHz
+};
+/// Names of the values of `sum` in scenario files.
 template <>
 struct EnumNames<RaySum> {
     static constexpr std::array<std::string_view, 2> values = {"power", "coherent"};
 };
 
-/// Rays: the straight path through the walls, those that up to `order` walls reflect, and those
-/// around edges. With L_i the loss of path i [dB], of length d_i [m]:
+/// Ray tracing: the straight path through the walls, paths with up to `order` reflections, and
+/// paths around edges. With the loss L_i [dB] and the length d_i [m] of path i:
 ///
 ///   L = -10 log10 sum 10^(-L_i / 10),     or     L = -20 log10 |sum 10^(-L_i / 20) e^(j phi_i)|
 ///   L_i = 20 log10(4 pi d_i f / c) + losses of crossings, reflections and edges,
 ///   phi_i = -2 pi d_i f / c + their phases
 ///
 /// Walls are the scene's faces, see Faces: a wall drawn at 30 degrees reflects at 30 degrees. Faces
-/// shorter than a wavelength reflect nothing, and neither do floors and ceilings. A material of
-/// ITU-R P.2040 transmits and reflects as a slab at the path's angle (the electric field along the
-/// wall, as of upright antennas); one that gives decibels takes those, and reflects all but
-/// `reflection_loss`; one that follows the model is a slab of `wall`, as thick as drawn, at most
-/// half a metre.
+/// shorter than a wavelength do not reflect, and neither do floors and ceilings. A material of
+/// ITU-R P.2040 transmits and reflects as a slab at the path's angle (electric field parallel to
+/// the wall, as for vertical antennas). A material with a loss in decibels has that loss for
+/// crossings, and `reflection_loss` for reflections. A material without a loss is a slab of `wall`
+/// with the drawn thickness, at most half a metre.
 ///
-/// Edges: `knife_edge` takes J(nu) of ITU-R P.526 from a path around a wall that stands in the
-/// straight path, and up to 6 dB from a straight path that passes near an edge. Two edges of one
-/// body in a row are a pair, see pair_field(). `utd` is the
-/// uniform theory of diffraction; the straight path and those around edges are then one field, so
-/// that nothing jumps at the border of a wall's shadow. See RayTracer and RayEdges for which edges.
+/// Edges: with `knife_edge`, a path around a wall in the straight path loses J(nu) of ITU-R P.526,
+/// and a straight path that passes near an edge loses up to 6 dB. Two consecutive edges of one body
+/// are a pair, see pair_field(). With `utd`, the uniform theory of diffraction, the straight path
+/// and the paths around edges form one field without a jump at a shadow boundary. RayTracer and
+/// RayEdges describe which edges count.
 ///
-/// The strongest `max_paths` paths are added, of those within 30 dB of the strongest one: what is
-/// left out by the latter adds less than 1e-3 of the power each. With phases, a sum is cut at 40 dB
-/// below that of the powers; that of the straight path and edges also at 3 dB above it.
+/// The sum contains the strongest `max_paths` paths that are within 30 dB of the strongest one;
+/// each weaker path would add less than 1e-3 of the power. A coherent sum is never more
+/// than 40 dB below the sum of powers; the sum of the straight path and edges is also never more
+/// than 3 dB above it.
 ///
-/// The loss is anything but monotone, and jumps where a path begins or ends: at the border of a
-/// wall's shadow by what the wall takes (not with edges), at the end of a mirror by what it adds.
+/// The loss is not monotone, and jumps where a path begins or ends: at a wall's shadow boundary by
+/// the loss of the wall (not with edges), at the end of a reflecting face by the reflected power.
 ///
-/// No link loses more than 200 dB over free space.
+/// The loss is at most 200 dB above free space.
 ///
-/// Paths are planned in plan and do not know storeys: a scene of several is refused.
+/// Paths are found in plan, without storeys: a scene of several storeys is refused.
 ///
-/// Without walls it is free space. Source: the theory of images, for instance H. L. Bertoni, Radio
-/// Propagation for Modern Wireless Systems, 2000, chapter 3; slabs: ITU-R P.2040-3; edges:
-/// ITU-R P.526-15 and Kouyoumjian and Pathak 1974, see diffraction.hpp.
+/// Without walls the loss is that of free space. Source: the method of images, for instance H. L.
+/// Bertoni, Radio Propagation for Modern Wireless Systems, 2000, chapter 3; slabs: ITU-R P.2040-3;
+/// edges: ITU-R P.526-15 and Kouyoumjian and Pathak 1974, see diffraction.hpp.
 struct Rays {
     static constexpr std::string_view name = "rays";
 
-    /// Most reflections of a path [-], 0 to 3.
+    /// Largest number of reflections of a path [-], 0 to 3.
     int order = 2;
-    /// Ways around edges of walls.
+    /// Method for diffraction around edges of walls.
     RayDiffraction diffraction = RayDiffraction::knife_edge;
-    /// How paths are added.
+    /// Method of adding the paths of a link.
     RaySum sum = RaySum::power;
-    /// Material of walls that follow the model.
+    /// Material of walls without a loss of their own.
     ItuMaterial wall = ItuMaterial::concrete;
-    /// Loss of a crossing of such a wall [dB], >= 0, at any angle: then it is no slab of `wall`,
-    /// but as a material that is given in decibels. A fit finds it.
+    /// Loss of crossing a wall whose material has no loss of its own [dB], >= 0, at any angle; if
+    /// given, it replaces the slab of `wall`. `rovernet fit` estimates it.
     std::optional<Db> wall_loss = std::nullopt;
-    /// Loss of a reflection [dB], >= 0, of a material whose losses are given in decibels.
+    /// Loss of a reflection [dB], >= 0, by a material with a loss in decibels.
     Db reflection_loss{6};
-    /// Most paths that are added, the strongest ones, 1 to 1000.
+    /// Largest number of paths in the sum, 1 to 1000; the strongest are used.
     int max_paths = 16;
 
     static constexpr auto fields() {
@@ -102,19 +115,19 @@ struct Rays {
     void check_scene(const Scene& scene) const;
 
     /// Distance [m] beyond which the loss is more than `loss`: no path is shorter than the straight
-    /// one or stronger than in free space. So P paths add at most 10 log10 P dB to free space, 3 dB
-    /// more with utd, and 20 log10 P dB if they are coherent. P is max_paths, or 1 if there is but
-    /// the straight path.
+    /// path or stronger than in free space. So P paths are at most 10 log10 P dB stronger than free
+    /// space, 3 dB more with utd, and 20 log10 P dB if coherent. P is max_paths, or 1 if there is
+    /// only the straight path.
     Meters reach(Db loss, Hertz f) const;
     /// Fills out_db[i] [dB] for the i-th receiver; walls come from the batch's scene.
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 
-    /// Paths of a link, as they are found, and of them those that `max_paths` leaves out.
+    /// Number of paths found for a link, and number of those left out by `max_paths`.
     struct Paths {
         std::size_t found, left_out;
-        Db too_high;  ///< the loss is higher by this for what is left out, by power
+        Db too_high;  ///< error of the loss by the paths left out, if powers are added
     };
-    /// @param link  batch of one receiver
+    /// @param link  batch with one receiver
     Paths paths(const LinkBatch& link) const;
 };
 

@@ -11,8 +11,7 @@
 namespace rovernet {
 namespace {
 
-/// Loss without walls [dB], to the last bit that of itu_indoor_db; the part of the frequency is
-/// computed once.
+/// Loss without walls [dB], exactly that of itu_indoor_db; the frequency term is computed once.
 class FreeLoss {
   public:
     FreeLoss(Hertz f, double N) : of_frequency_(20 * math::log10(f.value / 1e6)), N_(N) {}
@@ -31,23 +30,22 @@ Meters Raytrace2007::reach(Db loss, Hertz f) const {
     return itu_indoor_reach(loss, f, coefficient);
 }
 
-void Raytrace2007::loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
-    if (!links.scene->plain_walls()) return loss_by_materials(links, give_up, out_db);
+void Raytrace2007::loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
+    if (!links.scene->plain_walls()) return loss_by_materials(links, cutoff, out_db);
     const double db_per_metre = 100 * wall_factor;
-    // The ray goes a hair farther than the budget buys, so that rounding never cuts a link that is
-    // just up.
+    // The limit is slightly above the budget, so that rounding never breaks a link that is just up.
     constexpr double slack = 1 + 1e-12;
     const FreeLoss free_loss(links.frequency, coefficient);
     for (std::size_t i = 0; i < out_db.size(); ++i) {
         const double free = free_loss(links.distance(i));
         out_db[i] = free;
-        if (db_per_metre == 0 || free > give_up.value) continue;
-        const double enough = (give_up.value - free) / db_per_metre * slack;
+        if (db_per_metre == 0 || free > cutoff.value) continue;
+        const double enough = (cutoff.value - free) / db_per_metre * slack;
         out_db[i] += db_per_metre * links.scene->wall_length(links.from, links.to[i], enough);
     }
 }
 
-void Raytrace2007::loss_by_materials(const LinkBatch& links, Db give_up,
+void Raytrace2007::loss_by_materials(const LinkBatch& links, Db cutoff,
                                      std::span<double> out_db) const {
     std::vector<WallRate> rates;
     for (const Material& material : links.scene->materials()) {
@@ -59,9 +57,9 @@ void Raytrace2007::loss_by_materials(const LinkBatch& links, Db give_up,
     for (std::size_t i = 0; i < out_db.size(); ++i) {
         const double free = free_loss(links.distance(i)) + floor_counter.between(i).loss_db;
         out_db[i] = free;
-        if (free > give_up.value) continue;
+        if (free > cutoff.value) continue;
         out_db[i] += links.scene->wall_loss(links.from, links.to[i], rates,
-                                            give_up.value - free + 1e-9, scratch);
+                                            cutoff.value - free + 1e-9, scratch);
     }
 }
 

@@ -5,19 +5,20 @@
 
 namespace rovernet {
 
-/// Ray rule of the 2007 thesis [dB], for d >= 1 m, held at its value at 1 m below:
+/// Path loss [dB] by the ray rule of the 2007 thesis (docs/worlds.md), for d >= 1 m; below 1 m it
+/// is fixed at its value at 1 m:
 ///
 ///   L = 20 log10 f + N log10 d - 28 + 100 w l      (f in MHz, d in m, l metres of wall)
 ///
-/// There is one straight ray: no reflection, no diffraction. A link that is lost without its walls
-/// is given up before any wall is looked for, and a ray is given up once its walls have spent the
-/// budget.
+/// There is only the straight ray, without reflection and diffraction. The computation stops before
+/// searching walls if the loss without walls exceeds the budget, and during the search once it
+/// does.
 ///
 /// The wall factor w is in dB per centimetre; real walls have 0.15 (wood) to 0.9 (chipboard), so
-/// that the values of old world files (6 to 100) suit walls drawn a few pixels thin only. N holds
-/// the walls of a usual building already: take N = 20 when the map shows them all. A wall whose
-/// material gives a loss of its own adds that instead of 100 w l. A ceiling adds what its material
-/// gives, or nothing: the rule has no loss of a floor.
+/// the values of old world files (6 to 100) only fit walls drawn a few pixels thin. N already
+/// includes the walls of an average building: use N = 20 if the map shows all walls. A wall whose
+/// material has a loss of its own adds that loss instead of 100 w l. A ceiling adds the loss of its
+/// material, or nothing: the rule has no floor loss.
 ///
 /// `rovernet loss raytrace_2007 coefficient=20 --distance 20 --wall 0.5` prints 115.80 dB at 2450
 /// MHz: 65.80 dB, and 50 dB of wall.
@@ -40,14 +41,14 @@ struct Raytrace2007 {
 
     LossShape shape() const { return LossShape::by_walls; }
 
-    /// Distance [m] beyond which the loss is more than `loss`: without walls.
+    /// Distance [m] beyond which the loss is more than `loss`, for any walls.
     Meters reach(Db loss, Hertz f) const;
     /// Fills out_db[i] [dB] for the i-th receiver; walls come from the scene of the batch.
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 
   private:
-    // Losses where walls have materials of their own.
-    void loss_by_materials(const LinkBatch&, Db give_up, std::span<double> out_db) const;
+    // Losses of walls whose materials have losses of their own.
+    void loss_by_materials(const LinkBatch&, Db cutoff, std::span<double> out_db) const;
 };
 
 }  // namespace rovernet

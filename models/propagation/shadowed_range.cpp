@@ -9,27 +9,27 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t all_draws = std::uint32_t{1} << 31;
 
-/// Relative bound on the rounding error of a loss, from log10 to the sum; the true error is below 1
-/// % of it.
+/// Relative bound on the rounding error of a loss, from log10 to the sum; the actual error is below
+/// 1 % of it.
 constexpr double rounding = 1e-13;
 
-/// Distribution function of the standard normal.
+/// Standard normal distribution function.
 double normal_probability(double z) {
     constexpr double sqrt_half = 0.70710678118654752440;
     return 0.5 * math::erfc(-sqrt_half * z);
 }
 
-// Draw q stands for the probabilities from q 2^-31 to (q + 1) 2^-31. One draw more than needed
-// covers the rounding of z, of erfc and of normal(): together below 1e-13 of probability.
+// Draw q represents the probabilities from q 2^-31 to (q + 1) 2^-31. One additional draw covers the
+// rounding of z, of erfc and of normal(): together below 1e-13 of probability.
 
-/// Number of draws that are below z for sure.
+/// Number of draws that are certainly below z.
 std::uint32_t draws_below(double z) {
     if (z >= ShadowedLoss::cut_sigmas) return all_draws;
     if (!(z > -ShadowedLoss::cut_sigmas)) return 0;
     return static_cast<std::uint32_t>(std::max(0.0, normal_probability(z) * all_draws - 1));
 }
 
-/// Number of draws behind which all further ones are above z for sure.
+/// Number of the first draw that, like all later ones, is certainly above z.
 std::uint32_t draws_up_to(double z) {
     if (z < -ShadowedLoss::cut_sigmas) return 0;
     if (!(z < ShadowedLoss::cut_sigmas)) return all_draws;
@@ -51,8 +51,8 @@ ShadowedRange::ShadowedRange(const ShadowedLoss& loss, Db budget)
     cells_.push_back(fill(nearest, infinity));
 }
 
-/// Chooses cells as narrow as their number allows, between the squared distances at which the draw
-/// matters.
+/// Sets the smallest cells that their number allows, between the squared distances at which the
+/// draw matters.
 void ShadowedRange::choose_cells() {
     constexpr double margin = 1e-9;  // of the rounding of distance()
     const double cut = ShadowedLoss::cut_sigmas * loss_.sigma;
@@ -70,7 +70,8 @@ void ShadowedRange::choose_cells() {
 /// Cell of the squared distances [m^2] from `nearest` to `farthest`.
 ShadowedRange::Cell ShadowedRange::fill(double nearest, double farthest) const {
     if (!(budget_ >= 0)) return {.sure = 0, .open = 0};
-    // Number of sigmas by which the median may exceed the budget; `sign` is that of the rounding.
+    // Number of sigmas by which the median may exceed the budget; `sign` is the sign of the
+    // rounding.
     const auto margin = [&](double squared_distance, double sign) {
         const double rise = loss_.rise(std::sqrt(squared_distance));
         const double terms =

@@ -29,7 +29,7 @@ Meters TwoRay::reach(Db loss, Hertz f, Meters highest) const {
     return {std::min(Friis{}.reach(loss + in_phase, f).value, by_height)};
 }
 
-void TwoRay::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_db) const {
+void TwoRay::loss(const LinkBatch& links, Db /*cutoff*/, std::span<double> out_db) const {
     if (form == TwoRayForm::exact) return exact_loss(links, out_db);
     const Hertz f = links.frequency;
     const double ht = height(links.from.z);
@@ -41,8 +41,9 @@ void TwoRay::loss(const LinkBatch& links, Db /*give_up*/, std::span<double> out_
     }
 }
 
-/// The amplitude |1 + r exp(-j phi)| with r = G d1 / d2 as its square (1 + r)^2 - 4 r sin^2(phi/2),
-/// where 1 + r comes from d2 - d1 and 1 + G: no difference of nearly equal numbers far away.
+/// Amplitude |1 + r exp(-j phi)| with r = G d1 / d2, computed as its square (1 + r)^2 - 4 r
+/// sin^2(phi/2), with 1 + r from d2 - d1 and 1 + G, so that no nearly equal numbers are subtracted
+/// at large distances.
 void TwoRay::exact_loss(const LinkBatch& links, std::span<double> out_db) const {
     const double k = wave_number(links.frequency);
     const double ht = height(links.from.z);

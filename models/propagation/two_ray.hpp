@@ -8,37 +8,37 @@
 
 namespace rovernet {
 
-/// Form of a TwoRay model: which equation it is.
+/// Form of the TwoRay model, which selects its equation.
 enum class TwoRayForm {
-    /// Simplified, as in ns-2: free space, then d^4.
+    /// Simplified equation, as in ns-2: free space, then d^4.
     ns2,
-    /// Sum of the two rays, with their peaks and nulls.
+    /// Sum of the two rays, with its peaks and nulls.
     exact,
 };
-/// Words of `form` in files.
+/// Names of the values of `form` in scenario files.
 template <>
 struct EnumNames<TwoRayForm> {
     static constexpr std::array<std::string_view, 2> values = {"ns2", "exact"};
 };
 
-/// Direction of the electric field over the ground.
+/// Polarization: direction of the electric field relative to the ground.
 enum class Polarization { vertical, horizontal };
-/// Words of `polarization` in files.
+/// Names of the values of `polarization` in scenario files.
 template <>
 struct EnumNames<Polarization> {
     static constexpr std::array<std::string_view, 2> values = {"vertical", "horizontal"};
 };
 
-/// Two-ray ground reflection [dB], never negative.
+/// Two-ray ground reflection loss [dB], never negative.
 ///
-/// Distances: d1 is that of the antennas, d2 the length of the way by the ground; ht and hr are the
-/// heights of the antennas: their z above a flat ground at z = 0. An antenna below
-/// `lowest_antenna`, or below the ground, counts as that high; the equations would lose everything
+/// Distances: d1 between the antennas, d2 the length of the path reflected by the ground; ht and hr
+/// are the heights of the antennas: their z above a flat ground at z = 0. An antenna below
+/// `lowest_antenna`, or below the ground, counts as that high, because the loss would be infinite
 /// at height 0.
 ///
-/// Form "ns2":   L = free space(d1) + max(0, 20 log10(d1 / dc)),   dc = 4 pi ht hr / lambda:
-/// beyond the crossover dc this is d1^4 / (ht hr)^2, whatever the frequency. It leaves out the
-/// peaks and nulls before the crossover (39 dB deep in the last one for 1.5 m at 2.4 GHz).
+/// Form "ns2":   L = free space(d1) + max(0, 20 log10(d1 / dc)),   dc = 4 pi ht hr / lambda: beyond
+/// the crossover distance dc this is d1^4 / (ht hr)^2, independent of frequency. It neglects the
+/// peaks and nulls before the crossover (the last null is 39 dB deep for 1.5 m at 2.4 GHz).
 /// Source: T. S. Rappaport, Wireless Communications, 2nd ed., section 4.6, with the crossover of
 /// the ns-2 manual, section 18.2.
 ///
@@ -46,8 +46,8 @@ struct EnumNames<Polarization> {
 ///   d2 - d1 = 4 ht hr / (d1 + d2),   k = 2 pi / lambda,   sin t = (ht + hr) / d2,
 ///   G = (sin t - z) / (sin t + z) for horizontal polarization,
 ///   G = (e sin t - z) / (e sin t + z) for vertical,   z = sqrt(e - cos^2 t),
-/// with the relative permittivity e of a ground without loss. Source: Rappaport, section 4.6 and
-/// equations 4.24 and 4.25. The loss is not monotone: it falls by up to 6 dB below free space, and
+/// with the relative permittivity e of a lossless ground. Source: Rappaport, section 4.6 and
+/// equations 4.24 and 4.25. The loss is not monotone: it falls to up to 6 dB below free space, and
 /// rises without bound in a null.
 ///
 /// For antennas 1 m high at 2450 MHz `rovernet loss two_ray` prints, without and with form=exact:
@@ -55,18 +55,18 @@ struct EnumNames<Polarization> {
 ///   10 m      60.23 dB    59.48 dB
 ///   1000 m   120.00 dB   119.97 dB
 ///
-/// Valid over open, flat ground, for heights of a wavelength and more. Walls and obstacles are not
-/// seen.
+/// Valid over open, flat ground, for heights of at least a wavelength. Walls and obstacles are
+/// neglected.
 struct TwoRay {
     static constexpr std::string_view name = "two_ray";
 
-    /// Height above the ground that a lower antenna counts as having [m], > 0.
+    /// Smallest antenna height above the ground [m], > 0; lower antennas count as this high.
     Meters lowest_antenna{0.1};
     /// Equation of the loss.
     TwoRayForm form = TwoRayForm::ns2;
-    /// Polarization, of form "exact".
+    /// Polarization, for form "exact".
     Polarization polarization = Polarization::vertical;
-    /// Relative permittivity e of the ground [-], >= 1; of form "exact".
+    /// Relative permittivity e of the ground [-], >= 1; for form "exact".
     double ground_permittivity = 15;
 
     static constexpr auto fields() {
@@ -86,19 +86,20 @@ struct TwoRay {
         return form == TwoRayForm::exact ? LossShape::unknown : LossShape::by_heights;
     }
 
-    /// Bound on the range where no antenna is higher than h = `highest`. Form "ns2": the loss is
-    /// never less than that of free space, nor than that between two antennas of that height beyond
-    /// their crossover, 40 log10(d / h). Form "exact": two fields in phase double the amplitude of
-    /// free space (6.02 dB); and where d1 >= 1 m that amplitude is multiplied by at most
-    ///   A / d1,   A = 2 h^2 + 2 k h^2 + 4 h g / sqrt(e - 1),   g = 1 (horizontal) or e (vertical),
-    /// the sum of the bounds of 1 - d1 / d2, of the phase and of 1 + G, so that L grows with
-    /// 40 log10 d1.
+    /// Upper bound of the range, if no antenna is higher than h = `highest`. Form "ns2": the loss
+    /// is at least that of free space, and at least 40 log10(d / h), the loss of two antennas of
+    /// height h beyond their crossover. Form "exact": two fields in phase have twice the amplitude
+    /// of free space (6.02 dB); for d1 >= 1 m that amplitude is also at most A / d1 times free
+    /// space, with
+    ///   A = 2 h^2 + 2 k h^2 + 4 h g / sqrt(e - 1),   g = 1 (horizontal) or e (vertical),
+    /// the sum of the bounds of 1 - d1 / d2, of the phase and of 1 + G, so that L grows with 40
+    /// log10 d1.
     Meters reach(Db loss, Hertz f, Meters highest) const;
     /// Fills out_db[i] [dB] for the i-th receiver.
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const;
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const;
 
   private:
-    // Losses of form "exact", and the height that an antenna counts as having [m].
+    // Losses of form "exact", and the height that an antenna counts as [m].
     void exact_loss(const LinkBatch& links, std::span<double> out_db) const;
     double height(double z) const { return z > lowest_antenna.value ? z : lowest_antenna.value; }
 };

@@ -53,8 +53,8 @@ void CollisionJudge::judge(Interference& air, const Emission& judged, Frames oth
     }
 }
 
-/// Whether `node`, where `frame` arrives, was at one of the `others` when it began, and let it
-/// pass.
+/// Whether `node`, where `frame` arrives, was receiving one of the `others` when it began, and
+/// ignored it.
 bool CollisionJudge::was_let_pass(Interference& air, const Emission& frame, Arrival& arrives,
                                   Frames others, NodeId node) const {
     const Time over = arrives.begin - air.longest_delay();  // frames over by then were so here

@@ -21,8 +21,8 @@ std::uint64_t Interference::add(Emission frame, BitRate rate,
 
 void Interference::judge(std::uint64_t serial, std::span<Reception> receptions, Time now) {
     const Emission& judged = on_air_[serial];
-    // Frames that were over by `since` or begin at `until` arrive nowhere together with it; nor, if
-    // that matters, with frames that its receivers may have been at before.
+    // Frames that ended by `since` or begin at `until` overlap with it nowhere; nor, if that
+    // matters, with frames that its receivers may have been receiving before.
     const Duration past = judge_->looks_back() ? on_air_.longest() : Duration{0};
     const Time since = judged.begin - longest_delay() - past;
     const Time until = judged.end + longest_delay();
@@ -59,7 +59,7 @@ std::optional<Arrival> Interference::arrival(const Emission& frame, NodeId node)
     return medium.arrivals().of(frame, node, medium.position(node, frame.begin, *settings_.legs));
 }
 
-/// As arrival(), with the headings of both ends when the frame began.
+/// Like arrival(), with the headings of both ends when the frame began.
 std::optional<Arrival> Interference::directional_arrival(const Emission& frame, NodeId node) {
     const auto before = [&](NodeId end) {
         return on_air_.has_changed(end) ? on_air_.before(end, frame) : nullptr;

@@ -7,7 +7,6 @@
 #include "sim/units.hpp"
 
 #include <concepts>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,78 +14,78 @@
 #include <string_view>
 #include <utility>
 
-// The port of reception models: what becomes of a frame at a receiver that it reaches. A model is
-// settings with a name and make_judge(), and a Judge that applies it for all nodes.
+// Interface of reception models: the fate of a frame at a receiver in range. A model consists of
+// settings with a name and make_judge(), and of a Judge that serves all nodes.
 // test/extend/added/models/reception/preamble.hpp is a small one.
 //
-//     begins(frame)              as a frame goes on air
-//     judge(frame, others, r)    as it ends at a receiver that could decode it
-//     is_forgotten(frame)        once it matters to no other
+//     begins(frame)              when a frame starts
+//     judge(frame, others, r)    when it ends at a receiver that could decode it
+//     is_forgotten(frame)        when it cannot affect other frames any more
 
 namespace rovernet {
 
 class Interference;
 
-/// Frame that goes on air, with all that judging it may take. What it points to is good during the
-/// call; a judge keeps what it needs, by Emission::flight.
+/// Frame that starts now, with all data for judging it. Pointers are valid during the call; a judge
+/// stores what it needs, with Emission::flight as the index.
 struct SentFrame {
-    /// Frame, as it is kept while it matters.
+    /// Frame, stored while it can affect others.
     const Emission& emission;
     /// Physical layer of the network; outlives the judge.
     const Phy& phy;
-    /// Rate of its payload [bit/s].
+    /// Bit rate of the frame's payload [bit/s].
     BitRate rate;
-    /// Time before its payload [ns].
+    /// Duration of the frame's preamble [ns], before the payload.
     Duration preamble;
-    /// Receptions of those who can decode it, in order.
+    /// Receptions at the nodes that can decode it, in order.
     std::span<const Reception> receptions;
 };
 
-/// Other frames that may be on air at a receiver; a judge asks Interference::arrival whether they
+/// Other frames that may be on air at a receiver; Interference::arrival determines whether they
 /// are.
 using Frames = std::span<const Emission* const>;
 
-/// Rule of a reception model at work: decides the fate of frames at their receivers. One object for
-/// all nodes of a Network.
+/// Judge of a reception model: determines the fate of frames at their receivers. One object for all
+/// nodes of a Network.
 class Judge {
   public:
-    /// Judges are owned by Interference.
+    /// Destructor; Interference owns the judge.
     virtual ~Judge() = default;
 
-    /// Whether a receiver may have been at frames that were over before the one that is judged
-    /// began; these are then among the others, too.
+    /// Whether the fate of a frame may depend on frames that ended before it began; these are then
+    /// passed to judge(), too.
     virtual bool looks_back() const = 0;
-    /// Decides the fate of a reception that ends now, at a node that is on; it sets reception.fate,
-    /// and leaves it as it is for a frame that is received. A judge that knows sets
-    /// reception.locked, too. Receptions of a frame are judged one after the other, in the order in
-    /// which it ends at them.
-    /// @param frame   frame that is received
-    /// @param others  frames that may have been on air there, in no order to rely on
+    /// Determines the fate of a reception that ends now, at a node that is on; sets reception.fate,
+    /// but leaves it unchanged if the frame is received. A judge that models locking also sets
+    /// reception.locked. The receptions of a frame are judged in the order of their ends.
+    /// @param frame   frame being received
+    /// @param others  frames that may have been on air there, in any order
     virtual void judge(Interference& air, const Emission& frame, Frames others,
                        Reception& reception) = 0;
 
-    /// Takes note that a frame goes on air. Frames come in the order of their begin.
+    /// Called when a frame starts; frames are in the order of their starts.
     virtual void begins(const SentFrame& /*frame*/) {}
-    /// Takes note that no judgement depends on a frame any more.
+    /// Called when a frame cannot affect other frames any more.
     virtual void is_forgotten(const Emission& /*frame*/) {}
-    /// Cut of interference: frames weaker than the sensitivity by this [dB] are left out; nothing:
-    /// only who can decode or sense a frame matters.
+    /// Cut-off of interference [dB]: frames weaker than the sensitivity by more than this are
+    /// neglected; empty: only frames that can be decoded or sensed have an effect.
     virtual std::optional<Db> interference_cut() const { return std::nullopt; }
-    /// Number of frames on air at a time, at most, so far; counted where there is a cut.
+    /// Largest number of simultaneous frames on air so far; only counted if there is a cut-off of
+    /// interference.
     virtual std::size_t most_on_air() const { return 0; }
-    /// Checks a bit rate that some robot or the access model sends at, as they are set up.
-    /// @throws std::invalid_argument if frames of it cannot be judged
+    /// Checks a bit rate of a robot or of the access model, at setup.
+    /// @throws std::invalid_argument if frames at this rate cannot be judged
     virtual void check(const Phy& /*phy*/, BitRate /*rate*/) const {}
 };
 
-/// Settings of a reception model: they name it and make its judge.
+/// Settings of a reception model: its name, and a function that creates its judge.
 template <class T>
 concept MakesJudge = std::copyable<T> && requires(const T& settings) {
     { T::name } -> std::convertible_to<std::string_view>;
     { settings.make_judge() } -> std::same_as<std::unique_ptr<Judge>>;
 };
 
-/// Settings of any reception model, held by value. NetworkSettings::reception is one:
+/// Settings of any reception model, stored by value. NetworkSettings::reception is one:
 ///
 ///   Network network({.reception = Collision{.capture_ratio = 6_dB}});
 class ReceptionModel {
@@ -96,12 +95,13 @@ class ReceptionModel {
         : name_(T::name),
           make_([settings = std::move(settings)] { return settings.make_judge(); }) {}
 
-    /// Name of the model, as in files.
+    /// Name of the model in scenario files.
     std::string_view name() const { return name_; }
 
-    /// Judge for one Network; null: a frame is received wherever the link budget allows it.
+    /// Creates the judge for one Network; null: a frame is received if it is within the link
+    /// budget.
     std::unique_ptr<Judge> make_judge() const { return make_(); }
-    /// Cut of interference of its judges [dB], see Judge::interference_cut.
+    /// Cut-off of interference of the model's judge [dB], see Judge::interference_cut.
     std::optional<Db> interference_cut() const {
         const auto judge = make_judge();
         return judge ? judge->interference_cut() : std::nullopt;
@@ -109,16 +109,16 @@ class ReceptionModel {
 
   private:
     std::string_view name_;
-    // Makes the judge of the settings inside.
+    // Function that creates the judge.
     std::function<std::unique_ptr<Judge>()> make_;
 };
 
-/// Reception model "threshold": a frame is received wherever the link budget allows it. Frames do
-/// not interfere, and a node that sends receives as well. The default.
+/// Reception model "threshold": a frame is received if it is within the link budget. Frames do not
+/// interfere, and a node can receive while it transmits. The default.
 struct Threshold {
     static constexpr std::string_view name = "threshold";
 
-    /// No judge is needed.
+    /// Returns null, because no judge is needed.
     std::unique_ptr<Judge> make_judge() const { return nullptr; }
 };
 

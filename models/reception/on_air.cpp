@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "models/reception/on_air.hpp"
 
-#include "sim/units.hpp"
-
 #include <bit>
 
 namespace rovernet {
@@ -56,7 +54,7 @@ std::span<const Emission* const> OnAir::near(const Emission& frame, Time since, 
                 for (; serial != none; serial = next_[serial - first_]) {
                     const Emission& other = (*this)[serial];
                     const double d2 = squared_distance(frame.origin, other.origin);
-                    // The conditions take no branch, which would be mispredicted for many.
+                    // Conditions without a branch, which would often be mispredicted.
                     const std::size_t lasts = other.end > since, begun = other.begin < until;
                     const std::size_t reaches = d2 <= reach * reach,
                                       another = serial != frame.serial;
@@ -83,7 +81,7 @@ std::uint64_t OnAir::add(Emission frame) {
     return frame.serial;
 }
 
-/// Lays the grid with cells as wide as frames interfere: a query looks at a few of them.
+/// Builds the grid with cells as wide as the interference range: a query visits a few of them.
 void OnAir::lay_grid() {
     constexpr double narrowest = 1, widest = 1e9;  // [m]
     columns_ = rows_ = WrappedAxis(std::clamp(reach_, narrowest, widest), side);
@@ -92,7 +90,7 @@ void OnAir::lay_grid() {
     for (const Emission& frame : frames_) file(frame.serial);
 }
 
-/// Puts a frame at the end of its cell's chain.
+/// Appends a frame to its cell's chain.
 void OnAir::file(std::uint64_t serial) {
     const Vec3 origin = (*this)[serial].origin;
     const std::size_t row = rows_.cell_at(origin.y), column = columns_.cell_at(origin.x);
@@ -107,7 +105,7 @@ void OnAir::file(std::uint64_t serial) {
     next_[serial - first_] = none;
 }
 
-/// Removes the first frame.
+/// Removes the oldest frame.
 void OnAir::take_off() {
     const Vec3 origin = frames_.front().origin;
     const std::size_t row = rows_.cell_at(origin.y), column = columns_.cell_at(origin.x);

@@ -2,49 +2,49 @@
 #pragma once
 
 #include "models/arrival.hpp"
+#include "models/medium/wrapped_axis.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/legs.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
-#include "models/medium/wrapped_axis.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <limits>
 #include <span>
 #include <vector>
 
-// Frames on air, found by where they were sent. Interference asks near() once for each frame whose
-// receptions are judged.
+// Spatial index of frames on air. Interference calls near() once for each frame whose receptions
+// are judged.
 
 namespace rovernet {
 
-/// Frames that are on air, and those that were so lately that they may still matter.
+/// Frames on air, and recent frames that may still affect receptions.
 ///
-/// Each is kept once, where it was sent: who receives a frame asks what else was on air around it,
-/// so that a frame that meets no other costs hardly anything. As a frame's levels are fixed when it
-/// begins, what nodes were before their legs or radios changed is kept as long as the frames.
+/// Each frame is stored once, at its place of transmission: a query for a received frame returns
+/// the frames around it, so a frame without others nearby costs almost nothing. Levels of a frame
+/// are fixed when it begins, so the states of nodes before their legs or radios changed are kept as
+/// long as the frames.
 ///
-/// The frames lie in a grid of 64 x 64 cells that wraps around, each as wide as frames interfere.
-/// Interference owns one.
+/// Frames are stored in a grid of 64 x 64 cells that wraps around; a cell is as wide as the
+/// interference range.
 class OnAir {
   public:
-    /// Takes note of a leg that some node goes along: it bounds speeds, and where antennas are.
+    /// Adds a leg of a node, for bounds on speeds and antenna positions.
     /// @param antenna_height  height above the robot's z [m]
     void goes(const Leg& leg, Meters antenna_height);
-    /// Keeps what `node` has been until now, and since its last change, if there are frames.
+    /// Stores the state of `node` between its last change and now, if any frame is stored.
     /// @param leg  leg until now
     /// @param on   whether its radio was on until now
     void changes(NodeId node, const Leg& leg, bool on);
 
-    /// Adds a frame; its `begin` must not be before that of the frame before.
-    /// @return its serial: one more than that of the frame before
+    /// Adds a frame; it must not begin before the last added frame.
+    /// @return its serial number, one more than the last
     std::uint64_t add(Emission frame);
-    /// Forgets the first frames, as long as they ended by `t`, and calls use(frame) for each.
+    /// Removes the oldest frames while they ended by `t`, and calls use(frame) for each.
     template <class Use>
     void forget(Time t, Use use) {
         while (!frames_.empty() && frames_.front().end <= t) {
@@ -56,51 +56,51 @@ class OnAir {
             ++first_change_;
         }
     }
-    /// Frame of that serial, which must be kept.
+    /// Frame with that serial number, which must be stored.
     const Emission& operator[](std::uint64_t serial) const { return frames_[serial - first_]; }
 
-    /// Frames that are kept, in the order of their serials.
+    /// Stored frames, in the order of their serial numbers.
     const std::deque<Emission>& frames() const { return frames_; }
-    /// Frames that end after `since` and begin before `until`, and may interfere with a receiver of
-    /// `frame` by `now`; some more may be among them, `frame` itself is not. Receivers that changed
-    /// lately may meet further ones, see has_changed().
-    /// @return in no order to rely on; good until the next call
+    /// Frames that end after `since` and begin before `until`, and may interfere at a receiver of
+    /// `frame` by `now`; possibly some more, without `frame` itself. It may miss frames for
+    /// receivers with recent changes, see has_changed().
+    /// @return frames in any order; valid until the next call
     std::span<const Emission* const> near(const Emission& frame, Time since, Time until, Time now);
 
-    /// State of a node before it changed. Changes of a node are a chain, the last one first.
+    /// State of a node before a change. The changes of a node form a chain, last one first.
     struct Before {
-        /// Leg and state of the radio until then.
+        /// Leg and radio state until the change.
         Leg leg;
         bool on;
-        /// Serial of the first frame after the change.
+        /// Serial number of the first frame that began after the change.
         std::uint64_t serial;
-        /// Number of the change of the same node before this one.
+        /// Number of the node's previous change, counted over all nodes.
         std::uint64_t previous;
     };
-    /// Whether the node's leg or radio has changed since a frame began that is kept: near() does
-    /// not hold for it then.
+    /// Whether the node's leg or radio has changed since the start of any stored frame: near() is
+    /// then not complete for it.
     bool has_changed(NodeId node) const {
         return !changes_.empty() && last_change(node) >= first_change_;
     }
-    /// State of the node when the frame began; null if it has not changed since.
+    /// State of the node when the frame began; null if the node has not changed since.
     const Before* before(NodeId node, const Emission& frame) const;
 
-    /// Time on air of the longest frame so far [ns].
+    /// Longest time on air of a frame so far [ns].
     Duration longest() const { return longest_; }
-    /// Distance [m] beyond which no frame interferes with anybody, or beyond which nobody is. It
-    /// bounds propagation delays.
+    /// Distance [m] beyond which no frame interferes, or beyond which there is no node. It bounds
+    /// propagation delays.
     double reach() const {
         constexpr double anywhere = 4e15;
         return std::min({reach_, distance(low_, high_), anywhere});
     }
 
   private:
-    // Cells of the grid along each axis.
+    // Number of cells of the grid in each direction.
     static constexpr std::size_t side = 64;
     static constexpr std::uint64_t none = ~std::uint64_t{0};
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    // Frames that were sent in a cell, as a chain of serials.
+    // Frames transmitted in a cell, as a chain of serial numbers.
     struct Cell {
         std::uint64_t oldest = none, newest = none;
     };
@@ -109,13 +109,13 @@ class OnAir {
     std::uint64_t last_change(NodeId node) const {
         return node.index() < last_change_.size() ? last_change_[node.index()] : 0;
     }
-    // Lays the grid anew, as wide as frames interfere now.
+    // Builds the grid again for the current interference range.
     void lay_grid();
-    // Puts a frame at the end of its cell's chain.
+    // Appends a frame to its cell's chain.
     void file(std::uint64_t serial);
-    // Removes the first frame.
+    // Removes the oldest frame.
     void take_off();
-    // Cells of one row as bits.
+    // Bit mask of the cells of one row.
     static std::uint64_t bits(WrappedAxis::Cells cells) {
         const auto first = [](std::size_t n) {
             return n < side ? (std::uint64_t{1} << n) - 1 : none;
@@ -123,35 +123,35 @@ class OnAir {
         return (first(cells.end) & ~first(cells.begin)) | first(cells.wrapped_end);
     }
 
-    // Frames in the order of their serials.
+    // Frames in the order of their serial numbers.
     std::deque<Emission> frames_;
-    // Serial of the next frame in the same cell, for each frame.
+    // For each frame, serial number of the next frame in the same cell.
     std::deque<std::uint64_t> next_;
-    // Serial of the first frame.
+    // Serial number of the first stored frame.
     std::uint64_t first_ = 0;
     // Axes of the grid.
     WrappedAxis columns_, rows_;
     // Cells of the grid, row by row.
     std::vector<Cell> cells_;
-    // A bit for each cell of a row that is not empty.
+    // Bit mask of the non-empty cells of each row.
     std::array<std::uint64_t, side> used_{};
-    // Memory whose begin is the result of near().
+    // Memory for the result of near().
     std::vector<const Emission*> near_;
 
-    // Changes, numbered in their order from 1 on.
+    // Changes, numbered in order from 1 on.
     std::deque<Before> changes_;
-    // Number of the first change that is kept.
+    // Number of the first stored change.
     std::uint64_t first_change_ = 1;
-    // Number of each node's last change.
+    // Number of the last change of each node.
     std::vector<std::uint64_t> last_change_;
 
     // Longest time on air so far [ns].
     Duration longest_{0};
-    // Distance of interference of the frames so far [m].
+    // Largest interference range so far [m].
     double reach_ = 0;
     // Speed of the fastest node so far [m/s].
     double fastest_ = 0;
-    // Box around all antennas so far [m].
+    // Bounding box of all antennas so far [m].
     Vec3 low_ = {infinity, infinity, infinity}, high_ = {-infinity, -infinity, -infinity};
 };
 

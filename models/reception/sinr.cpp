@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "models/reception/sinr.hpp"
+#include "models/reception/sinr_receiver.hpp"
 
 namespace rovernet {
 
-/// Whether the node begins to send after `after`, not later than `until`.
+/// Whether the node begins to transmit after `after`, not later than `until`.
 bool SinrReceiver::sends_within(Time after, Time until) const {
     return std::any_of(here_.begin(), here_.end(), [&](const Arrival* a) {
         return a->own && a->begin > after && a->begin <= until;
     });
 }
 
-/// Whether the receiver was on no other frame when this one began.
+/// Whether the receiver was not locked onto another frame when this one began.
 bool SinrReceiver::is_free_for(const Arrival& arrival) const {
     return std::none_of(here_.begin(), here_.end(), [&](const Arrival* a) {
         if (a == &arrival || a->begin > arrival.begin || a->end <= arrival.begin) return false;
@@ -19,13 +19,13 @@ bool SinrReceiver::is_free_for(const Arrival& arrival) const {
     });
 }
 
-/// Whether the node sends while the frame arrives.
+/// Whether the node transmits while the frame arrives.
 bool SinrReceiver::sends_during(const Arrival& judged) const {
     return std::any_of(here_.begin(), here_.end(),
                        [&](const Arrival* a) { return a->own && a->overlaps(judged); });
 }
 
-/// Sum of log_success over the bits of the payload, behind the other frames that are here.
+/// Sum of log_success over the bits of the payload, with the interference of the frames in here_.
 double SinrReceiver::log_success_of(const Arrival& judged, const SinrFrame& frame) {
     const double signal = math::exp10(judged.level_dbm / 10);
     const double noise_mw = math::exp10(frame.noise.value / 10);

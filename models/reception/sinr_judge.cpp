@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "models/reception/interference.hpp"
-#include "models/reception/sinr.hpp"
+#include "models/reception/sinr_receiver.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ class SinrJudge final : public Judge {
                Reception& reception) override;
 
   private:
-    /// Frame on air: what the judge keeps of it beside its Emission.
+    /// Data of a frame on air, in addition to its Emission.
     struct Sent {
         SinrFrame frame;                ///< without the noise, which is the receiver's
         std::uint32_t number;           ///< number among the frames of its sender
@@ -65,7 +65,7 @@ void SinrJudge::begins(const SentFrame& frame) {
     sent.locks.assign(sent.receivers.size(), Lock::open);
 }
 
-/// Lock of `node` on a frame; null if it could not decode it.
+/// Lock of `node` on a frame; null if the node could not decode it.
 Lock* SinrJudge::lock_of(Sent& sent, NodeId node) {
     const auto found = std::find(sent.receivers.begin(), sent.receivers.end(), node);
     if (found == sent.receivers.end()) return nullptr;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/variation/fading.hpp"
-
+#include "models/variation/fades.hpp"
 #include "sim/math.hpp"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace {
 constexpr double rarest = 1e-6;    // of fades that are cut
 constexpr double deepest = 1e-20;  // power, so that its logarithm is finite
 
-/// Probabilities of a Poisson variate, from 0 up, and of no more than that.
+/// Poisson probabilities, from 0 up, and their cumulative sums.
 class Poisson {
   public:
     explicit Poisson(double mean) : mean_(mean), log_here_(-mean), here_(math::exp(-mean)) {
@@ -32,8 +31,8 @@ class Poisson {
     double mean_, log_here_, here_, up_to_here_ = 0, n_ = 0;
 };
 
-/// Probabilities that a Rician power is below x and above it: (K + 1) x is half a noncentral
-/// chi-square variate with two degrees of freedom, a Poisson mixture of gamma variates.
+/// Probabilities that a Rician power is below x and above x: 2 (K + 1) x is a noncentral chi-square
+/// variate with two degrees of freedom, a Poisson mixture of gamma variates.
 struct Tails {
     double below = 0, above = 0;
 };
@@ -137,7 +136,7 @@ Fades::Scale Fades::scale(const Frame& frame) const {
     return {per_metre, 1 / std::sqrt(2 * PairWaves::count * (1 + both * both))};
 }
 
-/// Complex amplitude z of all waves but the line of sight.
+/// Complex amplitude z of all waves without the line of sight.
 PairWaves::Value Fades::scattered(const Frame& frame) const {
     if (fields_.empty()) {
         const double power = -math::log(draws_.uniform(frame.key, frame.receiver));
@@ -150,8 +149,8 @@ PairWaves::Value Fades::scattered(const Frame& frame) const {
     return {size * re, size * im};
 }
 
-/// Sum of the squares of parts_ real fields, a gamma variate of shape parts_ / 2: as it is, or with
-/// its probability that of shape m.
+/// Sum of the squares of parts_ real fields, a gamma variate of shape parts_ / 2: unchanged, or
+/// transformed to shape m by its probability.
 double Fades::nakagami_of_places(const Frame& frame) const {
     const auto [per_metre, size] = scale(frame);
     double sum = 0, parts = parts_;

@@ -15,14 +15,15 @@ constexpr double precision = 1e-16;
 /// Logarithm of y^m e^-y / Gamma(m).
 double log_density(double m, double y) { return m * math::log(y) - y - log_gamma(m); }
 
-/// P(m, y) by its series, good for y < m + 1.
+/// Lower function P(m, y) by its series, accurate for y < m + 1.
 double gamma_p(double m, double y) {
     double term = 1 / m, sum = term;
     for (double k = m + 1; term > precision * sum; ++k) sum += term *= y / k;
     return sum * math::exp(log_density(m, y));
 }
 
-/// Q(m, y) over its density, by the continued fraction (modified Lentz), good for y >= m + 1.
+/// Ratio of Q(m, y) to its density, by the continued fraction (modified Lentz), accurate for y >= m
+/// + 1.
 double gamma_q_ratio(double m, double y) {
     double b = y + 1 - m, c = 1e300, d = 1 / b, ratio = d;
     for (double i = 1; i < 10000; ++i) {
@@ -37,10 +38,10 @@ double gamma_q_ratio(double m, double y) {
     return ratio;
 }
 
-/// Slope of log p over log y, with p = -log Q(m, y).
+/// Slope of log p with respect to log y, with p = -log Q(m, y).
 double log_slope(double m, double y, double p) { return math::exp(log_density(m, y) + p) / p; }
 
-// Range of log p in a GammaTable, and its cells.
+// Range of log p in a GammaTable, and number of its cells.
 constexpr double first = -46.06, last = 3;
 constexpr std::size_t cells = 512;
 constexpr double cell_width = (last - first) / cells;
@@ -66,8 +67,8 @@ double minus_log_gamma_q(double m, double y) {
 }
 
 double gamma_of_exponential(double m, double p) {
-    // Newton's method for log p over log y, which is nearly a straight line: of slope m for small
-    // p.
+    // Newton's method for log p as a function of log y, which is nearly linear: of slope m for
+    // small p.
     double log_y = (math::log(p) + log_gamma(m + 1)) / m;
     if (log_y > math::log(m)) log_y = math::log(m + p);
     for (int i = 0; i < 60; ++i) {

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <cstddef>
 
-// Random fields over both ends of a link, as sums of plane waves: a value for each pair of places,
-// without a table, a grid or a state. Shadowing and fading are made of them.
+// Random fields over both ends of a link, as sums of plane waves: a value for each pair of
+// positions, without a table, a grid or a state. Used for shadowing and fading.
 
 namespace rovernet {
 
-/// cos(2 pi x) for x [turns], |x| < 2^51; error below 1e-11, the same for x and -x to the last bit.
-/// It takes no branch, so that a loop over it is done several at a time.
+/// Cosine cos(2 pi x) for x [turns], |x| < 2^51; error below 1e-11, exactly even in x. Without a
+/// branch, so that a loop over it can be vectorised.
 inline double cos_of_turns(double x) {
     // The series of sin(2 pi y) for |y| <= 1/4, in y^2: (-1)^k (2 pi)^(2 k + 1) / (2 k + 1)!.
     constexpr double c0 = 6.283185307179586477, c1 = -41.341702240399760234,
@@ -26,21 +26,21 @@ inline double cos_of_turns(double x) {
     return y * (c0 + z * (c1 + z * (c2 + z * (c3 + z * (c4 + z * (c5 + z * (c6 + z * c7)))))));
 }
 
-/// Sum of plane waves over the places a and b of a link's ends, the same in both directions to the
-/// last bit:
+/// Sum of plane waves over the positions a and b of a link's ends, exactly the same in both
+/// directions:
 ///
 ///   S(a, b) = sum over m of e^(j (k_m.a + q_m.b + phi_m)) + e^(j (k_m.b + q_m.a + phi_m))
 ///           = sum over m of 2 e^(j (s_m.(a + b) + phi_m)) cos(d_m.(a - b)),
 ///   s_m = (k_m + q_m) / 2,  d_m = (k_m - q_m) / 2.
 ///
-/// The waves run in the plane: heights do not count.
+/// The waves are horizontal: heights have no effect.
 class PairWaves {
   public:
-    /// Number of waves.
+    /// Number of plane waves in the sum.
     static constexpr std::size_t count = 32;
 
-    /// Wave: its vectors at one end and at the other [turns/m, or turns per unit of `scale`], and
-    /// its phase [turns].
+    /// Wave: its wave vectors at the two ends [turns/m, or turns per unit of `scale`], and its
+    /// phase [turns].
     struct Wave {
         double kx, ky, qx, qy, phase;
     };
@@ -49,7 +49,7 @@ class PairWaves {
         double re, im;
     };
 
-    /// @param wave_of  returns the Wave of a number m
+    /// @param wave_of  returns wave number m
     template <class WaveOf>
     explicit PairWaves(WaveOf wave_of) {
         for (std::size_t m = 0; m < count; ++m) {
@@ -62,7 +62,7 @@ class PairWaves {
         }
     }
 
-    /// Real part of S(a, b).
+    /// Real part of the sum S(a, b) of plane waves.
     double real(Vec3 a, Vec3 b) const {
         const Vec3 sum = a + b, apart = a - b;
         std::array<double, count> terms;
@@ -71,8 +71,8 @@ class PairWaves {
         }
         return 2 * total(terms);
     }
-    /// S(scale a, scale b).
-    /// @param scale  factor of all places
+    /// Value of the sum S(scale a, scale b) of plane waves.
+    /// @param scale  factor on all positions
     Value complex(Vec3 a, Vec3 b, double scale) const {
         const Vec3 sum = scale * (a + b), apart = scale * (a - b);
         std::array<double, count> re, im;
@@ -93,7 +93,7 @@ class PairWaves {
     double envelope(std::size_t m, Vec3 apart) const {
         return cos_of_turns(difference_x_[m] * apart.x + difference_y_[m] * apart.y);
     }
-    // Sum in a fixed order, that of four sums at a time.
+    // Sum in a fixed order, as four partial sums.
     static double total(const Terms& terms) {
         std::array<double, 4> sums{};
         for (std::size_t m = 0; m < count; m += 4) {

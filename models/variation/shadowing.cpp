@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/variation/shadowing.hpp"
-
+#include "models/variation/shadowing_field.hpp"
 #include "sim/math.hpp"
 #include "sim/random.hpp"
 
@@ -14,7 +13,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// Length of a wave vector, times d_cor [rad].
+/// Magnitude of a wave vector, times d_cor [rad].
 double wave_number(double u) {
     constexpr double longest = 50;
     static const double share = 1 - 1 / std::sqrt(1 + longest * longest);

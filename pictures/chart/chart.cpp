@@ -32,7 +32,7 @@ void check(const ChartLayout& layout) {
     }
 }
 
-/// Charts side by side; the parts between their axes stand at one height.
+/// Row of charts side by side, with plot areas at the same height.
 struct Row {
     std::vector<ChartPanel> panels = {};
     double head = 0, foot = 0;  // [px]

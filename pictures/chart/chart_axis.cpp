@@ -50,7 +50,7 @@ std::string tick_text(double v, double step, double largest) {
     return grouped(fmt::format("{:.{}f}", v, std::max(0, -decade(step))));
 }
 
-/// The numbers with room around them if they are all the same, or next to.
+/// Range of the numbers, widened if all numbers are (nearly) equal.
 ChartRange widened(const ChartRange& range) {
     constexpr double tiny = 1e-100;
     const double size = std::max(std::abs(range.low()), std::abs(range.high()));
@@ -66,8 +66,8 @@ ChartRange widened(const ChartRange& range) {
     return out;
 }
 
-/// End of an axis with ticks at the multiples of a step: at a tick, or little beyond one, where the
-/// next would leave much empty room.
+/// End of an axis with ticks at multiples of a step: at a tick, or slightly beyond a tick if the
+/// next one would leave much empty space.
 struct TickEnds {
     TickEnds(double range_low, double range_high, double of_step) : step(of_step) {
         constexpr double little = 0.25, room = 0.05;  // of a step
@@ -93,7 +93,7 @@ struct TickEnds {
     double low = 0, high = 0;
 };
 
-/// The numbers, or all from limit to limit where they use enough of it.
+/// Range of the numbers, or the range between the limits if the numbers use enough of it.
 ChartRange with_limits(ChartRange range, const ChartLimits& limits) {
     constexpr double enough = 0.2;  // of the whole
     if (!limits.low || !limits.high || range.empty()) return range;
@@ -135,8 +135,8 @@ double round_above(double v) {
     return below >= v * (1 - slack) ? below : round_number(2.5 * below);
 }
 
-/// The texts of the ticks, thinned to at most `most`: those at 2 and 5 go first, then all but every
-/// so many powers of ten.
+/// Labels of the ticks, thinned to at most `most`: first labels at 2 and 5 are dropped, then some
+/// of the powers of ten.
 void thin(std::vector<ChartTick>& ticks, int most) {
     const auto texts =
         std::count_if(ticks.begin(), ticks.end(), [](const auto& t) { return !t.text.empty(); });

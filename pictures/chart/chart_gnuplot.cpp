@@ -21,10 +21,10 @@ namespace {
 constexpr double note_width = 640;       // [px]
 constexpr std::size_t most_in_key = 40;  // series
 
-/// A text that gnuplot takes as it is, cut to at most so many characters: in single quotes neither
-/// a backslash nor a backquote means anything. Its way to write a single quote there, as two, fails
-/// at the beginning; a typographic one does.
-std::string quoted(const std::string& text, std::size_t most = 100) {
+/// Text quoted for gnuplot, shortened to at most `most` characters. In single quotes neither
+/// backslash nor backquote is special. A doubled single quote fails at the beginning of a text in
+/// gnuplot, so that a typographic quote replaces it.
+std::string in_quotes(const std::string& text, std::size_t most = 100) {
     std::string out = "'";
     for (const char c : shortened(text, most)) {
         const bool control = static_cast<unsigned char>(c) < 0x20;
@@ -62,15 +62,15 @@ class Script {
         line("# gnuplot THIS_FILE > chart.svg; for a PNG: set terminal pngcairo noenhanced");
         line("set terminal svg noenhanced size 800,500 font 'DejaVu Sans,12' background 'white'");
         line("set encoding utf8");
-        line("set title {}", quoted(chart_.title));
-        std::string below = quoted(chart_.x_label);
+        line("set title {}", in_quotes(chart_.title));
+        std::string below = in_quotes(chart_.x_label);
         for (const auto& note : wrapped(view_.notes, note_width, 12)) {
-            if (!note.empty()) below += " . \"\\n\" . " + quoted(note);
+            if (!note.empty()) below += " . \"\\n\" . " + in_quotes(note);
         }
         line("set xlabel {}", below);
-        line("set ylabel {}", quoted(chart_.y_label, 45));
+        line("set ylabel {}", in_quotes(chart_.y_label, 45));
         line("set key outside right top vertical Left reverse{}",
-             chart_.legend_title.empty() ? "" : " title " + quoted(chart_.legend_title, 30));
+             chart_.legend_title.empty() ? "" : " title " + in_quotes(chart_.legend_title, 30));
         line("set tics nomirror\nset border 3");
     }
 
@@ -82,7 +82,7 @@ class Script {
             std::string text;
             for (const char c : shortened(words[i], most_of_word))
                 text += c == '%' ? "%%" : std::string(1, c);
-            list += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(text), i);
+            list += fmt::format("{}{} {}", i > 0 ? ", " : "", in_quotes(text), i);
         }
         line("set {}tics ({}){}", axis, list,
              axis == "x" && long_words(view_) ? " rotate by -35" : "");
@@ -93,7 +93,7 @@ class Script {
         if (!shown.log) return;
         std::string list;
         for (const auto& tick : shown.ticks) {
-            list += fmt::format("{}{} {} {}", list.empty() ? "" : ", ", quoted(tick.text),
+            list += fmt::format("{}{} {} {}", list.empty() ? "" : ", ", in_quotes(tick.text),
                                 tick.value, tick.text.empty() ? 1 : 0);
         }
         line("set logscale {}\nset {}tics ({})", axis, axis, list);
@@ -125,7 +125,7 @@ class Script {
             for (const auto& p : points) {
                 if (p.source->label.empty()) continue;
                 line("set label {} at first {}, first {} offset 0.8,0.4 font ',10'",
-                     quoted(p.source->label, 40), p.x, p.y);
+                     in_quotes(p.source->label, 40), p.x, p.y);
             }
         }
     }
@@ -186,7 +186,7 @@ class Script {
     }
     std::string title(std::size_t series) const {
         const std::string& name = chart_.series[series].name;
-        return series < most_in_key && !name.empty() ? "title " + quoted(name, 30) : "notitle";
+        return series < most_in_key && !name.empty() ? "title " + in_quotes(name, 30) : "notitle";
     }
     void intervals(std::size_t series, const std::string& color,
                    std::vector<std::string>& clauses) const {
@@ -226,7 +226,7 @@ class Script {
         words("y", names);
         const ChartAxis values = number_axis(view_.y_range, false, most_ticks, view_.y_limits);
         numbers("cb", values);
-        line("set cblabel {}", quoted(chart_.value_label, 45));
+        line("set cblabel {}", in_quotes(chart_.value_label, 45));
         palette();
         line("set style fill solid 1 noborder\n$cells << EOD\n# column row value n");
         for (std::size_t row = 0; row < view_.series.size(); ++row) {

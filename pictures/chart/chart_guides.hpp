@@ -9,15 +9,15 @@
 
 #include <cstddef>
 
-// What a scatter has besides its marks: a band, lines behind the marks, and intervals along x.
+// Parts of a scatter besides its marks: band, lines behind the marks, intervals along x.
 
 namespace rovernet {
 
-/// Draws the band at the lower edge with its words, which take their place among the labels.
+/// Draws the grey band at the lower edge of a chart, and the band's label at a free place.
 void draw_band(Svg& svg, const Chart& chart, const ChartFrame& frame, LabelPlaces& labels);
-/// Draws the lines behind the marks; labels avoid them from now on.
+/// Draws the lines behind the marks of a chart, and keeps later labels off them.
 void draw_guides(Svg& svg, const Chart& chart, const ChartFrame& frame, LabelPlaces& labels);
-/// Level whiskers of a series: the intervals of its points along x. Labels avoid them.
+/// Horizontal whiskers of a series (the intervals of its points along x). Later labels avoid them.
 SvgPath x_whiskers(const ChartView& view, std::size_t series, const ChartFrame& frame,
                    LabelPlaces& labels);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* edge = "#333333";
 
-/// The values of one row, at their columns; the last one counts where there are several.
+/// Values of one row by column; the last of several values for a cell is used.
 std::vector<const DrawnPoint*> row_of(const ChartView& view, std::size_t row) {
     std::vector<const DrawnPoint*> out(view.words.size(), nullptr);
     for (const auto& p : view.series[row]) out[static_cast<std::size_t>(p.x)] = &p;

@@ -7,8 +7,8 @@
 
 namespace rovernet {
 
-/// The series of a chart by name, as many as a reader can bear, and the sign of a cell without a
-/// value. @param marks  whether lines carry marks  @param width  [px] of the legend
+/// Legend of a chart: names of the series, up to a limit, and the symbol of a cell without a value.
+/// @param marks  whether lines have marks  @param width  width of the legend [px]
 Legend chart_legend(const Chart& chart, const ChartView& view, bool marks, double width);
 
 }  // namespace rovernet

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -15,6 +16,7 @@ namespace rovernet {
 namespace {
 
 constexpr double mark_radius = 3.6;        // [px]
+constexpr double mark_room = 5.1;          // [px] half a mark of any shape, with its edge
 constexpr double small_mark_radius = 1.6;  // [px] where there are many
 constexpr double line_width = 1.8;         // [px]
 constexpr double whisker_width = 1.3;      // [px]
@@ -23,7 +25,7 @@ constexpr double beside = 9;               // [px] between points that would hid
 constexpr std::size_t most_tips = 1000;    // of a chart, so that large ones stay small files
 constexpr Color whisker_color{0x22, 0x22, 0x22};
 
-/// Text that a viewer shows for a point: its series, place, interval and count.
+/// Tooltip of a point: series, position, interval and count.
 std::string tip_of(const Chart& chart, const ChartView& view, std::size_t series,
                    const DrawnPoint& p) {
     if (view.points > most_tips) return "";
@@ -50,14 +52,15 @@ void add_path(Svg& svg, const char* what, const SvgPath& path, Color stroke, dou
                      {"stroke-dasharray", dashes}});
 }
 
-/// Appends a whisker at px from one end of the interval to the other, or to the point; what is
+/// Appends a whisker at px from one end of the interval to the other, or to the point; an end
 /// beyond the axis has no cap.
 void append_whisker(SvgPath& path, const ChartFrame& frame, const DrawnPoint& p, double px) {
     if (!p.low && !p.high) return;
-    const double low = frame.at(p.x, p.low.value_or(p.y)).y;
-    const double high = frame.at(p.x, p.high.value_or(p.y)).y;
-    path.move(px, low).vertical(high);
+    const double at_low = p.low.value_or(p.y), at_high = p.high.value_or(p.y);
     const auto shown = [&](double v) { return v >= frame.y.low && v <= frame.y.high; };
+    const double low = at_low < frame.y.low ? frame.box.bottom : frame.at(p.x, at_low).y;
+    const double high = at_high > frame.y.high ? frame.box.top : frame.at(p.x, at_high).y;
+    path.move(px, low).vertical(high);
     if (p.low && shown(*p.low)) path.move(px - cap, low).horizontal(px + cap);
     if (p.high && shown(*p.high)) path.move(px - cap, high).horizontal(px + cap);
 }
@@ -65,7 +68,7 @@ void append_whisker(SvgPath& path, const ChartFrame& frame, const DrawnPoint& p,
 /// Places of the points of a series from left to right [px].
 using Places = std::vector<double>;
 
-/// Places at their x, and so far beside it [px].
+/// Places at x of the points, plus an offset [px].
 Places places_of(const std::vector<DrawnPoint>& points, const ChartFrame& frame, double shift) {
     Places out;
     for (const auto& p : points) out.push_back(frame.at(p.x, p.y).x + shift);
@@ -166,8 +169,8 @@ void draw_bar(Svg& svg, double left, double right, double from, double to, std::
     svg.close();
 }
 
-/// Distance by which the series of a line chart stand beside their x [px]: nothing where no whisker
-/// or mark hides another, or where bands show the intervals.
+/// Offset between the series of a line chart [px]; 0 if whiskers and marks do not overlap, or if
+/// intervals are bands.
 std::vector<double> shifts(const ChartView& view, const ChartFrame& frame) {
     std::vector<double> out(view.series.size(), 0);
     std::vector<std::pair<double, Box>> covers;  // of all points, and their x
@@ -199,7 +202,8 @@ std::vector<double> shifts(const ChartView& view, const ChartFrame& frame) {
     return out;
 }
 
-/// Places of the points of a scatter: at their x, or as near as none hides one before it.
+/// Places of the points of a scatter: at x, or as near as possible without covering an earlier
+/// point.
 std::vector<Places> apart(const ChartView& view, const ChartFrame& frame) {
     constexpr int most_steps = 2;  // a measured x is not moved farther than 18 px
     std::vector<Places> out;
@@ -212,7 +216,8 @@ std::vector<Places> apart(const ChartView& view, const ChartFrame& frame) {
             for (int n = 0; n <= 2 * most_steps; ++n) {
                 const double at = x + beside * (n % 2 == 0 ? 1 : -1) * ((n + 1) / 2);
                 const Box box = cover(points[i], frame, at);
-                const bool fits = box.left >= frame.box.left && box.right <= frame.box.right;
+                const bool fits =
+                    at - mark_room >= frame.box.left && at + mark_room <= frame.box.right;
                 const bool free = std::none_of(taken.begin(), taken.end(),
                                                [&](const Box& b) { return b.overlaps(box); });
                 if (!fits || !free) continue;
@@ -257,8 +262,8 @@ std::optional<Box> place_of_label(LabelPlaces& free, const ChartFrame& frame, co
 
 PicturePoint ChartFrame::at(double x_value, double y_value) const {
     const double left = box.left + inset, width = box.right - box.left - 2 * inset;
-    const double height = box.bottom - box.top;
-    return {left + x.share(x_value) * width, box.bottom - y.share(y_value) * height};
+    const double bottom = box.bottom - rise, height = bottom - rise - box.top;
+    return {left + x.share(x_value) * width, bottom - y.share(y_value) * height};
 }
 
 Color bar_color(std::size_t series) {
@@ -277,6 +282,19 @@ void draw_mark(Svg& svg, PicturePoint at, std::size_t series, const std::string&
                       {"stroke-width", 0.7}});
     if (!tip.empty()) svg.title(tip);
     svg.close();
+}
+
+double reach_of_marks(const Chart& chart, const ChartView& view, const ChartFrame& frame) {
+    double most = 0;
+    if (chart.kind == ChartKind::lines)
+        for (const double shift : shifts(view, frame)) most = std::max(most, std::abs(shift));
+    return most + mark_room;
+}
+
+double rise_of_marks(const Chart& chart, const ChartView& view) {
+    const bool has_marks = chart.kind == ChartKind::lines || chart.kind == ChartKind::scatter ||
+                           (chart.kind == ChartKind::bars && view.dots);
+    return has_marks ? mark_room : 0;
 }
 
 bool room_for_marks(const ChartView& view, const ChartFrame& frame) {

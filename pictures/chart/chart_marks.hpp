@@ -12,34 +12,40 @@
 
 namespace rovernet {
 
-/// The part of a chart between its axes.
+/// Area of a chart between its axes.
 struct ChartFrame {
-    Box box;  ///< [px]
+    Box box;  ///< position and size of the area [px]
     ChartAxis x, y;
-    double inset = 0;  ///< [px] left and right, so that no mark stands on the y axis
+    double inset = 0;  ///< [px] margin left and right of the marks, off the y axis
+    double rise = 0;   ///< [px] margin below and above, so that no mark leaves the box
 
     PicturePoint at(double x_value, double y_value) const;
 };
 
-// Functions that draw the points of a chart into its frame, one for each kind.
+// Drawing functions for the points of a chart, one for each kind of chart.
 
-/// Lines with marks, and the intervals as a band, or as whiskers where there are few points or x is
-/// a word. Series whose whiskers hide one another stand a few pixels apart.
+/// Draws the lines of a line chart, with marks. Intervals are a band, or whiskers if points are few
+/// or x is categorical. Series with overlapping whiskers are drawn a few pixels apart.
 void draw_lines(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
-/// Bars or dots, with whiskers.
+/// Draws the bars of a bar chart, or dots, with whiskers.
 void draw_bars(Svg& svg, const Chart& chart, const ChartView& view, const ChartFrame& frame);
-/// Marks with whiskers and labels; what would hide another point stands a few pixels beside it.
-/// @return how many labels found no place
+/// Draws the marks of a scatter chart with whiskers and labels; marks at one point are set apart.
+/// @return number of labels that found no free place
 std::size_t draw_scatter(Svg& svg, const Chart& chart, const ChartView& view,
                          const ChartFrame& frame);
-/// Steps of a distribution function.
+/// Draws the steps of a cumulative distribution function.
 void draw_cdf(Svg& svg, const ChartView& view, const ChartFrame& frame);
 
-/// Whether a chart of lines has room for the marks of its points.
+/// Margin [px] that marks need left and right of their points: half a mark, and the offset between
+/// the marks of several series.
+double reach_of_marks(const Chart& chart, const ChartView& view, const ChartFrame& frame);
+/// Margin [px] that marks need below and above their points; 0 in charts without marks.
+double rise_of_marks(const Chart& chart, const ChartView& view);
+/// Whether a line chart has room for a mark at each point.
 bool room_for_marks(const ChartView& view, const ChartFrame& frame);
-/// The inside of a series' bars.
+/// Fill colour of the bars of a series.
 Color bar_color(std::size_t series);
-/// Draws a mark of a series. @param tip  what a viewer shows for it, or ""
+/// Draws a mark of a series. @param tip  tooltip of the mark, or ""
 void draw_mark(Svg& svg, PicturePoint at, std::size_t series, const std::string& tip);
 
 }  // namespace rovernet

@@ -25,7 +25,7 @@ double widest(const ChartAxis& axis) {
     return out;
 }
 
-/// Whether the texts of an axis of that length stand side by side.
+/// Whether the labels of an axis of this length fit side by side.
 bool side_by_side(const ChartAxis& axis, double length) {
     constexpr double gap = 10;  // [px]
     double end = -length;
@@ -39,7 +39,7 @@ bool side_by_side(const ChartAxis& axis, double length) {
     return true;
 }
 
-/// The axis of numbers with the most texts that stand side by side.
+/// Numeric axis with the largest number of labels that fit side by side.
 ChartAxis widest_axis(const ChartRange& range, bool log, double length, const ChartLimits& limits) {
     constexpr int most = 11, fewest = 3;
     for (int texts = most; texts > fewest; --texts) {
@@ -106,15 +106,27 @@ void ChartPanel::place_axes(double height) {
     const int ticks = static_cast<int>(std::clamp(height / tick_spacing, 3.0, 11.0));
     frame_.box = {0, 0, width_ - (heat_map() ? color_bar_width : margin), height};
     frame_.inset = view_.has_words ? 0 : inset;
+    frame_.rise = rise_of_marks(chart_, view_);
     const ChartLimits& limits = view_.y_limits;
     colors_ = number_axis(view_.y_range, false, ticks, limits);
     frame_.y = heat_map() ? word_axis(names_of(chart_))
                           : number_axis(view_.y_range, chart_.log_y, ticks, limits);
     place_left();
-    const double length = frame_.box.right - frame_.box.left - 2 * frame_.inset;
-    frame_.x = view_.has_words ? word_axis(view_.words)
-                               : widest_axis(view_.x_range, chart_.log_x, length, chart_.x_limits);
+    if (view_.has_words) {
+        frame_.x = word_axis(view_.words);
+    } else {
+        place_numbers();
+        // Series with an offset need a larger margin; the offset does not grow in the remaining
+        // space.
+        frame_.inset = std::max(inset, reach_of_marks(chart_, view_, frame_));
+        place_numbers();
+    }
     place_below();
+}
+
+void ChartPanel::place_numbers() {
+    const double length = frame_.box.right - frame_.box.left - 2 * frame_.inset;
+    frame_.x = widest_axis(view_.x_range, chart_.log_x, length, chart_.x_limits);
 }
 
 std::vector<std::string> ChartPanel::notes() const {

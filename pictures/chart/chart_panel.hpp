@@ -15,23 +15,24 @@
 
 namespace rovernet {
 
-/// Chart of a picture: its texts, axes, marks and legend in a column of a given width. All its
-/// places are from the upper left corner of that column's part between the axes and their texts.
+/// Layout and drawing of one chart: texts, axes, marks and legend in a column of a given width.
+/// Coordinates are relative to the upper left corner of the column's plot area.
 class ChartPanel {
   public:
-    /// @param chart   lives longer
-    /// @param number  of the chart in its document
+    /// @param chart   must outlive the panel
+    /// @param number  number of the chart in the SVG document, from 0
     ChartPanel(const Chart& chart, const ChartLayout& layout, std::size_t number);
 
-    double head() const;  ///< [px] above the part between the axes
-    double foot() const;  ///< [px] below it
-    /// Draws it with the part between its axes below corner.y.
-    /// @param head_of_row  [px] from there up to its title
+    double head() const;  ///< height of the texts above the plot area [px]
+    double foot() const;  ///< height of the texts below the plot area [px]
+    /// Draws the chart with the top of the plot area at corner.y.
+    /// @param head_of_row  distance from corner.y up to the title of the chart [px]
     void draw(Svg& svg, PicturePoint corner, double head_of_row) const;
 
   private:
     bool heat_map() const { return chart_.kind == ChartKind::heat_map; }
     void place_axes(double height);
+    void place_numbers();
     void place_left();
     void place_below();
     std::size_t stride_below() const;
@@ -52,11 +53,11 @@ class ChartPanel {
     ChartAxis colors_ = {};
     std::vector<std::string> title_ = {}, notes_ = {};
     Legend legend_ = {};
-    bool slanted_ = false;    // the texts below the x axis
-    double texts_below_ = 0;  // [px] that they need
+    bool slanted_ = false;    // whether labels of the x axis are slanted
+    double texts_below_ = 0;  // height of these labels [px]
 };
 
-/// A text cut to fit into `width` [px].
+/// Text, shortened to fit into `width` [px].
 std::string fitted(std::string_view text, double width, double size);
 
 }  // namespace rovernet

@@ -20,12 +20,8 @@ constexpr PicturePoint down[] = {{0, 1.3}, {1.2, -0.85}, {-1.2, -0.85}};
 constexpr PicturePoint cross[] = {{0.45, -1.3}, {0.45, -0.45}, {1.3, -0.45},   {1.3, 0.45},
                                   {0.45, 0.45}, {0.45, 1.3},   {-0.45, 1.3},   {-0.45, 0.45},
                                   {-1.3, 0.45}, {-1.3, -0.45}, {-0.45, -0.45}, {-0.45, -1.3}};
-constexpr std::array<ChartMarker, 6> markers{{{"circle", 7, disc},
-                                              {"square", 5, square},
-                                              {"triangle-up", 9, triangle},
-                                              {"diamond", 13, diamond},
-                                              {"triangle-down", 11, down},
-                                              {"cross", 1, cross}}};
+constexpr std::array<ChartMarker, 6> markers{
+    {{7, disc}, {5, square}, {9, triangle}, {13, diamond}, {11, down}, {1, cross}}};
 
 }  // namespace
 

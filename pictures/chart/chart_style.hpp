@@ -11,20 +11,21 @@
 
 namespace rovernet {
 
-inline constexpr double chart_text_size = 11;  ///< [px] of ticks, values, legends and notes
-inline constexpr double text_drop = 4;  ///< [px] from the middle of such a line to its baseline
-inline constexpr double chart_label_size = 12;   ///< [px] of the labels of axes
-inline constexpr double chart_title_size = 14;   ///< [px] of the title of a chart
-inline constexpr double chart_line_height = 15;  ///< [px] of a line of notes
+/// Text size of ticks, values, legends and notes [px].
+inline constexpr double chart_text_size = 11;
+inline constexpr double text_drop = 4;  ///< [px] from the middle of a text line to its baseline
+inline constexpr double chart_label_size = 12;   ///< [px] text size of axis labels
+inline constexpr double chart_title_size = 14;   ///< [px] text size of chart titles
+inline constexpr double chart_line_height = 15;  ///< [px] line height of notes
 inline constexpr const char* chart_ink = "#333333";
 inline constexpr const char* chart_grid = "#e4e4e4";
-inline constexpr const char* chart_band_color = "#e3e3e3";  ///< where a limit has been passed
+/// Colour of the band that marks values beyond a limit.
+inline constexpr const char* chart_band_color = "#e3e3e3";
 inline constexpr Color chart_note_color{0x55, 0x55, 0x55};
-inline constexpr int most_ticks = 8;  ///< ticks of an axis that another program draws
+inline constexpr int most_ticks = 8;  ///< largest number of ticks of an axis in gnuplot scripts
 
-/// The mark of a series: its name as Vega-Lite says it, its number in gnuplot, its corners.
+/// Mark of a series: its point type in gnuplot and its corners.
 struct ChartMarker {
-    const char* vega = "";
     int gnuplot = 0;
     std::span<const PicturePoint> corners = {};  // corners of a mark of radius 1
 
@@ -32,18 +33,18 @@ struct ChartMarker {
     void append_to(SvgPath& path, PicturePoint centre, double radius) const;
 };
 
-/// Style of a series: told apart by colour, by dashes and by its mark, each of which does for the
-/// first few series alone, so that neither colour-blind eyes nor grey paper lose one.
+/// Style of a series. Colour, dashes and mark each suffice to distinguish the first few series, so
+/// that charts are readable for colour-blind people and in grey.
 struct ChartStyle {
     Color color;
-    std::vector<double> dashes;  ///< [px] drawn and left, in turn; none: a full line
+    std::vector<double> dashes;  ///< lengths [px] of dashes and gaps, in turn; empty: a solid line
     ChartMarker marker;
 
-    /// The dashes as SVG writes them.
+    /// Dashes in the notation of SVG (stroke-dasharray).
     std::string dash_text() const;
 };
 
-/// The style of the n-th series; styles come again after a few dozen.
+/// Style of series number n; styles repeat after a few dozen series.
 ChartStyle chart_style(std::size_t series);
 
 }  // namespace rovernet

@@ -63,7 +63,7 @@ class Words {
     std::map<std::string, std::size_t> categories_ = {};
 };
 
-/// Fills in the points of one series and counts what is left out.
+/// Adds the points of one series, and counts omitted points.
 class SeriesView {
   public:
     SeriesView(const Chart& chart, const Words* words, ChartView& view)
@@ -77,8 +77,8 @@ class SeriesView {
     bool log_x() const { return chart_.log_x && !words_; }
     bool log_y() const { return chart_.log_y && chart_.kind != ChartKind::heat_map; }
 
-    /// Ends of the interval, the lower one even where a logarithmic axis does not reach it; never
-    /// beyond what y can be.
+    /// Sets the ends of the interval, clipped to the limits of y; the lower end is kept even if a
+    /// logarithmic axis cannot show it.
     void set_interval(DrawnPoint& p) {
         const ChartLimits& limits = view_.y_limits;
         p.low = p.source->low;

@@ -10,46 +10,47 @@
 
 namespace rovernet {
 
-/// A point as it is drawn.
+/// Point of a chart, ready to be drawn.
 struct DrawnPoint {
-    double x = 0;  // a number, or the index of a word
+    double x = 0;  // number, or index of a category
     double y = 0;
     std::optional<double> low = {}, high = {};
-    bool joined = false;                 // joined to the point before it
-    const ChartPoint* source = nullptr;  // point of the chart
+    bool joined = false;                 // whether a line joins it to the previous point
+    const ChartPoint* source = nullptr;  // corresponding point of the chart
 };
 
-/// View of a chart: what can be drawn of it. It refers to the chart.
+/// Drawable content of a chart. It refers to the chart, which must outlive this view.
 struct ChartView {
-    bool has_words = false;          ///< x is a word
-    std::vector<std::string> words;  ///< words at x = 0, 1, 2 ...
-    /// Series in the chart's order, points in the order of x but for a scatter; the points of a cdf
-    /// are its steps, y the share.
+    bool has_words = false;          ///< whether the x axis has categories, not numbers
+    std::vector<std::string> words;  ///< categories along the x axis, at x = 0, 1, 2 ...
+    /// Points of each series of the chart, sorted by x (except in a scatter). In a cdf the points
+    /// are its steps, and y is the share.
     std::vector<std::vector<DrawnPoint>> series;
-    std::size_t points = 0;  ///< points in all series
+    std::size_t points = 0;  ///< number of points in all series
     std::size_t left_out = 0;
-    bool dots = false;        ///< dots are drawn instead of bars
-    ChartRange x_range = {};  ///< range of numbers
-    ChartRange y_range = {};  ///< range with the intervals, and 0 where bars begin there
+    bool dots = false;        ///< true: dots are drawn instead of bars
+    ChartRange x_range = {};  ///< range of the points' numeric x
+    ChartRange y_range = {};  ///< range of y, including intervals, and 0 if bars begin there
     ChartLimits y_limits = {};
 
-    /// The chart's note and what else a reader has to know.
+    /// Notes below the chart: Chart::note, and further notes, such as omitted values.
     std::vector<std::string> notes;
 };
 
-/// @param chart  lives longer
+/// Drawable content of a chart. @param chart  must outlive the result
 ChartView view_of(const Chart& chart);
 
-/// Whether the intervals of a line are drawn as a band: where x is a number and there are enough
-/// points, as a band suggests values between them.
+/// Whether the intervals of a line are drawn as a band: only if x is numeric and points are many,
+/// since a band suggests values between points.
 bool has_band(const ChartView& view, std::size_t series);
 
-/// Whether the words of a chart are too long to stand side by side in an ordinary picture.
+/// Whether the categories of a chart are too long for labels side by side in a picture of usual
+/// width.
 bool long_words(const ChartView& view);
 
-/// Offset of the middle of a bar from its word, in parts of the distance between words.
+/// Offset of a bar's middle from its category, as a share of the distance between categories.
 double bar_offset(std::size_t series, std::size_t count);
-/// The room for all bars at a word, in the same parts.
+/// Width of all bars of one category, as a share of the distance between categories.
 constexpr double bars_at_word = 0.8;
 
 }  // namespace rovernet

@@ -24,8 +24,8 @@ constexpr double title_room = 24, axis_room = 40;  // [px]
 constexpr double name_gap = 10;                    // [px] from a name to the scale
 constexpr double between = 18;                     // [px] between the scales
 constexpr double share_beside = 0.28;              // of the width
-constexpr double end_room = 8;    // [px] so that no dot stands on an end of a scale
-constexpr double band_sign = 12;  // [px] in the legend
+constexpr double end_room = 8;  // [px] so that no dot stands on an end of a scale
+constexpr double band_sign = 12, whisker_sign = 18;  // [px] in the legend
 constexpr const char *stripe = "#f6f6f6", *join_color = "#8a8a8a";
 
 /// A scale along x.
@@ -42,6 +42,15 @@ ChartAxis axis_of(const ChartRange& range, bool log, double length, const ChartL
     constexpr double tick_spacing = 44;  // [px]
     const int most = static_cast<int>(std::clamp(length / tick_spacing, 3.0, 9.0));
     return number_axis(range, log, most, limits);
+}
+
+/// Draws an interval along x, with a tick at each end.
+void add_whisker(Svg& svg, double low, double high, double y, const SvgAttribute& stroke) {
+    constexpr double tick = 2.5;  // [px]
+    SvgPath path;
+    path.move(low, y).horizontal(high);
+    path.move(low, y - tick).vertical(y + tick).move(high, y - tick).vertical(y + tick);
+    svg.add("path", {{"class", "whisker"}, {"d", path.text()}, stroke, {"stroke-width", 1.1}});
 }
 
 /// A plot with its places, from its upper left corner.
@@ -70,21 +79,8 @@ class DotPanel {
         const ChartLimits limits{.low = plot.log ? plot.least : 0};
         value_.axis = axis_of(values, plot.log, value_.right - value_.left, limits);
         beside_.axis = axis_of(costs, true, beside_.right - beside_.left, {});
-        for (std::size_t i = 0; i < plot.series.size(); ++i) {
-            if (plot.series[i].empty()) continue;
-            legend_.add({plot.series[i], 12, [i](Svg& svg, PicturePoint p) {
-                             draw_mark(svg, {p.x + 6, p.y}, i, "");
-                         }});
-        }
-        if (plot.band) {
-            legend_.add({plot.band_label, band_sign, [](Svg& svg, PicturePoint p) {
-                             svg.add("rect", {{"x", p.x},
-                                              {"y", p.y - band_sign / 2},
-                                              {"width", band_sign},
-                                              {"height", band_sign},
-                                              {"fill", chart_band_color}});
-                         }});
-        }
+        part_ticks();
+        add_legend();
         if (!plot.note.empty()) notes_ = wrapped({plot.note}, wide, chart_text_size);
     }
 
@@ -109,6 +105,44 @@ class DotPanel {
     }
 
   private:
+    /// Explains the series, the band and the whiskers, as far as there are any.
+    void add_legend() {
+        for (std::size_t i = 0; i < plot_.series.size(); ++i) {
+            if (plot_.series[i].empty()) continue;
+            legend_.add({plot_.series[i], 12, [i](Svg& svg, PicturePoint p) {
+                             draw_mark(svg, {p.x + 6, p.y}, i, "");
+                         }});
+        }
+        if (plot_.band) {
+            legend_.add({plot_.band_label, band_sign, [](Svg& svg, PicturePoint p) {
+                             svg.add("rect", {{"x", p.x},
+                                              {"y", p.y - band_sign / 2},
+                                              {"width", band_sign},
+                                              {"height", band_sign},
+                                              {"fill", chart_band_color}});
+                         }});
+        }
+        const bool has_whiskers =
+            std::any_of(plot_.rows.begin(), plot_.rows.end(), [](const DotRow& row) {
+                return std::any_of(row.dots.begin(), row.dots.end(),
+                                   [](const Dot& dot) { return dot.low && dot.high; });
+            });
+        if (has_whiskers && !plot_.whisker_label.empty()) {
+            legend_.add({plot_.whisker_label, whisker_sign, [](Svg& svg, PicturePoint p) {
+                             add_whisker(svg, p.x, p.x + whisker_sign, p.y, {"stroke", chart_ink});
+                         }});
+        }
+    }
+    /// Moves the second scale to the right if its first number would touch the last number of the
+    /// main scale.
+    void part_ticks() {
+        constexpr double least = 10;  // [px] between numbers
+        if (value_.axis.ticks.empty() || beside_.axis.ticks.empty()) return;
+        const ChartTick &last = value_.axis.ticks.back(), &first = beside_.axis.ticks.front();
+        const double end = value_.at(last.value) + text_width(last.text, chart_text_size) / 2;
+        const double begin = beside_.at(first.value) - text_width(first.text, chart_text_size) / 2;
+        beside_.left += std::max(0.0, end + least - begin);
+    }
     double shown(double v) const { return plot_.log ? std::max(v, plot_.least) : v; }
     double top() const { return plot_.title.empty() ? 6 : title_room; }
     double rows() const { return row_height * static_cast<double>(plot_.rows.size()); }
@@ -159,14 +193,16 @@ class DotPanel {
         svg.add("path", {{"class", "grid"}, {"d", lines.text()}, {"stroke", chart_grid}});
         svg.add("path", {{"class", "axes"}, {"d", axis.text()}, {"stroke", chart_ink}});
         svg.text((scale.left + scale.right) / 2, bottom + 33,
-                 fitted(label, scale.right - scale.left + between, chart_label_size),
+                 fitted(label, scale.right - scale.left + between / 2, chart_label_size),
                  {.size = chart_label_size, .anchor = TextAnchor::middle});
     }
 
-    /// Heights of the dots of a row: a few pixels apart, so that each is seen.
+    /// Heights of the dots of a row: a few pixels apart, so that each is seen, and within the row.
     double height_of(std::size_t row, std::size_t dot) const {
-        constexpr double apart = 7;  // [px]
+        constexpr double most_apart = 7, half_a_dot = 4.5;  // [px]
         const auto count = static_cast<double>(plot_.rows[row].dots.size());
+        const double apart =
+            std::min(most_apart, (row_height - 2 * half_a_dot) / std::max(count - 1, 1.0));
         return middle(row) + apart * (static_cast<double>(dot) - (count - 1) / 2);
     }
 
@@ -202,15 +238,8 @@ class DotPanel {
 
     void draw_whisker(Svg& svg, const Dot& dot, double y) const {
         if (!dot.low || !dot.high) return;
-        constexpr double tick = 2.5;  // [px]
-        const double low = value_.at(shown(*dot.low)), high = value_.at(shown(*dot.high));
-        SvgPath path;
-        path.move(low, y).horizontal(high);
-        path.move(low, y - tick).vertical(y + tick).move(high, y - tick).vertical(y + tick);
-        svg.add("path", {{"class", "whisker"},
-                         {"d", path.text()},
-                         {"stroke", chart_style(dot.series).color},
-                         {"stroke-width", 1.1}});
+        add_whisker(svg, value_.at(shown(*dot.low)), value_.at(shown(*dot.high)), y,
+                    {"stroke", chart_style(dot.series).color});
     }
 
     void draw_foot(Svg& svg) const {

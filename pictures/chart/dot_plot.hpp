@@ -9,40 +9,41 @@
 
 namespace rovernet {
 
-/// A dot of a row: its place on the main scale and on the one beside it.
+/// Dot of a row: its value on the main scale and its value on the second scale.
 struct Dot {
     std::size_t series = 0;
     double value = 0;
     std::optional<double> low = {}, high = {};  ///< ends of the interval around the value
-    double beside = 0;                          ///< > 0
+    double beside = 0;  ///< value on the second scale (right of the main scale), > 0
 };
 
-/// Things by name, one in each row.
+/// Row of a dot plot, with its name.
 struct DotRow {
     std::string name;
     bool bold = false;
-    std::vector<Dot> dots = {};  ///< one or more; a line joins each to the next
+    std::vector<Dot> dots = {};  ///< dots of the row, at least one; a line joins successive dots
 };
 
-/// A dot plot: names in rows, dots on a scale, and to the right the same dots on a second,
-/// logarithmic scale. Every name has room, however close the dots are.
-/// Source: W. S. Cleveland, The Elements of Graphing Data, 1985, chapter 3.
+/// Dot plot: a name in each row, dots on a main scale, and on its right the same dots on a second,
+/// logarithmic scale. Names never overlap, even if dots are close. Source: W. S. Cleveland, The
+/// Elements of Graphing Data, 1985, chapter 3.
 struct DotPlot {
     std::string title = {};
-    std::string value_label = {}, beside_label = {};  ///< what the scales show, with units
-    bool log = false;  ///< main scale; values <= `least` then stand at its left end
+    std::string value_label = {}, beside_label = {};  ///< labels of both scales, with units
+    bool log = false;  ///< main scale is logarithmic; values <= `least` are drawn at its left end
     double least = 0;
     std::vector<std::string> series = {};
-    std::vector<DotRow> rows = {};  ///< from the top
-    /// Right end of a grey band that begins at the left end of the main scale, and what it says.
+    std::vector<DotRow> rows = {};  ///< rows of the plot, from the top
+    /// Right end of a grey band that begins at the left end of the main scale, and its label.
     std::optional<double> band = {};
     std::string band_label = {};
+    std::string whisker_label = {};  ///< meaning of the intervals around the dots
     std::string note = {};
 };
 
-/// Draws dot plots side by side, `columns` in a row of the picture, as one Scalable Vector Graphics
-/// document. The same bytes on every machine.
-/// @param width  [px] of a plot, 300 at least
+/// Draws dot plots, `columns` side by side, as one SVG document. The bytes are the same on every
+/// machine.
+/// @param width  width of a plot [px], >= 300
 std::string dot_plot_svg(std::span<const DotPlot> plots, const std::string& title, double width,
                          std::size_t columns);
 

@@ -8,7 +8,7 @@
 
 namespace rovernet {
 
-/// A colour of sRGB, opaque.
+/// Opaque sRGB colour.
 struct Color {
     std::uint8_t red = 0;
     std::uint8_t green = 0;
@@ -16,38 +16,38 @@ struct Color {
     friend constexpr bool operator==(Color, Color) = default;
 };
 
-/// Text of a colour, as in "#1e90ff".
+/// Text of a colour, such as "#1e90ff".
 std::string hex(Color c);
 
 /// Lightness of a colour, 0 (black) to 1 (white): the relative luminance of WCAG 2.1.
 double luminance(Color c);
 
-/// Colours that tell things apart for every kind of eyes, also as lines on white; they come again
-/// after seven. Source: M. Okabe and K. Ito, Color Universal Design (2008), without the yellow,
-/// which is too light for a line.
+/// Colour of category i, distinguishable for colour-blind people, also as lines on white. Colours
+/// repeat after seven. Source: M. Okabe and K. Ito, Color Universal Design (2008), without yellow,
+/// which is too light for lines.
 Color category_color(std::size_t i);
 
-/// `share` of `a` over 1 - share of `b`, sample by sample; share from 0 to 1.
+/// Mix of two colours, channel by channel: share a + (1 - share) b; share from 0 to 1.
 Color blend(Color a, Color b, double share);
 
-/// Colours for numbers, for every kind of eyes and for grey paper: luminance is monotone over
-/// the 256 colours at k / 255 (strictly, where they differ), and hue goes its own way from end to
-/// end. In finer steps the rounding of a sample may take back one unit.
+/// Colour scale for numbers, readable for colour-blind people and in grey: luminance is monotone
+/// over the 256 colours at x = k / 255 (strictly, where colours differ), while hue varies. In finer
+/// steps, rounding may reverse a channel by one unit.
 class ColorScale {
   public:
-    /// @param anchors  at least two, equally spaced; they live as long as the program
+    /// @param anchors  at least two colours, equally spaced; must live until the program ends
     constexpr explicit ColorScale(std::span<const Color> anchors) : anchors_(anchors) {}
 
-    /// The colour at x from 0 to 1; held beyond the ends.
+    /// Colour at x from 0 to 1; clamped beyond the ends.
     Color at(double x) const;
 
   private:
     std::span<const Color> anchors_;
 };
 
-/// Scale for areas: indigo, blue, teal, green, yellow; the more the lighter.
+/// Scale for areas: indigo, blue, teal, green, yellow; larger values are lighter.
 extern const ColorScale lagoon;
-/// Scale for lines on white: amber, red, purple; the more the darker.
+/// Scale for lines on white: amber, red, purple; larger values are darker.
 extern const ColorScale ember;
 
 }  // namespace rovernet

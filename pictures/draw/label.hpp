@@ -9,7 +9,7 @@
 
 namespace rovernet {
 
-/// An upright box of a picture [px]; y points down.
+/// Axis-parallel box of a picture [px]; y points down.
 struct Box {
     double left = 0, top = 0, right = 0, bottom = 0;
 
@@ -21,29 +21,30 @@ struct Box {
     }
 };
 
-/// Keeps labels of points apart from one another, and from what else is in the way.
+/// Placement of labels beside points, so that labels overlap neither each other nor other parts of
+/// the picture.
 class LabelPlaces {
   public:
-    /// @param area  labels stay inside
+    /// @param area  box of the picture inside which labels must lie
     explicit LabelPlaces(const Box& area);
 
-    /// Takes a place: nothing is put there from now on.
+    /// Reserves a box of the picture: no label is placed there from now on.
     void keep_free(const Box& box);
-    /// A line that labels should rather not lie on.
+    /// Adds a line that labels should avoid if they can.
     void avoid(PicturePoint from, PicturePoint to);
-    /// A free place for a label of that size beside a disc: right, left, above, below, then at the
-    /// corners; the first that lies on the fewest lines. It counts as taken from now on. None if
-    /// every place is taken.
+    /// Finds and reserves a free place for a label beside a disc. Candidates are right, left,
+    /// above, below, then the corners; the first candidate that lies on the fewest lines is chosen.
+    /// None if no place is free.
     std::optional<Box> place(PicturePoint centre, double radius, double width, double height);
-    /// A free place for a label of that size below the end of an upright line, or above it: as near
-    /// to its middle as others let it, and never wholly to one side. It counts as taken from now
-    /// on. None if every place is taken.
+    /// Finds and reserves a free place for a label below or above the end of a vertical line: as
+    /// central as other labels allow, and never wholly to one side of the line. None if no place is
+    /// free.
     std::optional<Box> place_at_end(PicturePoint end, bool below, double width, double height);
 
   private:
     struct Tile {
         std::vector<Box> taken;
-        std::vector<PicturePoint> lines;  // points along them
+        std::vector<PicturePoint> lines;  // points along the lines
     };
 
     bool free(const Box& box) const;
@@ -53,7 +54,8 @@ class LabelPlaces {
 
     Box area_;
     std::size_t columns_ = 1, rows_ = 1;
-    std::vector<Tile> tiles_;  // places taken, by tile, so that many labels stay cheap
+    // Reserved places by tile, so that a search with many labels stays fast.
+    std::vector<Tile> tiles_;
 };
 
 }  // namespace rovernet

@@ -10,36 +10,36 @@
 
 namespace rovernet {
 
-/// A sign of a picture and what it means.
+/// Entry of a legend: a symbol and its meaning.
 struct LegendItem {
     std::string text;
-    double width = 24;  ///< [px] of the sign
-    /// Draws the sign; the point is the middle of its left edge. None: the text stands alone, bold,
-    /// as the title of the items after it.
+    double width = 24;  ///< width of the symbol [px]
+    /// Function that draws the symbol; the point is the middle of its left edge. None: the text is
+    /// a bold title of the entries after it.
     std::function<void(Svg&, PicturePoint)> draw = nullptr;
 };
 
-/// The signs of a picture in rows, from left to right.
+/// Legend of a picture: entries in rows, from left to right.
 class Legend {
   public:
     void add(LegendItem item) { items_.push_back(std::move(item)); }
-    /// Height [px] that it needs when it is `width` [px] wide.
+    /// Height of the legend [px] if its width is `width` [px].
     double height(double width) const;
-    /// Draws it with its upper left corner there.
+    /// Draws the legend. @param corner  upper left corner of the legend
     void draw(Svg& svg, PicturePoint corner, double width) const;
 
   private:
-    /// Left end of each item, from the legend's upper left corner.
+    /// Left end of each entry, relative to the legend's upper left corner.
     std::vector<PicturePoint> places(double width) const;
 
     std::vector<LegendItem> items_;
 };
 
-/// A bar of a round length: about a sixth of the plot, 2 pixels at least.
+/// Scale bar of a round length: about a sixth of the plot's width, at least 2 px.
 LegendItem scale_bar(const Plot& plot);
 
-/// The lines that `parts` make when joined by " · ": broken between parts to stay within `width`
-/// [px], a part that is too long for itself between words.
+/// Lines of text: `parts` joined by " · ", with line breaks between parts so that lines fit into
+/// `width` [px]. A part that is too long alone is broken between words.
 std::vector<std::string> wrapped(const std::vector<std::string>& parts, double width, double size);
 
 }  // namespace rovernet

@@ -63,7 +63,8 @@ struct FileActions {
     FileActions& operator=(const FileActions&) = delete;
 };
 
-/// The variables that the program is run with: ours, and a time for a PDF to say when it was made.
+/// Environment of the program: that of this process, and SOURCE_DATE_EPOCH for the creation time of
+/// a PDF.
 std::vector<char*> variables() {
     static char start_of_time[] = "SOURCE_DATE_EPOCH=0";
     std::vector<char*> out;

@@ -9,40 +9,42 @@
 
 namespace rovernet {
 
-/// An upright rectangle of the world [m] that grows around what is put into it; z is ignored.
+/// Bounding rectangle of shapes in the world [m], parallel to the axes; z is ignored.
 class Extent {
   public:
-    /// Makes room for a disc.
+    /// Extends the rectangle so that it includes a disc.
     void include(Vec3 centre, double radius = 0);
-    /// Adds a margin [m] on every side.
+    /// Adds a margin [m] on every side of the rectangle.
     void grow(double x, double y);
 
     bool empty() const { return !low_; }
     Vec3 low() const { return low_.value_or(Vec3{}); }
     Vec3 high() const { return high_; }
-    double width() const { return high_.x - low().x; }     ///< [m]
-    double height() const { return high_.y - low().y; }    ///< [m]
-    Vec3 centre() const { return 0.5 * (low() + high_); }  ///< [m]
+    double width() const { return high_.x - low().x; }     ///< width of the rectangle [m]
+    double height() const { return high_.y - low().y; }    ///< height of the rectangle [m]
+    Vec3 centre() const { return 0.5 * (low() + high_); }  ///< centre of the rectangle [m]
 
   private:
     std::optional<Vec3> low_;
     Vec3 high_;
 };
 
-/// A point of a picture [px]; y points down.
+/// Point of a picture [px]; y points down.
 struct PicturePoint {
     double x = 0;
     double y = 0;
 };
 
-/// The part of a picture that shows the world: metres to pixels, the same scale both ways.
+/// Plot area of a picture that shows the world: maps metres to pixels, with equal scales for x and
+/// y.
 class Plot {
   public:
-    /// The largest plot of `extent` in a box of so many pixels; never empty, and never narrower or
-    /// lower than the least sizes: then it shows more than the extent, which stays in its middle.
+    /// Limits of the size of a plot. The plot is the largest one that fits; if it would be smaller
+    /// than the least sizes, it shows more than the given extent, which stays in the middle.
     struct Limits {
-        double width = 1000, height = 800;             ///< [px] > 0, at most
-        double least_width = 300, least_height = 150;  ///< [px], not above the limits
+        double width = 1000, height = 800;  ///< largest size of the plot [px], > 0
+        double least_width = 300,
+               least_height = 150;  ///< least size of the plot [px], not above width and height
     };
     Plot() = default;
     Plot(const Extent& extent, PicturePoint corner, const Limits& limits);
@@ -53,18 +55,19 @@ class Plot {
     double right() const { return left + width; }
     double bottom() const { return top + height; }
 
-    double left = 0, top = 0, width = 1, height = 1;  ///< [px]
-    double scale = 1;                                 ///< [px/m]
-    Vec3 low{}, high{1, 1};                           ///< corners of what it shows [m]
+    double left = 0, top = 0, width = 1, height = 1;  ///< plot within the picture [px]
+    double scale = 1;                                 ///< pixels for each metre of the world [px/m]
+    Vec3 low{},
+        high{1, 1};  ///< lower left and upper right corner of the visible part of the world [m]
 };
 
-/// The largest of 1, 2, 5, 10, 20, 50 ... (and 0.5, 0.2 ...) that is at most `most` > 0.
+/// Largest round number (... 0.2, 0.5, 1, 2, 5, 10, 20, 50 ...) that is <= `most` > 0.
 double round_number(double most);
 
-/// Multiples of a round step from `low` to `high`, about `most` >= 2 of them and no more.
+/// Multiples of a round step from `low` to `high`, at most `most` >= 2 and nearly as many.
 std::vector<double> round_ticks(double low, double high, int most);
 
-/// A length with its unit as on a scale bar: "20 cm", "5 m", "2 km".
+/// Length with its unit, for a scale bar: "20 cm", "5 m", "2 km".
 std::string length_text(double metres);
 
 }  // namespace rovernet

@@ -11,21 +11,21 @@
 
 namespace rovernet {
 
-/// A number as pictures write it: at most two decimals, no needless zeros, never "-0". What is not
-/// finite or beyond 1e9 is written as the nearest number that is not.
+/// Number for an SVG: at most two decimals, no trailing zeros, never "-0". Numbers beyond +-1e9 and
+/// infinities are clamped to +-1e9; NaN becomes 0.
 std::string svg_number(double v);
 
-/// Text for XML: markup characters are escaped; what XML cannot hold (control characters, bytes
-/// that are no UTF-8) becomes U+FFFD.
+/// Text for XML: markup characters are escaped; characters that XML forbids (control characters,
+/// invalid UTF-8) become U+FFFD.
 std::string xml_text(std::string_view text);
 
-/// `text` cut to at most `most` >= 1 characters, the last of which is then an ellipsis.
+/// Text, shortened to at most `most` >= 1 characters; a shortened text ends in an ellipsis.
 std::string shortened(std::string_view text, std::size_t most);
 
-/// About how wide a text is [px] in the picture's font; an estimate from above.
+/// Estimated width of a text [px] in the picture's font; an upper bound.
 double text_width(std::string_view text, double size);
 
-/// An attribute of an element: a number, a colour or a text.
+/// Attribute of an SVG element: a number, a colour or a text.
 struct SvgAttribute {
     std::string_view name;
     std::string value;
@@ -37,8 +37,8 @@ struct SvgAttribute {
 };
 using SvgAttributes = std::initializer_list<SvgAttribute>;
 
-/// The data of a <path>, in pixels. Equal coordinates are equal texts, so that shapes which share
-/// an edge share it exactly.
+/// Data of an SVG <path> [px]. Equal coordinates give equal texts, so that shapes with a common
+/// edge meet exactly.
 class SvgPath {
   public:
     SvgPath& move(double x, double y);
@@ -56,37 +56,36 @@ class SvgPath {
     std::string text_;
 };
 
-/// Anchor of a text: where it begins, or ends, or has its middle.
+/// Anchor of a text: its point is the start, the middle or the end of the text.
 enum class TextAnchor { start, middle, end };
 
-/// Style of a text.
+/// Style of a text in an SVG.
 struct TextStyle {
-    double size = 12;  ///< [px]
+    double size = 12;  ///< text size [px]
     TextAnchor anchor = TextAnchor::start;
     bool bold = false;
-    bool halo = false;  ///< a white seam that keeps it readable on anything
+    bool halo = false;  ///< white outline around the letters, readable on any background
     Color color{0x22, 0x22, 0x22};
 };
 
-/// Writes a Scalable Vector Graphics document, element by element. The same calls make the same
-/// bytes everywhere.
+/// Writer of an SVG document, element by element. Equal calls give equal bytes on every machine.
 class Svg {
   public:
-    /// @param width, height  > 0, of the document in its own units
-    /// @param scale          [px] of a unit, > 0
+    /// @param width, height  size of the document in its own units, > 0
+    /// @param scale          pixels for each unit [px], > 0
     Svg(double width, double height, double scale = 1);
 
-    /// An element without content.
+    /// Adds an SVG element without content.
     void add(std::string_view element, SvgAttributes attributes);
-    /// A line of text with its baseline at y.
+    /// Adds a line of text with its baseline at y.
     void text(double x, double y, std::string_view text, const TextStyle& style = {});
-    /// The <title> of what is open: what a viewer shows for it.
+    /// Adds a <title> to the open element, which viewers show as its tooltip.
     void title(std::string_view text);
-    /// Opens an element; what follows is inside until close().
+    /// Opens an SVG element; it contains all further elements until close().
     void open(std::string_view element, SvgAttributes attributes);
     void close();
 
-    /// The whole document; everything that is open is closed.
+    /// Closes all open SVG elements and returns the document.
     std::string finish();
 
   private:

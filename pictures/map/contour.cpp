@@ -105,8 +105,8 @@ class Tracer {
     std::vector<Edge> next_;  // where the line through an edge goes on; none: there is no line
 };
 
-/// Joins the edges of the square whose lower left corner this is: from where a line comes in to
-/// where it leaves, what is above 0 on its left.
+/// Joins the edges of the square with this lower left corner by the lines through it; values above
+/// 0 are on the left of a line.
 void Tracer::cross(int column, int row) {
     const std::array<double, 4> corner{field_.at(column, row), field_.at(column + 1, row),
                                        field_.at(column + 1, row + 1), field_.at(column, row + 1)};
@@ -175,7 +175,7 @@ std::vector<ContourLine> Tracer::lines() {
     return out;
 }
 
-/// Whether a closed line goes around so little, or so narrow a strip, that it says nothing.
+/// Whether a closed line encloses an area that is too small or too narrow to be meaningful.
 bool is_speck(const ContourLine& line, Meters smoothing) {
     double area = 0, length = 0;
     for (std::size_t i = 0; i < line.points.size(); ++i) {

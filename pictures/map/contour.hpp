@@ -9,23 +9,22 @@
 
 namespace rovernet {
 
-/// A line along which the level of a map is the same.
+/// Contour line: a line of constant level on a coverage map.
 struct ContourLine {
-    std::vector<Vec3> points;  ///< [m] at the map's height; places above the level to the left
-    bool closed = false;       ///< the first point, which is not repeated, follows the last
+    /// Points of the line [m] at the map's height; levels are higher on the left side of the line.
+    std::vector<Vec3> points;
+    bool closed = false;  ///< whether the last point joins the first, which is not repeated
 };
 
-/// The lines between the places of a map whose level is at least `level` and the others, smoothed:
-/// areas and gaps that are narrower than about 1.3 `smoothing` vanish, such as the rays of light
-/// and shadow behind the ragged edge of a drawn wall; corners are rounded by about as much, and
-/// islands smaller than a disc of the radius 2 `smoothing` or narrower than it are left out.
-/// Straight edges stay in their place, and so does a contour of free space.
+/// Smoothed borders of the area of a map where the level is at least `level`. Areas and gaps
+/// narrower than about 1.3 `smoothing` vanish, such as streaks behind the ragged edge of a drawn
+/// wall. Corners are rounded by about as much. Islands smaller than a disc of radius 2 `smoothing`,
+/// or narrower than it, are omitted. Straight edges and contours of free space do not move.
 ///
-/// Each level counts as how far it is above `level`, at most half a decibel either way; this is
-/// smoothed by a Gaussian, whose zeros the lines go through (marching squares, W. E. Lorensen and
-/// H. E. Cline, Computer Graphics 21(4), 1987, in the plane). Lines that leave the map go on to
-/// half a cell beyond its edge.
-/// @param smoothing  [m] > 0, standard deviation of the Gaussian
+/// Method: the difference to `level`, clamped to +-0.5 dB, is smoothed by a Gaussian. The lines are
+/// its zeros, found by marching squares (the planar case of W. E. Lorensen and H. E. Cline,
+/// Computer Graphics 21(4), 1987). Lines that leave the map end half a cell beyond its edge.
+/// @param smoothing  standard deviation of the Gaussian [m], > 0
 /// @throws std::invalid_argument if smoothing is not > 0
 std::vector<ContourLine> contours(const CoverageMap& map, Dbm level, Meters smoothing);
 

@@ -13,40 +13,43 @@
 
 namespace rovernet {
 
-/// A robot's radio on air, and what stands around it: all that its level at a place depends on.
+/// Transmitter of a coverage map: all quantities on which its level at a position depends.
 struct Transmitter {
     Propagation model;
     Radio radio = {};
-    Radio receiver = {};               ///< radio of the receivers
-    Vec3 antenna = {};                 ///< [m]
-    double receivers_above = 0;        ///< [m] by which receivers' antennas are higher than its own
-    Radians heading{0};                ///< [rad] of the robot, for a directional antenna
-    std::uint64_t key = 0;             ///< key of the robot, for random draws
-    const Scene* scene = nullptr;      ///< not null; outlives the transmitter
-    Meters floor_height = no_storeys;  ///< [m] of one storey
+    Radio receiver = {};  ///< radio of the assumed receivers
+    Vec3 antenna = {};    ///< position of the transmitter's antenna [m]
+    /// Height of receivers' antennas above the transmitter's antenna [m].
+    double receivers_above = 0;
+    Radians heading{0};                ///< heading of the robot [rad], for a directional antenna
+    std::uint64_t key = 0;             ///< key of the transmitting robot, for random draws
+    const Scene* scene = nullptr;      ///< scene with the walls; not null; outlives the transmitter
+    Meters floor_height = no_storeys;  ///< height of one storey [m]
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
 };
 
-/// The robot as it stands at `at`, for receivers like its own. Its model is the median: shadowing
-/// of links belongs to pairs of robots, and there is no robot at most places. A field of shadowing
-/// belongs to places, and stays. The network outlives the transmitter.
+/// Transmitter of a robot at time `at`, for receivers with the same radio. Link shadowing is left
+/// out, since it is defined for pairs of robots only; a shadowing field depends on positions and is
+/// included. The network must outlive the transmitter.
 Transmitter transmitter(const Network& network, NodeId robot, Time at);
 
-/// Levels [dBm] at which the receivers' radio would receive it; a directional one turns to it.
-/// @param antennas  [m] of the receivers
-/// @param out_dbm   same size; every element written
+/// Computes the levels [dBm] at receivers; a directional receiver antenna points to the
+/// transmitter.
+/// @param antennas  positions of the receivers' antennas [m]
+/// @param out_dbm   levels [dBm], same size as `antennas`; every element is written
 void received_levels(const Transmitter& transmitter, std::span<const Vec3> antennas,
                      std::span<double> out_dbm);
 
-/// Levels over an upright rectangle, on a grid of equal cells.
+/// Levels over an axis-parallel rectangle, on a grid of equal cells.
 struct CoverageMap {
-    Vec3 lower_left = {};    ///< [m] corner
-    double cell_width = 1;   ///< [m]
-    double cell_height = 1;  ///< [m]
+    Vec3 lower_left = {};    ///< lower left corner of the rectangle [m]
+    double cell_width = 1;   ///< width of a cell [m]
+    double cell_height = 1;  ///< height of a cell [m]
     int columns = 0;
     int rows = 0;
-    std::vector<double> dbm = {};  ///< levels at the cells' centres; row 0 is the bottom row
+    /// Levels at the centres of the cells [dBm], row by row; row 0 is at the bottom.
+    std::vector<double> dbm = {};
 
     Vec3 centre(int column, int row) const;
     double at(int column, int row) const {
@@ -55,12 +58,12 @@ struct CoverageMap {
     }
 };
 
-/// The most cells that a map of the coverage may have.
+/// Largest number of cells of a coverage map.
 inline constexpr int most_coverage_cells = 4'000'000;
 
-/// Levels over the rectangle from `low` to `high` [m], for antennas `receivers_above` above the
-/// transmitter's.
-/// @param cells  about so many, nearly square
+/// Levels over the rectangle from `low` to `high` [m], for receivers' antennas `receivers_above`
+/// [m] above the transmitter's antenna.
+/// @param cells  approximate number of cells, which are nearly square
 /// @throws std::invalid_argument for an empty rectangle, or cells outside 1 to most_coverage_cells
 CoverageMap coverage(const Transmitter& transmitter, Vec3 low, Vec3 high, int cells);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/heat_layer.hpp"
 
+#include "experiment/reports/range_of_model.hpp"
 #include "files/base64.hpp"
 #include "scene/images/png.hpp"
 
@@ -19,8 +20,8 @@ constexpr const char* contour_color = "#00501e";
 constexpr double contour_width = 1.8;  // [px]
 constexpr double contour_seam = 3.2;   // [px] of the white below it
 
-/// Level at which colours end [dBm]: well below the weakest contour, and where next to nothing of
-/// the picture is still above.
+/// Ends of the colour scale [dBm]: well below the weakest contour, and above the levels of all but
+/// 0.05 % of the picture.
 std::pair<double, double> color_range(std::vector<double> dbm, double weakest) {
     constexpr double below = 20, least = 20, step = 5;  // [dB]
     constexpr double rest = 0.0005;
@@ -48,7 +49,7 @@ Image image_of(const CoverageMap& map, double low, double high) {
     return image;
 }
 
-/// The line in the picture, without the points that nobody would miss.
+/// Line in the picture, without points whose removal is invisible.
 std::string path_of(const ContourLine& line, const Plot& plot) {
     constexpr double visible = 0.08;  // [px] from a straight line
     constexpr double longest = 8;     // [px] of a side that replaces others
@@ -101,10 +102,10 @@ void define_gradient(Svg& svg) {
 }  // namespace
 
 HeatLayer::HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells)
-    : map_(coverage(transmitter, plot.low, plot.high, cells)) {
+    : map_(coverage(transmitter, plot.low, plot.high, cells)), range_(range_of(transmitter.model)) {
     const Radio& radio = transmitter.receiver;
     lines_.push_back({radio.sensitivity, "sensitivity", false});
-    if (radio.range_db) lines_.push_back({*radio.range_db, "range_db", true});
+    if (radio.range_db && !range_) lines_.push_back({*radio.range_db, "range_db", true});
     double weakest = radio.sensitivity.value;
     for (const auto& line : lines_) weakest = std::min(weakest, line.level.value);
     std::tie(low_, high_) = color_range(map_.dbm, weakest);
@@ -165,8 +166,9 @@ void HeatLayer::draw_bar(Svg& svg, PicturePoint corner, double height) const {
 
 void HeatLayer::append_to(Legend& legend) const {
     for (const auto& line : lines_) {
-        legend.add({fmt::format("{:.6g} dBm, {}", line.level.value, line.meaning), 26,
-                    [dashed = line.dashed](Svg& svg, PicturePoint p) {
+        legend.add({range_ ? fmt::format("range of {:.6g} m", range_->value)
+                           : fmt::format("{:.6g} dBm, {}", line.level.value, line.meaning),
+                    26, [dashed = line.dashed](Svg& svg, PicturePoint p) {
                         SvgPath path;
                         path.move(p.x, p.y).horizontal(p.x + 26);
                         draw_line(svg, path.text(), dashed);

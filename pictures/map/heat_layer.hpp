@@ -7,25 +7,28 @@
 #include "pictures/map/contour.hpp"
 #include "pictures/map/coverage.hpp"
 
-#include <string>
+#include <optional>
 #include <vector>
 
 namespace rovernet {
 
-/// The coverage of one robot in a picture: levels as colours, with a bar that tells them, and the
-/// contours at its sensitivity and at its radio's range_db.
+/// Coverage of one robot in a picture: levels as colours, a colour bar, and contours at the
+/// receivers' sensitivity and at the radio's range_db.
 class HeatLayer {
   public:
-    /// Works out what covers the plot. @param cells  of the heat map, about
+    /// Computes the coverage of the plot area. @param cells  approximate number of cells of the
+    /// heat map
     HeatLayer(const Transmitter& transmitter, const Plot& plot, int cells);
 
     void draw_levels(Svg& svg, const Plot& plot) const;
     void draw_contours(Svg& svg, const Plot& plot) const;
-    /// The colour bar, its upper left corner there; bar_width wide.
+    /// Draws the colour bar, bar_width wide. @param corner  upper left corner of the colour bar
     void draw_bar(Svg& svg, PicturePoint corner, double height) const;
     void append_to(Legend& legend) const;
+    /// Whether the propagation model has levels; disc has a range only.
+    bool has_levels() const { return !range_; }
 
-    static constexpr double bar_width = 62;  ///< [px] with its numbers
+    static constexpr double bar_width = 62;  ///< width of the colour bar with its numbers [px]
 
   private:
     struct Line {
@@ -36,7 +39,8 @@ class HeatLayer {
     };
 
     CoverageMap map_;
-    double low_ = 0, high_ = 1;  // [dBm] where the colours end
+    std::optional<Meters> range_;
+    double low_ = 0, high_ = 1;  // ends of the colour scale [dBm]
     std::vector<Line> lines_;
 };
 

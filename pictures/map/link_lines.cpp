@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/link_lines.hpp"
 
+#include "experiment/reports/range_of_model.hpp"
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
 #include "sim/error.hpp"
@@ -18,7 +19,7 @@ namespace {
 constexpr std::uint32_t most_linked = 5000;
 constexpr std::size_t many = 500;  // lines, from which on they fill the picture
 
-/// Lines of one look.
+/// Style of lines.
 struct Grade {
     double from;   // [dB] of margin
     double width;  // [px]
@@ -60,7 +61,7 @@ void stroke(Svg& svg, const std::string& data, std::size_t grade, bool dashed, b
                      {"stroke-dasharray", dashed && !seam ? "7 4" : "none"}});
 }
 
-/// A head at `to`, `back` [px] before its middle; none if there is no room.
+/// Arrow head at `to`, `back` [px] before its centre; none if there is no room.
 void append_head(SvgPath& heads, PicturePoint from, PicturePoint to, double back, double width) {
     const double dx = to.x - from.x, dy = to.y - from.y;
     const double length = std::sqrt(dx * dx + dy * dy);
@@ -98,6 +99,7 @@ LinkLines::LinkLines(const Network& network, Time at, std::size_t storey) {
     };
     for (std::uint32_t i = 0; i < robots; ++i) {
         const bool here = is_here(NodeId{i});
+        if (range_of(network.medium().stations().model(NodeId{i}))) has_margins_ = false;
         for (std::uint32_t j = i + 1; j < robots; ++j) {
             const NodeId a{i}, b{j};
             const bool there_too = is_here(b);
@@ -160,6 +162,11 @@ void LinkLines::append_to(Legend& legend) const {
     bool first = true;
     for (std::size_t i = 0; i < grades.size(); ++i) {
         if (!used[i]) continue;
+        if (!has_margins_) {
+            if (first) legend.add(sample("link", i, false));
+            first = false;
+            continue;
+        }
         legend.add(
             sample(fmt::format("{}{}", first ? "link margin " : "", grades[i].text), i, false));
         first = false;

@@ -10,29 +10,30 @@
 
 namespace rovernet {
 
-/// The links of a picture: the larger the margin, the darker and the wider the line. A line is
-/// dashed where only one end can hear the other, with an arrow head at the one that can.
+/// Links of a picture as lines; a larger margin of the level above the sensitivity gives a darker
+/// and wider line. A one-way link is dashed, with an arrow head at the receiver.
 class LinkLines {
   public:
-    /// The links that are up at `at`, between robots on one storey.
-    /// @param storey  its number
+    /// Collects the links that are up at time `at`, between robots on one storey.
+    /// @param storey  number of the storey
     /// @throws RunError for more than 5000 robots
     LinkLines(const Network& network, Time at, std::size_t storey);
 
     void draw(Svg& svg, const RobotMarks& robots, bool on_colors) const;
-    /// Labels should not lie on the lines, if they are few enough to leave room.
+    /// Keeps labels off the links' lines, if lines are few enough to leave room.
     void keep_off(LabelPlaces& places, const RobotMarks& robots) const;
     void append_to(Legend& legend) const;
 
   private:
     struct Line {
         NodeId from, to;
-        double margin = 0;  // [dB] of a link both ways, the smaller one
+        double margin = 0;  // margin [dB]; of a two-way link the smaller one
         bool both_ways = false;
     };
 
     std::vector<Line> lines_;
-    std::size_t to_other_storeys_ = 0;  // links that are not drawn
+    bool has_margins_ = true;           // false for the model disc
+    std::size_t to_other_storeys_ = 0;  // number of links to other storeys, which are not drawn
 };
 
 }  // namespace rovernet

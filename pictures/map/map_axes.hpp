@@ -8,15 +8,14 @@
 
 namespace rovernet {
 
-/// Axes in metres, left of the part of a picture that shows the world and below it, with ticks at
-/// round places.
+/// Axes in metres, left of and below the plot area, with ticks at round numbers.
 class MapAxes {
   public:
     explicit MapAxes(const Plot& plot);
 
-    double left() const;                 ///< [px] of room that they need left of the plot
-    static constexpr double below = 40;  ///< [px] below it
-    /// @param plot  of the same size and part of the world as at first
+    double left() const;                 ///< width of the axis left of the plot [px]
+    static constexpr double below = 40;  ///< height of the axis below the plot [px]
+    /// @param plot  same size and same part of the world as given to the constructor
     void draw(Svg& svg, const Plot& plot) const;
 
   private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/map_layer.hpp"
 
+#include "scene/rectangles.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +17,7 @@ constexpr Color unknown_color{0xe2, 0xe2, 0xe2};
 constexpr double thin_line = 0.4;  // [px] around walls, so that the thinnest are seen
 constexpr double seam = 1.6;       // [px] the same, of the white below them
 
-/// Fill of the walls of a material; more materials than styles begin anew.
+/// Fill of the walls of a material; styles repeat if there are more materials.
 struct WallStyle {
     Color color;
     const char* hatch = nullptr;  ///< path of a tile of hatch_size; none: filled evenly
@@ -60,7 +62,7 @@ void use(Svg& svg, const std::string& id, const std::string& fill, Color stroke,
         {{"xlink:href", "#" + id}, {"fill", fill}, {"stroke", stroke}, {"stroke-width", width}});
 }
 
-/// Lines that leave the colours below as they are.
+/// Hatch lines, through which the colours below stay visible.
 void define_unknown(Svg& svg) {
     svg.open("pattern", {{"id", "unknown"},
                          {"width", hatch_size},
@@ -150,6 +152,43 @@ std::vector<std::array<Vec3, 4>> unknown_rectangles(const Scene& scene) {
     return out;
 }
 
+constexpr Color door_color{0xd5, 0x5e, 0x00}, stairs_color{0x00, 0x72, 0xb2};
+
+void draw_door(Svg& svg, const std::string& outline, bool closed) {
+    svg.add("path", {{"d", outline},
+                     {"fill", "none"},
+                     {"stroke", door_color},
+                     {"stroke-width", closed ? 1.6 : 1.0},
+                     {"stroke-dasharray", closed ? "none" : "3 2"}});
+}
+
+void draw_stairs(Svg& svg, PicturePoint foot, PicturePoint head) {
+    constexpr double rung = 7, apart = 5, tip = 6;  // [px]
+    const double dx = head.x - foot.x, dy = head.y - foot.y;
+    const double length = std::max(std::sqrt(dx * dx + dy * dy), 1e-9);
+    const double ux = dx / length, uy = dy / length;
+    SvgPath path;
+    path.move(foot.x, foot.y).line(head.x, head.y);
+    for (double at = apart; at < length - tip; at += apart) {
+        const double x = foot.x + at * ux, y = foot.y + at * uy;
+        path.move(x - rung / 2 * uy, y + rung / 2 * ux).line(x + rung / 2 * uy, y - rung / 2 * ux);
+    }
+    path.move(head.x - tip * ux - tip / 2 * uy, head.y - tip * uy + tip / 2 * ux);
+    path.line(head.x, head.y);
+    path.line(head.x - tip * ux + tip / 2 * uy, head.y - tip * uy - tip / 2 * ux);
+    svg.add(
+        "path",
+        {{"d", path.text()}, {"fill", "none"}, {"stroke", stairs_color}, {"stroke-width", 1.0}});
+}
+
+LegendItem door_sample(std::string text, bool closed) {
+    return {std::move(text), 18, [closed](Svg& svg, PicturePoint p) {
+                SvgPath path;
+                path.move(p.x, p.y - 3).horizontal(p.x + 18).vertical(p.y + 3).horizontal(p.x);
+                draw_door(svg, path.close().text(), closed);
+            }};
+}
+
 LegendItem swatch(std::string text, std::string fill) {
     return {std::move(text), 18, [fill = std::move(fill)](Svg& svg, PicturePoint p) {
                 svg.add("rect", {{"x", p.x},
@@ -197,13 +236,9 @@ void MapLayer::draw(Svg& svg, const Plot& plot, bool on_colors) const {
         const Color edge = wall_styles[path.second % wall_styles.size()].color;
         use(svg, path.first, fill_of(path.second), edge, thin_line);
     }
-    for (const auto& data : paths_of(open_doors_, plot)) {
-        svg.add("path", {{"d", data},
-                         {"fill", "none"},
-                         {"stroke", wall_styles[0].color},
-                         {"stroke-width", 0.8},
-                         {"stroke-dasharray", "3 2"}});
-    }
+    for (const auto& data : paths_of(open_doors_, plot)) draw_door(svg, data, false);
+    for (const auto& data : paths_of(closed_doors_, plot)) draw_door(svg, data, true);
+    for (const auto& [foot, head] : stairs_) draw_stairs(svg, plot.at(foot), plot.at(head));
 }
 
 void MapLayer::append_to(Legend& legend, bool on_colors) const {
@@ -222,6 +257,12 @@ void MapLayer::append_to(Legend& legend, bool on_colors) const {
             swatch(shortened(scene_.materials()[used[n]].name, longest_name), fill_of(used[n])));
     }
     if (!unknown_.empty()) legend.add(swatch("unknown", unknown_fill(on_colors)));
+    if (!open_doors_.empty()) legend.add(door_sample("open door", false));
+    if (!closed_doors_.empty()) legend.add(door_sample("closed door", true));
+    if (stairs_.empty()) return;
+    legend.add({"stairs, up", 26, [](Svg& svg, PicturePoint p) {
+                    draw_stairs(svg, p, {p.x + 26, p.y});
+                }});
 }
 
 }  // namespace rovernet

@@ -11,19 +11,24 @@
 
 namespace rovernet {
 
-/// The map of a picture: walls in a grey or hatch per material, unknown cells light grey.
+/// Map in a picture: walls in a grey or a hatch for each material, unknown cells in light grey.
 class MapLayer {
   public:
-    /// @param scene  outlives the layer
-    /// @param open   the same with all doors open, whose unknown cells are drawn
+    /// @param scene  scene to draw; outlives the layer
+    /// @param open   the scene with all doors open, which gives the unknown cells
     MapLayer(const Scene& scene, const Scene& open);
     explicit MapLayer(const Scene& scene) : MapLayer(scene, scene) {}
 
-    /// Adds a door that is open, by its corners: it is drawn as a dashed outline.
-    void add_open_door(const std::array<Vec3, 4>& corners) { open_doors_.push_back(corners); }
+    /// Adds a door by its corners: an open door is drawn as a dashed outline, a closed door as a
+    /// wall with a coloured outline.
+    void add_door(const std::array<Vec3, 4>& corners, bool closed) {
+        (closed ? closed_doors_ : open_doors_).push_back(corners);
+    }
+    /// Adds stairs, drawn as steps from the foot to the head, with an arrow at the head.
+    void add_stairs(Vec3 foot, Vec3 head) { stairs_.push_back({foot, head}); }
 
-    /// @param on_colors  the walls get a white seam to stand out; the unknown is hatched, so that
-    ///                   it hides nothing
+    /// @param on_colors  true over a heat map: walls get a white outline, and unknown cells are
+    ///                   hatched so that colours stay visible
     void draw(Svg& svg, const Plot& plot, bool on_colors) const;
     void append_to(Legend& legend, bool on_colors) const;
 
@@ -33,7 +38,8 @@ class MapLayer {
     const Scene& scene_;
     std::vector<std::vector<Corners>> walls_;  // walls by material
     std::vector<Corners> unknown_;
-    std::vector<Corners> open_doors_;
+    std::vector<Corners> open_doors_, closed_doors_;
+    std::vector<std::array<Vec3, 2>> stairs_;
 };
 
 }  // namespace rovernet

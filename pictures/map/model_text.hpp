@@ -7,8 +7,9 @@
 
 namespace rovernet {
 
-/// A model's name and parameters, "log_distance: exponent 4, sigma 5 dB"; the name alone of a model
-/// that scenario files do not know.
+/// Text of a model's name and parameters, "log_distance: exponent 4, sigma 5 dB"; only the name if
+/// scenario files do not support the model. Shadowing is appended: "friis, with shadowing: model
+/// link, sigma 3 dB, decorrelation_distance 10 m".
 std::string model_text(const Propagation& model);
 
 }  // namespace rovernet

@@ -2,6 +2,8 @@
 #include "pictures/map/picture.hpp"
 
 #include "experiment/build.hpp"
+#include "experiment/reports/range_of_model.hpp"
+#include "experiment/reports/scene_report.hpp"
 #include "experiment/run.hpp"
 #include "mobility/planners.hpp"
 #include "models/link_gain.hpp"
@@ -32,8 +34,8 @@ constexpr double caption_line = 17;  // [px]
 constexpr Color faint{0x44, 0x44, 0x44};
 constexpr double part_gap = 10;  // [px] between the parts
 constexpr std::uint32_t most_robots = 100'000;
-// A picture is laid out in points, px in what follows: 1200 of them are its width where its texts
-// have their usual size. Larger texts are fewer points with all else the same.
+// A picture is laid out in points ("px" below). Its width is 1200 points at the default text size;
+// a larger text size means fewer points, with everything else unchanged.
 constexpr double page_width = 1200, usual_font_size = 12;
 
 void check_range(const char* name, double value, double low, double high) {
@@ -86,7 +88,10 @@ class Painter {
     /// Distance from the robot whose coverage is drawn up to which an open field is shown [m].
     double shown_reach(const Extent& robots) const;
     /// Room for the colour bar beside the plot [px]; 0 if there is none.
-    double bar_room() const { return source_ ? part_gap + HeatLayer::bar_width : 0; }
+    double bar_room() const {
+        const bool has_levels = transmitter_ && !range_of(transmitter_->model);
+        return has_levels ? part_gap + HeatLayer::bar_width : 0;
+    }
     Legend legend(const Plot& plot, const RobotMarks& robots) const;
     void draw_world(Svg& svg, const Plot& plot, const RobotMarks& robots) const;
 
@@ -139,7 +144,11 @@ void Painter::run() {
     map_.emplace(scene.storey(storey()), network_.planners().scene().storey(storey()));
     for (const Door& door : doors_of(scenario_.scene)) {
         const bool here = scene.storeys().number_at(door.from.z) == storey();
-        if (here && !door.is_closed(options_.at)) map_->add_open_door(door.corners());
+        if (here) map_->add_door(door.corners(), door.is_closed(options_.at));
+    }
+    for (const Stairs& each : stairs_of(scenario_, scene.storeys())) {
+        const auto is_here = [&](Vec3 p) { return scene.storeys().number_at(p.z) == storey(); };
+        if (is_here(each.foot) || is_here(each.head)) map_->add_stairs(each.foot, each.head);
     }
     if (source_) {
         transmitter_ = transmitter(network_, *source_, options_.at);
@@ -270,7 +279,7 @@ std::string Painter::paint() {
     svg.add("rect", {{"width", width}, {"height", height}, {"fill", "#ffffff"}});
     heading.draw(svg);
     draw_world(svg, plot, robots);
-    if (heat_) {
+    if (heat_ && heat_->has_levels()) {
         constexpr double highest_bar = 420;
         heat_->draw_bar(svg, {plot.right() + part_gap, plot.top},
                         std::min(plot.height, highest_bar));

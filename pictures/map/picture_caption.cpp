@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/map/picture_caption.hpp"
 
+#include "experiment/reports/range_of_model.hpp"
 #include "pictures/draw/svg.hpp"
 #include "pictures/map/model_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 namespace rovernet {
@@ -65,6 +65,11 @@ void append_coverage(std::vector<std::string>& parts, const Network& network, No
                      std::optional<NodeId> receiver) {
     constexpr std::size_t longest_name = 40;
     const RobotState robot = network.robot(source);
+    if (range_of(robot.propagation)) {
+        parts.push_back(fmt::format("coverage of {}{}", shortened(robot.name, longest_name),
+                                    presence_text(robot.presence)));
+        return;
+    }
     parts.push_back(fmt::format(
         "coverage of {}{}: {} for {}, antenna {:.6g} m up", shortened(robot.name, longest_name),
         presence_text(robot.presence), robot.propagation.is_random() ? "median level" : "level",

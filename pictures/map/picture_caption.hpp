@@ -11,12 +11,12 @@
 
 namespace rovernet {
 
-/// Caption of a picture: the lines above it. They tell the time, the robots of the network that are
-/// not there, the models, and the robot whose coverage is drawn.
-/// @param end     end of the scenario's run: the caption tells that `at` is after it
-/// @param storey  number of the storey that is drawn
+/// Caption of a picture, the lines above it: time, absent robots, models, and the robot whose
+/// coverage is drawn.
+/// @param end     end of the scenario's run; the caption states if `at` is later than `end`
+/// @param storey  number of the drawn storey
 /// @param source    robot whose coverage is drawn
-/// @param receiver  robot whose radio receives it; none: one like the source's
+/// @param receiver  robot whose radio the receivers have; none: the radio of the source
 std::vector<std::string> picture_caption(const Network& network, Time at, Time end,
                                          std::size_t storey, std::optional<NodeId> source,
                                          std::optional<NodeId> receiver = std::nullopt);

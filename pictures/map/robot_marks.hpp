@@ -14,56 +14,56 @@
 
 namespace rovernet {
 
-/// A robot in a picture.
+/// Robot in a picture.
 struct RobotMark {
     std::string name;
     PicturePoint at;
-    double radius = 0;   ///< [px] of its circle
-    double heading = 0;  ///< [rad], counter-clockwise from the x axis
+    double radius = 0;   ///< radius of the robot's circle [px]
+    double heading = 0;  ///< heading of the robot [rad], counter-clockwise from the x axis
     Presence presence = Presence::on;
-    bool here = true;         ///< on the storey that is drawn
-    bool stands_out = false;  ///< its coverage is drawn
-    Color rim = {};           ///< colour of its circle
+    bool here = true;         ///< whether the robot is on the drawn storey
+    bool stands_out = false;  ///< whether the robot's coverage is drawn
+    Color rim = {};           ///< colour of the robot's circle
 
     bool on() const { return presence == Presence::on; }
-    /// Whether a robot is drawn: one on its storey; if it is not in the world, only if its coverage
-    /// is drawn.
+    /// Whether the robot is drawn: it is on the drawn storey, and present in the world unless its
+    /// coverage is drawn.
     bool drawn() const { return here && (on() || presence == Presence::off || stands_out); }
 };
 
-/// The robots of a picture: circles to scale, though not below 5 px, with a tick that shows the
-/// heading and the name beside, where there is room for it.
+/// Robots of a picture: circles to scale (radius at least 5 px), with a tick for the heading, and
+/// the name where it has room.
 class RobotMarks {
   public:
-    /// @param storey        number of the storey that is drawn
+    /// @param storey        number of the drawn storey
     /// @param standing_out  robot whose coverage is drawn
-    /// @param colored       each has a rim of its own colour, that of its trail
+    /// @param colored       true: each circle has the colour of the robot's trail
     RobotMarks(const Network& network, std::size_t storey, std::optional<NodeId> standing_out,
                bool colored, const Plot& plot);
 
     const RobotMark& operator[](NodeId node) const { return marks_[node.index()]; }
-    /// Finds room for the names. @param places  knows already what else is in the way
+    /// Places the names of the robots. @param places  contains the other obstacles already
     void place_names(LabelPlaces& places);
     void draw(Svg& svg) const;
-    /// Appends the robots' signs to a legend, and how many names found no room.
+    /// Appends the robots' symbols to a legend, and the number of robots whose name found no room.
     void append_to(Legend& legend) const;
 
   private:
     struct Name {
         std::string text;
-        PicturePoint at;  // begin of its baseline
+        PicturePoint at;  // start of the baseline
         TextAnchor anchor;
     };
 
     double name_size() const;
     void keep_marks_free(LabelPlaces& places) const;
 
-    std::vector<RobotMark> marks_;  // marks by node
+    std::vector<RobotMark> marks_;  // marks by NodeId
     std::vector<Name> names_ = {};
-    std::size_t homeless_ = 0;  // names without room
+    std::size_t homeless_ = 0;  // number of names without room
 };
 
-/// The colour of a robot and its trail.
+/// Colour of a robot and of its trail (past path).
 inline Color robot_color(NodeId node) { return category_color(node.index()); }
 
 }  // namespace rovernet

@@ -9,23 +9,23 @@
 
 namespace rovernet {
 
-/// Trails of robots, where they have been: a sink that keeps every leg that began.
+/// Sink that stores every leg (piece of movement) of each robot, for drawing trails (past paths).
 class Trails {
   public:
     KindMask kinds() const { return kind_of<Moved>(); }
     void on(const Record& record, const RecordContext& context);
 
-    /// Corners of a robot's way until `at`, in order [m]; another way begins where it was put
-    /// elsewhere. Empty if it never had a leg.
+    /// Corners of a robot's past path until `at` [m], in order; a new path starts where the robot
+    /// was teleported. Empty if the robot never had a leg.
     std::vector<std::vector<Vec3>> ways(NodeId node, Time at) const;
-    /// Positions of a robot at `start`, start + every, ... and until `at` [m]; `every` > 0.
+    /// Positions of a robot [m] at intervals of `every` > 0, from its first leg until `at`.
     std::vector<Vec3> marks(NodeId node, Time at, Duration every) const;
 
   private:
-    /// The legs of a node; none for one that was never heard of.
+    /// Legs (pieces of movement) of a node; empty for a node without records.
     const std::vector<Leg>& legs(NodeId node) const;
 
-    std::vector<std::vector<Leg>> legs_;  // legs by node
+    std::vector<std::vector<Leg>> legs_;  // legs by NodeId
 };
 
 }  // namespace rovernet

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace rovernet {
@@ -44,7 +43,7 @@ void append_disc(SvgPath& path, PicturePoint p, double radius) {
     path.line(p.x, p.y - radius).line(p.x + d, p.y - d).close();
 }
 
-/// Appends a way, without corners that nobody sees.
+/// Appends a path, without corners that are too close to be visible.
 void append_way(SvgPath& path, const std::vector<PicturePoint>& way) {
     PicturePoint last = way.front();
     path.move(last.x, last.y);

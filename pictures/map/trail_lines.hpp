@@ -12,13 +12,13 @@
 
 namespace rovernet {
 
-/// The ways that robots have gone, in a picture: thin lines in the robots' colours from a ring at
-/// the start, with dots at equal times.
+/// Past paths of robots in a picture: thin lines in the robots' colours, with a ring at the start
+/// and dots at equal time intervals.
 class TrailLines {
   public:
-    /// The parts of ways on one storey; of stairs all that begin or end there.
-    /// @param trails  of the network's robots; both outlive the lines
-    /// @param storey  its number
+    /// Collects the parts of paths on one storey, including whole stairs that begin or end there.
+    /// @param trails  trails of the network's robots; trails and network must outlive the lines
+    /// @param storey  number of the storey
     TrailLines(const Trails& trails, const Network& network, Time at, std::size_t storey);
 
     void include_in(Extent& extent) const;
@@ -27,7 +27,7 @@ class TrailLines {
 
   private:
     struct Trail {
-        std::string lines = {}, dots = {}, rings = {};  // data of paths
+        std::string lines = {}, dots = {}, rings = {};  // path data of the SVG
     };
 
     bool is_here(Vec3 p) const;
@@ -39,7 +39,7 @@ class TrailLines {
     std::uint32_t robots_;
     std::size_t storey_;
     Time at_;
-    Duration every_{0};  // between dots
+    Duration every_{0};  // interval between dots
 };
 
 }  // namespace rovernet

@@ -19,9 +19,11 @@ except ImportError:
         metadata: dict = {"render_modes": []}
         render_mode: Optional[str] = None
         spec: Any = None
+        np_random: np.random.Generator
 
         def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None):
-            pass
+            if seed is not None:
+                self.np_random = np.random.default_rng(seed)
 
         @property
         def unwrapped(self):
@@ -58,7 +60,7 @@ except ImportError:
             return self
 
 
-Observe = Callable[[Session, Sequence[Heard]], Any]
+Observe = Union[str, Callable[[Session, Sequence[Heard]], Any]]
 Reward = Callable[[Session, Sequence[Heard]], Any]
 Act = Callable[[Session, Any], None]
 Terminated = Callable[[Session, Sequence[Heard]], Any]
@@ -66,6 +68,14 @@ Terminated = Callable[[Session, Sequence[Heard]], Any]
 
 def _pose(session: Session, heard: Sequence[Heard]) -> np.ndarray:
     return session.pose.copy()
+
+
+def _scan(session: Session, heard: Sequence[Heard]) -> np.ndarray:
+    return session.scan()
+
+
+def _drive(session: Session, velocities: Any) -> None:
+    session.drive(velocities)
 
 
 def _off(session: Session, heard: Sequence[Heard]) -> np.ndarray:
@@ -76,8 +86,16 @@ def _all_off(session: Session, heard: Sequence[Heard]) -> bool:
     return not session.on.any()
 
 
-def _poses(shape: tuple) -> spaces.Box:
-    return spaces.Box(-np.inf, np.inf, shape, np.float64)
+def _observations(session: Session, observe: Optional[Observe]) -> tuple[Callable, Optional[tuple]]:
+    """Function of observations, and (low, high, shape) of one robot's; None: the caller has to say."""
+    if observe is None or observe == "pose":
+        return _pose, (-np.inf, np.inf, (3,))
+    if observe == "scan":
+        shape = session.scan().shape[1:]
+        return _scan, (0.0, max(session.scanners(robot)[0]["range"] for robot in session.robots), shape)
+    if callable(observe):
+        return observe, None
+    raise ValueError(f'observe: expected "pose", "scan" or a function, got {observe!r}')
 
 
 def _velocities(shape: tuple) -> spaces.Box:
@@ -87,9 +105,19 @@ def _velocities(shape: tuple) -> spaces.Box:
 class _Episodes:
     """Session of an environment, one episode after the other."""
 
-    def __init__(self, session: Session):
-        self.session = session
+    def __init__(self, seed: Optional[int], **scenario: Any):
+        self._scenario = scenario
+        self.session = Session(**scenario, seed=seed)
         self._is_new = True
+
+    # A session cannot be copied. A copy of an environment stands at the begin of its episode; whatever
+    # begins next is the same for both.
+    def __getstate__(self) -> dict:
+        return {**self.__dict__, "session": self.session.seed}
+
+    def __setstate__(self, state: dict) -> None:
+        self.__dict__.update(state)
+        self.session = Session(**self._scenario, seed=state["session"])
 
     def _begin(self, seed: Optional[int]) -> None:
         # Without a seed each episode is another: it has the seed after that of the one before.
@@ -114,8 +142,8 @@ class ParallelEnv(_Episodes, PettingZooEnv):
     scenario, step, seed, set, robots: as those of Session
     reward(session, heard): rewards of the step, as an array (n,) or a dict by agent
     observe(session, heard): observations, as an array with a row for each robot or a dict by agent;
-        None: x [m], y [m] and heading [rad]
-    observation_space: of one agent; has to be given with observe
+        "pose" or None: x [m], y [m] and heading [rad]; "scan": what the first range finder measures [m]
+    observation_space: of one agent; has to be given with a function that observes
     act(session, actions): carries out the dict of actions; None: an action is speed [m/s] and turn rate
         [rad/s], and a robot without one goes on as it was told
     action_space: of one agent; None: speed and turn rate from -1 to 1
@@ -130,15 +158,16 @@ class ParallelEnv(_Episodes, PettingZooEnv):
                  action_space: Optional[spaces.Space] = None, terminated: Optional[Terminated] = None,
                  step: float = 0.1, seed: Optional[int] = None, set: Optional[Mapping[str, Any]] = None,
                  robots: Optional[Sequence[str]] = None):
-        if observe is not None and observation_space is None:
-            raise ValueError("ParallelEnv: observe needs the observation_space of one agent")
-        super().__init__(Session(scenario, step=step, seed=seed, set=set, robots=robots))
+        super().__init__(seed, scenario=scenario, step=step, set=set, robots=robots)
         self.possible_agents = self.session.robots
         self.agents = list(self.possible_agents)
         self._rows = {agent: row for row, agent in enumerate(self.possible_agents)}
-        self._reward, self._observe = reward, observe or _pose
+        self._reward = reward
+        self._observe, bounds = _observations(self.session, observe)
         self._act, self._terminated = act or self._drive, terminated or _off
-        observation_space = observation_space or _poses((3,))
+        if observation_space is None and bounds is None:
+            raise ValueError("ParallelEnv: observe needs the observation_space of one agent")
+        observation_space = observation_space or spaces.Box(*bounds, np.float64)
         action_space = action_space or _velocities((2,))
         self.observation_spaces = {agent: observation_space for agent in self.possible_agents}
         self.action_spaces = {agent: action_space for agent in self.possible_agents}
@@ -204,11 +233,15 @@ class Env(_Episodes, GymnasiumEnv):
 
     scenario, step, seed, set, robots: as those of Session
     reward(session, heard): reward of the step
-    observe(session, heard): observation; None: (n, 3), x [m], y [m] and heading [rad] of each robot
-    observation_space: has to be given with observe
+    observe(session, heard): observation; "pose" or None: (n, 3), x [m], y [m] and heading [rad] of each
+        robot; "scan": (n, beams), what the first range finder of each measures [m]
+    observation_space: has to be given with a function that observes
     act(session, action): carries out the action; None: (n, 2), speed [m/s] and turn rate [rad/s] of each robot
     action_space: None: speeds and turn rates from -1 to 1
     terminated(session, heard): whether the episode has ended; None: once all robots are off
+
+    `np_random` is a generator for what the program itself draws; reset(seed=...) begins it anew. A copy, by
+    pickle or copy, begins its episode anew.
     """
 
     metadata = {"name": "rovernet", "render_modes": []}
@@ -218,13 +251,18 @@ class Env(_Episodes, GymnasiumEnv):
                  action_space: Optional[spaces.Space] = None, terminated: Optional[Terminated] = None,
                  step: float = 0.1, seed: Optional[int] = None, set: Optional[Mapping[str, Any]] = None,
                  robots: Optional[Sequence[str]] = None):
-        if observe is not None and observation_space is None:
-            raise ValueError("Env: observe needs an observation_space")
-        super().__init__(Session(scenario, step=step, seed=seed, set=set, robots=robots))
+        super().__init__(seed, scenario=scenario, step=step, set=set, robots=robots)
+        self.np_random = np.random.default_rng(self.session.seed)
         count = len(self.session.robots)
-        self._reward, self._observe = reward, observe or _pose
-        self._act, self._terminated = act or Session.drive, terminated or _all_off
-        self.observation_space = observation_space or _poses((count, 3))
+        self._reward = reward
+        self._observe, bounds = _observations(self.session, observe)
+        self._act, self._terminated = act or _drive, terminated or _all_off
+        if observation_space is None and bounds is None:
+            raise ValueError("Env: observe needs an observation_space")
+        if observation_space is None:
+            low, high, shape = bounds
+            observation_space = spaces.Box(low, high, (count, *shape), np.float64)
+        self.observation_space = observation_space
         self.action_space = action_space or _velocities((count, 2))
 
     def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None) -> tuple[Any, dict]:

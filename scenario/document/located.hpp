@@ -8,17 +8,18 @@
 #include <stdexcept>
 #include <string_view>
 
-// Faults of models, told as faults of the file that they come from. Models check their parameters
-// and know nothing of files; whoever makes one for a scenario knows the place.
+// Errors of models, reported at the place in the file that caused them. Models check their
+// parameters and know nothing of files; the code that builds a model from a scenario knows the
+// place.
 
 namespace rovernet {
 
-/// Runs make() for a value of a file. A std::invalid_argument in it becomes an error in the input
-/// at `where`; an InputError keeps its own place.
+/// Runs make() for a value of an input file. A std::invalid_argument in it becomes an InputError at
+/// `where`; an InputError keeps its file position.
 ///
 ///   const Movement move = located(table.where, [&] { return Movement(Patrol{table.path}); });
 ///
-/// @param where  place of the value in the input
+/// @param where  file position of the value
 /// @return what make() returns
 auto located(const Location& where, auto&& make) {
     try {
@@ -30,10 +31,10 @@ auto located(const Location& where, auto&& make) {
     }
 }
 
-/// Runs make() for a file that the input names. An error at a line of that file stays as it is. One
-/// that concerns the file as a whole (it is missing, say) is told at the place that names it, as
-/// "KEY: FILE: what is wrong".
-/// @param where  place of the name in the input; without a line, errors stay as they are
+/// Runs make() for a file that the input names. An error at a line of that file stays as it is. An
+/// error about the whole file (a missing file, say) is reported at the line that names the file, as
+/// "KEY: FILE: MESSAGE".
+/// @param where  file position of the name in the input; without a line, errors stay as they are
 /// @param key    key whose value is the name
 /// @return what make() returns
 auto located_file(const Location& where, std::string_view key, auto&& make) {

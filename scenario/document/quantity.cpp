@@ -1,21 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/document/quantity.hpp"
 
+#include "sim/power_of_ten.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace rovernet {
 namespace {
 
+/// Unit: number x 10^exponent x factor / divisor in the base unit; in milliwatts for the unit of a
+/// level. A power of ten moves the decimal point, so that "3730.3 cm" is "37.303 m" to the last
+/// bit.
 struct Unit {
     std::string_view name;
-    double factor;  // to the base unit; 0: milliwatts times `milliwatts`, as a level
-    double milliwatts = 0;
+    int exponent = 0;
+    double factor = 1;
+    double divisor = 1;
+    bool level = false;
+
+    double in_base(double number) const {
+        return times_power_of_ten(number, exponent) * factor / divisor;
+    }
+    double of_base(double value) const {
+        return times_power_of_ten(value * divisor / factor, -exponent);
+    }
+    bool is_base() const { return exponent == 0 && factor == 1 && divisor == 1 && !level; }
 };
 
 // The first unit is the one that a suggestion uses; those before `others` print, largest first.
@@ -27,27 +41,32 @@ struct QuantityKind {
     std::string_view largest_text;
 };
 
-constexpr Unit power_units[] = {{"dBm", 1}, {"mW", 0, 1}, {"W", 0, 1e3}, {"uW", 0, 1e-3}};
-constexpr Unit gain_units[] = {{"dB", 1}, {"dBi", 1}};
-constexpr Unit frequency_units[] = {{"MHz", 1e6}, {"GHz", 1e9}, {"kHz", 1e3}, {"Hz", 1}};
-constexpr Unit length_units[] = {{"m", 1}, {"km", 1e3}, {"cm", 0.01}, {"mm", 0.001}};
-constexpr Unit speed_units[] = {{"m/s", 1}, {"km/h", 1 / 3.6}};
-constexpr Unit time_units[] = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6},
-                               {"ns", 1e-9}, {"min", 60},  {"h", 3600}};
-constexpr Unit rate_units[] = {{"Mb/s", 1e6}, {"kb/s", 1e3},   {"Gb/s", 1e9},  {"b/s", 1},
-                               {"bit/s", 1},  {"kbit/s", 1e3}, {"Mbit/s", 1e6}};
-constexpr Unit size_units[] = {{"B", 1},
-                               {"kB", 1e3},
-                               {"KiB", 1024},
-                               {"MB", 1e6},
-                               {"MiB", 1 << 20},
-                               {"GB", 1e9},
-                               {"GiB", 1024.0 * (1 << 20)}};
+constexpr Unit milliwatts(std::string_view name, int exponent) {
+    return {name, exponent, 1, 1, true};
+}
+
+constexpr Unit power_units[] = {
+    {"dBm"}, milliwatts("mW", 0), milliwatts("W", 3), milliwatts("uW", -3)};
+constexpr Unit gain_units[] = {{"dB"}, {"dBi"}};
+constexpr Unit frequency_units[] = {{"MHz", 6}, {"GHz", 9}, {"kHz", 3}, {"Hz"}};
+constexpr Unit length_units[] = {{"m"}, {"km", 3}, {"cm", -2}, {"mm", -3}};
+constexpr Unit speed_units[] = {{"m/s"}, {"km/h", 1, 1, 36}};
+constexpr Unit time_units[] = {{"s"},      {"ms", -3},     {"us", -6},
+                               {"ns", -9}, {"min", 0, 60}, {"h", 0, 3600}};
+constexpr Unit rate_units[] = {{"Mb/s", 6}, {"kb/s", 3},   {"Gb/s", 9},  {"b/s"},
+                               {"bit/s"},   {"kbit/s", 3}, {"Mbit/s", 6}};
+constexpr Unit size_units[] = {{"B"},
+                               {"kB", 3},
+                               {"KiB", 0, 1024},
+                               {"MB", 6},
+                               {"MiB", 0, 1 << 20},
+                               {"GB", 9},
+                               {"GiB", 0, 1024.0 * (1 << 20)}};
 
 constexpr double degree = 3.14159265358979323846 / 180;
-constexpr Unit angle_units[] = {{"deg", degree}, {"rad", 1}};
-constexpr Unit turn_rate_units[] = {{"deg/s", degree}, {"rad/s", 1}};
-constexpr Unit attenuation_units[] = {{"dB/m", 1}, {"dB/cm", 100}};
+constexpr Unit angle_units[] = {{"deg", 0, degree}, {"rad"}};
+constexpr Unit turn_rate_units[] = {{"deg/s", 0, degree}, {"rad/s"}};
+constexpr Unit attenuation_units[] = {{"dB/m"}, {"dB/cm", 2}};
 
 constexpr QuantityKind quantity_kinds[] = {
     {"a power", "15 dBm", power_units, 1e4, "10000 dBm"},
@@ -82,7 +101,7 @@ std::string unit_names(const QuantityKind& kind) {
                                               found, kind.what, unit_names(kind), suggestion));
 }
 
-/// Unit that is meant by one written in full or in another way.
+/// Unit for a name in full or a variant spelling.
 std::string_view usual_unit(std::string_view name) {
     constexpr std::pair<std::string_view, std::string_view> others[] = {
         {"sec", "s"},       {"secs", "s"},     {"second", "s"},    {"seconds", "s"},
@@ -118,7 +137,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// The quantity [base unit], unless it is not finite or too large to compute with.
+/// Quantity in its base unit. @throws InputError if it is not finite or too large to compute with
 double within(const Value& value, std::string_view key, const QuantityKind& kind, double number) {
     if (std::abs(number) <= kind.largest) return number;
     throw InputError(value.where, fmt::format("{}: found {}; expected {} of at most {}", key,
@@ -127,15 +146,16 @@ double within(const Value& value, std::string_view key, const QuantityKind& kind
 
 double in_base_unit(const Value& value, std::string_view key, const QuantityKind& kind,
                     double number, const Unit& unit) {
-    if (unit.factor != 0) return within(value, key, kind, number * unit.factor);
-    if (!(number > 0)) {
+    const double scaled = unit.in_base(number);
+    if (!unit.level) return within(value, key, kind, scaled);
+    if (!(scaled > 0)) {
         reject(value, key, kind, fmt::format("found {} {}, which has no level", number, unit.name),
                fmt::format("did you mean \"{} dBm\"?", number));
     }
-    return within(value, key, kind, to_dbm({number * unit.milliwatts}).value);
+    return within(value, key, kind, to_dbm({scaled}).value);
 }
 
-/// A number without a unit: fine on the command line only, where it is in SI units.
+/// Number without a unit: allowed on the command line only, where it is in SI units.
 double bare(const Value& value, std::string_view key, Dimension dimension, double number) {
     const QuantityKind& k = kind(dimension);
     if (value.where.is_option) {
@@ -144,7 +164,7 @@ double bare(const Value& value, std::string_view key, Dimension dimension, doubl
                                              : within(value, key, k, number);
     }
     within(value, key, k, number);
-    // A number such as 2.4 is of gigahertz, 2400 of megahertz.
+    // Guess of the unit: a number such as 2.4 means gigahertz, 2400 megahertz.
     const bool small = dimension == Dimension::frequency && std::abs(number) < 100;
     reject(value, key, k, fmt::format("found the number {} without a unit", number),
            fmt::format("did you mean \"{} {}\"?", number, k.units[small ? 1 : 0].name));
@@ -191,17 +211,14 @@ double read_quantity(const Value& value, std::string_view key, Dimension dimensi
 std::string quantity_text(double value, Dimension dimension) {
     const QuantityKind& k = kind(dimension);
     for (const auto& unit : k.units) {
-        if (unit.factor == 0) continue;
-        const double number = value / unit.factor;
+        if (unit.level) continue;
+        const double number = unit.of_base(value);
         const bool whole = number == std::floor(number) && std::abs(number) < 1e15;
-        if (whole && number * unit.factor == value) {
-            return fmt::format("{} {}", number, unit.name);
-        }
+        if (whole && unit.in_base(number) == value) return fmt::format("{} {}", number, unit.name);
     }
-    for (const auto& unit : k.units) {
-        if (unit.factor == 1) return fmt::format("{} {}", value, unit.name);
-    }
-    return fmt::format("{} {}", value / k.units.front().factor, k.units.front().name);
+    const auto base = std::find_if(k.units.begin(), k.units.end(),
+                                   [](const Unit& unit) { return unit.is_base(); });
+    return fmt::format("{} {}", value, base->name);
 }
 
 std::string_view base_unit(Dimension dimension) {
@@ -217,7 +234,7 @@ std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts)
             for (const std::string& text : texts) read_quantity(Value(text), "", dimension);
             return dimension;
         } catch (const InputError&) {
-            // The texts may be quantities of another dimension.
+            // Not a quantity of this dimension; the texts may have the next one.
         }
     }
     return std::nullopt;

@@ -15,56 +15,74 @@
 
 namespace rovernet {
 
-/// Dimension of a quantity: what it measures, and so the units that it may carry. A new one needs
-/// its units, an example and a largest value in quantity.cpp.
+/// Physical dimension of a quantity, which decides the units that it may have. A new dimension
+/// needs its units, an example and a largest value in quantity.cpp.
 enum class Dimension {
     /// Level of a power: dBm; mW, W and uW are converted.
     power,
     /// Ratio: dB, dBi.
     gain,
-    /// Hz, kHz, MHz, GHz.
+    /// Frequency: Hz, kHz, MHz, GHz.
     frequency,
-    /// m, km, cm, mm.
+    /// Length: m, km, cm, mm.
     length,
-    /// m/s, km/h.
+    /// Speed: m/s, km/h.
     speed,
-    /// s, ms, us, ns, min, h.
+    /// Time: s, ms, us, ns, min, h.
     time,
-    /// b/s, kb/s, Mb/s, Gb/s; bit/s, kbit/s and Mbit/s are the same.
+    /// Bit rate: b/s, kb/s, Mb/s, Gb/s; also written bit/s, kbit/s, Mbit/s.
     bit_rate,
-    /// B, kB, MB, GB of powers of 1000; KiB, MiB, GiB of 1024.
+    /// Size: B, kB, MB, GB (powers of 1000); KiB, MiB, GiB (powers of 1024).
     size,
-    /// deg, rad.
+    /// Angle: deg, rad.
     angle,
-    /// deg/s, rad/s.
+    /// Turn rate: deg/s, rad/s.
     turn_rate,
-    /// dB/m, dB/cm.
+    /// Attenuation: dB/m, dB/cm.
     attenuation
+};
+
+/// Dimension of the quantities of a C++ type.
+constexpr Dimension dimension_of(Dbm) { return Dimension::power; }
+constexpr Dimension dimension_of(Db) { return Dimension::gain; }
+constexpr Dimension dimension_of(Hertz) { return Dimension::frequency; }
+constexpr Dimension dimension_of(Meters) { return Dimension::length; }
+constexpr Dimension dimension_of(MetersPerSecond) { return Dimension::speed; }
+constexpr Dimension dimension_of(BitRate) { return Dimension::bit_rate; }
+constexpr Dimension dimension_of(Radians) { return Dimension::angle; }
+constexpr Dimension dimension_of(RadiansPerSecond) { return Dimension::turn_rate; }
+constexpr Dimension dimension_of(DbPerMeter) { return Dimension::attenuation; }
+
+/// C++ type of a quantity, for which dimension_of() is defined.
+template <class T>
+concept IsQuantity = requires(T v) {
+    dimension_of(v);
 };
 
 /// Number of a quantity such as "2450 MHz" in the dimension's base unit: dBm, dB, Hz, m, m/s, s,
 /// bit/s, bytes, rad, rad/s, dB/m. A power in mW, uW or W becomes a level in dBm.
 ///
 /// A bare number is an error in a file; from the command line it is in SI units (a power in watts).
-/// Numbers so large that sums of them may overflow are errors, too.
+/// A number so large that sums may overflow is an error, too.
 ///
 /// @param value  text with number and unit, or a number
-/// @param key    for the error
-/// @throws InputError at the value saying what was found, which units are possible and what might
-/// be meant
+/// @param key    name of the value's key, for the error message
+/// @throws InputError at the value; the message names the text found, the possible units and a
+/// suggestion
 double read_quantity(const Value& value, std::string_view key, Dimension dimension);
 
-/// Name of the base unit: "dBm", "m", "s" ...
+/// Name of a dimension's base unit: "dBm", "m", "s" ...
 std::string_view base_unit(Dimension dimension);
 
-/// First dimension in which all these texts are quantities, if there is one. Pictures find out by
-/// it whether the values of a key can stand on an axis.
+/// First dimension in which all texts are valid quantities, if there is one. Pictures use it to
+/// decide whether the values of a key can be drawn on an axis.
 std::optional<Dimension> shared_dimension(const std::vector<std::string>& texts);
 
-/// Text of a quantity that reads back as the same number, in the first unit that makes it whole.
-/// @param value  in the base unit
+/// Text of a quantity in the first unit in which its number is whole; it reads back as the same
+/// number.
+/// @param value  number in the base unit
 std::string quantity_text(double value, Dimension dimension);
-/// Numbers of a list of bit rates in Mbit/s, without the unit: "1, 2, 5.5, 11".
+/// List of bit rates as numbers in Mbit/s, without the unit: "1, 2, 5.5, 11".
 std::string megabits_text(std::span<const BitRate> rates);
 
 }  // namespace rovernet

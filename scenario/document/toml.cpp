@@ -2,13 +2,13 @@
 #include "scenario/document/toml.hpp"
 
 #include "files/input_file.hpp"
+#include "scenario/document/choice.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <vector>
@@ -133,7 +133,7 @@ bool is_list_of_tables(const Value& value) {
            std::all_of(list->begin(), list->end(), [](const Value& v) { return v.table(); });
 }
 
-/// The value under `step` of a path, made if it is not there: a key, or in a list an index or name.
+/// Value at `step` of a path (a key, or in a list an index or name), created if missing.
 Value& descend(Value& at, const std::string& step, const Location& option) {
     if (Array* list = at.array()) {
         std::size_t index = 0;
@@ -173,7 +173,7 @@ Value& descend(Value& at, const std::string& step, const Location& option) {
     return *table->find(step);
 }
 
-/// Advice on what was probably meant where the parser says these words.
+/// Hint on the probable mistake behind a message of the parser.
 std::string_view advice_for(std::string_view description) {
     struct Slip {
         std::string_view words, advice;
@@ -192,7 +192,7 @@ std::string_view advice_for(std::string_view description) {
     return "";
 }
 
-/// Message of the parser, and what was probably meant.
+/// Message of the parser, with a hint on the probable mistake.
 std::string parse_message(std::string_view description) {
     constexpr std::string_view twice = "cannot redefine existing ";
     if (const auto found = description.find(twice); found != description.npos) {
@@ -210,6 +210,28 @@ std::string parse_message(std::string_view description) {
     }
     const std::string_view advice = advice_for(description);
     return fmt::format("not TOML: {}{}{}", description, advice.empty() ? "" : "; ", advice);
+}
+
+/// Word of letters at a place of a text, line and column from 1; empty: there is none.
+std::string_view word_at(std::string_view text, const toml::source_position& at) {
+    const auto is_letter = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    };
+    for (toml::source_index line = 1; line < at.line; ++line) {
+        text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    }
+    text.remove_prefix(std::min<std::size_t>(at.column - 1, text.size()));
+    const auto end = std::find_if_not(text.begin(), text.end(), is_letter);
+    return text.substr(0, static_cast<std::size_t>(end - text.begin()));
+}
+
+/// Message for a bare word where a value is expected; empty if the error is a different one.
+std::string bare_word_message(std::string_view description, std::string_view word) {
+    const bool is_value = description.find("could not determine value type") != description.npos;
+    if (!is_value || word.empty()) return "";
+    const auto truth = truth_in(word);
+    return fmt::format("found {} without quotes; did you mean {}?", word,
+                       truth ? fmt::format("{}", *truth) : fmt::format("\"{}\"", word));
 }
 
 [[noreturn]] void fail_long(const std::string& source) {
@@ -236,7 +258,10 @@ Value parse_toml(std::string_view text, const std::string& source) {
         document.where = {source};
         return document;
     } catch (const toml::parse_error& error) {
-        throw InputError(location(source, error.source()), parse_message(error.description()));
+        const auto& at = error.source();
+        const std::string bare = bare_word_message(error.description(), word_at(text, at.begin));
+        throw InputError(location(source, at),
+                         bare.empty() ? parse_message(error.description()) : bare);
     }
 }
 
@@ -304,7 +329,7 @@ void set_option(Value& document, const std::string& assignment, const std::strin
         try {
             value = *parse_toml("v = " + text, "").table()->find("v");
         } catch (const InputError&) {
-            // The text is no TOML and is meant itself: the shell has eaten its quotes.
+            // The text is no TOML: it is a string whose quotes the shell has removed.
         }
     }
     const auto relocate = [&](const auto& self, Value& v) -> void {

@@ -11,8 +11,9 @@
 #include <variant>
 #include <vector>
 
-// Documents: what a file says before it means anything. TOML, JSON, worlds and the command line all
-// become Values; readers make structs of them, and printers make Values of structs.
+// Documents: the parsed content of a file, before it is interpreted. TOML, JSON, Stage worlds and
+// the command line are parsed into Values; readers convert Values to structs, and printers convert
+// structs to Values.
 
 namespace rovernet {
 
@@ -22,24 +23,24 @@ struct Entry;
 /// List of values.
 using Array = std::vector<Value>;
 
-/// Keys and values, in the order of the file; keys are unique.
+/// Table of keys and values, in the order of the file; keys are unique.
 ///
 ///   Table radio;
 ///   radio.set("power", "15 dBm");
 ///   if (const Value* power = radio.find("power")) use(power->string());
 ///
-/// find() goes through them one by one: tables of files are short.
+/// find() is a linear search: tables in files are short.
 struct Table {
-    /// Entries in their order. Readers go through them, for keys that nobody asked for.
+    /// Entries in the order of the file. Readers of tables search them for unknown keys.
     std::vector<Entry> entries;
 
-    /// Value under `key`, or null; good until an entry is added.
+    /// Value of `key`, or null if there is none; the pointer is valid until an entry is added.
     const Value* find(std::string_view key) const;
     Value* find(std::string_view key);
-    /// Adds an entry, or replaces the value of the one that is there.
+    /// Adds an entry, or replaces the value of the entry with this key.
     void set(std::string_view key, Value value);
 
-    // Out of line, as Entry is known only below.
+    // Defined out of line, since Entry is declared below.
     Table();
     Table(const Table&);
     Table(Table&&) noexcept;
@@ -48,47 +49,49 @@ struct Table {
     ~Table();
 };
 
-/// Piece of a document, and the place where it was read. A default Value is empty: null in JSON.
+/// Value of a document, and the file position from which it was read. A default Value is empty:
+/// null in JSON.
 ///
-/// Numbers are int64 or double, as they were written; a quantity is a string until somebody knows
-/// its dimension, see read_quantity().
+/// Numbers are int64 or double, as written in the file. A quantity ("2450 MHz") is a string until
+/// read_quantity() converts it.
 struct Value {
-    /// Content; std::monostate: none.
+    /// Content of the value; std::monostate: none.
     std::variant<std::monostate, bool, std::int64_t, double, std::string, Array, Table> data;
-    /// Place of the value; without a line if it was made in code.
+    /// File position of the value; no line if the value was made in code.
     Location where;
 
     Value();
-    /// Values made in code have no place. Implicit, so that a list may be written as Array{1, 2.5,
-    /// "3 m"}.
+    /// Values made in code have no file position. The constructors are implicit, so that a list may
+    /// be written as Array{1, 2.5, "3 m"}.
     Value(bool v);
     Value(int v);
     Value(std::int64_t v);
     Value(std::uint64_t v);
     Value(std::uint32_t v);
     Value(double v);
-    Value(const std::optional<double>& v);  ///< empty if there is none
+    Value(const std::optional<double>& v);  ///< empty if `v` is empty
     Value(const char* v);
     Value(std::string_view v);
     Value(std::string v);
     Value(Array v);
     Value(Table v);
 
-    /// Value as one of its types, or null if it is of another.
+    /// Content as the named type, or null if the content has a different type.
     const Table* table() const { return std::get_if<Table>(&data); }
     Table* table() { return std::get_if<Table>(&data); }
     const Array* array() const { return std::get_if<Array>(&data); }
     Array* array() { return std::get_if<Array>(&data); }
     const std::string* string() const { return std::get_if<std::string>(&data); }
 
-    /// Words for it in an error: "the number 5", "a table"; a text is cut at 60 bytes.
+    /// Description of the value for an error message: "the number 5", "a table"; a text is cut at
+    /// 60 bytes.
     std::string description() const;
 };
 
-/// A value made in code, as if it stood at a place.
+/// Copy of a value with the file position `where`, for values made in code.
 Value placed(Value value, const Location& where);
 
-/// Key with its value, and the place of the key: that of the value may be another line.
+/// Key with its value. The key has its own file position, since its value may be on another line.
 struct Entry {
     std::string key;
     Value value;

@@ -122,7 +122,7 @@ void RadioReader::model() {
 void RadioReader::range() {
     const auto* p = wifi_.find("range");
     if (p) {
-        out_.propagation.set("range", text(p->number() * units_.metres, "m", p->where));
+        out_.propagation.set("range", text(units_.metres(p->number()), "m", p->where));
         return;
     }
     const auto* model = wifi_.find("model");

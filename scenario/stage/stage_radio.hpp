@@ -9,34 +9,34 @@
 #include <string>
 #include <vector>
 
-// Radios of Stage worlds. The radio of the 2007 device was a sensor of its robot, `wifi`, with keys
-// and units of its own; here they become those of a scenario file.
+// Radios of Stage worlds. Stage's wifi device of 2007 is a model `wifi` on a robot, with keys and
+// units of Stage; here they are converted to keys and units of a scenario file.
 
 namespace rovernet {
 
-/// Radio of a Stage robot: its wifi as tables of a [[robot]], only what the world gives, each value
-/// with its place.
+/// Radio of a Stage robot: its `wifi` as tables of a [[robot]]. Only keys that the world gives are
+/// set; each value has its position in the world file.
 struct StageRadio {
     /// Keys of `radio`: power, sensitivity, frequency, essid, ip, netmask, mac, ...
     Table radio = {};
-    /// Keys of `propagation`: the model and its parameters, those of other models too.
+    /// Keys of `propagation`: the model, and parameters of the chosen model and of other models.
     Table propagation = {};
-    /// Seed of all draws of the 2007 device: random_seed.
+    /// Value of `random_seed` in the wifi: the seed of the scenario.
     std::optional<Value> seed = {};
-    /// The wifi names a model; otherwise that of [propagation] rules.
+    /// True if the wifi names a model; false: the model of [propagation] is used.
     bool model_given = false;
-    /// Notices of keys that a wifi does not have, one each.
+    /// Notices about unknown keys of the wifi, one for each key.
     std::vector<std::string> notices = {};
 };
 
-/// Reads the wifi of a robot. Units are those of the world: power [mW], sensitivity [dBm],
-/// frequency [MHz], range in the world's unit of length. Models and parameters have other names
-/// there:
+/// Reads the wifi of a robot. Units in the world: power [mW], sensitivity [dBm], frequency [MHz],
+/// range in the world's unit of length. Stage's names of models and parameters (left) become those
+/// of a scenario file (right):
 ///
 ///   friis, ITU indoor, log distance,   friis, itu_indoor, log_distance,
 ///   raytrace, simple                   raytrace_2007, disc
 ///   plc, ple                           coefficient, exponent
-///   link_success_rate n                success_rate (n + 1) / 101: a draw from 0 to 100 is <= n
+///   link_success_rate n                success_rate (n + 1) / 101: P(draw from 0 ... 100 <= n)
 ///
 /// @throws InputError for a model that Stage does not know and for values of the wrong kind
 StageRadio stage_radio(const WorldEntity& wifi, const WorldUnits& units);

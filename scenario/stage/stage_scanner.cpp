@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
 #include <string_view>
 #include <utility>
 
@@ -99,7 +98,7 @@ void ScannerReader::visit(const WorldEntity& parent, const WorldPose& pose) {
     }
 }
 
-/// What all have in common: kind, place and time.
+/// Keys common to all range finders: kind, pose and interval.
 Table ScannerReader::begin(std::string_view kind, const WorldEntity& model,
                            const WorldPose& pose) const {
     Table table;
@@ -141,7 +140,7 @@ void ScannerReader::laser(const WorldEntity& model, const WorldPose& pose) {
     const WorldProperty* samples = model.find("samples");
     set_fan(table, samples ? count_of(*samples) : usual_samples, fov_of(model, usual_fov), model);
     const WorldProperty* range = model.find("range_max");
-    table.set("range", length_value(range ? range->number() * units_.metres : usual_range,
+    table.set("range", length_value(range ? units_.metres(range->number()) : usual_range,
                                     range ? range->where : model.where));
     scanners_.push_back(placed(std::move(table), model.where));
 }
@@ -150,7 +149,7 @@ void ScannerReader::laser(const WorldEntity& model, const WorldPose& pose) {
 Value ScannerReader::range_of(const WorldEntity& sensor) const {
     constexpr double usual = 5;
     const WorldProperty* range = sensor.find("range");
-    return length_value(range ? second_of(*range) * units_.metres : usual,
+    return length_value(range ? units_.metres(second_of(*range)) : usual,
                         range ? range->where : sensor.where);
 }
 
@@ -164,7 +163,7 @@ void ScannerReader::sensor(const WorldEntity& ranger, const WorldEntity& sensor,
     scanners_.push_back(placed(std::move(table), ranger.where));
 }
 
-/// Several sensors have one beam each, as Player's interface of a ranger has it.
+/// Several sensors have one beam each, as in Player's ranger interface.
 void ScannerReader::sensors(const WorldEntity& ranger,
                             const std::vector<const WorldEntity*>& sensors, const WorldPose& pose) {
     Table table = begin("ranger", ranger, pose);
@@ -202,7 +201,7 @@ void ScannerReader::transducers(const WorldEntity& ranger, const WorldPose& pose
     const WorldProperty* given = ranger.find("scount");
     const int count = given ? count_of(*given) : usual_count;
     const WorldProperty* view = ranger.find("sview");
-    table.set("range", length_value(view ? second_of(*view) * units_.metres : usual_range,
+    table.set("range", length_value(view ? units_.metres(second_of(*view)) : usual_range,
                                     view ? view->where : ranger.where));
     std::map<std::string_view, const WorldProperty*> poses;  // the last of each name
     bool has_views = false;

@@ -35,7 +35,7 @@ class Gatherer {
 
     Table gather(std::vector<std::string>& notices) {
         reserve_names(world_.root);
-        visit(world_.root, {}, Carrier::none);
+        visit(world_.root, {}, false);
         Table document;
         scenario(document);
         if (!robots_.empty()) document.set("robot", placed(std::move(robots_), world_.root.where));
@@ -57,12 +57,11 @@ class Gatherer {
     };
 
     void reserve_names(const WorldEntity& parent);
-    /// Robot in which a model is: none, a position that is none, or one with a radio.
-    enum class Carrier { none, position, robot };
-
-    void visit(const WorldEntity& parent, const WorldPose& pose, Carrier carrier);
-    void position(const WorldEntity& model, const WorldPose& pose);
-    void robot(const WorldEntity& model, const WorldEntity& wifi, const WorldPose& pose);
+    void visit(const WorldEntity& parent, const WorldPose& pose, bool in_robot);
+    void robot(const WorldEntity& model, const WorldPose& pose);
+    void add_body(Table& table, const WorldEntity& model, const WorldPose& pose);
+    void add_radio(Table& table, const WorldEntity& model);
+    void add_scanners(Table& table, const WorldEntity& model);
     Value name_of(const WorldEntity& model);
     void check_label(const Table& radio, std::string_view key, const std::string& name);
     void scenario(Table& document);
@@ -76,36 +75,27 @@ class Gatherer {
     WorldUnits units_;
     Array robots_;
     Value seed_;
-    std::map<std::string, Location, std::less<>> given_names_;
+    std::set<std::string, std::less<>> given_names_, used_names_;
     std::map<std::string, std::pair<std::string, Location>, std::less<>> labels_;
     std::map<std::string, int> ignored_;
-    Affected silent_, nameless_, modelless_, flying_, doubled_, lone_;
+    Affected plain_, nameless_, namesakes_, modelless_, flying_, doubled_, lone_;
     std::vector<std::string> notices_;
     std::set<std::string> noted_;
 };
 
-/// Gathers names that robots have, so that the nameless get none of them.
+/// Gathers names that robots have, so that no other robot gets one of them.
 void Gatherer::reserve_names(const WorldEntity& parent) {
     for (const auto& child : parent.children) {
         const WorldProperty* name = child.find("name");
-        if (world_role(child) == WorldRole::robot && name && !wifis(child).empty()) {
-            const auto [other, is_new] = given_names_.try_emplace(name->text(), name->where);
-            if (!is_new) {
-                throw InputError(name->where,
-                                 fmt::format("two robots are named \"{}\"; the other is at {}; "
-                                             "give each a name of its own",
-                                             name->text(), other->second.text()));
-            }
-        }
+        if (world_role(child) == WorldRole::robot && name) given_names_.insert(name->text());
         reserve_names(child);
     }
 }
 
-void Gatherer::visit(const WorldEntity& parent, const WorldPose& pose, Carrier carrier) {
-    const bool in_robot = carrier != Carrier::none;
+void Gatherer::visit(const WorldEntity& parent, const WorldPose& pose, bool in_robot) {
     for (const auto& child : parent.children) {
         WorldRole role = world_role(child);
-        if (carrier == Carrier::robot && is_stage_scanner(child)) continue;  // the robot's
+        if (in_robot && is_stage_scanner(child)) continue;  // the robot's
         if (in_robot && role == WorldRole::robot && child.type != "position") {
             role = WorldRole::ignored;  // its wifi is the robot's
         }
@@ -113,26 +103,22 @@ void Gatherer::visit(const WorldEntity& parent, const WorldPose& pose, Carrier c
         if (role == WorldRole::radio && !in_robot) lone_.add(child.where, "wifi");
         if (role != WorldRole::robot && role != WorldRole::wall) continue;
         const WorldPose own = pose * world_pose(child, "pose", units_);
-        if (role == WorldRole::robot) position(child, own);
-        Carrier inner = carrier;
-        if (role == WorldRole::robot) {
-            inner = wifis(child).empty() ? Carrier::position : Carrier::robot;
-        }
-        visit(child, own, inner);
+        if (role == WorldRole::robot) robot(child, own);
+        visit(child, own, in_robot || role == WorldRole::robot);
     }
 }
 
-void Gatherer::position(const WorldEntity& model, const WorldPose& pose) {
-    const auto radios = wifis(model);
-    if (!radios.empty()) return robot(model, *radios.front(), pose);
-    const WorldProperty* name = model.find("name");
-    silent_.add(model.where, name ? name->text() : fmt::format("line {}", model.where.line));
+void Gatherer::robot(const WorldEntity& model, const WorldPose& pose) {
+    Table table;
+    table.set("name", name_of(model));
+    add_body(table, model, pose);
+    add_radio(table, model);
+    add_scanners(table, model);
+    robots_.push_back(placed(std::move(table), model.where));
 }
 
-void Gatherer::robot(const WorldEntity& model, const WorldEntity& wifi, const WorldPose& pose) {
-    Table table;
-    const Value name = name_of(model);
-    table.set("name", name);
+/// Adds place, heading and radius.
+void Gatherer::add_body(Table& table, const WorldEntity& model, const WorldPose& pose) {
     const WorldProperty* at = model.find("pose");
     const Location at_where = at ? at->where : model.where;
     const auto length = [&](double metres, const Location& where) {
@@ -145,31 +131,42 @@ void Gatherer::robot(const WorldEntity& model, const WorldEntity& wifi, const Wo
     const WorldSize size = world_size(model, units_);
     table.set("radius",
               length(std::min(size.x, size.y) / 2, size_given ? size_given->where : model.where));
+    if (pose.at.z != 0) flying_.add(at_where, *table.find("name")->string());
+}
 
+/// Adds the radio and the propagation of the robot's wifi; without one those of the scenario count.
+void Gatherer::add_radio(Table& table, const WorldEntity& model) {
+    const std::string name = *table.find("name")->string();
+    const auto radios = wifis(model);
+    if (radios.empty()) return plain_.add(model.where, name);
+    const WorldEntity& wifi = *radios.front();
     StageRadio radio = stage_radio(wifi, units_);
     for (auto& notice : radio.notices) note(std::move(notice));
-    for (const std::string_view label : {"ip", "mac"})
-        check_label(radio.radio, label, *name.string());
+    for (const std::string_view label : {"ip", "mac"}) check_label(radio.radio, label, name);
     if (radio.seed) seed_ = *radio.seed;
     table.set("radio", placed(std::move(radio.radio), wifi.where));
     if (!radio.propagation.entries.empty()) {
         table.set("propagation", placed(std::move(radio.propagation), wifi.where));
     }
+    if (!radio.model_given) modelless_.add(wifi.where, name);
+    if (radios.size() > 1) doubled_.add(model.where, name);
+}
+
+void Gatherer::add_scanners(Table& table, const WorldEntity& model) {
     std::vector<std::string> notices;
     Array scanners = stage_scanners(model, units_, notices);
     for (auto& notice : notices) note(std::move(notice));
     if (!scanners.empty()) table.set("scan", placed(std::move(scanners), model.where));
-    if (!radio.model_given) modelless_.add(wifi.where, *name.string());
-    if (pose.at.z != 0) flying_.add(at_where, *name.string());
-    if (wifis(model).size() > 1) doubled_.add(model.where, *name.string());
-    robots_.push_back(placed(std::move(table), model.where));
 }
 
+/// The robot's own name, if no robot before it has that; else one that nobody has.
 Value Gatherer::name_of(const WorldEntity& model) {
-    if (const WorldProperty* name = model.find("name")) return placed(name->text(), name->where);
-    std::string name = fmt::format("robot{}", robots_.size());
-    while (given_names_.contains(name)) name += "_";
-    nameless_.add(model.where, name);
+    const WorldProperty* given = model.find("name");
+    if (given && used_names_.insert(given->text()).second)
+        return placed(given->text(), given->where);
+    std::string name = given ? given->text() + "_" : fmt::format("robot{}", robots_.size());
+    while (given_names_.contains(name) || !used_names_.insert(name).second) name += "_";
+    (given ? namesakes_ : nameless_).add(model.where, name);
     return placed(name, model.where);
 }
 
@@ -200,10 +197,13 @@ void Gatherer::summary(const Affected& affected, std::string_view text) {
 
 void Gatherer::summaries() {
     summary(nameless_, "robots without a name get one");
+    summary(namesakes_, "robots of a name that another has get one of their own");
     summary(modelless_, "a wifi without a model uses that of [propagation], friis by default");
     summary(flying_, "z is left out, as in the 2007 radio, for");
     summary(doubled_, "only the first wifi counts of");
-    summary(silent_, "positions without a wifi are left out");
+    summary(plain_,
+            "robots without a wifi have the radio of [radio] and the model of [propagation], friis "
+            "by default");
     summary(lone_, "a wifi outside a position is left out");
     std::vector<std::string> kinds;
     for (const auto& [type, number] : ignored_) {

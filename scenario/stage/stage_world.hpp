@@ -11,24 +11,26 @@
 
 namespace rovernet {
 
-/// Document of a scenario with the robots of a Stage world, every value with its place in the
-/// world. The scene is not in it.
+/// Scenario document with the robots of a Stage world; every value has its position in the world
+/// file. The document has no [scene].
 ///
-/// [[robot]]: every `position` with a `wifi`, anywhere in the world, with
+/// [[robot]]: every `position` of the world, at any depth, with
 ///
-///   name         its own, else robot0, robot1, ... by its number among the robots
-///   at, heading  its pose, those of the models that carry it applied; without z
+///   name         name in the world, or else robot0, robot1, ... by the number of the robot; "_" is
+///                appended to a name that an earlier robot has, with a notice
+///   at, heading  pose, including the poses of the models that carry it; z is dropped
 ///   radius       half the smaller side of its size
-///   radio        what its wifi says; its first one, if it has several
-///   propagation  its model and its parameters, those of other models too; without a model that
-///                of [propagation] rules, with a notice
-///   scan         what stage_scanners() makes of its lasers and rangers; a list
+///   radio        keys of its first wifi; without a wifi those of [radio], with one notice for all
+///                robots
+///   propagation  model and parameters of its wifi (parameters of other models, too); without a
+///                model that of [propagation], with a notice
+///   scan         list of its range finders, see stage_scanners()
 ///
 /// [scenario]: duration from quit_time, if above 0, and seed from the last random_seed, if the
 /// world gives them.
 ///
-/// @param notices  appended: what is ignored or odd, each once, "file:line: text"
-/// @throws InputError for a value of the wrong kind and for two robots of one name
+/// @param notices  receives notices "file:line: text" about ignored or odd keys, each once
+/// @throws InputError for a value of the wrong kind
 Table stage_document(const WorldFile& world, std::vector<std::string>& notices);
 
 }  // namespace rovernet

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-// Metrics beyond the usual ones, as a scenario file asks for them:
+// Optional metrics in a scenario file:
 //
 //     [metrics]
 //     robots = true
@@ -13,17 +13,18 @@
 
 namespace rovernet {
 
-/// [metrics]: what is measured beyond the totals of a run. What is not asked for costs nothing.
-/// network_settings() and the run make the parts of Metrics, and the sink Topology, of it.
+/// [metrics]: metrics to measure besides the totals of a run. Unused metrics cost no time.
+/// network_settings() and ScenarioRun configure Metrics and add the sink Topology accordingly.
 struct MetricsTable {
-    /// Share of the robots that a chain of links joins to the sender as it sends, which takes a
-    /// look at every robot for every message; none: only as long as it is cheap.
+    /// Measure reach: the share of the robots that are connected to the sender, over any number of
+    /// links, when it sends. The cost of each message grows with the number of robots; none:
+    /// measured only while it is cheap.
     std::optional<bool> reach = {};
-    /// Metrics of each [[traffic]] table by itself.
+    /// True if metrics of each [[traffic]] table are measured separately.
     bool flows = true;
-    /// Metrics of what each robot gets.
+    /// True if metrics of each robot as a receiver are measured.
     bool robots = false;
-    /// Metrics of the network's shape: degree, components, mean speed, lifetime of links.
+    /// True if the topology is measured: degree, components, mean speed, lifetime of links.
     bool topology = false;
 
     static constexpr auto fields() {

@@ -23,15 +23,15 @@
 #include <variant>
 #include <vector>
 
-// Movements as a scenario file gives them. Models of mobility/ that describe their parameters are
-// read as they are; the others (fixed, waypoints, goal) have a table here. MotionBuilder makes a
-// Movement of each.
+// Movements in a scenario file. Models of mobility/ that describe their parameters are read
+// directly; the models fixed, waypoints and goal have a table here. MotionBuilder makes a Movement
+// of each table.
 //
 //     move = { model = "random_waypoint", area = [["0 m", "0 m"], ["100 m", "50 m"]] }
 
 namespace rovernet {
 
-/// The robot stays where it is. It is the default:
+/// Movement `fixed`, the default: the robot stays where it is:
 ///
 ///   move = { model = "fixed" }
 struct FixedTable {
@@ -39,20 +39,20 @@ struct FixedTable {
     static constexpr auto fields() { return describe(); }
 };
 
-/// The robot goes from place to place, around the walls, and then rests:
+/// Movement `waypoints`: the robot visits points in turn, around the walls, and then rests:
 ///
 ///   move = { model = "waypoints", path = [["5 m", "3 m"], ["5 m", "9 m"]], speed = "1 m/s" }
 struct WaypointsTable {
-    /// Order of the places: as they are given, or shuffled anew in each replication.
+    /// Order in which the robot visits the points: as given, or shuffled in each replication.
     enum class Order { given, shuffled };
     static constexpr std::string_view name = "waypoints";
 
-    /// Places to go to [m], at least one.
+    /// Points to visit [m], at least one.
     std::vector<Vec3> path;
-    /// Speed on the way [m/s], > 0; of no effect with `times`.
+    /// Speed between points [m/s], > 0; ignored with `times`.
     MetersPerSecond speed{1};
-    /// Times at which the robot is at each place of the path [ns], as many as there are places,
-    /// each later than the one before; instead of a speed.
+    /// Arrival time at each point of `path` [ns], in increasing order, one for each point; instead
+    /// of a speed.
     std::optional<std::vector<Duration>> times;
     Order order = Order::given;
 
@@ -65,23 +65,23 @@ struct WaypointsTable {
             field("order", &WaypointsTable::order, "given, or shuffled anew in each replication"));
     }
 };
-/// Words of the order in files.
+/// Names of WaypointsTable::Order in scenario files.
 template <>
 struct EnumNames<WaypointsTable::Order> {
     static constexpr std::array<std::string_view, 2> values = {"given", "shuffled"};
 };
 
-/// The robot goes to one place, around the walls, and then rests:
+/// Movement `goal`: the robot drives to one point, around the walls, and then rests:
 ///
 ///   move = { model = "goal", to = ["5 m", "9 m"], speed = "1 m/s" }
 struct GoalTable {
     static constexpr std::string_view name = "goal";
 
-    /// Place to go to [m]; either this or `among` is given.
+    /// Point to which the robot drives [m]; either `to` or `among` is given.
     std::optional<Vec3> to;
-    /// Places of which one is drawn in each replication [m].
+    /// Points of which one is drawn as the goal in each replication [m].
     std::vector<Vec3> among;
-    /// Speed on the way [m/s], > 0.
+    /// Speed of the robot [m/s], > 0.
     MetersPerSecond speed{1};
 
     static constexpr auto fields() {
@@ -92,49 +92,49 @@ struct GoalTable {
     }
 };
 
-/// Movement models that scenario files know by name. A model that is added here is read, checked,
-/// printed, documented and swept: all of that follows from its fields().
+/// Movement models that scenario files can name. Adding a model here is enough to have it read,
+/// checked, printed, documented and swept, by its fields().
 using MoveModels =
     std::variant<FixedTable, WaypointsTable, GoalTable, Patrol, Follow, Group, RandomWaypoint,
                  RandomDirection, RandomWalk, GaussMarkov, Wander, FollowWall>;
 
-/// Movement model of a robot that goes by another one: its leader, which the file gives by name.
+/// Movement model of a robot that follows a leader, which the file gives by name.
 template <class Model>
 concept LedModel = requires(Model model) {
     model.leader;
 };
 
-/// Movement model that can draw its robot's first place.
+/// Movement model that can draw the start position of its robot.
 template <class Model>
 concept DrawnModel = requires(Model model) {
     model.start;
 };
 
-/// Movement as a file gives it: one model with its parameters, and its places for errors that are
-/// found when it is built.
+/// Movement in a scenario file: one model with its parameters, and file positions for errors that
+/// are found when the Movement is built.
 struct MoveTable {
     /// Chosen model with its parameters.
     MoveModels model;
-    /// Name of the robot that a led model goes by; empty for others.
+    /// Name of the robot to follow, for a LedModel; empty for other models.
     std::string leader = {};
-    /// Places of the table and of its key `leader`.
+    /// File positions of the `move` table and of its key `leader`.
     Location where = {}, leader_where = {};
 
-    /// Whether the model draws where the robot starts: a [[robot]] needs no `at` then.
+    /// Whether the model draws the start position, so that the [[robot]] needs no `at`.
     bool draws_place() const;
-    /// Name of the model.
+    /// Name of the movement model.
     std::string_view name() const {
         return std::visit([](const auto& m) { return std::decay_t<decltype(m)>::name; }, model);
     }
 };
 
 /// Reads move = { ... }.
-/// @param placed  whether the robot has a place to start from, so that its model draws none
-/// @throws InputError for an unknown model or key, a value out of its range, and a parameter that
-/// the model cannot do without
+/// @param placed  whether the robot has a start position, so that its model draws none
+/// @throws InputError for an unknown model or key, a value out of range, or a missing required
+/// parameter
 MoveTable read_move(const Value& value, bool placed);
 
-/// Table that reads back as the same movement.
+/// Table from which read_move() reads the same movement.
 Table move_document(const MoveTable& move);
 
 }  // namespace rovernet

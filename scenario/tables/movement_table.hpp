@@ -11,31 +11,32 @@
 #include <string_view>
 #include <vector>
 
-// Movement files as a scenario file names them:
+// Movement files in a scenario file:
 //
 //     [movement]
 //     file = "scen-50-400-600.tcl"
 
 namespace rovernet {
 
-/// Words of [movement] syntax.
+/// Names of the values of [movement] syntax in scenario files.
 template <>
 struct EnumNames<MovementSyntax> {
     static constexpr std::array<std::string_view, 2> values = {"strict", "tolerant"};
 };
 
-/// [movement]: a file of other programs that moves the robots which it names. It needs no [[robot]]
-/// for them. read_scenario() reads the file through once, so that every mistake in it shows then;
-/// play() of experiment/movement_play.hpp plays it in the run.
+/// [movement]: a movement file of another program. Robots named in it need no [[robot]].
+/// read_scenario() reads the whole file once, so that every mistake is reported before the run;
+/// play() of experiment/movement_play.hpp moves the robots in the run.
 struct MovementTable {
-    /// Movement file of ns-2, BonnMotion or SUMO, relative to the scenario file; none: no robot is
-    /// moved so.
+    /// Movement file of ns-2, BonnMotion or SUMO, relative to the scenario file; none: no movement
+    /// file.
     std::optional<std::string> file;
-    /// Strictness with which it is read.
+    /// Handling of invalid lines in the movement file: an error, or skipped with a notice.
     MovementSyntax syntax = MovementSyntax::strict;
-    /// Robots that the file names, with their starts [m]; empty without a file. Not a key.
+    /// Robots named in the movement file, with their start positions [m]; empty without a file. Not
+    /// a key of the table.
     std::vector<FileRobot> robots = {};
-    /// Place of the key `file`, for errors.
+    /// File position of the key `file`, for error messages.
     Location where = {};
 
     static constexpr auto fields() {

@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-// Propagation as a scenario file gives it:
+// Propagation in a scenario file:
 //
 //     [propagation]
 //     model = "log_distance"
@@ -16,12 +16,12 @@
 
 namespace rovernet {
 
-/// [propagation]: the chosen model, and the parameters that were given for any listed model. Those
-/// of other models are kept, so that one key, or a study, swaps the model.
+/// [propagation]: the chosen model, and the given parameters of all listed models. Parameters of
+/// other models are kept, so that changing the key `model` is enough to swap the model.
 struct PropagationTable {
-    /// Index into PropagationModels; by default friis.
+    /// Index of the chosen model in PropagationModels; by default friis.
     std::size_t model = 1;
-    /// One struct for each listed model, with its parameters.
+    /// Parameters of each listed model, one struct for each.
     PropagationModels parameters;
 
     /// Chosen model, ready for use.
@@ -29,13 +29,13 @@ struct PropagationTable {
     Propagation make() const;
 };
 
-/// Reads [propagation], or a robot's own table, over `out`. Keys of models that are not chosen may
-/// stand in it.
-/// @throws InputError at the first mistake, such as a parameter that the chosen model lacks
+/// Reads [propagation], or the `propagation` table of a robot, into `out`. Keys of models that are
+/// not chosen are allowed.
+/// @throws InputError at the first mistake, such as a missing parameter of the chosen model
 void read_propagation(const Value& value, PropagationTable& out);
 
-/// Listed model made of a table like [propagation], shadowing off: its median loss. `rovernet loss`
-/// tabulates it.
+/// Model of a table like [propagation], without shadowing, so that its loss is the median loss.
+/// Used by `rovernet loss`.
 /// @throws InputError as read_propagation()
 Propagation median_propagation(const Value& table);
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/tables/read_value.hpp"
 
+#include "scenario/document/choice.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace rovernet {
 namespace {
@@ -20,9 +23,83 @@ T as(const Value& value, std::string_view key, std::string_view expected) {
     wrong_type(value, key, expected);
 }
 
+std::string in_small_letters(std::string_view word) {
+    std::string out(word);
+    for (char& c : out)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return out;
+}
+
+/// Version part of a word: letters and digits from the first digit on, up to a blank. "80211g" of
+/// "802.11g"; empty for a word without digits.
+std::string designation(std::string_view word) {
+    std::string out;
+    for (const char c : in_small_letters(word)) {
+        const bool is_digit = c >= '0' && c <= '9', is_letter = c >= 'a' && c <= 'z';
+        if (c == ' ' && !out.empty()) break;
+        if (is_digit || (is_letter && !out.empty())) out += c;
+    }
+    return out;
+}
+
+/// Whether one version part may be a misspelling of the other: one is empty, both have the same
+/// letters and digits in a different order, or one lacks a digit. A different digit or letter means
+/// a different version.
+bool may_be_one(std::string a, std::string b) {
+    if (a.empty() || b.empty()) return true;
+    if (a.size() > b.size()) std::swap(a, b);
+    for (std::size_t i = 0; b.size() == a.size() + 1 && i < b.size(); ++i) {
+        const bool is_digit = b[i] >= '0' && b[i] <= '9';
+        if (is_digit && b.substr(0, i) + b.substr(i + 1) == a) return true;
+    }
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    return a == b;
+}
+
+/// Suggestion "did you mean ...?"; empty if no word is similar.
+std::string choice_meant(std::string_view word, const std::vector<std::string>& choices,
+                         const ChoiceHelp& help) {
+    if (const auto truth = truth_in(word)) {
+        const std::string_view meant = *truth ? help.yes : help.no;
+        const bool is_listed = std::find(choices.begin(), choices.end(), meant) != choices.end();
+        if (is_listed) return fmt::format("did you mean \"{}\"?", meant);
+    }
+    const std::string number = designation(word);
+    std::vector<std::string> possible;
+    for (const std::string& choice : choices)
+        if (may_be_one(number, designation(choice))) possible.push_back(choice);
+    return did_you_mean(word, possible);
+}
+
+/// "one of "a", "b"", each with its meaning if it has one.
+std::string expected_choices(const std::vector<std::string>& choices, const ChoiceHelp& help) {
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        const bool has_meaning = i < help.meanings.size();
+        texts.push_back(has_meaning ? fmt::format("\"{}\" ({})", choices[i], help.meanings[i])
+                                    : fmt::format("\"{}\"", choices[i]));
+    }
+    return fmt::format("{}{}", choices.size() > 1 ? "one of " : "", fmt::join(texts, ", "));
+}
+
 }  // namespace
 
+std::optional<bool> truth_in(std::string_view word) {
+    const std::string small = in_small_letters(word);
+    for (const char* yes : {"true", "yes", "on"})
+        if (small == yes) return true;
+    for (const char* no : {"false", "no", "off"})
+        if (small == no) return false;
+    return std::nullopt;
+}
+
 void read_value(const Value& value, std::string_view key, bool& out) {
+    const auto truth = value.string() ? truth_in(*value.string()) : std::nullopt;
+    if (truth) {
+        wrong_type(value, key,
+                   fmt::format("true or false; did you mean {}, without quotes?", *truth));
+    }
     out = as<bool>(value, key, "true or false");
 }
 
@@ -54,34 +131,10 @@ void read_value(const Value& value, std::string_view key, std::string& out) {
     out = as<std::string>(value, key, "a text in quotes");
 }
 
-void read_value(const Value& value, std::string_view key, Dbm& out) {
-    out = {read_quantity(value, key, Dimension::power)};
-}
-void read_value(const Value& value, std::string_view key, Db& out) {
-    out = {read_quantity(value, key, Dimension::gain)};
-}
-void read_value(const Value& value, std::string_view key, Hertz& out) {
-    out = {read_quantity(value, key, Dimension::frequency)};
-}
-void read_value(const Value& value, std::string_view key, Meters& out) {
-    out = {read_quantity(value, key, Dimension::length)};
-}
-void read_value(const Value& value, std::string_view key, MetersPerSecond& out) {
-    out = {read_quantity(value, key, Dimension::speed)};
-}
 void read_value(const Value& value, std::string_view key, BitRate& out) {
     constexpr double slowest = 1;  // [bit/s]: the largest message takes 93 days
     out = {read_quantity(value, key, Dimension::bit_rate)};
     if (out.value > 0 && out.value < slowest) wrong_type(value, key, "a bit rate >= 1 bit/s");
-}
-void read_value(const Value& value, std::string_view key, Radians& out) {
-    out = {read_quantity(value, key, Dimension::angle)};
-}
-void read_value(const Value& value, std::string_view key, RadiansPerSecond& out) {
-    out = {read_quantity(value, key, Dimension::turn_rate)};
-}
-void read_value(const Value& value, std::string_view key, DbPerMeter& out) {
-    out = {read_quantity(value, key, Dimension::attenuation)};
 }
 
 void read_value(const Value& value, std::string_view key, Duration& out) {
@@ -137,15 +190,22 @@ void check_printable(const Value& value, std::string_view key, std::string_view 
 }
 
 std::size_t read_choice(const Value& value, std::string_view key,
-                        const std::vector<std::string>& choices) {
-    const std::string expected =
-        fmt::format("{}\"{}\"", choices.size() > 1 ? "one of " : "", fmt::join(choices, "\", \""));
-    const auto word = as<std::string>(value, key, expected);
+                        const std::vector<std::string>& choices, const ChoiceHelp& help) {
+    const std::string expected = expected_choices(choices, help);
+    const bool* truth = std::get_if<bool>(&value.data);
+    const auto word = truth ? *truth ? "true" : "false" : as<std::string>(value, key, expected);
     const auto found = std::find(choices.begin(), choices.end(), word);
     if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-    const std::string near = did_you_mean(word, choices);
-    throw InputError(value.where, fmt::format("unknown {} \"{}\"; expected {}{}{}", key, word,
-                                              expected, near.empty() ? "" : "; ", near));
+    const std::string near = choice_meant(word, choices, help),
+                      end = near.empty() ? "" : "; " + near;
+    if (truth) wrong_type(value, key, expected + end);
+    throw InputError(value.where,
+                     fmt::format("unknown {} \"{}\"; expected {}{}", key, word, expected, end));
+}
+
+std::size_t read_choice(const Value& value, std::string_view key,
+                        const std::vector<std::string>& choices) {
+    return read_choice(value, key, choices, ChoiceHelp{});
 }
 
 Value to_value(bool v) { return v; }
@@ -153,15 +213,6 @@ Value to_value(int v) { return v; }
 Value to_value(std::uint64_t v) { return v; }
 Value to_value(double v) { return v; }
 Value to_value(const std::string& v) { return v; }
-Value to_value(Dbm v) { return quantity_text(v.value, Dimension::power); }
-Value to_value(Db v) { return quantity_text(v.value, Dimension::gain); }
-Value to_value(Hertz v) { return quantity_text(v.value, Dimension::frequency); }
-Value to_value(Meters v) { return quantity_text(v.value, Dimension::length); }
-Value to_value(MetersPerSecond v) { return quantity_text(v.value, Dimension::speed); }
-Value to_value(BitRate v) { return quantity_text(v.value, Dimension::bit_rate); }
-Value to_value(Radians v) { return quantity_text(v.value, Dimension::angle); }
-Value to_value(RadiansPerSecond v) { return quantity_text(v.value, Dimension::turn_rate); }
-Value to_value(DbPerMeter v) { return quantity_text(v.value, Dimension::attenuation); }
 Value to_value(Bytes v) { return quantity_text(v.value, Dimension::size); }
 
 Value to_value(Duration v) {

@@ -13,62 +13,53 @@
 #include <string_view>
 #include <vector>
 
-// Values of a document as C++ values, and back. There is a read_value() and a to_value() for each
-// type that a key may have; a described struct is read and written with them, field by field.
+// Conversion between values of a document and C++ values. There is a read_value() and a to_value()
+// for each type of a key; a described struct is read and written field by field.
 
 namespace rovernet {
 
-/// Size of a message or a header [bytes], at most 1 MB in a file.
-struct Bytes {
-    std::uint32_t value = 0;
-    friend bool operator==(Bytes, Bytes) = default;
-};
-
-/// Reads the value into `out`, of whatever type that is, without looking at the range of its field.
-/// Numbers with a dimension need their unit, see read_quantity(); a Vec3 is a list of two or three
-/// lengths.
-/// @param key  for the error
-/// @throws InputError at the value, saying what was found and what was expected; `out` may have
-/// changed
+/// Reads a value into `out` by the type of `out`, without checking the range of the field. Numbers
+/// with a dimension need their unit, see read_quantity(); a Vec3 is a list of two or three lengths.
+/// @param key  name of the value's key, for the error message
+/// @throws InputError at the value; the message names what was found and what was expected. `out`
+/// may have changed
 void read_value(const Value& value, std::string_view key, bool& out);
-/// Whole numbers: of 32 bits, and from 0 to 2^63 - 1.
+/// Reads a whole number: int: 32 bits; std::uint64_t: from 0 to 2^63 - 1.
 void read_value(const Value& value, std::string_view key, int& out);
 void read_value(const Value& value, std::string_view key, std::uint64_t& out);
-/// Number without a unit, at most 1e9: factors and exponents, whose products stay finite.
+/// Reads a number without a unit, at most 1e9, such as a factor or an exponent; the limit keeps
+/// products finite.
 void read_value(const Value& value, std::string_view key, double& out);
-/// Text in quotes, with any characters.
+/// Reads a text in quotes, with any characters.
 void read_value(const Value& value, std::string_view key, std::string& out);
-/// Quantities with their units; a power in watts becomes a level.
-void read_value(const Value& value, std::string_view key, Dbm& out);
-void read_value(const Value& value, std::string_view key, Db& out);
-void read_value(const Value& value, std::string_view key, Hertz& out);
-void read_value(const Value& value, std::string_view key, Meters& out);
-void read_value(const Value& value, std::string_view key, MetersPerSecond& out);
-/// Bit rate; one between 0 and 1 bit/s is refused.
+/// Reads a quantity with its unit; a power in watts is converted to dBm.
+template <IsQuantity Q>
+void read_value(const Value& value, std::string_view key, Q& out) {
+    out = {read_quantity(value, key, dimension_of(out))};
+}
+/// Reads a bit rate; a rate between 0 and 1 bit/s is an error.
 void read_value(const Value& value, std::string_view key, BitRate& out);
-void read_value(const Value& value, std::string_view key, Radians& out);
-void read_value(const Value& value, std::string_view key, RadiansPerSecond& out);
-void read_value(const Value& value, std::string_view key, DbPerMeter& out);
-/// Length of time, rounded to nanoseconds.
+/// Reads a duration, rounded to nanoseconds.
 void read_value(const Value& value, std::string_view key, Duration& out);
-/// Whole number of bytes from 0 B to 1 MB.
+/// Reads a whole number of bytes from 0 B to 1 MB.
 void read_value(const Value& value, std::string_view key, Bytes& out);
-/// Position: a list of two or three lengths; z is 0 if it is not given.
+/// Reads a position: a list of two or three lengths; z is 0 if it is not given.
 void read_value(const Value& value, std::string_view key, Vec3& out);
-/// Point of an antenna's pattern: a list of two numbers, degrees and dB.
+/// Reads a point of an antenna pattern: a list of two numbers, degrees and dB.
 void read_value(const Value& value, std::string_view key, PatternPoint& out);
 
-/// Checks that a text that is printed and names things has no control characters.
+/// Checks that a text used as a name has no control characters.
 /// @throws InputError at the value
 void check_printable(const Value& value, std::string_view key, std::string_view text);
 
-/// Finds a word among an enumeration's.
+/// Finds a word in the list of an enumeration.
 /// @return index into `choices`
-/// @throws InputError for another word, naming all choices and the nearest
+/// @throws InputError for an unknown word; the message lists all choices and suggests the most
+/// similar one
 std::size_t read_choice(const Value& value, std::string_view key,
                         const std::vector<std::string>& choices);
 
-/// Reads an enumeration by the words of its EnumNames.
+/// Reads an enumeration by the names in its EnumNames.
 template <class E>
 requires std::is_enum_v<E>
 void read_value(const Value& value, std::string_view key, E& out) {
@@ -77,7 +68,7 @@ void read_value(const Value& value, std::string_view key, E& out) {
     out = static_cast<E>(read_choice(value, key, choices));
 }
 
-/// Reads a list, item by item.
+/// Reads a list into `out`, item by item.
 template <class T>
 void read_value(const Value& value, std::string_view key, std::vector<T>& out) {
     const Array* list = value.array();
@@ -93,7 +84,7 @@ void read_value(const Value& value, std::string_view key, std::vector<T>& out) {
     }
 }
 
-/// Reads a value that may be missing in the file, and is there.
+/// Reads the value of an optional key that the file gives.
 template <class T>
 void read_value(const Value& value, std::string_view key, std::optional<T>& out) {
     T present{};
@@ -101,30 +92,25 @@ void read_value(const Value& value, std::string_view key, std::optional<T>& out)
     out = std::move(present);
 }
 
-/// Value as it stands in a file, with its unit: read_value() reads it back as the same.
+/// Value as written in a scenario file, with its unit; read_value() reads it back unchanged.
 Value to_value(bool v);
 Value to_value(int v);
 Value to_value(std::uint64_t v);
-/// Numbers and texts as they are.
+/// Value of a plain number or text, as written in a scenario file.
 Value to_value(double v);
 Value to_value(const std::string& v);
-/// Quantities, as texts with the unit that makes the number whole, if one does.
-Value to_value(Dbm v);
-Value to_value(Db v);
-Value to_value(Hertz v);
-Value to_value(Meters v);
-Value to_value(MetersPerSecond v);
-Value to_value(BitRate v);
-Value to_value(Radians v);
-Value to_value(RadiansPerSecond v);
-Value to_value(DbPerMeter v);
-/// Length of time in the largest of s, ms, us and ns that makes it whole.
+/// Quantity as a text, in a unit in which its number is whole if there is one.
+template <IsQuantity Q>
+Value to_value(Q v) {
+    return quantity_text(v.value, dimension_of(v));
+}
+/// Duration in the largest of s, ms, us and ns in which its number is whole.
 Value to_value(Duration v);
 Value to_value(Bytes v);
-/// Position as a list of lengths, z left out if it is 0.
+/// Position as a list of lengths; z is omitted if it is 0.
 Value to_value(Vec3 v);
 Value to_value(const PatternPoint& v);
-/// Word of an enumeration. List, item by item.
+/// Name of an enumerator, as a text.
 template <class E>
 requires std::is_enum_v<E> Value to_value(E v) { return name_of(v); }
 template <class T>

@@ -2,13 +2,12 @@
 #pragma once
 
 #include "models/reception/list.hpp"
-#include "scenario/tables/reader.hpp"
 #include "sim/fields.hpp"
 
 #include <array>
 #include <string_view>
 
-// Reception of frames as a scenario file gives it:
+// Reception of frames in a scenario file:
 //
 //     [reception]
 //     model = "collision"
@@ -16,30 +15,33 @@
 
 namespace rovernet {
 
-/// Words of [reception] model, the most detailed last: what becomes of a frame at a receiver that
-/// it reaches.
+/// Values of [reception] model, in order of detail. The model decides whether a receiver in range
+/// receives a frame.
 ///
-/// - threshold: it is received wherever the link budget allows it; frames do not interfere
-/// - collision: of frames that overlap one survives if it is stronger by the capture ratio
-/// - sinr: bits are lost by the ratio of signal to noise and interference
+/// - threshold: a frame is received if its level is above the sensitivity; frames do not interfere
+/// - collision: frames that overlap are lost, except one that is stronger by the capture ratio
+/// - sinr: bit errors follow from the signal to interference and noise ratio
 enum class ReceptionChoice { threshold, collision, sinr };
 template <>
 struct EnumNames<ReceptionChoice> {
     static constexpr std::array<std::string_view, 3> values = {"threshold", "collision", "sinr"};
 };
 
-/// [reception]: the chosen model, and the parameters of all. One for a model that is not chosen is
-/// checked and kept, so that one key swaps the model.
+/// [reception]: the chosen model, and the parameters of all models. Parameters of a model that is
+/// not chosen are checked and kept, so that changing the key `model` is enough to swap the model.
 struct ReceptionTable {
     ReceptionChoice model = ReceptionChoice::threshold;
-    /// Ratio [dB] of collision by which a frame that survives another is stronger.
+    /// Capture ratio [dB] of the model collision: a frame survives if it is stronger than the
+    /// others by this.
     Db capture_ratio = Collision{}.capture_ratio;
-    /// Frame of collision that may survive: only the one that the receiver is at, or a later one,
-    /// too.
+    /// Frames that may survive a collision (model collision): only the frame that the receiver is
+    /// receiving, or also a later one.
     CaptureOrder capture = Collision{}.capture;
-    /// Cut of sinr [dB]: frames weaker than the sensitivity by this are left out.
+    /// Interference cut of sinr [dB]: frames weaker than the sensitivity by more than this are
+    /// ignored.
     Db interference_cut = Sinr{}.interference_cut;
-    /// Ratio of sinr [dB] above noise and interference from which on a receiver finds a preamble.
+    /// Preamble threshold of sinr [dB]: a receiver detects a preamble from this ratio of signal to
+    /// noise and interference on.
     Db preamble_threshold = Sinr{}.preamble_threshold;
 
     static constexpr auto fields() {
@@ -56,7 +58,7 @@ struct ReceptionTable {
             field("preamble_threshold", &ReceptionTable::preamble_threshold,
                   "of sinr: a receiver finds preambles that are so much above the rest"));
     }
-    /// Chosen model with its parameters. network_settings() asks for it.
+    /// Chosen model with its parameters. network_settings() calls it.
     ReceptionModel make() const;
 };
 

@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-// Routing protocols as a scenario file gives them:
+// Routing protocols in a scenario file:
 //
 //     [routing]
 //     protocol = "flood"
@@ -14,12 +14,12 @@
 
 namespace rovernet {
 
-/// [routing]: the chosen protocol, and the parameters that were given for any listed one. A key
-/// that several protocols have is given to all.
+/// [routing]: the chosen protocol, and the given parameters of all listed protocols. A key that
+/// several protocols share sets the parameter of each.
 struct RoutingTable {
-    /// Index into RoutingProtocols; by default flood.
+    /// Index of the chosen protocol in RoutingProtocols; by default flood.
     std::size_t protocol = 0;
-    /// One struct for each listed protocol, with its parameters.
+    /// Parameters of each listed protocol, one struct for each.
     RoutingProtocols parameters;
 
     /// Chosen protocol, ready for Network::route().

@@ -8,13 +8,13 @@
 
 namespace rovernet {
 
-/// Reads the `scan` of a robot: a table, or a list of tables for several range finders. The second
-/// of a kind that has no name is called as its kind and 1, and so on.
-/// @throws InputError for an unknown key, a wrong type, a value out of its range, keys that exclude
-/// each other, and for two of one name
+/// Reads the `scan` of a robot: a table, or a list of tables for several range finders. A range
+/// finder without a name is named after its kind; further ones get a number: laser, laser1, laser2.
+/// @throws InputError for an unknown key, a wrong type, a value out of range, keys that exclude
+/// each other, or two range finders of the same name
 std::vector<Scanner> read_scanners(const Value& value);
 
-/// Value that reads back as the same: one table, or a list of several.
+/// Value that reads back as the same range finders: one table, or a list of tables.
 /// @param scanners  at least one
 Value scanners_document(const std::vector<Scanner>& scanners);
 

@@ -2,6 +2,7 @@
 #include "scenario/tables/study_table.hpp"
 
 #include "scenario/document/toml.hpp"
+#include "scenario/tables/reader.hpp"
 
 #include <fmt/format.h>
 

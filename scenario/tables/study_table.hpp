@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "study/statistics/interval_method.hpp"
-#include "scenario/tables/reader.hpp"
 #include "scenario/document/value.hpp"
 #include "sim/fields.hpp"
+#include "study/statistics/interval_method.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
-// [study]: the points of a study, how often each is run and what is told of it. `rovernet sweep`
-// runs it; of a plain run `warmup` and `metrics` say what is measured, all else is left alone.
+// [study]: the points of a study, their number of replications and their metrics. `rovernet sweep`
+// runs the study. A single run uses `warmup` and `metrics` only.
 //
 //     [study]
 //     replications = 10
@@ -20,57 +19,60 @@
 
 namespace rovernet {
 
-/// Key of the scenario and the values that it takes in a study.
+/// Key of the scenario with the values that a study gives to it.
 struct Vary {
     /// Path of the key, as for --set: "radio.power", "robot.NAME.radio.power".
     std::string path;
-    /// Place of the path in the file.
+    /// File position of the path, for error messages.
     Location where;
-    /// Values, at least one; a range { from, to, step } is written out.
+    /// Values of the key, at least one; a range { from, to, step } is expanded.
     Array values;
 };
 
-/// Points that a study leaves out: those whose keys all have one of these values. In the file:
+/// Combinations of values that a study skips: every listed key has one of its listed values. In the
+/// file:
 ///
 ///   exclude = [{ "propagation.model" = "disc", "reception.model" = "sinr" }]
 using Exclusion = std::vector<Vary>;
 
-/// Time after which measuring begins.
+/// Warm-up of a run: time after which measuring begins.
 struct Warmup {
-    /// Time since the start of the run [ns]; messages that are sent before do not count.
+    /// Time since the start of the run [ns]; messages sent before it do not count.
     Duration given{0};
-    /// The time is found by MSER-5 in each run instead.
+    /// True if the rule MSER-5 computes the warm-up of each run; then `given` is not used.
     bool mser5 = false;
 };
 
-/// [study], and what it says of points and metrics.
+/// [study]: varied keys, replications, intervals and metrics of a study.
 struct StudyTable {
-    /// Independent repetitions of each point, at least.
+    /// Least number of independent runs (replications) of each combination of varied values.
     int replications = 1;
-    /// Probability that an interval covers the true mean [-].
+    /// Probability that a confidence interval covers the true mean [-].
     double confidence = 0.95;
-    /// Method of intervals; by default it depends on the metric, see method_for().
+    /// Method of confidence intervals; by default it depends on the metric, see method_for().
     std::optional<IntervalMethod> interval;
-    /// Half-width of the interval of the first metric, in its unit, until which runs are added;
-    /// none: `replications` runs, and no more.
+    /// Target half-width of the confidence interval of the first of `metrics`, in its unit:
+    /// replications are added until it is reached; none: exactly `replications` runs.
     std::optional<double> precision;
-    /// Repetitions for `precision` at most.
+    /// Largest number of replications of a combination of values, if `precision` is given.
     int max_replications = 1000;
     Warmup warmup;
-    /// Metrics that results and pictures show first, and where each is named.
+    /// Metrics that results and pictures show first, and their file positions.
     std::vector<std::string> metrics;
     std::vector<Location> metric_places;
-    /// Keys that vary, in the order of the file.
+    /// Keys that vary, with their values, in the order of the file.
     std::vector<Vary> vary;
-    /// Groups of paths that vary together, value by value; all others vary in every combination:
+    /// Groups of keys (paths) that vary together, value by value; all other keys vary in every
+    /// combination:
     ///
     ///   zip = [["radio.power", "radio.sensitivity"]]
     std::vector<std::vector<std::string>> zip;
-    /// Points that are left out.
+    /// Combinations of values that the study skips.
     std::vector<Exclusion> exclude;
 
-    /// Method that intervals are asked for: `interval`, or betting where runs are added until a
-    /// precision is reached, which only betting allows.
+    /// Interval method to use: `interval`, or betting if `precision` is given, since only betting
+    /// stays valid when runs are added until a precision is reached; none: the default of each
+    /// metric.
     std::optional<IntervalMethod> interval_wish() const {
         if (interval || !precision) return interval;
         return IntervalMethod::betting;
@@ -93,11 +95,11 @@ struct StudyTable {
 };
 
 /// Reads [study].
-/// @param duration  of a run; a warmup must be shorter
+/// @param duration  duration of a run; the warmup must be shorter
 /// @throws InputError at the first mistake
 StudyTable read_study(const Value& value, Duration duration);
 
-/// Table that reads back as the same study, with every list written out.
+/// Table from which read_study() reads the same study, with every range expanded to a list.
 Table study_document(const StudyTable& study);
 
 }  // namespace rovernet

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-// Traces as a scenario file asks for them:
+// Traces in a scenario file:
 //
 //     [trace]
 //     ns2 = "new"
@@ -14,7 +14,7 @@
 
 namespace rovernet {
 
-/// Words of [trace] ns2: the wireless trace format of ns-2.35, its old or its new one.
+/// Values of [trace] ns2: the old or the new wireless trace format of ns-2.35.
 enum class Ns2Choice {
     /// No trace.
     none,
@@ -27,15 +27,15 @@ template <>
 struct EnumNames<Ns2Choice> {
     static constexpr std::array<std::string_view, 3> values = {"none", "old", "new"};
 };
-/// [trace]: the files that a run writes beside its results. trace_files() makes a sink of each.
+/// [trace]: trace files that a run writes beside its results. trace_files() makes a sink for each.
 struct TraceTable {
     /// Format of the ns-2 trace; none: no trace.
     Ns2Choice ns2 = Ns2Choice::none;
-    /// Lines of the MAC layer are in the ns-2 trace, too.
+    /// True if the ns-2 trace includes lines of the MAC layer.
     bool mac = false;
-    /// All records go to a recorded trace (MCAP), too.
+    /// True if all records are written to a recorded trace (MCAP).
     bool record = false;
-    /// Changes of links are in the recorded trace, too.
+    /// True if the recorded trace includes link changes.
     bool links = false;
 
     static constexpr auto fields() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenario/tables/read_value.hpp"
 #include "scenario/document/value.hpp"
 #include "sim/error.hpp"
 #include "sim/fields.hpp"
@@ -12,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-// Traffic as a scenario file gives it:
+// Traffic in a scenario file:
 //
 //     [[traffic]]
 //     from = "A"
@@ -23,43 +22,44 @@
 
 namespace rovernet {
 
-/// Words of [[traffic]] kind: messages to everyone by the routing protocol, or to one robot in one
-/// hop.
+/// Values of [[traffic]] kind: messages to everyone by the routing protocol, or to one robot over
+/// one hop.
 enum class TrafficKind { broadcast, unicast };
 template <>
 struct EnumNames<TrafficKind> {
     static constexpr std::array<std::string_view, 2> values = {"broadcast", "unicast"};
 };
 
-/// [[traffic]]: one flow. `from` sends a message at `start`, and every `every` from then on until
-/// `stop`, or until it was sent `count` times.
+/// [[traffic]]: one flow. `from` sends a message at `start`, and repeats it at intervals of `every`
+/// until `stop`, or until `count` messages are sent.
 struct TrafficTable {
     TrafficKind kind = TrafficKind::broadcast;
-    /// Name of the flow, which ends the names of its metrics; see name_flows().
+    /// Name of the flow, the suffix of its metrics' names; see name_flows().
     std::string name = {};
-    /// Robot that sends; "random", if no robot has that name: another robot each time.
+    /// Name of the sending robot; "random" draws a robot for each message, unless a robot has that
+    /// name.
     std::string from;
-    /// Robot that a unicast is for.
+    /// Name of the robot to which unicasts are sent.
     std::optional<std::string> to;
-    /// There is always a message to send: a new one as soon as one is sent. It needs an access
-    /// model.
+    /// Saturated source: the next message is queued as soon as the previous one is sent. Needs an
+    /// access model.
     bool saturate = false;
-    /// Text of the message.
+    /// Text that the message carries.
     std::string payload;
-    /// Size on air; none: the length of the payload.
+    /// Size of the message on air [bytes]; none: the length of the payload.
     std::optional<Bytes> size;
     /// Time of the first message [ns]; none: when `from` arrives at the end of its movement.
     std::optional<Duration> start;
-    /// Interval between messages [ns]; none: there is one message.
+    /// Interval between messages [ns]; none: one message only.
     std::optional<Duration> every;
-    /// Time from which on none is sent [ns], and number of messages at most; none: no end.
+    /// End of the flow [ns], and largest number of messages; none: no limit.
     std::optional<Duration> stop;
     std::optional<int> count;
-    /// Places of keys, for errors and notices.
+    /// File positions of the keys `from`, `to` and `payload`, for errors and notices.
     Location from_where = {}, to_where = {}, payload_where = {};
 };
 
-/// Reads one flow of [[traffic]]; not one that names a file, see read_flows().
+/// Reads one flow of [[traffic]]. A [[traffic]] that names a file is read by read_flows().
 /// @throws InputError for a key that is unknown, missing, or contradicts another
 TrafficTable read_traffic(const Value& value);
 

@@ -2,58 +2,46 @@
 #include "scene/images/image.hpp"
 
 #include "files/input_file.hpp"
+#include "scene/images/image_reader.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <string_view>
 
 namespace rovernet {
 namespace {
 
+constexpr std::string_view expected_kinds =
+    "a PNG, JPEG, BMP, GIF or Netpbm (PGM, PPM, PBM) picture";
+constexpr std::array<std::string_view, 9> image_endings{".png", ".pgm",  ".ppm", ".pbm", ".pnm",
+                                                        ".jpg", ".jpeg", ".bmp", ".gif"};
+
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-[[noreturn]] void fail(const std::string& path, const std::string& message) {
-    throw InputError(Location{path}, message);
-}
-
 File open(const std::string& path) {
     const InputKind kind = input_kind(path);
-    if (is_no_path(kind))
-        fail(path, fmt::format("{}; expected a PNG or PGM image; check the path", fault_of(kind)));
-    if (kind == InputKind::folder)
-        fail(path, "is a directory; expected a PNG or PGM image; name a file in it");
-    if (kind != InputKind::file)
-        fail(path, "is not a regular file; expected a PNG or PGM image; copy it to a file");
+    const auto fail = [&](std::string_view found, std::string_view mend) {
+        image_error(path, fmt::format("{}; expected {}; {}", found, expected_kinds, mend));
+    };
+    if (is_no_path(kind)) fail(fault_of(kind), "check the path");
+    if (kind == InputKind::folder) fail("is a directory", "name a file in it");
+    if (kind != InputKind::file) fail("is not a regular file", "copy it to a file");
     File file(std::fopen(path.c_str(), "rb"));
-    if (!file) fail(path, "cannot be opened; expected a readable image; check its permissions");
+    if (!file)
+        image_error(path, "cannot be opened; expected a readable image; check its permissions");
     return file;
-}
-
-void check_size(const std::string& path, std::int64_t width, std::int64_t height) {
-    if (width < 1 || height < 1)
-        fail(path,
-             fmt::format("image of {} x {} pixels; expected at least one pixel; save it again",
-                         width, height));
-    if (width > max_image_pixels / height)
-        fail(path, fmt::format("image of {} x {} pixels; expected at most {} million pixels; "
-                               "scale it down or cut it",
-                               width, height, max_image_pixels / 1'000'000));
-}
-
-void allocate(Image& image) {
-    image.samples.resize(static_cast<std::size_t>(image.width) *
-                         static_cast<std::size_t>(image.height) *
-                         static_cast<std::size_t>(image.channels));
 }
 
 // PNG. libpng reports errors by longjmp, which must not skip a destructor: read_header and
@@ -80,7 +68,7 @@ struct PngReader {
     static void on_warning(png_structp, png_const_charp) {}
 };
 
-/// Reads up to the pixels. False: see reader.error.
+/// Reads the file up to the pixels. False on an error, see reader.error.
 bool read_header(PngReader& reader, std::FILE* file) {
     if (setjmp(png_jmpbuf(reader.png))) return false;
     png_init_io(reader.png, file);
@@ -89,7 +77,8 @@ bool read_header(PngReader& reader, std::FILE* file) {
     return true;
 }
 
-/// Asks for 8 bits a sample and plain channels; returns the bytes per row, or 0: see reader.error.
+/// Requests 8 bits per sample and plain channels; returns the bytes per row, or 0 on an error, see
+/// reader.error.
 std::size_t prepare_pixels(PngReader& reader) {
     if (setjmp(png_jmpbuf(reader.png))) return 0;
     png_set_expand(reader.png);  // palettes, small grays, transparent colours
@@ -110,106 +99,55 @@ Image read_png(const std::string& path, std::FILE* file) {
     PngReader reader;
     if (!reader.info) throw std::bad_alloc();
     const auto damaged = [&] {
-        fail(path,
-             fmt::format("damaged or truncated PNG ({}); expected a whole image; save it again",
-                         reader.error.data()));
+        image_error(
+            path,
+            fmt::format("damaged or truncated PNG ({}); expected a whole image; save it again",
+                        reader.error.data()));
     };
     if (!read_header(reader, file)) damaged();
     const auto width = png_get_image_width(reader.png, reader.info);
     const auto height = png_get_image_height(reader.png, reader.info);
-    check_size(path, width, height);
+    check_image_size(path, width, height);
     const std::size_t row_bytes = prepare_pixels(reader);
     if (row_bytes == 0) damaged();
-    Image image{static_cast<int>(width),
-                static_cast<int>(height),
-                png_get_channels(reader.png, reader.info),
-                {}};
-    allocate(image);
+    Image image = sized_image(path, width, height, png_get_channels(reader.png, reader.info));
     std::vector<png_bytep> rows(height);
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = image.samples.data() + i * row_bytes;
     if (!read_pixels(reader, rows.data())) damaged();
     return image;
 }
 
-// PGM. Source: the Netpbm manual, "PGM Format Specification".
-
-class PgmReader {
-  public:
-    PgmReader(const std::string& path, std::FILE* file) : path_(path), file_(file) {}
-
-    Image read(bool plain) {
-        Image image;
-        image.width = number("a width", 1'000'000'000);
-        image.height = number("a height", 1'000'000'000);
-        check_size(path_, image.width, image.height);
-        max_value_ = number("a maxval from 1 to 65535", 65535);
-        if (max_value_ == 0) fail(path_, "PGM maxval 0; expected 1 to 65535; save it again");
-        allocate(image);
-        for (std::uint8_t& sample : image.samples) sample = scaled(plain ? number_sample() : raw());
-        return image;
-    }
-
-  private:
-    int next() { return std::getc(file_); }
-
-    [[noreturn]] void truncated() {
-        fail(path_, "truncated PGM; expected one sample per pixel; save it again");
-    }
-
-    /// The next character; a comment counts as the end of its line.
-    int next_outside_comment() {
-        int c = next();
-        if (c == '#')
-            while (c != '\n' && c != '\r' && c != EOF) c = next();
-        return c;
-    }
-    static bool white(int c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-    /// Skips white space, reads a decimal number and the one white space after it.
-    int number(const char* what, int limit) {
-        int c = next_outside_comment();
-        while (white(c)) c = next_outside_comment();
-        if (c == EOF) truncated();
-        std::int64_t value = 0;
-        bool digits = false;
-        for (; c >= '0' && c <= '9'; c = next_outside_comment()) {
-            digits = true;
-            value = 10 * value + (c - '0');
-            if (value > limit)
-                fail(path_, fmt::format("number above {} in PGM; expected {}; save it again", limit,
-                                        what));
-        }
-        if (!digits || !(white(c) || c == EOF))
-            fail(path_, fmt::format("byte 0x{:02x} in PGM; expected {}; save it again", c, what));
-        return static_cast<int>(value);
-    }
-    int number_sample() { return number("a sample up to the maxval", max_value_); }
-
-    int byte() {
-        const int c = next();
-        if (c == EOF) truncated();
-        return c;
-    }
-    /// One byte, or two with the higher first if the maxval needs them.
-    int raw() {
-        const int high = max_value_ > 255 ? byte() : 0;
-        const int value = 256 * high + byte();
-        if (value > max_value_)
-            fail(path_, fmt::format("PGM sample {} above the maxval {}; expected at most that; "
-                                    "save it again",
-                                    value, max_value_));
-        return value;
-    }
-    std::uint8_t scaled(int value) const {
-        return static_cast<std::uint8_t>((2 * 255 * value + max_value_) / (2 * max_value_));
-    }
-
-    const std::string& path_;
-    std::FILE* file_;
-    int max_value_ = 255;
-};
-
 }  // namespace
+
+void image_error(const std::string& path, const std::string& message) {
+    throw InputError(Location{path}, message);
+}
+
+void check_image_size(const std::string& path, std::int64_t width, std::int64_t height) {
+    if (width < 1 || height < 1)
+        image_error(
+            path, fmt::format("image of {} x {} pixels; expected at least one pixel; save it again",
+                              width, height));
+    if (width > max_image_pixels / height)
+        image_error(path, fmt::format("image of {} x {} pixels; expected at most {} million "
+                                      "pixels; scale it down or cut it",
+                                      width, height, max_image_pixels / 1'000'000));
+}
+
+Image sized_image(const std::string& path, std::int64_t width, std::int64_t height, int channels) {
+    check_image_size(path, width, height);
+    Image image{static_cast<int>(width), static_cast<int>(height), channels, {}};
+    image.samples.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                         static_cast<std::size_t>(channels));
+    return image;
+}
+
+bool is_image_name(const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    for (char& c : ending)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+    return std::find(image_endings.begin(), image_endings.end(), ending) != image_endings.end();
+}
 
 Image read_image(const std::string& path) {
     const File file = open(path);
@@ -218,12 +156,17 @@ Image read_image(const std::string& path) {
     const std::string_view start(bytes.data(), count);
     std::rewind(file.get());
     if (start == "\x89PNG\r\n\x1a\n") return read_png(path, file.get());
-    if (start.starts_with("P2") || start.starts_with("P5")) {
+    if (count > 2 && start[0] == 'P' && start[1] >= '1' && start[1] <= '6') {
         std::fseek(file.get(), 2, SEEK_SET);
-        return PgmReader(path, file.get()).read(start[1] == '2');
+        return read_netpbm(path, file.get(), start[1]);
     }
-    fail(path, fmt::format("{}; expected a PNG or PGM image; convert it to PNG",
-                           count == 0 ? "an empty file" : "neither a PNG nor a PGM"));
+    if (start.starts_with("\xff\xd8\xff")) return read_by_library(path, file.get(), "JPEG");
+    if (start.starts_with("BM")) return read_by_library(path, file.get(), "BMP");
+    if (start.starts_with("GIF8")) return read_by_library(path, file.get(), "GIF");
+    image_error(path,
+                fmt::format("{}; expected {}; convert it to PNG",
+                            count == 0 ? "an empty file" : "no picture of a kind that is read",
+                            expected_kinds));
 }
 
 }  // namespace rovernet

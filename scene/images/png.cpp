@@ -29,7 +29,7 @@ struct PngWriter {
 
     [[noreturn]] static void on_error(png_structp png, png_const_charp) { png_longjmp(png, 1); }
     static void on_warning(png_structp, png_const_charp) {}
-    /// No exception may pass through libpng: memory that is out ends the program.
+    /// No exception may pass through libpng: lack of memory ends the program.
     static void append(png_structp png, png_bytep bytes, std::size_t count) noexcept {
         static_cast<PngWriter*>(png_get_io_ptr(png))
             ->out.append(reinterpret_cast<const char*>(bytes), count);

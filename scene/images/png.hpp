@@ -7,8 +7,8 @@
 
 namespace rovernet {
 
-/// The picture as a PNG file's bytes. They depend on nothing but the picture and zlib's version.
-/// @throws std::invalid_argument if the picture's sizes and samples do not fit together
+/// Image as the bytes of a PNG file. They depend only on the image and on zlib's version.
+/// @throws std::invalid_argument if the image's size does not match its number of samples
 std::string to_png(const Image& image);
 
 }  // namespace rovernet

@@ -11,36 +11,37 @@
 
 namespace rovernet {
 
-/// What a wall is made of, and so what it takes from a signal that passes through.
+/// Material of a wall, which determines its loss for a signal that passes through.
 ///
-/// A material that gives no loss of its own follows the propagation model's (its wall factor).
+/// A material without a loss of its own has the loss of the propagation model (its wall factor).
 struct Material {
     std::string name = "wall";
-    std::optional<Db> per_crossing = std::nullopt;       ///< [dB] whatever the length inside
-    std::optional<DbPerMeter> per_metre = std::nullopt;  ///< [dB/m] of length inside, >= 0
-    std::optional<ItuMaterial> slab = std::nullopt;      ///< a slab of this, whatever is drawn ...
-    Meters thickness{0};                                 ///< ... and its thickness [m], > 0
-    Meters height{std::numeric_limits<double>::infinity()};  ///< [m] the wall stands from 0 to here
+    /// Loss of each crossing [dB], for any length inside.
+    std::optional<Db> per_crossing = std::nullopt;
+    std::optional<DbPerMeter> per_metre = std::nullopt;  ///< loss by length inside [dB/m], >= 0
+    std::optional<ItuMaterial> slab = std::nullopt;      ///< loss of a slab of this ITU material
+    Meters thickness{0};  ///< thickness of that slab [m], > 0, independent of the drawn one
+    Meters height{std::numeric_limits<double>::infinity()};  ///< height of the wall [m]
 
     bool follows_model() const { return !per_crossing && !per_metre && !slab; }
     friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// What one crossing of a wall takes at one frequency.
+/// Loss of a crossing of one wall at one frequency.
 struct WallRate {
-    double per_crossing = 0;  ///< [dB]
-    double per_metre = 0;     ///< [dB/m]
+    double per_crossing = 0;  ///< loss of a crossing [dB]
+    double per_metre = 0;     ///< loss per metre inside [dB/m]
 };
 
-/// What crossings of walls take, by the walls' drawn thickness.
+/// Losses of wall crossings for thin and thick walls, by drawn thickness.
 struct WallRates {
-    std::vector<WallRate> light;  ///< by material, of walls that are thinner than ...
-    std::vector<WallRate> heavy;  ///< by material, of others
-    Meters thinnest_heavy;        ///< ... this [m]
+    std::vector<WallRate> light;  ///< rates by material, for walls thinner than thinnest_heavy
+    std::vector<WallRate> heavy;  ///< rates by material, for all other walls
+    Meters thinnest_heavy;        ///< smallest thickness of a heavy wall [m]
 };
 
-/// The rate of `material` at `frequency`; one that follows the model takes `usual_per_metre`
-/// [dB/m].
+/// Loss of `material` at `frequency`; a material that follows the propagation model has a loss of
+/// `usual_per_metre` [dB/m].
 WallRate wall_rate(const Material& material, Hertz frequency, double usual_per_metre);
 
 }  // namespace rovernet

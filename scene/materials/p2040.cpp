@@ -57,7 +57,8 @@ struct Losses {
 Losses losses(Complex x, Complex a, double k) {
     constexpr double db_per_neper = 8.685889638065037;
     const Complex r = math::quotient(x - a, x + a);
-    // 1 - r^2 along the face, where r is nearly -1, has no digits as a difference.
+    // 1 - r^2 in product form, because as a difference it loses its digits at grazing angles (r
+    // near -1).
     const Complex both_faces = math::quotient(4.0 * x * a, (x + a) * (x + a));
     const Complex twice = math::exp(Complex{0, -2 * k} * a);  // over to the other face and back
     // |T| = |1 - r^2| |e^-jq| / |1 - r^2 e^-2jq|; the middle factor in decibels, where a thick

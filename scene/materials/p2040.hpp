@@ -31,29 +31,30 @@ struct EnumNames<ItuMaterial> {
         "chipboard", "plywood", "marble",       "floorboard", "metal"};
 };
 
-/// Electrical properties at one frequency.
+/// Electrical properties of a material at one frequency.
 struct Permittivity {
     double real;       ///< relative permittivity eps_r [-]
     double imaginary;  ///< sigma / (2 pi f eps_0) [-], > 0 for a lossy material
 };
 
-/// eps_r = a f^b and sigma = c f^d [S/m], f in GHz; beyond the table's range (1-100 GHz for most)
-/// the law is extrapolated. Source: ITU-R P.2040-3, table 3 and eq. 28.
+/// Complex relative permittivity of a material: eps_r = a f^b and sigma = c f^d [S/m], f in GHz;
+/// extrapolated beyond the table's range (1-100 GHz for most materials). Source: ITU-R P.2040-3,
+/// table 3 and eq. 28.
 Permittivity permittivity(ItuMaterial material, Hertz frequency);
 
-/// What a flat slab in air takes from a plane wave [dB], reflections inside included: of the wave
-/// that passes through, and of the one that comes back. TE: the electric field stands across the
-/// plane of incidence, as that of an upright antenna before an upright wall; TM: it lies in it.
+/// Losses [dB] of a plane wave at a flat slab in air, for the transmitted and for the reflected
+/// wave; reflections inside the slab are included. TE: the electric field is perpendicular to the
+/// plane of incidence, as from a vertical antenna at a vertical wall; TM: it lies in that plane.
 struct SlabLosses {
     Db te_transmission, tm_transmission;
     Db te_reflection, tm_reflection;
 };
 
-/// Losses of a slab at an angle. Those of transmission are finite for any thickness; what does not
-/// reflect, a slab of thickness 0 say, has an infinite loss of reflection.
+/// Losses of a slab at an angle of incidence. Transmission losses are finite for any thickness; the
+/// reflection loss is infinite if nothing is reflected, as for thickness 0.
 /// Source: ITU-R P.2040-3, eqs. 37, 43 and 44.
 /// @param thickness  [m], >= 0
-/// @param incidence  angle between the wave's way and the normal [rad], from 0 to pi / 2
+/// @param incidence  angle between the wave's direction and the normal [rad], from 0 to pi / 2
 SlabLosses slab_losses(ItuMaterial material, Meters thickness, Hertz frequency, Radians incidence);
 
 /// Transmission loss [dB] of a slab at normal incidence, see slab_losses().

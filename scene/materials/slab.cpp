@@ -14,12 +14,12 @@ Slab::Slab(ItuMaterial material, Hertz frequency)
 }
 
 SlabFields Slab::fields(double thickness, double cosine) const {
-    // eta - sin^2 = eta - 1 + cos^2 keeps its digits at grazing incidence.
+    // eta - sin^2 = eta - 1 + cos^2 is accurate at grazing incidence.
     const Complex a = math::square_root(permittivity_ - 1.0 + cosine * cosine);
     const Complex r = math::quotient(cosine - a, cosine + a);
     const double kd = wave_number_ * thickness;
     const double decay = kd * -a.imag();
-    // Twice through: nothing is left of it in a slab that is thick.
+    // Twice through the slab: exactly 0 in a thick slab.
     const Complex once = math::phasor(-kd * a.real());
     const double left = math::exp(-2 * decay);
     const Complex twice = left == 0 ? Complex{} : left * once * once;

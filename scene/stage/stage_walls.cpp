@@ -33,7 +33,7 @@ bool is_wall(const Image& image, int column, int row) {
     return image.samples[pixel * static_cast<std::size_t>(image.channels)] <= 127;
 }
 
-/// The part of a picture that holds its walls; half open, row 0 on top.
+/// Part of an image that contains its walls; half open, row 0 on top.
 CellRectangle walls_of(const Image& image) {
     CellRectangle box{image.width, image.height, 0, 0};
     for (int row = 0; row < image.height; ++row) {
@@ -55,13 +55,12 @@ OccupancyGrid one_cell(double width, double height) {
     return grid;
 }
 
-/// What stops a laser. Stage's default is to.
+/// Whether a laser is stopped, the default of Stage. In Stage 2 and 3 it passes at 0, in Stage 4
+/// only below 0.
 bool seen(const WorldEntity& entity) {
-    for (const std::string_view key : {"laser_return", "ranger_return"}) {
-        const WorldProperty* given = entity.find(key);
-        if (given && given->number() <= 0) return false;
-    }
-    return true;
+    const WorldProperty* of_laser = entity.find("laser_return");
+    const WorldProperty* of_ranger = entity.find("ranger_return");
+    return !(of_laser && of_laser->number() <= 0) && !(of_ranger && of_ranger->number() < 0);
 }
 
 bool is_on(const WorldEntity& entity, std::string_view key) {
@@ -97,7 +96,7 @@ class Builder {
     }
 
   private:
-    /// A model's body: where it is and how large.
+    /// Position and size of a model's body.
     struct Body {
         WorldPose middle;
         WorldSize size;
@@ -141,6 +140,7 @@ void Builder::add_model(const WorldEntity& model, const WorldPose& pose) {
     if (size.x < smallest_wall || size.y < smallest_wall) return;
     auto outlines = wall_polygons(model);
     const WorldProperty* bitmap = model.find("bitmap");
+    if (bitmap && bitmap->text().empty()) bitmap = nullptr;  // as in Stage: none
     const bool is_box = !bitmap && outlines.empty() && !is_on(model, "noblocks");
     const bool boundary = is_on(model, "boundary");
     if (!bitmap && !is_box && outlines.empty() && !boundary) return;
@@ -174,7 +174,7 @@ void Builder::add_bitmap(const WorldProperty& bitmap, const Body& body) {
     place(std::move(grid), body);
 }
 
-/// The part of a picture that holds its walls, read once however many models show it.
+/// Part of an image that contains its walls; each image is read only once.
 const OccupancyGrid& Builder::drawing(const std::string& path, const Location& where) {
     const auto [entry, is_new] = drawings_.try_emplace(path);
     OccupancyGrid& grid = entry->second;
@@ -194,7 +194,7 @@ const OccupancyGrid& Builder::drawing(const std::string& path, const Location& w
     return grid;
 }
 
-/// The picture to read, or none if it is missing and that is all right.
+/// Path of the image, or empty if it is missing and that is allowed.
 std::optional<std::string> Builder::picture(const WorldProperty& bitmap) {
     const std::filesystem::path written(bitmap.text());
     std::string name = written.string();
@@ -242,7 +242,7 @@ void Builder::add_outlines(std::vector<WallPolygon> outlines, const Body& body) 
     }
 }
 
-/// Left and right walls from end to end, the others between them.
+/// Adds boundary walls: left and right walls over the whole height, the others between them.
 void Builder::add_boundary(const Body& body) {
     const double w = body.size.x, h = body.size.y;
     const double across = std::min(boundary_thickness, w / 2);
@@ -259,7 +259,7 @@ void Builder::add_boundary(const Body& body) {
     add(-w / 2 + across, h / 2 - up, w - 2 * across, up);
 }
 
-/// Takes a grid from its place on the body to its place in the world.
+/// Transforms a grid from its place on the body to its place in the world.
 void Builder::place(OccupancyGrid grid, const Body& body) {
     if (std::find(grid.cells.begin(), grid.cells.end(), Cell::occupied) == grid.cells.end()) return;
     const WorldPose corner = body.middle * WorldPose{grid.origin, 0};

@@ -13,7 +13,7 @@
 namespace rovernet {
 namespace {
 
-/// The properties of one entity by name; of a name's several the last.
+/// Properties of one entity by name; the last of several with one name.
 using Properties = std::map<std::string_view, const WorldProperty*>;
 
 Properties properties_of(const WorldEntity& entity) {
@@ -47,7 +47,7 @@ Vec3 point(const WorldProperty& property) {
                                                  property.name, property.name));
 }
 
-/// The outline under `prefix`: its keys are PREFIXpoints and PREFIXpoint[0] and so on.
+/// Outline under `prefix`: its keys are PREFIXpoints and PREFIXpoint[0] and so on.
 WallPolygon outline(const Properties& properties, const std::string& prefix,
                     const Location& where) {
     const auto points = properties.find(prefix + "points");
@@ -74,7 +74,7 @@ WallPolygon outline(const Properties& properties, const std::string& prefix,
     return polygon;
 }
 
-/// Where the outline crosses the line at height y, ascending.
+/// Intersections of the outline with the line at height y, ascending.
 void crossings(const std::vector<Vec3>& points, double y, std::vector<double>& out) {
     out.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {

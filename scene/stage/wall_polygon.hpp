@@ -7,30 +7,29 @@
 #include "sim/error.hpp"
 #include "sim/geometry.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace rovernet {
 
-/// A closed outline on a model's body; z is 0.
+/// Closed outline on a model's body; z is 0.
 struct WallPolygon {
     std::vector<Vec3> points;
     Location where;
 
-    /// Four corners, with sides along the axes.
+    /// Whether the outline is a rectangle with sides parallel to the axes.
     bool is_box() const;
 };
 
-/// The outlines of a model as the file gives them, unscaled: polygon[i].point[j] of Stage 2,
-/// block[i].point[j] of Stage 3 and the `block` children of Stage 3 and 4.
-/// @throws InputError for a point that is missing or is no [x y]
+/// Outlines of a model as in the file, unscaled: polygon[i].point[j] of Stage 2, block[i].point[j]
+/// of Stage 3 and the `block` children of Stage 3 and 4.
+/// @throws InputError for a point that is missing or not of the form [x y]
 std::vector<WallPolygon> wall_polygons(const WorldEntity& entity);
 
-/// Stretches all outlines together, until the box around them fills `size`, its middle at (0, 0).
-/// False, and nothing done, if that box has no width or no height.
+/// Scales all outlines together, so that their bounding box fills `size` and is centred at (0, 0).
+/// Returns false, and changes nothing, if the box has no width or no height.
 bool fit(std::vector<WallPolygon>& polygons, const WorldSize& size);
 
-/// The box around the points.
+/// Bounding box of points.
 struct Extent {
     double x0 = 0;
     double y0 = 0;
@@ -39,12 +38,12 @@ struct Extent {
 };
 Extent extent_of(const std::vector<Vec3>& points);
 
-/// The inside of an outline (by the even-odd rule) as cells of at most `cell` [m] over its extent;
-/// a cell is a wall if its middle is inside. An axis-parallel box is one cell.
-/// The grid's origin is relative to the body.
+/// Interior of an outline (by the even-odd rule) as cells of at most `cell` [m] over its extent; a
+/// cell is a wall if its centre is inside. An axis-parallel box is one cell. The grid's origin is
+/// relative to the body.
 OccupancyGrid filled(const WallPolygon& polygon, double cell);
 
-/// Work that filled() has, in cells and edges looked at.
+/// Cost of filled(): number of cells and edges that it visits.
 double filling_work(const WallPolygon& polygon, double cell);
 
 }  // namespace rovernet

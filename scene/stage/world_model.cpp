@@ -17,7 +17,7 @@ namespace {
 constexpr double pi_ = 3.14159265358979323846;
 constexpr double largest_coordinate = 1e9;  // [m] the plane is no larger
 
-/// The numbers of a tuple. @throws InputError unless there are `least` to `most` of them
+/// Numbers of a tuple. @throws InputError unless there are `least` to `most` of them
 std::vector<double> numbers(const WorldProperty& property, std::size_t least, std::size_t most,
                             std::string_view form) {
     std::vector<double> out;
@@ -35,7 +35,7 @@ std::vector<double> numbers(const WorldProperty& property, std::size_t least, st
 }
 
 double length(const WorldProperty& property, double number, const WorldUnits& units) {
-    const double metres = number * units.metres;
+    const double metres = units.metres(number);
     if (std::abs(metres) <= largest_coordinate) return metres;
     throw InputError(property.where,
                      fmt::format("{}: found {} m; expected at most 1e9 m; check the number",
@@ -49,8 +49,9 @@ void collect_wifis(const WorldEntity& entity, std::vector<const WorldEntity*>& o
     }
 }
 
-double one_unit(const WorldEntity& root, std::string_view key,
-                const std::vector<std::pair<std::string, double>>& units) {
+template <class Size>
+Size one_unit(const WorldEntity& root, std::string_view key,
+              const std::vector<std::pair<std::string, Size>>& units) {
     const WorldProperty* property = root.find(key);
     if (!property) return units.front().second;
     std::vector<std::string> names;
@@ -98,8 +99,8 @@ std::vector<const WorldEntity*> wifis(const WorldEntity& entity) {
 }
 
 WorldUnits world_units(const WorldFile& world) {
-    return {one_unit(world.root, "unit_length", {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}}),
-            one_unit(world.root, "unit_angle", {{"degrees", 1}, {"radians", 180 / pi_}})};
+    return {one_unit<int>(world.root, "unit_length", {{"m", 0}, {"cm", -2}, {"mm", -3}}),
+            one_unit<double>(world.root, "unit_angle", {{"degrees", 1}, {"radians", 180 / pi_}})};
 }
 
 WorldPose operator*(const WorldPose& outer, const WorldPose& inner) {
@@ -128,7 +129,8 @@ WorldSize world_size(const WorldEntity& entity, const WorldUnits& units) {
     constexpr double usual = 0.4;
     const WorldProperty* property = entity.find("size");
     if (!property) return {usual, usual};
-    const auto v = numbers(*property, 2, 3, "[x y] or [x y z]");
+    constexpr std::size_t all_numbers = 1'000'000;  // Stage reads the first ones
+    const auto v = numbers(*property, 2, all_numbers, "[x y] or [x y z]");
     const WorldSize size{length(*property, v[0], units), length(*property, v[1], units)};
     if (size.x >= 0 && size.y >= 0) return size;
     throw InputError(property->where,

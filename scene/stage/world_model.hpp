@@ -3,6 +3,7 @@
 
 #include "scene/stage/worldfile.hpp"
 #include "sim/geometry.hpp"
+#include "sim/power_of_ten.hpp"
 
 #include <string>
 #include <string_view>
@@ -10,56 +11,60 @@
 
 namespace rovernet {
 
-/// Role of a model of a Stage world for radio.
+/// Role of a Stage model for the radio simulation.
 enum class WorldRole {
-    robot,    ///< a position
-    wall,     ///< a model
-    radio,    ///< a wifi
-    shape,    ///< a block: a part of its model's body
+    robot,    ///< model type "position"
+    wall,     ///< model type "model"
+    radio,    ///< model type "wifi"
+    shape,    ///< model type "block": a part of its model's body
     ignored,  ///< sensors, tools, windows
 };
 
-/// Role of a model, by its type. A type that Stage does not know is a robot if it has a wifi, else
-/// a wall if it has a bitmap: so it is with macros whose include is missing.
+/// Role of a model, by its type. A type unknown to Stage is a robot if it has a wifi, otherwise a
+/// wall if it has a bitmap; this applies to macros whose include is missing.
 WorldRole world_role(const WorldEntity& entity);
 
-/// The types of Stage 2 to 4.
+/// Model types of Stage 2 to 4.
 const std::vector<std::string>& stage_types();
 
-/// The `wifi` of a model: its own and those of its parts, not those of other positions in it.
+/// `wifi` models of a model: in the model and its parts, but not in other positions inside it.
 std::vector<const WorldEntity*> wifis(const WorldEntity& entity);
 
-/// Units of the file.
+/// Units of length and angle of a world file.
 struct WorldUnits {
-    double metres = 1;   ///< [m] by unit_length: "m", "cm" or "mm"
-    double degrees = 1;  ///< [deg] by unit_angle: "degrees" or "radians"
+    int length_exponent = 0;  ///< power of ten of unit_length [m]: 0 "m", -2 "cm", -3 "mm"
+    double degrees = 1;       ///< size of unit_angle [deg]: 1 for "degrees", 180 / pi for "radians"
+
+    /// Length [m] for a number in the file's unit of length.
+    double metres(double number) const { return times_power_of_ten(number, length_exponent); }
 };
 
-/// @throws InputError for a unit that Stage does not know
+/// Units that a world file sets. @throws InputError for a unit unknown to Stage
 WorldUnits world_units(const WorldFile& world);
 
-/// A place and a direction, in the frame of the parent or of the world.
+/// Position and direction, in the frame of the parent or of the world.
 struct WorldPose {
-    Vec3 at{};           ///< [m]
-    double degrees = 0;  ///< counter-clockwise from the x axis
+    Vec3 at{};           ///< position [m]
+    double degrees = 0;  ///< direction [deg], counter-clockwise from the x axis
 };
 
-/// `inner`, given in the frame of `outer`, in the frame that `outer` is given in. z does not add.
+/// Composition of poses: `inner` is given in the frame of `outer`; the result is in the parent
+/// frame of `outer`. Heights z are not added.
 WorldPose operator*(const WorldPose& outer, const WorldPose& inner);
 
-/// [x y], [x y a] (Stage 2) or [x y z a] (Stage 3 and 4) under `key`; all 0 without it.
-/// @throws InputError for anything else, and beyond 1e9 m
+/// Pose under `key`: [x y], [x y a] (Stage 2) or [x y z a] (Stage 3 and 4); all 0 without the key.
+/// @throws InputError for any other value, and for coordinates beyond 1e9 m
 WorldPose world_pose(const WorldEntity& entity, std::string_view key, const WorldUnits& units);
 WorldPose world_pose(const WorldProperty& property, const WorldUnits& units);
 
-/// Extents along the model's own axes [m], >= 0.
+/// Extents of a model along its own axes [m], >= 0.
 struct WorldSize {
     double x = 0;
     double y = 0;
 };
 
-/// The key size, [x y] (Stage 2) or [x y z] (Stage 3 and 4); 0.4 m both ways, Stage 4's default,
-/// without it. @throws InputError for anything else, below 0 and beyond 1e9 m
+/// Value of the key `size`: [x y] (Stage 2) or [x y z] (Stage 3 and 4); without the key 0.4 m x 0.4
+/// m, the default of Stage 4. @throws InputError for any other value, below 0 and beyond 1e9 m
 WorldSize world_size(const WorldEntity& entity, const WorldUnits& units);
 
 /// Sine and cosine of an angle in degrees, exact for multiples of 90.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace rovernet {
@@ -13,7 +14,7 @@ namespace {
 
 using Kind = WorldToken::Kind;
 
-// The C library's own depend on the locale.
+// Functions of the C library depend on the locale.
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_numeric(char c) { return is_digit(c) || c == '+' || c == '-' || c == '.'; }
@@ -21,14 +22,15 @@ bool is_word(char c) {
     return is_letter(c) || is_digit(c) || c == '.' || c == '-' || c == '_' || c == '[' || c == ']';
 }
 
-/// Reads the whole of `text`; false if it is no finite number.
-bool read_number(std::string_view text, double& out) {
+/// Reads the number at the start of `text`; returns the rest, or empty if there is no number.
+std::optional<std::string_view> read_number(std::string_view text, double& out) {
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-    return error == std::errc{} && end == text.data() + text.size() && std::isfinite(out);
+    if (error != std::errc{} || !std::isfinite(out)) return std::nullopt;
+    return text.substr(static_cast<std::size_t>(end - text.data()));
 }
 
-/// Without an exponent, or "" where that would be long.
+/// Number without an exponent, or "" if that would be long.
 std::string decimals(double value) {
     if (value != 0 && (std::abs(value) < 1e-12 || std::abs(value) > 1e12)) return "";
     char digits[64];
@@ -37,8 +39,8 @@ std::string decimals(double value) {
     return error == std::errc{} ? std::string(digits, end) : "";
 }
 
-/// Length of the UTF-8 character at the front of `text`, or 0 if it is none. Surrogates and
-/// overlong forms are not looked for.
+/// Length of the UTF-8 character at the start of `text`, or 0 if it is invalid. Surrogates and
+/// overlong forms are not detected.
 std::size_t character_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned lead = byte(0);
@@ -54,7 +56,7 @@ std::size_t character_length(std::string_view text) {
     return length;
 }
 
-/// Where in `text` the first thing stands that no text may hold; npos if there is none.
+/// Position of the first invalid character in `text`; npos if there is none.
 std::size_t first_bad(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
         const std::size_t length = character_length(text.substr(i));
@@ -142,9 +144,11 @@ WorldToken WorldScanner::number() {
     }
     const std::string_view found = text_.substr(at_, end - at_);
     double value = 0;
-    if (glued || !read_number(found, value)) reject_number(found);
+    const auto behind = glued ? std::nullopt : read_number(found, value);
+    if (!behind) reject_number(found);
     WorldToken token = piece(Kind::number, found.size());
     token.number = value;
+    token.is_cut = !behind->empty();
     return token;
 }
 
@@ -182,7 +186,8 @@ void WorldScanner::fail(std::size_t at, const std::string& message) const {
 
 void WorldScanner::reject_number(std::string_view found) const {
     double value = 0;
-    const bool exponent = found.find_first_of("eE") != found.npos && read_number(found, value);
+    const bool exponent =
+        found.find_first_of("eE") != found.npos && read_number(found, value) == "";
     const std::string plain = exponent ? decimals(value) : "";
     if (exponent) {
         fail(at_, fmt::format("found \"{}\"; expected a number without an exponent; write {}",
@@ -205,6 +210,10 @@ void WorldScanner::reject_character() const {
         case '=': fail(at_, "found \"=\"; expected a key, a blank and its value; write power 30");
         case '{':
         case '}': fail(at_, fmt::format("found \"{}\"; expected ( and ); write model ( ... )", c));
+        case '<':
+            fail(at_,
+                 "found \"<\"; expected a world of Stage; is this XML, such as a world of "
+                 "Gazebo? rovernet reads none");
         case '/': fail(at_, "found \"/\"; expected a key or a value; a comment begins with #");
         default: break;
     }

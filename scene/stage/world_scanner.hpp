@@ -9,16 +9,16 @@
 
 namespace rovernet {
 
-/// Cuts the text of one world file into tokens.
+/// Lexer: splits the text of one world file into tokens.
 class WorldScanner {
   public:
-    /// @param text    must outlive the scanner
+    /// @param text    text of the file, which must outlive the scanner
     /// @param file    number of the file, for its tokens
-    /// @param source  its name, for errors
+    /// @param source  name of the file, for errors
     WorldScanner(std::string_view text, int file, std::string source);
 
-    /// The next token; file_end once the text is over, and from then on.
-    /// @throws InputError for what is no token
+    /// Next token; always file_end after the end of the text.
+    /// @throws InputError for text that is not a token
     WorldToken next();
 
   private:

@@ -9,24 +9,24 @@
 
 namespace rovernet {
 
-/// Search for the includes and bitmaps of a world: in the folder of the world, then
-/// WorldOptions::search_path, then the folders of the environment variable STAGEPATH.
+/// Search for the includes and bitmaps of a world: first in the folder of the world, then in
+/// WorldOptions::search_path, then in the folders of the environment variable STAGEPATH.
 class WorldSearch {
   public:
-    /// @param world_path  the top file, as the user named it
+    /// @param world_path  path of the top file, as the user named it
     WorldSearch(const std::string& world_path, const WorldOptions& options);
 
-    /// Result of a search.
+    /// Result of a search for a file.
     struct Result {
-        std::optional<std::string> path = {};  ///< path of the first regular file there is
-        std::vector<std::string> tried = {};   ///< every place looked at, in order
+        std::optional<std::string> path = {};  ///< path of the first regular file found
+        std::vector<std::string> tried = {};   ///< all paths tried, in order
 
-        /// The places tried, for an error: "a, b and c".
+        /// Paths tried, for an error: "a, b and c".
         std::string places() const;
     };
 
-    /// Looks for `name` in each folder, then for its last part alone in each. An absolute name is
-    /// first looked for as it stands.
+    /// Searches each folder for `name`, then each folder for the file name alone. An absolute path
+    /// is tried first as given.
     Result find(const std::string& name) const;
 
   private:

@@ -2,13 +2,13 @@
 #include "scene/stage/world_tokens.hpp"
 
 #include "files/input_file.hpp"
+#include "files/text_source.hpp"
 #include "scene/stage/world_scanner.hpp"
 #include "scene/stage/world_search.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <ios>
@@ -25,7 +25,7 @@ constexpr std::uintmax_t most_bytes = 64 << 20;
 constexpr std::size_t deepest_include = 16;
 constexpr std::size_t most_files = 10'000;
 
-/// Files into tokens, includes where they stand.
+/// Reads files as tokens, with includes in place.
 class Loader {
   public:
     Loader(const std::string& path, const WorldOptions& options)
@@ -78,6 +78,8 @@ std::string Loader::text_of(const std::string& path, const Location& where) {
     std::string text(static_cast<std::size_t>(size), '\0');
     file.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(file.gcount()));
+    if (const std::string_view foreign = foreign_kind(text); !foreign.empty())
+        throw InputError(where, fmt::format("{}; expected a world file, unpacked", foreign));
     return text;
 }
 

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <map>
 #include <set>
-#include <utility>
 
 namespace rovernet {
 namespace {
@@ -19,7 +18,7 @@ using Kind = WorldToken::Kind;
 
 constexpr int deepest = 64;
 
-/// Tokens into entities. Macros are tokens that are read again at each use.
+/// Parser of tokens to entities. The tokens of a macro are parsed again at each use.
 class Parser {
   public:
     explicit Parser(const WorldTokens& tokens) : tokens_(tokens) {}
@@ -51,6 +50,7 @@ class Parser {
     void statement(std::size_t& at, const WorldToken& name, WorldEntity& into, int depth);
     void property(std::size_t& at, WorldEntity& into, const WorldToken& name);
     void tuple(std::size_t& at, WorldProperty& into);
+    double number(const WorldToken& token);
     void define(std::size_t& at, int depth);
     WorldEntity entity(std::size_t& at, const WorldToken& type, int depth);
     void start(WorldEntity& entity, const std::string& type, const WorldToken& use, int depth);
@@ -71,7 +71,7 @@ void Parser::note(const Location& place, const std::string& text) {
     if (noted_.insert(notice).second) notices_.push_back(std::move(notice));
 }
 
-/// Counts what the file and its macros come to.
+/// Counts the tokens of the file and of its expanded macros.
 const WorldToken& Parser::take(std::size_t& at) {
     const WorldToken& taken = token(at);
     if (taken.kind != Kind::file_end) ++at;
@@ -89,7 +89,7 @@ void Parser::skip_line_ends(std::size_t& at) {
     while (token(at).kind == Kind::line_end) take(at);
 }
 
-/// The statements up to the ")" of `opened`, or to the end of the file if it is null.
+/// Parses the statements up to the ")" of `opened`, or to the end of the file if it is null.
 void Parser::body(std::size_t& at, WorldEntity& into, int depth, const WorldToken* opened) {
     for (;;) {
         const WorldToken& next = take(at);
@@ -145,7 +145,7 @@ void Parser::property(std::size_t& at, WorldEntity& into, const WorldToken& name
     if (value.kind == Kind::open_tuple) {
         tuple(at, property);
     } else if (value.kind == Kind::number) {
-        property.values.emplace_back(value.number);
+        property.values.emplace_back(number(value));
     } else {
         property.values.emplace_back(value.text);
     }
@@ -157,19 +157,30 @@ void Parser::tuple(std::size_t& at, WorldProperty& into) {
     for (;;) {
         const WorldToken& value = take(at);
         if (value.kind == Kind::close_tuple) return;
+        if (value.kind == Kind::line_end) continue;
         if (value.kind == Kind::number) {
-            into.values.emplace_back(value.number);
+            into.values.emplace_back(number(value));
         } else if (value.kind == Kind::text) {
             into.values.emplace_back(value.text);
         } else {
             fail(value, fmt::format("found {} inside the [ ] of \"{}\"; expected numbers or texts "
-                                    "and the \"]\", all on one line; {}",
+                                    "and the \"]\"; {}",
                                     value.description(), into.name,
-                                    value.kind == Kind::word ? "put a text in quotes"
-                                                             : "add the "
-                                                               "\"]\""));
+                                    value.kind == Kind::word && value.line == into.where.line
+                                        ? "put a text in quotes"
+                                        : "add the \"]\""));
         }
     }
+}
+
+/// Value of a number, with a notice if it is followed by ignored characters.
+double Parser::number(const WorldToken& token) {
+    if (token.is_cut) {
+        note(where(token),
+             fmt::format("\"{}\" is read as {}, as in Stage; what follows counts nothing",
+                         token.text, token.number));
+    }
+    return token.number;
 }
 
 void Parser::define(std::size_t& at, int depth) {
@@ -212,7 +223,7 @@ WorldEntity Parser::entity(std::size_t& at, const WorldToken& type, int depth) {
     return made;
 }
 
-/// Fills an entity with what its macro says, if its type is a macro.
+/// Fills an entity with the content of its macro, if its type is a macro.
 void Parser::start(WorldEntity& entity, const std::string& type, const WorldToken& use, int depth) {
     if (depth > deepest) {
         fail(use, fmt::format("\"{}\" is more than {} deep in others; expected less; does a macro "

@@ -11,60 +11,62 @@
 
 namespace rovernet {
 
-/// A number or a text of a world file.
+/// Number or text in a world file.
 using WorldAtom = std::variant<double, std::string>;
 
-/// `name value` or `name [values]`.
+/// Property of a world file: `name value` or `name [values]`.
 struct WorldProperty {
     std::string name;
     std::vector<WorldAtom> values;
     bool is_tuple = false;
-    Location where;  ///< place of the name
+    Location where;  ///< place of the property's name in the file
 
-    /// The number or text. @throws InputError if the value is anything else
+    /// Value as a number or as a text. @throws InputError if the value is of another type
     double number() const;
     const std::string& text() const;
 };
 
-/// `type ( properties and children )`; macros are expanded: `type` is the last one's base.
+/// Entity `type ( properties and children )`; macros are expanded: `type` is the base type of the
+/// macro.
 struct WorldEntity {
-    std::string type = {};                       ///< "position", "model", "wifi"; "" for the file
-    std::string macro = {};                      ///< the name it was made by, if it is a macro's
-    std::vector<WorldProperty> properties = {};  ///< a later one of the same name overrides
+    std::string type = {};   ///< "position", "model", "wifi"; "" for the whole file
+    std::string macro = {};  ///< name of the macro that the entity uses, if any
+    std::vector<WorldProperty> properties = {};  ///< the last property of a name counts
     std::vector<WorldEntity> children = {};
     Location where = {};
 
-    /// The last property of that name, or null.
+    /// Last property of that name; null if there is none.
     const WorldProperty* find(std::string_view name) const;
 };
 
 /// Options of reading Stage worlds.
 struct WorldOptions {
     std::vector<std::string> search_path =
-        {};  ///< folders for includes and bitmaps, then STAGEPATH
-    /// Bitmaps by other names: OLD as the world names it, NEW relative to the world or to OLD.
+        {};  ///< folders for includes and bitmaps, before STAGEPATH
+    /// Replaced bitmaps: use NEW wherever the world names OLD; NEW is relative to the world or to
+    /// OLD.
     std::vector<std::pair<std::string, std::string>> bitmaps = {};
-    bool lenient = false;  ///< a missing include or bitmap is a notice, not an error
+    bool lenient = false;  ///< a missing include or bitmap causes a notice, not an error
 };
 
-/// A parsed world: its entities, and what a person should know of it.
+/// Parsed world: its entities, and notices for the user.
 struct WorldFile {
     std::string path;
-    WorldEntity root;                  ///< the globals are its properties, the models its children
-    std::vector<std::string> notices;  ///< each "file:line: text"
+    WorldEntity root;                  ///< its properties are the globals, its children the models
+    std::vector<std::string> notices;  ///< notices for the user, each "file:line: text"
 };
 
-/// Reads a Stage world file, of Stage 2 to 4, with its includes and macros. Lengths and angles are
-/// as in the file.
+/// Reads a Stage world file (Stage 2 to 4) with its includes and macros. Lengths and angles are in
+/// the units of the file.
 ///
-/// A macro's use is the macro's entity with the properties and children of the use appended. Of two
-/// macros of one name the first counts. A model type that Stage does not know is a notice. Bounds:
-/// 16 MiB a file and 64 MiB in all, includes 16 deep, entities and macros 64 deep, 1e6 words and
-/// values once the macros are expanded.
+/// The use of a macro becomes the macro's entity with the properties and children of the use
+/// appended. Of two macros with one name the first counts. A model type unknown to Stage causes a
+/// notice. Limits: 16 MiB per file and 64 MiB in total, includes 16 deep, entities and macros 64
+/// deep, 1e6 words and values after macro expansion.
 /// @throws InputError with file, line and column
 WorldFile read_worldfile(const std::string& path, const WorldOptions& options);
 
-/// "file:line: text": how a world's notices read; "file: text" for a place without a line.
+/// Text of a world's notice: "file:line: text"; "file: text" for a place without a line.
 std::string world_notice(const Location& where, std::string_view text);
 
 }  // namespace rovernet

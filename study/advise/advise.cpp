@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace rovernet {
@@ -116,9 +115,7 @@ JudgedCandidate Advisor::judged(const Combination& c, const Ladder& ladder, std:
                         .needed = i <= ladder.choice().value_or(ladder.size()),
                         .bias_interval = {},
                         .run_error_interval = {},
-                        .cost = {},
-                        .helper = {},
-                        .mix = {}};
+                        .cost = {}};
     const CandidateDecision& decision = out.decision;
     const std::vector<double> differences = decision.differences();
     if (differences.empty()) return out;
@@ -134,7 +131,6 @@ JudgedCandidate Advisor::judged(const Combination& c, const Ladder& ladder, std:
     const Bounds size_bounds =
         rule_.by_betting() ? Bounds{0.0, difference_bounds(rule_.bounds).high} : Bounds{};
     out.run_error_interval = interval_of(sizes, size_bounds, confidence, betting);
-    out.helper = control_variate(decision.reference(), decision.candidate());
     return out;
 }
 
@@ -207,6 +203,12 @@ Advice advise(const AdviceCandidates& candidates, const Store& store, const std:
     out.replications = advisor.replications();
     out.stopped = advisor.stopped();
     return out;
+}
+
+bool Advice::knows_nothing() const {
+    return stopped && std::ranges::all_of(judged, [](const JudgedCandidate& each) {
+               return each.decision.n() == 0;
+           });
 }
 
 const JudgedCandidate* Advice::chosen() const {

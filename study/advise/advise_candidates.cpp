@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "study/advise/advise_candidates.hpp"
 
-#include "models/propagation/ray_path.hpp"
-#include "scenario/tables/read_value.hpp"
+#include "models/propagation/rays.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario_file.hpp"
+#include "scenario/tables/read_value.hpp"
+#include "scenario/tables/reader.hpp"
 #include "study/calibration/calibration.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -24,20 +24,18 @@ using namespace std::string_view_literals;
 
 /// Form of a model: keys of its table.
 struct ModelForm {
-    std::string_view model, name, toml;
+    std::string_view model, toml;
 };
 
 /// The most detailed forms, which references have.
-constexpr std::array most_detailed_forms{
-    ModelForm{"rays", "rays", "order = 3\ndiffraction = \"utd\""},
-    ModelForm{"two_ray", "two_ray", "form = \"exact\""}};
+constexpr std::array most_detailed_forms{ModelForm{"rays", "order = 3\ndiffraction = \"utd\""},
+                                         ModelForm{"two_ray", "form = \"exact\""}};
 
 /// Cheaper forms of models that may be the reference.
-constexpr std::array cheaper_forms{
-    ModelForm{"two_ray", "two_ray form=ns2", "form = \"ns2\""},
-    ModelForm{"rays", "rays order=1", "order = 1\ndiffraction = \"none\""},
-    ModelForm{"rays", "rays order=2 knife_edge", "order = 2\ndiffraction = \"knife_edge\""},
-    ModelForm{"rays", "rays order=2", "order = 2\ndiffraction = \"utd\""}};
+constexpr std::array cheaper_forms{ModelForm{"two_ray", "form = \"ns2\""},
+                                   ModelForm{"rays", "order = 1\ndiffraction = \"none\""},
+                                   ModelForm{"rays", "order = 2\ndiffraction = \"knife_edge\""},
+                                   ModelForm{"rays", "order = 2\ndiffraction = \"utd\""}};
 
 constexpr std::array open_field_models{"disc"sv, "friis"sv, "two_ray"sv, "log_distance"sv};
 
@@ -71,7 +69,7 @@ void leave_shadowing_to(const Scenario& scenario, Table& propagation) {
     if (for_all && propagation.find("sigma")) propagation.set("sigma", "0 dB");
 }
 
-/// Lays the keys of a form over a table, those that it has.
+/// Overrides a table with the keys of a form.
 void lay_over(Table& table, const ModelForm& form) {
     const Value keys = parse_toml(form.toml, std::string(form.model));
     for (const Entry& entry : keys.table()->entries) {
@@ -91,13 +89,13 @@ const std::string& word_at(const Table& table, std::string_view key) {
     return *table.find(key)->string();
 }
 
-/// The reference's tables, and where the options say something of them.
+/// Tables of the reference, and the places of options that change them.
 struct Reference {
     Table propagation, reception;
     Location where;  // of an option that changes it; else the file
 };
 
-/// What the options say of the reference, as a document.
+/// Options for the reference, as a document.
 Value said_of_reference(const std::vector<std::string>& options) {
     Value said{Table{}};
     for (const std::string& text : options) {
@@ -173,32 +171,75 @@ bool is_usual(const std::string& model, const std::string& reference, bool on_ma
            open_field_models.end();
 }
 
+/// Cheaper forms of the reference's model. Each is named by all keys in which any two of them, or
+/// one and the reference, differ: "rays order=2 diffraction=knife_edge".
+std::vector<CandidateModel> cheaper_forms_of(const Table& reference) {
+    const std::string& model = word_at(reference, "model");
+    std::vector<CandidateModel> out;
+    for (const ModelForm& form : cheaper_forms) {
+        if (!is_cheaper(form, reference)) continue;
+        out.push_back({model, model, reference, "", ""});
+        lay_over(out.back().table, form);
+    }
+    for (const Entry& entry : reference.entries) {
+        const auto text_in = [&](const CandidateModel& each) {
+            return plain_text(*each.table.find(entry.key));
+        };
+        const bool differ = std::any_of(out.begin(), out.end(), [&](const CandidateModel& each) {
+            return text_in(each) != plain_text(entry.value);
+        });
+        if (!differ) continue;
+        for (CandidateModel& each : out)
+            each.name += fmt::format(" {}={}", entry.key, text_in(each));
+    }
+    return out;
+}
+
+/// All path losses that may be candidates, in the order of their detail.
+std::vector<CandidateModel> possible_path_losses(const Scenario& scenario, const Table& reference) {
+    const std::string& of_reference = word_at(reference, "model");
+    std::vector<CandidateModel> out;
+    for (const std::string& model : listed_models()) {
+        if (model == of_reference) {
+            for (CandidateModel& form : cheaper_forms_of(reference)) out.push_back(std::move(form));
+            continue;
+        }
+        Table table = propagation_with(scenario, model);
+        leave_shadowing_to(scenario, table);
+        out.push_back({model, model, table, "", ""});
+    }
+    return out;
+}
+
+/// Checks the names of --models: a listed model, or a form of the reference's as it is printed.
+/// @throws InputError at the option for another
+void check_models(const CandidateQuestion& question, const std::vector<CandidateModel>& possible) {
+    std::vector<std::string> names = listed_models();
+    for (const CandidateModel& each : possible) {
+        if (each.name != each.model) names.push_back(each.name);
+    }
+    for (const std::string& asked : question.models) {
+        Value value{asked};
+        value.where = {fmt::format("--models {}", fmt::join(question.models, ",")), 0, 0, true};
+        read_choice(value, "propagation model", names);
+    }
+}
+
 std::vector<CandidateModel> path_losses_for(const Scenario& scenario,
                                             const CandidateQuestion& question,
                                             const Table& reference) {
     const std::string& of_reference = word_at(reference, "model");
-    for (const std::string& model : question.models) {
-        Value value{model};
-        value.where = {fmt::format("--models {}", fmt::join(question.models, ",")), 0, 0, true};
-        read_choice(value, "propagation model", listed_models());
-    }
-    std::vector<CandidateModel> out;
-    for (const std::string& model : listed_models()) {
-        const auto& asked = question.models;
-        const bool wanted =
-            asked.empty()
-                ? model == of_reference || is_usual(model, of_reference, scenario.walls != nullptr)
-                : std::find(asked.begin(), asked.end(), model) != asked.end();
-        if (!wanted) continue;
-        Table table = propagation_with(scenario, model);
-        leave_shadowing_to(scenario, table);
-        if (model != of_reference) out.push_back({model, model, table, "", ""});
-        for (const ModelForm& form : cheaper_forms) {
-            if (form.model != model || !is_cheaper(form, reference)) continue;
-            out.push_back({std::string(form.name), model, reference, "", ""});
-            lay_over(out.back().table, form);
-        }
-    }
+    std::vector<CandidateModel> out = possible_path_losses(scenario, reference);
+    check_models(question, out);
+    const auto& asked = question.models;
+    const auto is_asked = [&](const std::string& name) {
+        return std::find(asked.begin(), asked.end(), name) != asked.end();
+    };
+    std::erase_if(out, [&](const CandidateModel& each) {
+        if (!asked.empty()) return !is_asked(each.model) && !is_asked(each.name);
+        return each.model != of_reference &&
+               !is_usual(each.model, of_reference, scenario.walls != nullptr);
+    });
     return out;
 }
 
@@ -211,7 +252,7 @@ std::string fitted_text(const Table& propagation) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// Whether [propagation] can be had: a fit may end outside of a parameter's range.
+/// Whether a table [propagation] is valid: a fit may exceed a parameter's range.
 bool can_be_had(const Table& propagation, const Scenario& scenario) {
     PropagationTable out = scenario.propagation;
     try {
@@ -222,7 +263,7 @@ bool can_be_had(const Table& propagation, const Scenario& scenario) {
     return true;
 }
 
-/// Takes a fit's parameters if there are some, and they can be had.
+/// Uses the parameters of a fit if there are any, and they are valid.
 void take_fit(CandidateModel& candidate, const CalibratedModel& fitted, const Scenario& scenario) {
     candidate.note = fitted.failure;
     const Value* propagation = fitted.settings.find("propagation");
@@ -246,7 +287,7 @@ void fit_candidates(std::vector<CandidateModel>& candidates, const Scenario& ref
     }
 }
 
-/// Why a scenario cannot run, as far as that shows before; empty: it can.
+/// Reason, known before the run, why a scenario cannot run; empty: none.
 std::string obstacle(const ScenarioFile& file, const Scenario& base, const Table& settings) {
     try {
         Scenario scenario = file.scenario(settings);

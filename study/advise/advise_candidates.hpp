@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenario/scenario.hpp"
 #include "scenario/document/value.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/scenario_file.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,63 +12,69 @@
 #include <string>
 #include <vector>
 
-// Candidates of `rovernet advise`: the models that could take the place of the reference, each with
-// the parameters that suit the scenario best.
+// Candidates of `rovernet advise`: models that may replace the reference, each with parameters
+// fitted to the scenario.
 
 namespace rovernet {
 
-/// What a user asks: which models may be candidates, and what they are judged against.
+/// Question of a user: the models that may be candidates, and the reference.
 struct CandidateQuestion {
-    /// Propagation models; if empty, on a map those that are listed before the reference, on an
-    /// open field those that need no map.
+    /// Names of propagation models or candidates. If empty: on a map, the models listed before the
+    /// reference; on an open field, the models that need no map.
     std::vector<std::string> models;
-    /// Assignments "propagation.KEY=VALUE" and "reception.KEY=VALUE" over the reference.
+    /// Assignments "propagation.KEY=VALUE" and "reception.KEY=VALUE" that change the reference.
     std::vector<std::string> reference;
-    bool as_given = false;  ///< with the parameters of the file, not fitted ones
+    /// True: candidates have the parameters of the scenario file instead of fitted ones.
+    bool as_given = false;
 };
 
-/// Model as a candidate.
+/// Propagation or reception model that is a candidate.
 struct CandidateModel {
-    std::string name;    ///< "log_distance"; "rays order=1" for a cheaper form of the reference
-    std::string model;   ///< as listed
-    Table table;         ///< [propagation] or [reception] of a scenario file, as a whole
-    std::string fitted;  ///< "exponent 2.91, excess 3.2 dB"; empty: as given
-    std::string note;    ///< why it was not fitted, if it should have been
+    /// Name, "log_distance"; for a cheaper form of the reference also the changed keys: "rays
+    /// order=1 diffraction=none".
+    std::string name;
+    std::string model;  ///< name of the model in the list of models
+    Table table;        ///< complete table [propagation] or [reception] of a scenario file
+    /// Text of fitted parameters, "exponent 2.91, excess 3.2 dB"; empty: none is fitted.
+    std::string fitted;
+    std::string note;  ///< reason why the fit failed; empty: no failure
 };
 
-/// Candidates and reference as a grid of path losses and receptions, each in the order of their
-/// detail with the reference last. Access stays as it is: it is what robots do, no model of it.
+/// Candidates and reference as a grid of path losses and receptions, each in the order of detail
+/// with the reference last. The access protocol is not varied: it is part of the simulated robots,
+/// not a choice of model detail.
 struct AdviceCandidates {
     std::vector<CandidateModel> path_losses, receptions;
-    /// Points of the study by path loss and reception; none for two that do not go together, such
-    /// as a disc, which has no levels, and the reception `sinr`.
+    /// Number of the study's point for each pair of path loss and reception; none for incompatible
+    /// models, such as `disc` (which has no levels) with the reception `sinr`.
     std::vector<std::vector<std::optional<std::uint32_t>>> points;
-    /// Models that no reception goes with, and why.
+    /// Names of models that are compatible with no reception, with the reason.
     std::vector<std::string> left_out;
     bool on_map = false;
 
     std::size_t reference_path_loss() const { return path_losses.size() - 1; }
     std::size_t reference_reception() const { return receptions.size() - 1; }
-    /// The most detailed reception that a path loss goes with: mostly the reference's.
+    /// Most detailed reception that is compatible with a path loss; mostly the reception of the
+    /// reference.
     std::size_t reception_of(std::size_t path_loss) const;
-    /// Number of combinations that could be judged: all points but the reference. Any of them may
-    /// become the choice, so that the probability of a false verdict is shared among all of them.
+    /// Number of pairs of models that may be compared: all pairs but the reference. The probability
+    /// of a false verdict is divided among them, since any of them may be chosen.
     std::size_t family() const;
-    /// "log_distance + sinr"
+    /// Name of a pair of models: "log_distance + sinr".
     std::string name_of(std::size_t path_loss, std::size_t reception) const;
 
-    /// What a study over them varies, and leaves out.
+    /// Varied keys, and excluded points, of a study over all pairs of models.
     std::vector<Vary> vary() const;
     std::vector<Exclusion> exclude() const;
 };
 
-/// Candidates for a scenario. The reference is the model `rays` (order 3, diffraction utd) on a
-/// map, or the most detailed listed model if there is no such; two_ray (form exact) on an open
-/// field; with the reception `sinr`. Free parameters of the others are fitted to it, see
+/// Candidates for a scenario. The reference has the reception `sinr` and, on a map, the model
+/// `rays` (order 3, diffraction utd) or else the most detailed listed model; on an open field
+/// two_ray (form exact). Free parameters of the other models are fitted to the reference, see
 /// calibrate_to_model().
-/// @param tell  told the share of the fit that is done, 0 ... 1; may be empty
-/// @throws InputError for the file; at an option for an unknown model, or a reference that the
-///         scenario cannot have
+/// @param tell  called with the finished share of the fit, 0 ... 1; may be empty
+/// @throws InputError for the file; at an option with an unknown model, or with a reference that is
+///         invalid in the scenario
 AdviceCandidates candidates_for(const std::string& file, const ScenarioOptions& options,
                                 const CandidateQuestion& question,
                                 const std::function<void(double)>& tell = {});

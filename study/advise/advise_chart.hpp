@@ -8,9 +8,9 @@
 
 namespace rovernet {
 
-/// An advice as charts of error against cost: the path losses over the CPU time of the medium for
-/// each transmission, and all that was judged over the CPU time of a run. Marks are |bias| and run
-/// error with their intervals. Without costs one chart, of bars.
+/// Charts of an advice, error against cost: path losses over the CPU time of the medium for each
+/// transmission, and all compared candidates over the CPU time of a run. Marks are |bias| and run
+/// error with their intervals. If costs were not measured, one bar chart.
 std::vector<Chart> advice_charts(const Advice& advice);
 
 }  // namespace rovernet

@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace rovernet {
@@ -98,27 +97,37 @@ std::string saving_text(const Advice& advice, const CandidateCost& choice) {
                        1e3 * choice.run_s, 1e3 * reference.run_s);
 }
 
+/// "friis + sinr (about 500 replications would decide)"
+std::string open_text(const JudgedCandidate& each) {
+    std::vector<std::string> ways;
+    if (const auto needed = each.decision.needed()) {
+        ways.push_back(fmt::format("about {} replications would decide", *needed));
+    }
+    if (const auto tolerance = each.decision.deciding_tolerance()) {
+        ways.push_back(fmt::format("sufficient with --tolerance {:.2g}", *tolerance));
+    }
+    return ways.empty() ? each.name : fmt::format("{} ({})", each.name, fmt::join(ways, "; "));
+}
+
+constexpr std::string_view to_go_on =
+    "A larger --budget continues; with --store the same command does.";
+
 /// Candidates that are undecided, cheaper than the choice: they count as insufficient.
 std::string undecided_text(const Advice& advice) {
-    std::vector<std::string> names;
+    std::vector<std::string> open;
     for (const JudgedCandidate& each : advice.judged) {
         if (!each.needed || each.decision.verdict() != Equivalence::undecided) continue;
-        const auto needed = each.decision.needed();
-        names.push_back(
-            needed ? fmt::format("{} (about {} replications would decide)", each.name, *needed)
-                   : each.name);
+        open.push_back(open_text(each));
     }
-    if (names.empty()) return "";
+    if (open.empty()) return "";
     if (advice.stopped) {
-        return fmt::format(
-            " Open when it was stopped, and taken as insufficient so far: {}. A larger --budget, "
-            "or a larger --tolerance, decides; with --store the same command goes on.",
-            fmt::join(names, ", "));
+        return fmt::format(" Open when it was stopped, and taken as insufficient so far: {}. {}",
+                           fmt::join(open, ", "), to_go_on);
     }
     return fmt::format(
         " Undecided within {} replications, and taken as insufficient: {}. More replications "
-        "(--max-replications), a longer scenario or a larger --tolerance decide.",
-        advice.rule.most, fmt::join(names, ", "));
+        "(--max-replications) or a longer scenario tell more.",
+        advice.rule.most, fmt::join(open, ", "));
 }
 
 }  // namespace
@@ -139,18 +148,15 @@ void add_costs(Advice& advice, Study& study, const std::function<bool()>& stoppe
     };
     advice.reference_cost = cost(0, last);
     for (std::size_t i = 0; i < advice.judged.size(); ++i) {
-        JudgedCandidate& each = advice.judged[i];
-        each.cost = cost(i + 1, each.path_loss);
-        if (!each.helper || !(each.cost.run_s > 0)) continue;
-        each.mix = best_mix(each.helper->rho, advice.reference_cost.run_s / each.cost.run_s);
+        advice.judged[i].cost = cost(i + 1, advice.judged[i].path_loss);
     }
     if (!costs.models.empty()) {
         advice.cost_text = fmt::format(
-            "CPU/transmission: what it takes the medium to find who hears it; median of {} turns "
+            "CPU/transmission: time of the medium to find its receivers; median of {} turns "
             "of "
             "{:.2g} s over the same {} frames\nof run: its share of CPU/run, which is the median "
             "of "
-            "{} replications, the planning of ways apart",
+            "{} replications, without path planning",
             costs.turns, costs.turn_s, costs.frames, runs.replications);
     }
 }
@@ -159,6 +165,11 @@ std::string advice_text(const Advice& advice) {
     const AdviceCandidates& c = advice.candidates;
     const std::string reference = c.name_of(c.reference_path_loss(), c.reference_reception());
     const JudgedCandidate* chosen = advice.chosen();
+    if (advice.knows_nothing()) {
+        return fmt::format(
+            "Interim: nothing is known yet, as no candidate was compared with {}. {}", reference,
+            to_go_on);
+    }
     const std::string interim = advice.stopped ? "Interim: " : "";
     if (!chosen) {
         return interim +
@@ -179,29 +190,6 @@ std::string advice_text(const Advice& advice) {
     return interim + fmt::format("Take {}: {} ({}).{}{}", chosen->name,
                                  nearness_text(advice, reference), sure,
                                  saving_text(advice, chosen->cost), undecided_text(advice));
-}
-
-std::string control_variate_text(const Advice& advice) {
-    const JudgedCandidate* best = nullptr;
-    const auto worth = [](const JudgedCandidate& each) {
-        return each.cost.run_s > 0 ? (each.mix ? each.mix->saving : 0) : std::abs(each.helper->rho);
-    };
-    for (const JudgedCandidate& each : advice.judged) {
-        if (each.helper && (!best || worth(each) > worth(*best))) best = &each;
-    }
-    if (!best) return "";
-    const std::string rho =
-        fmt::format("correlation {:.3f}, n = {}", best->helper->rho, best->decision.n());
-    if (!(best->cost.run_s > 0)) {
-        return fmt::format("Control variate: {} goes best with the reference, run by run ({}).",
-                           best->name, rho);
-    }
-    if (!best->mix) return "Control variate: no candidate would save CPU time for the mean.";
-    return fmt::format(
-        "Control variate: {:.3g} runs of {} for each of the reference tell the reference's mean "
-        "for "
-        "{:.2g} times less CPU time ({}).",
-        best->mix->ratio, best->name, best->mix->saving, rho);
 }
 
 }  // namespace rovernet

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace rovernet {
 namespace {
@@ -97,6 +99,29 @@ std::optional<std::size_t> CandidateDecision::needed() const {
         forecast.add(candidate_[again], reference_[again]);
     }
     return forecast.decided_at_;
+}
+
+Equivalence CandidateDecision::verdict_with(double tolerance) const {
+    DecisionRule rule = rule_;
+    rule.tolerance = tolerance;
+    CandidateDecision other(rule);
+    for (std::size_t i = 0; i < n(); ++i) other.add(candidate_[i], reference_[i]);
+    return other.verdict_;
+}
+
+std::optional<double> CandidateDecision::deciding_tolerance() const {
+    if (verdict_ != Equivalence::undecided || n() == 0) return std::nullopt;
+    constexpr double step = 1.02;  // tolerances of two digits are no closer
+    const double range =
+        rule_.by_betting() ? range_of(rule_.bounds) : std::numeric_limits<double>::infinity();
+    double last = rule_.tolerance;
+    for (double t = rule_.tolerance * step; t < range && t < 1e3 * rule_.tolerance; t *= step) {
+        const double rounded = std::stod(fmt::format("{:.1e}", t));
+        if (rounded <= last || rounded >= range) continue;
+        last = rounded;
+        if (verdict_with(rounded) == Equivalence::within) return rounded;
+    }
+    return std::nullopt;
 }
 
 Ladder::Ladder(std::size_t candidates, const DecisionRule& rule) {

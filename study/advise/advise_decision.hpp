@@ -8,88 +8,92 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
-// Decisions of `rovernet advise`: which of several candidates, the cheapest first, is the first
-// that comes near enough to the reference. Nothing here runs a simulation.
+// Decisions of `rovernet advise`: find the cheapest candidate whose error against the reference is
+// within the tolerance. Nothing here runs a simulation.
 
 namespace rovernet {
 
-/// Error that must not exceed the tolerance. With D = value of a candidate - value of the reference
-/// in one replication:
+/// Criterion: the error that must not exceed the tolerance. With D = value of a candidate - value
+/// of the reference in one replication:
 ///
 /// - `mean`: |E D|, the error of the mean of many runs, such as a curve in a paper
-/// - `run`: E|D|, the mean error of a single run, such as what becomes of one robot
+/// - `run`: E|D|, the mean error of a single run, such as the results of one robot
 enum class ErrorCriterion { mean, run };
 template <>
 struct EnumNames<ErrorCriterion> {
     static constexpr std::array<std::string_view, 2> values = {"mean", "run"};
 };
 
-/// Rule by which candidates are judged.
+/// Rule by which a candidate is accepted as equal to the reference.
 struct DecisionRule {
     ErrorCriterion criterion = ErrorCriterion::mean;
-    double tolerance = 0.02;  ///< > 0, in the metric's unit
-    Bounds bounds;            ///< of the metric: bounds_of()
-    double alpha = 0.05;      ///< [-] probability of any false verdict among the family
-    std::size_t family = 1;   ///< candidates that may be judged in all
-    std::size_t most = 4000;  ///< replications
+    double tolerance = 0.02;  ///< largest accepted error, > 0, in the metric's unit
+    Bounds bounds;            ///< bounds of the metric, see bounds_of()
+    double alpha = 0.05;      ///< [-] probability of at least one false verdict on all candidates
+    std::size_t family = 1;   ///< number of candidates that may be compared
+    std::size_t most = 4000;  ///< largest number of replications for a candidate
 
-    /// Whether verdicts are by betting, as the metric has two bounds; else by Student's intervals.
+    /// Whether verdicts use betting tests, which need two bounds of the metric; otherwise Student's
+    /// intervals.
     bool by_betting() const { return bounds.closed(); }
 };
 
-/// A candidate against the reference: the values of both, replication by replication, and the first
-/// verdict that they give.
+/// Comparison of a candidate with the reference: values of both in each replication, and the first
+/// verdict that follows.
 ///
-/// Where the metric has two bounds, values are cut at them, and the verdict is that of an
-/// EquivalenceTest of D, or of |D| if the criterion is `run`: as |D| is never negative, only the
-/// wealth `above` can wrongly say "outside", so that family / alpha is enough for it. All verdicts
-/// of the family are right with a probability of 1 - alpha, whatever the distribution and whenever
-/// one looks.
+/// If the metric has two bounds, values are clipped to them, and the verdict is that of an
+/// EquivalenceTest of D, or of |D| if the criterion is `run`. Since |D| is never negative, only the
+/// wealth `above` can falsely give "outside", so that the threshold family / alpha suffices for it.
+/// All verdicts of the family are right with probability 1 - alpha, for any distribution and any
+/// stopping time.
 ///
-/// Elsewhere Student's interval for the mean of D, or of |D|, is looked at after 10, 20, 40, ...
-/// and `most` pairs, two-sided at the level alpha / (family * looks). Within: it lies inside of the
-/// tolerance; outside: it lies outside. Equal differences decide nothing. It supposes normal means.
+/// Otherwise Student's two-sided interval for the mean of D, or of |D|, is tested after 10, 20, 40,
+/// ... and `most` pairs, at the level alpha / (family * number of tests). Verdict "within": the
+/// interval lies inside the tolerance; "outside": it lies outside. Equal differences give no
+/// verdict. Means are assumed to be normal.
 class CandidateDecision {
   public:
     /// @throws std::invalid_argument unless the tolerance is above 0, and below the range of a
     ///         metric with two bounds; as EquivalenceTest
     explicit CandidateDecision(const DecisionRule& rule);
 
-    /// Adds a replication: the next in their order in which both have a value.
+    /// Adds the values of the next replication in which candidate and reference both have a value.
     void add(double candidate, double reference);
 
     Equivalence verdict() const { return verdict_; }
-    /// Pairs after which the verdict fell.
+    /// Number of replications that gave the verdict; none: undecided.
     std::optional<std::size_t> decided_at() const { return decided_at_; }
     std::size_t n() const { return candidate_.size(); }
-    /// Differences D in the metric's unit, in the order of the replications.
+    /// Differences (candidate - reference), in the metric's unit, in the order of replications.
     std::vector<double> differences() const;
-    std::span<const double> candidate() const { return candidate_; }
-    std::span<const double> reference() const { return reference_; }
-    /// Pairs in all that would decide, if those to come were as these are; nothing if there is a
-    /// verdict, if it goes by Student, or if 100,000 would not do.
+    /// Predicted total number of replications for a verdict, if further ones resemble those given.
+    /// None if there is a verdict, if Student's interval is used, or if 100,000 would not suffice.
     std::optional<std::size_t> needed() const;
+    /// Larger tolerance, with two digits, for which the given replications show the error to lie
+    /// within it. None if there is a verdict, or if no such tolerance is below the metric's range.
+    std::optional<double> deciding_tolerance() const;
 
   private:
+    /// Verdict of the given replications for a different tolerance.
+    Equivalence verdict_with(double tolerance) const;
     void bet(double error);
     void look(double error);
-    /// Error that is judged: the difference, or its size.
+    /// Error of one replication by the criterion: candidate - reference, or its absolute value.
     double error_of(double candidate, double reference) const;
 
     DecisionRule rule_;
-    std::optional<EquivalenceTest> test_;  // where the metric has two bounds
+    std::optional<EquivalenceTest> test_;  // only if the metric has two bounds
     std::vector<double> candidate_, reference_, errors_;
-    std::vector<std::size_t> looks_;  // where it has not: numbers of pairs
+    std::vector<std::size_t> looks_;  // otherwise: numbers of pairs at which to test
     Equivalence verdict_ = Equivalence::undecided;
     std::optional<std::size_t> decided_at_;
 };
 
-/// Candidates of one kind in the order of their detail, the cheapest first. Behind the last stands
-/// the reference.
+/// Candidates of one kind (path loss or reception models) in the order of detail, the cheapest
+/// first. The reference follows after the last.
 class Ladder {
   public:
     Ladder(std::size_t candidates, const DecisionRule& rule);
@@ -97,12 +101,12 @@ class Ladder {
     void add(std::size_t i, double candidate, double reference) {
         decisions_[i].add(candidate, reference);
     }
-    /// The cheapest candidate that is within the tolerance, as known now; nothing: the reference.
+    /// Index of the cheapest candidate found within the tolerance so far; none: the reference.
     std::optional<std::size_t> choice() const;
-    /// Whether the choice still depends on a candidate: it has no verdict, and no cheaper one is
-    /// within the tolerance. Order and cost on a clock play no part.
+    /// Whether the choice still depends on candidate i: it has no verdict, and no cheaper candidate
+    /// is within the tolerance.
     bool wants(std::size_t i) const;
-    /// Whether the choice depends on none.
+    /// Whether the choice depends on no further verdict.
     bool decided() const;
 
     std::size_t size() const { return decisions_.size(); }

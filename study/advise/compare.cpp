@@ -61,8 +61,7 @@ std::vector<double> mean_cpu(const Store& store, std::size_t points) {
     return sum;
 }
 
-/// Reason for which replications are in no pair of two models: a run of one of them failed or is
-/// missing, or has no value.
+/// Reason why replications give no pair for two models: a run failed, is missing, or has no value.
 Gaps unpaired(const Inventory& inventory, const Answer& a, const Answer& b, std::uint32_t point_a,
               std::uint32_t point_b) {
     Gaps gaps;
@@ -97,7 +96,7 @@ void add_error(ComparedModel& model, const Answer& most_detailed, const std::str
     model.error_interval = interval_of(distances, bounds_of(metric), confidence, wish);
 }
 
-/// Differences to the baseline, which hold together.
+/// Differences to the baseline, with simultaneous intervals.
 void compare_with_baseline(Comparison& comparison, const ComparedModel& baseline,
                            std::optional<IntervalMethod> wish) {
     const Bounds bounds = bounds_of(comparison.metric);

@@ -9,11 +9,12 @@
 
 namespace rovernet {
 
-/// Measures what the models of a comparison cost, on the frames of replication 0 at the most
-/// detailed model, and fills in ComparedModel::cost and radio_share and Comparison::cost_text.
-/// Without a frame, or if that run fails, they stay empty.
-/// @param study    whose points are the models
-/// @param stopped  asked now and then; true ends the measurement, and nothing is filled in
+/// Measures the CPU cost of the compared models, on the frames of replication 0 of the most
+/// detailed model. Fills in ComparedModel::cost, ComparedModel::radio_share and
+/// Comparison::cost_text; they stay empty if the run fails or has no frames.
+/// @param study    study whose points are the compared models
+/// @param stopped  called now and then; returning true ends the measurement, and nothing is filled
+/// in
 void add_costs(Comparison& comparison, Study& study, const Store& store,
                const std::function<bool()>& stopped);
 

@@ -57,7 +57,7 @@ class MediumRecorder {
     MediumRecord* record_;
 };
 
-/// Frames that every model answers within a turn, of a record that may be long.
+/// Number of frames of a (possibly long) recording that every model can process within a turn.
 std::uint64_t frames_within(const MediumRecord& record, const std::vector<MediumReplay>& replays,
                             double turn_s) {
     std::uint64_t frames = record.frames;
@@ -75,8 +75,8 @@ double receivers_per_frame(const MediumRecord& record, const MediumReplay& repla
     return static_cast<double>(all.receivers) / static_cast<double>(all.frames);
 }
 
-/// CPU time per frame [s] of passes that take a turn. Where making the medium takes longer than its
-/// answers do, fewer passes have to be enough.
+/// CPU time per frame [s], over passes that fill a turn. Fewer passes are made if constructing the
+/// medium takes longer than replaying.
 double cost_in_turn(const MediumRecord& record, const MediumReplay& replay, std::uint64_t frames,
                     double turn_s) {
     const double begin = thread_cpu_s();

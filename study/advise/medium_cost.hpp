@@ -4,7 +4,6 @@
 #include "network/network.hpp"
 #include "scenario/scenario.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,74 +12,77 @@
 
 namespace rovernet {
 
-/// Record of what the medium was asked in one run of a scenario, and of what it had to know for
-/// that.
+/// Recording of all calls to the simulated medium (Medium) in one run of a scenario (legs,
+/// switching, frames), for replay.
 struct MediumRecord {
-    /// A node puts a frame on air.
+    /// Transmission of a frame by a node.
     struct OnAir {};
-    /// Step of a node: it begins a leg, is switched on or off, or sends.
+    /// Event of a node: it begins a leg (piece of movement), is switched on or off, or transmits.
     struct Event {
         Time time;
         NodeId node;
         std::variant<Leg, bool, OnAir> what;
     };
     std::vector<Event> events;
-    std::uint64_t frames = 0;         ///< put on air, those of access control included ...
-    std::uint64_t transmissions = 0;  ///< ... and those of messages
-    std::uint64_t receivers = 0;      ///< receivers of all frames, lost or not
+    /// Number of frames on air, including control frames (RTS, CTS, ACK).
+    std::uint64_t frames = 0;
+    std::uint64_t transmissions = 0;  ///< number of frames that carry messages
+    /// Number of receivers of all frames, whether frames were lost or not.
+    std::uint64_t receivers = 0;
 };
 
-/// Records one run of a scenario, the first 200,000 frames of it at most.
-/// @param stopped  asked now and then; true ends the recording, which is then of what was seen
+/// Records one run of a scenario, at most its first 200,000 frames.
+/// @param stopped  called now and then; returning true ends the recording early
 MediumRecord record_medium(const Scenario& scenario, const std::function<bool()>& stopped);
 
-/// A medium with a scenario's robots and models, to answer a record's questions.
+/// Simulated medium with the robots and models of a scenario, to replay a recording of calls.
 class MediumReplay {
   public:
     explicit MediumReplay(const Scenario& scenario);
 
-    /// Cost of answering.
+    /// Cost of a replay of recorded frames.
     struct Answers {
         std::uint64_t frames = 0, receivers = 0;
-        double cpu_s = 0;  ///< [s] of this thread, the making of the medium left out
+        double cpu_s = 0;  ///< CPU time of this thread [s], without the construction of the medium
     };
-    /// Answers a record from its beginning, as in the run: caches of pairs at rest begin empty.
-    /// @param most_frames  frames to answer, at most
-    /// @param most_s       CPU time to spend [s], at most, about
+    /// Replays a recording from its beginning, as in the run: the caches of the medium start empty.
+    /// @param most_frames  largest number of frames
+    /// @param most_s       approximate limit of CPU time [s]
     Answers answer(const MediumRecord& record, std::uint64_t most_frames, double most_s) const;
 
   private:
     NetworkSettings settings_;
-    std::unique_ptr<Network> network_;  // before the run
+    std::unique_ptr<Network> network_;  // state before the run
 };
 
-/// Cost of propagation models: CPU time of the medium per frame, which looks for the frame's
-/// receivers.
+/// Cost of a propagation model: CPU time that the medium needs to find the receivers of a frame.
 struct MediumCost {
-    double median_s = 0, low_s = 0, high_s = 0;  ///< [s] per frame, of the turns
-    double receivers = 0;  ///< found per frame: a model of more reach has more to answer
+    double median_s = 0, low_s = 0,
+           high_s = 0;     ///< CPU time per frame [s]: median, lowest and highest turn
+    double receivers = 0;  ///< mean number of receivers per frame; a longer range gives more
+                           ///< receivers and more work
 };
 
-/// Costs of several models, measured on one record in turns.
+/// Costs of several propagation models, measured on one recording, in turns.
 struct MediumCosts {
-    std::vector<MediumCost> models;  ///< costs, one for each scenario; none if nobody sends
-    std::uint64_t frames = 0;        ///< frames of the record, which each pass answers
+    std::vector<MediumCost> models;  ///< cost for each scenario; empty if no robot sends
+    std::uint64_t frames = 0;        ///< number of frames of the recording, replayed in each pass
     double frames_per_transmission = 1;
-    double turn_s = 0;  ///< [s] of CPU time that a turn measures at least
+    double turn_s = 0;  ///< least CPU time of a measurement turn [s]
     int turns = 0;
 };
 
-/// Duration of the measurement.
+/// Duration of a cost measurement.
 struct CostTurns {
     int turns = 5;
-    double total_s = 3;  ///< [s] CPU time of all turns together, in turns of 0.05 s to 0.2 s
+    double total_s = 3;  ///< CPU time of all measurement turns together [s], 0.05 to 0.2 each
 };
 
-/// Measures what each scenario's model costs on the frames of `record`: 5 turns, and in each of
-/// them all models one after the other, so that a machine that slows down slows them all down.
-/// Times are this machine's, now: two measurements differ.
-/// @param scenarios  with the same robots
-/// @param stopped    asked now and then; true ends the measurement, without costs
+/// Measures the cost of each scenario's model on the frames of `record`. Each of the 5 turns
+/// measures all models one after the other, so that a slowdown of the machine affects all models
+/// equally. Results differ between machines and between measurements.
+/// @param scenarios  scenarios with the same robots
+/// @param stopped    called now and then; returning true ends the measurement, without costs
 MediumCosts measure_medium(const MediumRecord& record, const std::vector<Scenario>& scenarios,
                            const CostTurns& turns, const std::function<bool()>& stopped);
 

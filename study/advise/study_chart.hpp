@@ -10,37 +10,40 @@
 
 namespace rovernet {
 
-/// Question of a chart: what of a study it shows.
+/// Request for a chart of a study: the data to show.
 struct ChartQuestion {
-    std::optional<ChartKind> kind = {};  ///< kind; by the values of x if not given: lines or bars
-    std::string x = {};                  ///< key that varies, see varied_path(); of a cdf none
-    std::string y = {};                  ///< metric
-    std::string by = {};                 ///< key of the series, or of the rows of a heat map
-    std::vector<Condition> where = {};   ///< conditions that all points meet
+    /// Kind of the chart; none: lines or bars, depending on the values of x.
+    std::optional<ChartKind> kind = {};
+    std::string x = {};   ///< varied key along the x axis, see varied_path(); empty for a cdf
+    std::string y = {};   ///< metric along the y axis
+    std::string by = {};  ///< key of the series, or of the rows of a heat map
+    std::vector<Condition> where = {};  ///< values that varied keys must have in all shown points
     std::optional<double> confidence = {};
     std::optional<double> quantile = {};
-    std::optional<IntervalMethod> interval = {};  ///< method, as in Question
+    std::optional<IntervalMethod> interval = {};  ///< interval method; none: see Question::interval
     bool log_x = false, log_y = false;
-    bool common = false;  ///< only of the cells that every place of the chart has
+    /// True: average only over runs for which every position of the chart has a value.
+    bool common = false;
 };
 
-/// The key that a word means: the whole path, or its last part if no other path ends so, or
-/// "robots" for the count of robots. @throws std::invalid_argument if it means none
+/// Full path of the varied key that the user names by `word`. The word may be that path, its last
+/// part if no other varied key has it, or "robots" for the count of robots.
+/// @throws std::invalid_argument if no key fits
 std::string varied_path(const std::vector<std::string>& paths, const std::string& word);
 
-/// Texts such as "ttl=6" as conditions on the keys that their first parts mean.
+/// Parses texts such as "ttl=6" into conditions; the key is found by varied_path().
 /// @throws std::invalid_argument
 std::vector<Condition> conditions_of(const std::vector<std::string>& paths,
                                      const std::vector<std::string>& texts);
 
-/// Chart of a study: a value with its interval per x and series, or, as cdf, the distribution over
-/// the replications. Keys that are neither x nor by are averaged over, as answers() does; its note
-/// names them, n, and the runs that are not in it.
+/// Chart of a study: a value with its interval for each x and series or, as cdf, the distribution
+/// over replications. Results are averaged over varied keys other than `x` and `by`, as in
+/// answers(). The note names these keys, n, and the missing runs.
 /// @throws std::invalid_argument as answers()
 Chart study_chart(const Store& store, const ChartQuestion& question);
 
-/// A comparison as two charts: the metric of each model with its interval, and its error to the
-/// most detailed model against its cost.
+/// Two charts of a comparison: the metric of each model with its interval, and each model's error
+/// (against the most detailed model) over its cost.
 std::vector<Chart> comparison_charts(const Comparison& comparison);
 
 }  // namespace rovernet

@@ -2,15 +2,14 @@
 #include "study/calibration/calibration.hpp"
 
 #include "models/propagation/friis.hpp"
+#include "scenario/unlikely.hpp"
+#include "sim/told_apart.hpp"
 #include "study/calibration/disc_fit.hpp"
 #include "study/calibration/free_parameters.hpp"
-#include "study/calibration/linear_calibration.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -80,7 +79,7 @@ void calibrate_linear(const KnownLinks& known, const Scenario& scenario, Meters 
     take_parameters();
 }
 
-/// The disc that decides best the links of which `takes(link)` is true.
+/// Disc with the fewest wrong decisions on links for which `takes(link)` is true.
 template <class Takes>
 DiscFit disc_of(const KnownLinks& known, Meters within, const Takes& takes) {
     std::vector<DiscLink> links;
@@ -122,7 +121,7 @@ void calibrate_disc(const KnownLinks& known, Meters decided_within, CalibratedMo
     out.left_out = left_out.errors();
 }
 
-/// Errors of a model as the scenario has it; nothing if it lacks a parameter there.
+/// Errors of a model with the scenario's parameters; none if a required parameter is missing.
 std::optional<PredictionErrors> errors_as_given(const KnownLinks& known, const Scenario& scenario,
                                                 const std::string& model, Meters decided_within) {
     try {
@@ -157,7 +156,7 @@ CalibratedModel failed(std::string model, std::string why) {
     return out;
 }
 
-/// Why a scenario would not take the parameters; empty: it does.
+/// Reason why the parameters are invalid in a scenario; empty: they are valid.
 std::string fault_of(const CalibratedModel& model, const Scenario& scenario) {
     std::map<std::string, double> values;
     for (const FittedParameter& p : model.parameters) {
@@ -177,9 +176,11 @@ std::string fault_of(const CalibratedModel& model, const Scenario& scenario) {
 
 std::vector<CalibratedModel> calibrate(const KnownLinks& known, const Scenario& scenario,
                                        const std::string& except, Meters decided_within,
-                                       Gains gains) {
+                                       Gains gains, const std::function<void(double)>& tell) {
     std::vector<CalibratedModel> out;
+    std::size_t begun = 0;
     for_each_model([&]<class Model>() {
+        if (tell) tell(static_cast<double>(begun++) / std::tuple_size_v<PropagationModels>);
         CalibratedModel model;
         model.model = Model::name;
         if (model.model == except) return;
@@ -215,12 +216,15 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
         for (const FittedParameter& p : model.parameters) {
             if (p.key == "power" && std::abs(p.value - given_power.value) > most_db) {
                 model.refusal = fmt::format(
-                    "its power of {:.4g} dBm is more than {} dB from the given {:.4g} dBm", p.value,
+                    "its power of {} dBm is more than {} dB from the given {:.4g} dBm",
+                    told_apart(
+                        p.value,
+                        given_power.value + (p.value > given_power.value ? most_db : -most_db), 0),
                     most_db, given_power.value);
             } else if (p.key == "excess" && p.determined && std::abs(p.value) > most_db) {
                 model.refusal = fmt::format(
-                    "its excess of {:.4g} dB is more than {} dB: is the power of [radio] right?",
-                    p.value, most_db);
+                    "its excess of {} dB is more than {} dB: is the power of [radio] right?",
+                    told_apart(p.value, p.value > 0 ? most_db : -most_db, 1), most_db);
             }
         }
         const double error = error_of(model);
@@ -233,8 +237,8 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
                 error, friis);
         } else if (error > nothing_db) {
             model.refusal =
-                fmt::format("its error of {:.1f} dB is more than {} dB: it describes nothing",
-                            error, nothing_db);
+                fmt::format("its error of {} dB is more than {} dB: it describes nothing",
+                            told_apart(error, nothing_db, 1), nothing_db);
         }
     }
 }
@@ -279,6 +283,7 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
     const std::string model =
         reference.empty() ? std::string(scenario.propagation.make().name()) : reference;
     const Propagation truth = model_with(scenario, model, {});
+    refuse_disc(truth, scenario.propagation_where, "a fit");
     out.reference = model;
     const SampleSize first;
     LinkSample sample(scenario, truth, first);
@@ -295,13 +300,13 @@ Calibration calibrate_to_model(const Scenario& scenario, const std::string& refe
     double budget = some.budget;
     for (const KnownLink& link : out.known.links) budget = std::max(budget, link.budget);
     out.decided_within = truth.reach(Db{budget}, some.frequency);
-    out.models = calibrate(out.known, scenario, model, out.decided_within);
+    out.models = calibrate(out.known, scenario, model, out.decided_within, Gains::equal, tell);
     return out;
 }
 
 namespace {
 
-/// Checks that the gains of the places that send can be told.
+/// Checks that gains of transmitter positions can be determined.
 /// @throws InputError if these are one, or too many
 void check_transmitters(const KnownLinks& known, const std::string& path) {
     constexpr std::size_t fewest = 2, most = 200;

@@ -36,7 +36,7 @@ DiscFit fit_disc(std::vector<DiscLink> links) {
         if (k == links.size()) return links.back().distance;
         return std::sqrt(links[k - 1].distance * links[k].distance);
     };
-    return {{range()}, k, fewest};
+    return {{range()}, fewest};
 }
 
 }  // namespace rovernet

@@ -8,24 +8,23 @@
 
 namespace rovernet {
 
-/// A link as a disc sees it.
+/// Link with its distance and state, for the fit of a disc model.
 struct DiscLink {
-    double distance;  ///< [m]
+    double distance;  ///< distance between the antennas [m]
     bool up;
 };
 
-/// The disc that decides a set of links best.
+/// Fitted disc: the range with the fewest wrong decisions.
 struct DiscFit {
     Meters range;
-    std::size_t called_up;  ///< of the links, the nearest
-    std::size_t wrong;      ///< down ones among them, and up ones beyond
+    std::size_t wrong;  ///< wrong decisions: links that are down within the range, or up beyond it
 };
 
-/// Fits the range of a disc: the one with the fewest wrong decisions. Of several that are equally
-/// good it is the lower median, in the order of how many links they call up. The range lies between
-/// the distances of the farthest link that is called up and the next one, at their geometric mean;
-/// it is half the nearest distance if no link is called up, and the farthest one if all are.
-/// @param links  in any order; those of equal distance keep theirs
+/// Fits the range of a disc for the fewest wrong decisions. Among equally good ranges, ordered by
+/// the number of links within them, the lower median is chosen. The range is the geometric mean of
+/// the distances of the farthest link within and the nearest link beyond; half the nearest distance
+/// if no link is within; the farthest distance if all are.
+/// @param links  links in any order; links of equal distance keep their order
 /// @throws std::invalid_argument without a link, or if a distance is not > 0 and finite
 DiscFit fit_disc(std::vector<DiscLink> links);
 

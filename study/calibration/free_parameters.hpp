@@ -13,43 +13,43 @@
 
 namespace rovernet {
 
-/// Parameter of a propagation model that a fit can find: its loss is linear in it, or nearly so
-/// about a base that a search finds.
+/// Parameter of a propagation model that a fit can determine: the loss is linear in it, or
+/// approximately linear near a base value, which is searched for.
 struct FreeParameter {
     std::string_view model, key;
-    std::string_view unit = "";  ///< empty: a bare number
-    double base = 0;             ///< value at which no loss is cut at 0, so that it is linear
-    bool non_negative = false;   ///< true for the losses of walls
-    bool searched = false;       ///< the loss is linear about the best value alone
+    std::string_view unit = "";  ///< unit of the parameter; empty: a bare number
+    double base = 0;  ///< base value, at which no loss is clipped at 0, so that the loss is linear
+    bool non_negative = false;  ///< true for the losses of walls, which are >= 0
+    /// True: the loss is linear only near the best value, which is searched for.
+    bool searched = false;
 };
 
-/// The free parameters of a listed model; none for most.
+/// Free parameters of a propagation model, by its name; most models have none.
 std::vector<FreeParameter> free_parameters(std::string_view model);
 
-/// A listed model with the scenario's parameters, but with these; without its random part.
-/// @param values  by key, in the units of FreeParameter
+/// Propagation model with the scenario's parameters, overridden by `values`, without random draws.
+/// @param values  values by key, in the units of FreeParameter
 /// @throws InputError as read_propagation()
 Propagation model_with(const Scenario& scenario, std::string_view model,
                        const std::map<std::string, double>& values);
 
-/// The parameters with those bases near which a model comes nearest to the links: a compass search,
-/// on a sample of them, for the least squared error in dB; what was not seen counts where it is
-/// predicted to be seen, and measured links have a constant of their own. Those whose loss is
-/// linear keep their bases.
-/// @throws InputError, std::invalid_argument if the model cannot be asked
+/// Parameters with searched bases: a compass search minimises the squared error in dB on a sample
+/// of the links. Unseen links count only if the model predicts them as seen, and measured links
+/// have a free constant. Parameters with linear loss keep their bases.
+/// @throws InputError, std::invalid_argument if the model cannot be evaluated
 std::vector<FreeParameter> with_bases(std::vector<FreeParameter> free, const KnownLinks& known,
                                       const Scenario& scenario);
 
-/// What a model says of one link: its loss is offset + sum over j of columns[j] b_j, with its free
-/// parameters b.
+/// Loss of one link as a linear function of the model's free parameters b: offset + sum over j of
+/// columns[j] b_j.
 struct LinearLoss {
-    double offset = 0;  ///< [dB]
+    double offset = 0;  ///< loss for b = 0 [dB]
     std::vector<double> columns;
 };
 
-/// The losses of links as linear functions of a model's free parameters, found by asking the model
-/// at values one apart.
-/// @throws InputError, std::invalid_argument if the model cannot be asked
+/// Losses of all links as linear functions of a model's free parameters, found by evaluating the
+/// model at values one unit apart.
+/// @throws InputError, std::invalid_argument if the model cannot be evaluated
 std::vector<LinearLoss> linear_losses(const KnownLinks& known, const Scenario& scenario,
                                       std::string_view model, std::span<const FreeParameter> free);
 

@@ -2,6 +2,7 @@
 #include "study/calibration/known_links.hpp"
 
 #include "experiment/build.hpp"
+#include "experiment/reports/network_at.hpp"
 #include "experiment/run.hpp"
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
@@ -13,11 +14,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <set>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -65,8 +63,8 @@ std::size_t listed(std::string_view name) {
     return found;
 }
 
-/// Scenario whose runs are sampled: radio decides at most where robots drive, for which rays, a
-/// thousand times dearer than a count of the walls, would take most of the time.
+/// Scenario whose runs are sampled. Radio affects only robots' paths here, so that `rays`, which
+/// costs a thousand times more than counting walls, is replaced.
 Scenario played(const Scenario& scenario) {
     Scenario out = without_idle_traffic(scenario);
     const std::size_t rays = listed("rays"), cheap = listed("multi_wall");
@@ -114,7 +112,7 @@ void add_pairs(const Network& network, std::uint32_t replication, const Propagat
     }
 }
 
-/// Losses that a model was asked for: of equal links it is asked once.
+/// Cache of losses: the model is evaluated once for equal links.
 class AskedLosses {
   public:
     double of(const KnownLinks& all, const Propagation& model, const KnownLink& link) {
@@ -133,7 +131,7 @@ class AskedLosses {
     std::map<Key, double> losses_;
 };
 
-/// Drops what is the same link again. Groups are senders if only one replication is left.
+/// Removes duplicate links. Groups become senders if only one replication is left.
 void group(KnownLinks& all) {
     std::set<std::array<double, 7>> seen;
     std::erase_if(all.links, [&](const KnownLink& l) {
@@ -157,19 +155,14 @@ void group(KnownLinks& all) {
 }  // namespace
 
 double KnownLinks::loss_by(const Propagation& model, const KnownLink& link) const {
-    const std::uint64_t to_key = link.to_key;
     const LinkBatch batch{.frequency = link.frequency,
                           .from = link.from,
-                          .to = {&link.to, 1},
                           .from_key = link.from_key,
-                          .to_keys = {&to_key, 1},
                           .scene = scene.get(),
                           .floor_height = floor_height,
                           .seed = seed,
                           .replication = link.replication};
-    double loss = 0;
-    model.loss(batch, Db{std::numeric_limits<double>::infinity()}, {&loss, 1});
-    return loss;
+    return model.loss_to(link.to, batch, link.to_key);
 }
 
 struct LinkSample::State {

@@ -15,86 +15,89 @@
 #include <string>
 #include <vector>
 
-// Links whose loss is known: what models are fitted to, and judged by.
+// Links with known loss, for fitting and judging models.
 
 namespace rovernet {
 
-/// Link whose loss is known.
+/// Link with known loss.
 struct KnownLink {
-    std::string name;        ///< for people: its ends, and when
-    std::string place = {};  ///< equal for levels measured at one place; empty: not measured
-    Vec3 from, to;           ///< antennas [m]
+    std::string name;        ///< name of the link for reports: end points and time
+    std::string place = {};  ///< label of the antennas' positions, equal for levels measured at the
+                             ///< same positions; empty: not measured
+    Vec3 from, to;           ///< positions of the antennas [m]
     Hertz frequency;
-    /// Keys of its ends and the replication, for models that draw.
+    /// Random-draw keys of the end points, and replication number, for models with random draws.
     std::uint64_t from_key = 0, to_key = 0;
     std::uint32_t replication = 0;
-    /// Links of one group share what is random: robots of a replication, a measured receiver.
+    /// Group of links with dependent errors: links of one replication, or of one measured receiver.
     std::uint32_t group = 0;
-    /// Path loss [dB]; of an unseen link its lower bound.
+    /// Path loss [dB]; for an unseen link its lower bound.
     double loss = 0;
-    bool unseen = false;  ///< nothing was received: the loss is above that bound
-    /// Link budget [dB]: the link is up if its loss is no more.
+    bool unseen = false;  ///< true: nothing was received, so that the path loss is above `loss`
+    /// Link budget [dB]: the link is up if the loss does not exceed it.
     double budget = 0;
 
     double distance() const { return rovernet::distance(from, to); }
     bool up() const { return !unseen && loss <= budget; }
 };
 
-/// Known links of one scenario.
+/// Links of known loss in a scenario.
 struct KnownLinks {
     std::vector<KnownLink> links;
     std::size_t groups = 0;
-    const char* group_name = "replication";  ///< what a group is
-    /// Levels were measured: powers and gains may be others than the scenario says.
+    const char* group_name = "replication";  ///< meaning of KnownLink::group, for reports
+    /// True if levels were measured, so that powers and gains may differ from the scenario.
     bool measured = false;
-    /// Places of receivers are given; false: `to` is nowhere.
+    /// True if receiver positions are given; false: KnownLink::to is meaningless.
     bool knows_receivers = true;
-    /// Scene that they lie in.
+    /// Scene in which the links are.
     std::shared_ptr<const Scene> scene;
     Meters floor_height;
     std::uint64_t seed = 0;
-    /// Loss of a link by a model [dB].
+    /// Path loss of a link by a propagation model [dB].
     double loss_by(const Propagation& model, const KnownLink& link) const;
 };
 
-/// Replications from this one on are sampled; those that studies compare are below.
+/// First replication number for samples of links; studies use smaller numbers.
 inline constexpr std::uint32_t first_sampled_replication = 1'000'000;
 
-/// Size of a sample.
+/// Size of a sample of links.
 struct SampleSize {
     std::uint32_t replications = 20;
-    std::uint32_t times = 20;  ///< in each replication
-    std::size_t links = 5000;  ///< at most
+    std::uint32_t times = 20;  ///< number of sampling times in each replication
+    std::size_t links = 5000;  ///< largest number of links in the sample
     std::uint32_t first_replication = first_sampled_replication;
 };
 
-/// Links of a scenario's own robots, with their losses by a reference model: at random times of
-/// replications that (by default) no study compares, all pairs of robots that are on and no farther
-/// apart than the reference reaches with a budget of 20 dB more. They are chosen by distance alone:
-/// chosen by their loss, they would bias every fit. Of too many every k-th is taken.
+/// Links between a scenario's robots, with losses by a reference model. At random times of
+/// replications (by default of numbers that no study uses), all pairs of robots are taken that are
+/// on and within the range of the reference for a budget raised by 20 dB. Pairs are selected by
+/// distance only, since a selection by loss would bias every fit. Of too many links every k-th is
+/// taken.
 ///
-/// If robots react to messages, the scenario is run with its messages, but with multi_wall in place
-/// of rays: only where robots drive depends on these runs.
+/// If robots react to messages, the scenario is run with its traffic, but with multi_wall instead
+/// of rays (faster): only the robots' positions depend on these runs.
 ///
-/// Groups are replications; senders if all replications are alike.
-/// @param tell  told the share that is done, 0 ... 1: first of the runs, then of the losses; may be
+/// Groups are replications, or senders if all replications are equal.
+/// @param tell  called with the finished share, 0 ... 1, of the runs, then of the losses; may be
 ///              empty
-/// @throws InputError, RunError as a run; InputError if there are no two robots within reach
+/// @throws InputError, RunError as a run; InputError if no two robots are within range
 KnownLinks sample_links(const Scenario& scenario, const Propagation& reference,
                         const SampleSize& size, const std::function<void(double)>& tell = {});
 
-/// Sample of links that grows: each size has the links and losses of sample_links(), but what was
-/// sampled for a smaller size is kept. The reference is asked once for each link; once for links of
-/// all times and replications with equal ends if it draws nothing.
+/// Sample of links of known loss that can grow. Each size gives the links and losses of
+/// sample_links(), but reuses the results of smaller sizes. The reference is evaluated once for
+/// each link; a reference without random draws only once for all links with equal end points.
 class LinkSample {
   public:
-    /// @param size  at most so many links, of so many times a replication; see grow()
+    /// @param size  largest number of links, and number of times in each replication; for
+    /// replications see grow()
     LinkSample(const Scenario& scenario, Propagation reference, const SampleSize& size);
     ~LinkSample();
     LinkSample(const LinkSample&) = delete;
     LinkSample& operator=(const LinkSample&) = delete;
 
-    /// Links of so many replications, no fewer than before; else as sample_links().
+    /// Links of `replications` replications, not fewer than before; otherwise like sample_links().
     KnownLinks grow(std::uint32_t replications, const std::function<void(double)>& tell = {});
 
   private:
@@ -102,7 +105,7 @@ class LinkSample {
     std::unique_ptr<State> state_;
 };
 
-/// What a file of levels says of its receivers.
+/// Receiver positions in a file of measured levels: required, or optional.
 enum class Receivers { known, may_be_unknown };
 
 /// Measured levels as links of a scenario: a file of comma-separated values whose first line names
@@ -114,23 +117,23 @@ enum class Receivers { known, may_be_unknown };
 ///   place                                any word, equal where one place was measured again; both
 ///                                        antennas' places if not given
 ///
-/// Loss is the power of the scenario's [radio] with its gains, less the level.
+/// Loss = power of the scenario's [radio] + gains - level.
 /// @param floor      level [dBm] below which nothing was received
-/// @param receivers  may_be_unknown: a file may have `place` in their place
-/// @throws InputError with line and column for what is no such file
+/// @param receivers  may_be_unknown: a file may have `place` instead of receiver positions
+/// @throws InputError with line and column if the file is invalid
 KnownLinks read_levels(const std::string& path, const Scenario& scenario, std::optional<Dbm> floor,
                        Receivers receivers = Receivers::known);
 
-/// How well measurements repeat.
+/// Repeatability of measured levels.
 struct Repeatability {
-    std::size_t levels = 0;  ///< that were measured again
-    double rms = 0;          ///< root mean square difference to the place's first level [dB]
+    std::size_t levels = 0;  ///< number of levels measured again at a known position
+    double rms = 0;  ///< root mean square difference to the first level at the position [dB]
 
-    /// Error of one level [dB], and so that of a model that is right: two levels with independent
-    /// errors differ by sqrt(2) times as much.
+    /// Error of one level [dB], which even an exact model would show: the difference of two levels
+    /// with independent errors is sqrt(2) times as large.
     double one_level() const { return rms / std::numbers::sqrt2; }
 };
-/// Repeatability of two sets of measured levels together.
+/// Repeatability over two sets of measured levels.
 Repeatability repeatability(const KnownLinks& first, const KnownLinks& second);
 
 }  // namespace rovernet

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <map>
 #include <string_view>
-#include <utility>
 
 namespace rovernet {
 namespace {
@@ -51,6 +50,7 @@ class LevelsReader {
             out.links.push_back(link());
         }
         out.groups = groups_.size();
+        if (column("group")) out.group_name = "group";
         out.knows_receivers = column("to_x_m").has_value();
         if (out.links.empty()) throw InputError(lines_.where(), "no level in this file");
     }

@@ -15,7 +15,7 @@
 namespace rovernet {
 namespace {
 
-/// Observations without the columns that are held at 0.
+/// Observations without the columns whose coefficients are fixed at 0.
 Observations without(const Observations& all, const std::vector<bool>& held) {
     Observations out{.columns =
                          static_cast<std::size_t>(std::count(held.begin(), held.end(), false))};
@@ -59,7 +59,7 @@ LinearCalibration::LinearCalibration(const KnownLinks& known, const Scenario& sc
 
 LinearCalibration::Solution LinearCalibration::fit(
     const std::function<bool(const KnownLink&)>& takes) const {
-    // Gains are beyond their mean, so that the last one is less the sum of the others.
+    // Gains are relative to their mean, so that the last gain is minus the sum of the others.
     std::vector<char> sends(transmitters_.size(), false);
     for (std::size_t i = 0; i < transmitter_.size(); ++i)
         if (takes(known_.links[i])) sends[transmitter_[i]] = true;
@@ -89,7 +89,8 @@ LinearCalibration::Solution LinearCalibration::fit(
     return out;
 }
 
-/// Takes the gains from behind the coefficients of the parameters. One that no link tells is 0.
+/// Moves the gains, which follow the coefficients of the parameters, into their own list. A gain
+/// that no link determines is 0.
 void LinearCalibration::take_gains(Solution& solution,
                                    const std::vector<std::size_t>& present) const {
     if (transmitters_.empty()) return;
@@ -116,7 +117,7 @@ LinearCalibration::Solution LinearCalibration::by_least_squares(const Observatio
     for (std::size_t k = 0; k < data.columns; ++k) {
         if (!fit.coefficients[k]) {
             throw std::invalid_argument(
-                fmt::format("the links do not tell {} from the other parameters",
+                fmt::format("the links do not determine {} beside the other parameters",
                             k < used_.size() ? free_[used_[k]].key : "the gains"));
         }
         out.coefficients.push_back(*fit.coefficients[k]);
@@ -129,7 +130,8 @@ LinearCalibration::Solution LinearCalibration::by_tobit(const Observations& data
     constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
     Solution out{.coefficients = {}, .at_bound = std::vector<bool>(data.columns), .sigma = 0};
     out.coefficients.assign(data.columns, {.se_plain = no_number, .se_by_group = no_number});
-    // What would be negative, and must not be, is held at 0: one after the other, the worst first.
+    // Coefficients that must not be negative but would be are fixed at 0 one by one, the most
+    // negative first.
     for (;;) {
         const TobitFit fit = tobit(without(data, out.at_bound), unseen);
         out.sigma = fit.sigma;
@@ -162,7 +164,7 @@ FittedParameter LinearCalibration::parameter(const Solution& solution, std::size
     if (!out.determined) return out;
     const auto k = static_cast<std::size_t>(at - used_.begin());
     const Coefficient& c = solution.coefficients[k];
-    // What a link loses beyond the model, its sender has less.
+    // Additional loss of a link means a smaller gain of its sender.
     out.value = out.key == "power" ? scenario_.radio.power.value - c.value : c.value;
     out.se_plain = c.se_plain;
     out.se_by_group = c.se_by_group;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenario/scenario.hpp"
 #include "scenario/document/value.hpp"
+#include "scenario/scenario.hpp"
 #include "study/calibration/free_parameters.hpp"
 #include "study/calibration/known_links.hpp"
 #include "study/statistics/least_squares.hpp"
@@ -15,53 +15,54 @@
 
 namespace rovernet {
 
-/// Parameter that a fit finds.
+/// Parameter with its fitted value.
 struct FittedParameter {
-    std::string key;   ///< in [propagation]; "power" in [radio]
-    std::string unit;  ///< empty: a bare number
-    double value = 0;  ///< as fitted, or as it stands if the links do not determine it
+    std::string key;   ///< key in [propagation]; "power" is a key of [radio]
+    std::string unit;  ///< unit of the parameter; empty: a bare number
+    double value = 0;  ///< fitted value, or the scenario's value if the links do not determine it
     bool determined = true;
-    bool at_bound = false;  ///< it would be negative, and is held at 0
-    /// Standard errors, see Coefficient; not a number if the fit gives none.
+    bool at_bound = false;  ///< true: the fit would be negative, so that the value is fixed at 0
+    /// Standard errors of the value, see Coefficient; NaN if the method gives none.
     double se_plain = 0, se_by_group = 0;
 };
 
-/// Gains of transmitters: one for all, which the model's constant holds, or one for each.
+/// Gains of transmitters: equal (included in the model's constant), or one for each transmitter.
 enum class Gains { equal, by_transmitter };
 
-/// Gain of a transmitter beyond the mean of all.
+/// Gain of a transmitter relative to the mean of all.
 struct TransmitterGain {
-    Vec3 at;           ///< its antenna [m]
-    Coefficient gain;  ///< [dB]
+    Vec3 at;           ///< position of the transmitter's antenna [m]
+    Coefficient gain;  ///< gain relative to the mean of all transmitters [dB]
 };
 
-/// Parameters, and the tables of a scenario file that hold them.
+/// Fitted parameters, and the tables of a scenario file that contain them.
 struct FittedSettings {
     std::vector<FittedParameter> parameters;
-    /// [propagation], and [radio] if its power was fitted.
+    /// Table [propagation], and [radio] if the power was fitted.
     Table tables;
 };
 
-/// A model whose loss is linear in its free parameters, fitted to known links: by least squares in
-/// dB, or by the Tobit model if some were unseen. What no link tells stays as it stands.
+/// Fit of a model whose loss is linear in its free parameters to known links: by least squares in
+/// dB, or by the Tobit model if some links are unseen. Parameters that no link determines keep
+/// their values.
 class LinearCalibration {
   public:
-    /// Values of the parameters that some link tells, with errors where the method has them.
+    /// Fitted values of the determined parameters, with standard errors if the method has them.
     struct Solution {
         std::vector<Coefficient> coefficients;
         std::vector<bool> at_bound;
-        double sigma = 0;                         ///< [dB]
-        std::vector<TransmitterGain> gains = {};  ///< none if they are equal
+        double sigma = 0;  ///< standard deviation of the error of a loss [dB]
+        std::vector<TransmitterGain> gains = {};  ///< gain of each transmitter; empty: equal
     };
 
-    /// @throws InputError, std::invalid_argument if the model cannot be asked
+    /// @throws InputError, std::invalid_argument if the model cannot be evaluated
     LinearCalibration(const KnownLinks& known, const Scenario& scenario, std::string_view model,
                       Gains gains);
 
-    /// Fits to the links that `takes` wants.
-    /// @throws std::invalid_argument if they do not tell the parameters apart
+    /// Fits the model to the links for which `takes` returns true.
+    /// @throws std::invalid_argument if the links do not determine the parameters
     Solution fit(const std::function<bool(const KnownLink&)>& takes) const;
-    /// Loss of the i-th link [dB].
+    /// Predicted loss of the i-th link [dB].
     double predict(const Solution& solution, std::size_t i) const;
     FittedSettings settings(const Solution& solution) const;
 
@@ -76,9 +77,10 @@ class LinearCalibration {
     std::string model_;
     std::vector<FreeParameter> free_;
     std::vector<LinearLoss> losses_;
-    std::vector<std::size_t> used_;   // of the free parameters: those that matter for some link
-    std::vector<Vec3> transmitters_;  // whose gains are free
-    std::vector<std::size_t> transmitter_;  // of each link, an index into these
+    std::vector<std::size_t> used_;   // indices of free parameters that affect some link
+    std::vector<Vec3> transmitters_;  // positions of transmitters with free gains
+    // Transmitter of each link, as an index into transmitters_.
+    std::vector<std::size_t> transmitter_;
 };
 
 }  // namespace rovernet

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "study/calibration/locate.hpp"
 
-#include "experiment/build.hpp"
 #include "experiment/session.hpp"
 #include "models/link_gain.hpp"
 #include "models/medium/medium.hpp"
+#include "scenario/unlikely.hpp"
 #include "study/calibration/known_links.hpp"
 #include "study/calibration/locator.hpp"
 
@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace rovernet {
@@ -55,23 +54,28 @@ struct HeardPlace {
     Fix fix;
     Vec3 antenna;  // at the true place, if that is known
     std::vector<AnchorLoss> losses = {};
+    std::shared_ptr<const Scene> scene = nullptr;  // with the doors as they were
 };
 
 Located locate(std::vector<HeardPlace> places, LocatorSettings settings, Db sigma) {
     Located out{.sigma = sigma};
-    Locator locator(std::move(settings));
+    std::optional<Locator> locator;
     for (HeardPlace& place : places) {
         if (place.losses.size() < fewest_anchors) {
             ++out.too_few;
             continue;
         }
+        if (!locator || settings.scene != place.scene) {
+            settings.scene = place.scene;
+            locator.emplace(settings);
+        }
         std::vector<Vec3> anchors;
         for (const AnchorLoss& each : place.losses) anchors.push_back(each.anchor);
         Fix fix = std::move(place.fix);
         fix.anchors = anchors.size();
-        const Vec3 found = locator.locate(place.losses, place.antenna.z);
+        const Vec3 found = locator->locate(place.losses, place.antenna.z);
         fix.found = found;
-        fix.bound = locator.bound(anchors, fix.truth ? place.antenna : found, sigma);
+        fix.bound = locator->bound(anchors, fix.truth ? place.antenna : found, sigma);
         out.fixes.push_back(std::move(fix));
     }
     return out;
@@ -99,7 +103,7 @@ std::vector<NodeId> anchors_in(const Network& network, const std::vector<std::st
     return out;
 }
 
-/// What a robot hears of the anchors now.
+/// Levels that a robot receives from the anchors now.
 HeardPlace heard_by(const Network& network, const std::vector<NodeId>& anchors, NodeId robot) {
     const Medium& medium = network.medium();
     const auto antenna = [&](NodeId of) {
@@ -141,29 +145,32 @@ std::optional<Located::Errors> Located::errors() const {
 
 Located locate_robots(const Scenario& scenario, const std::vector<std::string>& anchors,
                       const std::vector<Time>& times, const LocateQuestion& question) {
-    refuse_doors(scenario.scene, "locate");
+    refuse_disc(scenario.propagation.make(), scenario.propagation_where, "locate");
     Session session(scenario);
     Network& network = session.network();
     const std::vector<NodeId> known = anchors_in(network, anchors);
     const Db sigma = sigma_of(scenario, question);
     std::vector<HeardPlace> places;
     std::vector<Vec3> seen;  // places of anchors
+    const NetworkSettings& settings = network.settings();
+    const auto open =
+        settings.scene ? settings.scene : std::shared_ptr<const Scene>(std::make_shared<Scene>());
     for (const Time at : times) {
         session.step(at);
+        const SceneChange* change = last_change(settings.scene_changes, at);
         for (const NodeId anchor : known) seen.push_back(network.position(anchor));
         for (std::uint32_t i = 0; i < network.size(); ++i) {
             const NodeId robot{i};
             if (std::find(known.begin(), known.end(), robot) != known.end()) continue;
             if (network.robot(robot).presence != Presence::on) continue;
             places.push_back(heard_by(network, known, robot));
+            places.back().scene = change ? change->scene : open;
         }
     }
     const auto [low, high] = area_of(network.scene(), seen, question.margin);
     const NodeId first = known.front();
-    const NetworkSettings& settings = network.settings();
     return locate(std::move(places),
                   {.model = scenario.propagation.make(),
-                   .scene = settings.scene ? settings.scene : std::make_shared<Scene>(),
                    .floor_height = settings.floor_height,
                    .frequency = network.medium().stations().radio(first).frequency,
                    .low = low,
@@ -187,13 +194,13 @@ Located locate_levels(const std::string& path, const Scenario& scenario,
             places.push_back({.fix = {.name = name}, .antenna = link.to});
             if (known.knows_receivers) places.back().fix.truth = link.to;
         }
+        places[at->second].scene = known.scene;
         places[at->second].losses.push_back({link.from, link.loss});
         anchors.push_back(link.from);
     }
     const auto [low, high] = area_of(*known.scene, anchors, question.margin);
     return locate(std::move(places),
                   {.model = scenario.propagation.make(),
-                   .scene = known.scene,
                    .floor_height = known.floor_height,
                    .frequency = scenario.radio.frequency,
                    .low = low,

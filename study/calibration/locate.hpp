@@ -11,44 +11,45 @@
 #include <string>
 #include <vector>
 
-// Where robots are, as far as the levels tell that they receive from anchors: what `rovernet
-// locate` asks. See Locator.
+// Localisation of robots by levels received from anchors (transmitters at known positions):
+// `rovernet locate`. See Locator.
 
 namespace rovernet {
 
-/// What is asked of levels.
+/// Settings of a localisation by received levels.
 struct LocateQuestion {
-    /// Standard deviation of a level's error [dB]; if not given, that of the scenario's shadowing.
+    /// Standard deviation of a level's error [dB]; none: that of the scenario's shadowing.
     std::optional<Db> sigma = {};
     bool knows_power = true;
-    /// Places are looked for on the map; on an open field in the box of the anchors, with this
-    /// margin [m] around it.
+    /// Margin [m] around the bounding box of the anchors (transmitters of known position).
+    /// Positions are searched in this area on an open field, and on the whole map otherwise.
     Meters margin{0};
 };
 
-/// Place found from levels.
+/// Position estimated from levels.
 struct Fix {
-    std::string name;                ///< robot, or place of a file of levels
-    std::optional<Time> at = {};     ///< time of the run
-    std::size_t anchors = 0;         ///< that were heard
-    std::optional<Vec3> truth = {};  ///< where it was [m]
-    Vec3 found = {};                 ///< where it most likely was [m]
-    /// Bound on the rms error [m] at the true place, or else at the one found; none if the anchors
-    /// do not tell the place.
+    std::string name;                ///< name of the robot, or place in a file of levels
+    std::optional<Time> at = {};     ///< simulated time of the estimate; none: from a file
+    std::size_t anchors = 0;         ///< number of anchors whose signal was received
+    std::optional<Vec3> truth = {};  ///< true position [m]; none: unknown
+    Vec3 found = {};                 ///< estimated position [m]
+    /// Lower bound of the rms error [m] at the true position, if known, or else at the estimate;
+    /// none if the anchors do not determine the position.
     std::optional<Meters> bound = {};
 
-    /// Horizontal distance [m] of what was found from the truth, if that is known.
+    /// Horizontal distance [m] between estimate and true position, if the latter is known.
     std::optional<double> error() const;
 };
 
-/// Fixes, in order of time and then of robot, or as in the file.
+/// Position fixes, in order of time and then of robot, or in the order of the file.
 struct Located {
-    Db sigma{0};  ///< of the bounds
+    Db sigma{0};  ///< standard deviation of a level's error, used in the bounds [dB]
     std::vector<Fix> fixes = {};
-    std::size_t too_few = 0;  ///< places that heard fewer than three anchors, and have no fix
+    /// Number of positions without a fix, since fewer than three anchors were received.
+    std::size_t too_few = 0;
 
-    /// Root mean square of the errors [m], and of the bounds of the same fixes: of those that have
-    /// both. Nothing if none has.
+    /// Root mean square of errors and of bounds [m], over the fixes that have both; none without
+    /// such fixes.
     struct Errors {
         std::size_t fixes;
         double rms, bound;
@@ -56,20 +57,20 @@ struct Located {
     std::optional<Errors> errors() const;
 };
 
-/// Fewest anchors of a fix: two leave two places.
+/// Least number of anchors (known transmitters) for a fix: with two, two positions are possible.
 inline constexpr std::size_t fewest_anchors = 3;
 
-/// Locates all robots but the anchors, at these times of a scenario's run, by the levels that they
-/// receive from anchors: with shadowing, without fading, as `rovernet links` lists them. Whoever
-/// locates them knows the scenario's propagation model, but not its shadowing.
+/// Locates all robots except the anchors, at given times of a scenario's run, by the levels that
+/// they receive from anchors. Levels include shadowing but no fading, as in `rovernet links`. The
+/// locator uses the scenario's propagation model, without knowing the shadowing.
 /// @param anchors  names of robots
 /// @throws InputError for an unknown robot, a directional antenna, no known sigma
 Located locate_robots(const Scenario& scenario, const std::vector<std::string>& anchors,
                       const std::vector<Time>& times, const LocateQuestion& question);
 
-/// Locates the receivers of a file of measured levels, see read_levels(): senders are the anchors.
-/// Receivers' places are the truth; without them the column `place` tells which levels were
-/// measured together.
+/// Locates the receivers of a file of measured levels, see read_levels(). The senders are the
+/// anchors. Receiver positions in the file are the true positions; without them, the column `place`
+/// groups levels that were measured together.
 /// @throws InputError for the file, or no known sigma
 Located locate_levels(const std::string& path, const Scenario& scenario,
                       const LocateQuestion& question);

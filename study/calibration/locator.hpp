@@ -15,71 +15,71 @@
 #include <utility>
 #include <vector>
 
-// Places from received levels: who hears transmitters at known places (anchors) can tell from the
-// levels where it is, as well as shadowing allows.
+// Localisation by received levels: a receiver estimates its position from the levels of
+// transmitters at known positions (anchors). Shadowing limits the accuracy.
 
 namespace rovernet {
 
-/// Loss of a signal from an anchor: its power and the gains, less the received level.
+/// Loss of a signal from an anchor (known transmitter): transmit power plus gains minus level.
 struct AnchorLoss {
-    Vec3 anchor;  ///< its antenna [m]
-    double loss;  ///< [dB]
+    Vec3 anchor;  ///< position of the anchor's antenna [m]
+    double loss;  ///< loss of the signal [dB]
 };
 
-/// What a Locator knows.
+/// Settings of a Locator.
 struct LocatorSettings {
-    Propagation model;  ///< its median counts
+    Propagation model;  ///< propagation model, of which the median loss is used
     std::shared_ptr<const Scene> scene = std::make_shared<Scene>();
     Meters floor_height = no_storeys;
     Hertz frequency;
-    Vec3 low, high;  ///< corners of the area of all places [m]; z does not count
-    bool knows_power =
-        true;  ///< false: all losses are off by one constant, which is estimated, too
+    Vec3 low, high;  ///< corners of the search area [m]; z is ignored
+    /// True: losses are absolute; false: all losses have an unknown common offset, estimated, too.
+    bool knows_power = true;
 };
 
-/// Finder of the place that losses were most likely measured at, with errors that are normal [dB],
-/// independent, and as large for each anchor:
+/// Maximum-likelihood estimator of the position at which losses were measured, for independent
+/// normal errors [dB] of equal variance:
 ///
 ///   (x, y) = arg min  sum over the anchors i of (L_i - L(a_i, (x, y)) - c)^2,
 ///
-/// c = 0, or the mean error if the power is not known. Of places that explain the levels equally
-/// well one is told: three anchors on a line cannot tell its two sides apart.
+/// c = 0, or the mean error if the power is not known. If several positions are equally likely, one
+/// of them is returned: three anchors on a line cannot distinguish its two sides.
 ///
-/// It looks at a grid of the area first (48 by 48 points), then around each of its valleys, to
-/// 1 mm.
+/// Search: a grid of 48 by 48 points over the area, then refinement around each local minimum, to 1
+/// mm.
 class Locator {
   public:
     explicit Locator(LocatorSettings settings);
 
-    /// The most likely place.
+    /// Most likely position [m].
     /// @param z  height of the antenna [m], known
     Vec3 locate(std::span<const AnchorLoss> losses, double z);
 
-    /// Bound of Cramer and Rao on the rms error [m] of any unbiased estimate of the place `at` from
+    /// Cramer-Rao bound on the rms error [m] of any unbiased estimate of the position `at` from
     /// these anchors: sqrt(trace F^-1) with
     ///
     ///   F = sum over i of g_i g_i^T / sigma^2,   g_i the gradient of the loss [dB/m],
     ///
-    /// with one more row and column if the power is not known. For log_distance that is
-    /// F = b^2 sum u_i u_i^T / d_i^2 with b = 10 n / (sigma ln 10). Nothing if they do not tell the
-    /// place. The gradient is taken over 1 mm: where a wall's shadow begins there is none.
-    /// Source: N. Patwari et al., Relative location estimation in wireless sensor networks, IEEE
-    /// Trans. Signal Processing 51(8), 2003.
+    /// with one more row and column if the power is not known. For log_distance that is F = b^2 sum
+    /// u_i u_i^T / d_i^2 with b = 10 n / (sigma ln 10). None if the anchors do not determine the
+    /// position. The gradient is a difference quotient over 1 mm; at the edge of a wall's shadow it
+    /// is undefined. Source: N. Patwari et al., Relative location estimation in wireless sensor
+    /// networks, IEEE Trans. Signal Processing 51(8), 2003.
     std::optional<Meters> bound(std::span<const Vec3> anchors, Vec3 at, Db sigma) const;
 
   private:
-    using Grid = std::vector<double>;  // loss at each of the points [dB]
+    using Grid = std::vector<double>;  // loss at each grid point [dB]
 
     void losses_from(Vec3 anchor, std::span<const Vec3> to, std::span<double> out) const;
     const Grid& grid_of(Vec3 anchor, double z);
     std::vector<Vec3> valleys(std::span<const AnchorLoss> losses, double z);
     std::pair<double, Vec3> refined(std::span<const AnchorLoss> losses, Vec3 from) const;
-    /// Sum of squared errors of so many losses, less that of their mean if the power is not known.
+    /// Sum of squared errors, minus the part of their mean if the power is not known.
     double misfit(std::size_t losses, double squares, double sum) const;
     Vec3 point(int i, int j, double z) const;
 
     LocatorSettings settings_;
-    std::map<std::tuple<double, double, double, double>, Grid> grids_;  // by anchor, and height
+    std::map<std::tuple<double, double, double, double>, Grid> grids_;  // by anchor and height
 };
 
 }  // namespace rovernet

@@ -13,8 +13,8 @@
 
 namespace rovernet {
 
-/// Model by which each antenna is `by` [m] away from where the scenario has it: east, north, west
-/// or south, by the robot's key, for the whole run. Robots move and meet walls as they did.
+/// Propagation model that displaces each antenna by `by` [m] for the whole run: east, north, west
+/// or south, chosen by the robot's key. Robots' movements do not change.
 ///
 ///   Displaced{scenario.propagation.make(), Meters{0.01}}
 struct Displaced {
@@ -23,23 +23,24 @@ struct Displaced {
     Propagation model;
     Meters by{0};
 
-    /// Displacement of the antenna of the robot with that key [m].
+    /// Displacement [m] of the antenna of the robot with this key.
     Vec3 displacement(std::uint64_t key) const {
         const std::array<Vec3, 4> ways{
             {{by.value, 0}, {0, by.value}, {-by.value, 0}, {0, -by.value}}};
         return ways[mix(key) % ways.size()];
     }
 
-    /// Two antennas come nearer by no more than both displacements.
+    /// Range [m] of the model, extended by the displacements of both antennas, since the antennas
+    /// may come nearer by that much.
     Meters reach(Db loss, Hertz frequency, Meters highest) const {
-        constexpr double slack = 1 + 1e-12;  // more than rounding takes
+        constexpr double slack = 1 + 1e-12;  // larger than rounding errors
         return {(model.reach(loss, frequency, highest).value + 2 * by.value) * slack};
     }
     void check_frequency(Hertz frequency) const { model.check_frequency(frequency); }
     void check_scene(const Scene& scene) const { model.check_scene(scene); }
 
     /// Fills out_db[i] [dB] for the i-th receiver; same size as the batch, which needs keys.
-    void loss(const LinkBatch& links, Db give_up, std::span<double> out_db) const {
+    void loss(const LinkBatch& links, Db cutoff, std::span<double> out_db) const {
         std::vector<Vec3> to(links.to.begin(), links.to.end());
         for (std::size_t i = 0; i < to.size(); ++i) {
             to[i] = to[i] + displacement(links.to_keys[i]);
@@ -47,7 +48,7 @@ struct Displaced {
         LinkBatch moved = links;
         moved.from = links.from + displacement(links.from_key);
         moved.to = to;
-        model.loss(moved, give_up, out_db);
+        model.loss(moved, cutoff, out_db);
     }
 };
 

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -36,7 +35,7 @@ bool sees_walls(const Scenario& scenario) {
                        [&](const RobotTable& r) { return r.propagation && sees(*r.propagation); });
 }
 
-/// The perturbation by which radio sees these maps, of these materials.
+/// Perturbation in which radio sees the given maps and materials.
 Perturbation redrawn(const Scenario& scenario, std::string name, std::vector<OccupancyGrid> maps,
                      const std::vector<Material>& materials) {
     Perturbation out{.name = std::move(name), .scenario = scenario, .nothing = {}};
@@ -126,7 +125,7 @@ std::optional<Meters> slab_taking(double loss, ItuMaterial material, Meters thic
     return std::nullopt;
 }
 
-/// Makes a crossing of the material's walls take so much more [dB], but no less than 0.
+/// Raises the loss of a crossing of the material's walls [dB]; the result is at least 0.
 void change(Material& material, Db more, Hertz frequency, double thickness) {
     const WallRate rate = wall_rate(material, frequency, 0);
     const double wanted = std::max(0.0, rate.per_crossing + more.value);
@@ -144,7 +143,8 @@ void change(Material& material, Db more, Hertz frequency, double thickness) {
     }
 }
 
-/// Changes what the model takes for walls that follow it. @return whether it has a number for that
+/// Changes the model's loss of walls without a material. @return whether the model has such a
+/// parameter
 bool change(PropagationTable& table, Db more, double thickness) {
     const std::string model(table.make().name());
     if (model == MultiWall::name) {

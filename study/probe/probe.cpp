@@ -2,9 +2,9 @@
 #include "study/probe/probe.hpp"
 
 #include "experiment/build.hpp"
+#include "experiment/replay/deliveries.hpp"
 #include "network/network.hpp"
 #include "scene/scene.hpp"
-#include "experiment/replay/deliveries.hpp"
 #include "study/calibration/known_links.hpp"
 #include "study/probe/perturbation.hpp"
 
@@ -108,7 +108,7 @@ LinkEffect LinkProbe::effect_of_moving(const Perturbation& p, const KnownLink& l
     return most;
 }
 
-/// Who got which message of a run, and until when.
+/// Deliveries of a run, and the time until which they are known.
 struct Played {
     std::vector<Delivery> deliveries;  // in order of message and robot
     std::vector<std::string> names;    // of robots
@@ -137,7 +137,7 @@ Played play(const Perturbation& p, Time end, std::uint64_t limit,
     return out;
 }
 
-/// Counts the messages that one of the runs has only, and keeps some.
+/// Counts the deliveries that occur in only one of the runs, and stores some of them.
 void compare_messages(const Played& given, const Played& perturbed, std::size_t most,
                       PerturbationEffect& row, std::vector<MessageEffect>& out) {
     std::vector<std::pair<Delivery, bool>> changes;

@@ -6,12 +6,12 @@
 
 namespace rovernet {
 
-// Checks of arguments, for the statistics of study/. `owner` begins the error's text.
+// Checks of arguments of statistical functions. The error message begins with `owner`.
 
-/// @throws std::invalid_argument unless every value is finite
+/// Checks that every value is finite. @throws std::invalid_argument if not
 void check_finite(std::span<const double> values, std::string_view owner);
 
-/// @throws std::invalid_argument, naming it, unless 0 < value < 1
+/// Checks that 0 < value < 1. @throws std::invalid_argument naming the value if not
 void check_open_unit(double value, std::string_view name, std::string_view owner);
 
 }  // namespace rovernet

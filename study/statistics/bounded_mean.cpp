@@ -13,7 +13,6 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 namespace rovernet {
 namespace {
@@ -39,7 +38,7 @@ const Gamblers& shares() {
     return values;
 }
 
-/// Whether the gamblers who bet on "above m" have together had `enough` at some time.
+/// Whether the total wealth of the gamblers who bet on "above m" has reached `enough` at some time.
 bool ever_rich(std::span<const double> values, double m, double enough) {
     constexpr double ruined = 1e-250;  // less is dropped: subnormal numbers are slow
     const Gamblers& share = shares();

@@ -279,7 +279,7 @@ std::string equivalence_text(std::string_view a, std::string_view b, double marg
     const std::string more =
         verdict.needed ? fmt::format("about {} replications would decide, if they are as these are",
                                      *verdict.needed)
-                       : "how many would decide, these do not tell";
+                       : "the number that would decide cannot be estimated";
     return fmt::format("not decided by {} replications whether {} is within {:.6g} of {} ({}); {}",
                        n, a, margin, b, level, more);
 }

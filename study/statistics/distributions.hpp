@@ -6,29 +6,31 @@
 
 namespace rovernet {
 
-// Probabilities that the statistics of study/ need, from Boost.Math. Unlike sim/math.hpp they go
-// through the C library: the last digits may differ from one machine to the next. T is Student's t
-// with `degrees` > 0 degrees of freedom; levels and probabilities are above 0 and below 1.
+// Distributions used by the statistics of study/, from Boost.Math. Unlike sim/math.hpp, Boost.Math
+// calls the C library, so that the last digits may differ between machines. T has Student's t
+// distribution with `degrees` > 0 degrees of freedom; levels and probabilities are above 0 and
+// below 1.
 
-/// The t > 0 that |T| exceeds with probability `level`.
+/// Critical value t > 0 of Student's t distribution: |T| exceeds it with probability `level`.
 double t_critical(double degrees, double level);
 
-/// The probability that |T| exceeds |t|; 0 for an infinite t.
+/// Probability that |T| exceeds |t|, for T with Student's t distribution; 0 for an infinite t.
 double t_exceeded(double degrees, double t);
 
-/// The shift at which the two-sided test of this level finds a difference with probability `power`
-/// > level: the noncentrality d >= 0 of T with P(|T| > t_critical) = power, wrong sign included.
+/// Shift at which the two-sided t-test of this level rejects with probability `power` > level: the
+/// noncentrality d >= 0 of T with P(|T| > t_critical) = power, including rejections with the wrong
+/// sign.
 ///
-/// Solved by bracketing (TOMS 748) to the last digits; against an integration of 30 digits its
-/// relative error is below 1e-14. Nothing if t_critical > 10^4: of one degree of freedom, a level
-/// below 6.4e-5. Source: N. L. Johnson, S. Kotz, N. Balakrishnan, Continuous Univariate
+/// Solved by bracketing (TOMS 748) to the last digits; the relative error against an integration
+/// with 30 digits is below 1e-14. None if t_critical > 10^4 (with one degree of freedom: a level
+/// below 6.4e-5). Source: N. L. Johnson, S. Kotz, N. Balakrishnan, Continuous Univariate
 /// Distributions, vol. 2, 2nd ed., chapter 31 (the noncentral t distribution).
 std::optional<double> t_shift(double degrees, double level, double power);
 
-/// The probability that of n draws, each a success with probability p, at most k are; k < n.
+/// Probability of at most k successes in n draws with success probability p; k < n.
 double binomial_at_most(std::size_t k, std::size_t n, double p);
 
-/// Probability that more than k of these draws are successes.
+/// Probability of more than k successes in n draws with success probability p; k < n.
 double binomial_above(std::size_t k, std::size_t n, double p);
 
 }  // namespace rovernet

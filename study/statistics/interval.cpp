@@ -22,7 +22,7 @@ std::optional<MeanInterval> student_interval(std::span<const double> values, con
     const auto half = half_width(*summary, confidence);
     if (!half || !(*half > 0)) return std::nullopt;
     constexpr double unbounded = std::numeric_limits<double>::infinity();
-    // A bound that the values break is none.
+    // A bound that the values violate is ignored.
     const Bounds kept = bounds.hold(values) ? bounds : Bounds{};
     return MeanInterval{.low = std::max(summary->mean - *half, kept.low.value_or(-unbounded)),
                         .high = std::min(summary->mean + *half, kept.high.value_or(unbounded)),
@@ -96,6 +96,17 @@ std::string_view words_of(IntervalMethod method) {
         case IntervalMethod::betting: return "by betting";
         default: return "by STaR-Bets";
     }
+}
+
+std::string other_method_text(std::string_view metric, std::optional<IntervalMethod> wish,
+                              std::span<const IntervalMethod> used) {
+    const auto other =
+        std::ranges::find_if(used, [&](IntervalMethod method) { return wish && method != *wish; });
+    if (other == used.end()) return "";
+    return fmt::format(
+        "intervals of {} are {}, not {} as asked for: that needs a metric with two bounds, and "
+        "values within them",
+        metric, words_of(*other), words_of(*wish));
 }
 
 }  // namespace rovernet

@@ -12,63 +12,72 @@
 
 namespace rovernet {
 
-/// An interval for the true mean of a metric, in its unit; low < high.
+/// Interval for the true mean of a metric, in the metric's unit; low < high.
 struct MeanInterval {
     double low = 0;
     double high = 0;
-    IntervalMethod method{};  ///< method by which it was made
-    bool skewed = false;      ///< made by t of values too skewed for it: see too_skewed_for_t()
+    IntervalMethod method{};  ///< method of the interval
+    /// True: method t with values that are too skewed, see too_skewed_for_t().
+    bool skewed = false;
     friend bool operator==(const MeanInterval&, const MeanInterval&) = default;
 
     double half_width() const { return (high - low) / 2; }
 };
 
-/// The method for these values: STaR-Bets where the metric has two bounds and the values keep them,
-/// else t. A wish for betting or STaR-Bets where it cannot be gives t.
+/// Interval method for these values: STaR-Bets if the metric has two bounds and the values keep
+/// them, otherwise t. If `wish` is betting or STaR-Bets but the bounds are missing, the result is
+/// t.
 ///
-/// STaR-Bets hold for a number of values that was fixed beforehand. Who stops when he has seen
-/// enough wishes for betting.
+/// STaR-Bets is valid for a number of values fixed beforehand. Callers with a stopping rule must
+/// wish for betting.
 IntervalMethod method_for(std::span<const double> values, const Bounds& bounds,
                           std::optional<IntervalMethod> wish = {});
 
-/// The interval for the mean of one value from each replication; every table, picture and stopping
-/// rule has its intervals from here. Nothing without values, and by t nothing for n = 1 or if all
-/// values are equal: where nothing varied, t knows nothing.
+/// Interval for the mean, given one value from each replication. All tables, pictures and stopping
+/// rules use it. None without values; by t also none for n = 1 or if all values are equal.
 ///
-/// By STaR-Bets it is that of star_mean(), by betting that of bounded_mean(), whatever the
-/// distribution. By t it is mean +- half_width(), cut at the bounds; the mean always lies in it.
+/// By STaR-Bets it is star_mean(), by betting bounded_mean(), both valid for any distribution. By t
+/// it is mean +- half_width(), clipped to the bounds. It always contains the sample mean.
 ///
 /// @param  values  in the order of the replications
-/// @param  bounds  of the metric: bounds_of(), or difference_bounds() for paired differences
-/// @param  wish    method_for() otherwise
+/// @param  bounds  bounds of the metric: bounds_of(), or difference_bounds() for paired differences
+/// @param  wish    preferred method, see method_for()
 /// @throws std::invalid_argument if a value is not finite, or confidence not in (0, 1)
+/// Example: examples/study.cpp.
 std::optional<MeanInterval> interval_of(std::span<const double> values, const Bounds& bounds,
                                         double confidence = 0.95,
                                         std::optional<IntervalMethod> wish = {});
 
-/// Number of replications in all that, as far as these tell, give half the width `wanted`; nothing
-/// if they tell nothing (see interval_of()) or 10^9 would not do. An estimate: run more and ask
-/// again, and so by betting where interval_of() would take STaR-Bets.
-/// @param  wanted  > 0, in the metric's unit; others as for interval_of()
+/// Estimated total number of replications for the half-width `wanted`, based on these values; none
+/// if interval_of() gives none, or if 10^9 would not suffice. The estimate is rough: repeat it
+/// after more runs. It assumes betting where interval_of() would use STaR-Bets, since repeated
+/// estimates are a stopping rule.
+/// @param  wanted  half-width > 0, in the metric's unit; other parameters as in interval_of()
 std::optional<std::size_t> replications_for_width(std::span<const double> values,
                                                   const Bounds& bounds, double wanted,
                                                   double confidence = 0.95,
                                                   std::optional<IntervalMethod> wish = {});
 
-/// Whether Student's interval for the mean of these is doubtful: n <= 25 G^2 with G their skewness,
-/// and |G| more than normal values show in 95 % of samples, 2 sqrt(6 n (n - 1) / ((n - 2) (n + 1)
-/// (n + 3))). False for n < 3.
+/// Whether Student's interval is doubtful for these values: n <= 25 G^2, with G the sample
+/// skewness, and |G| exceeds the limit that 95 % of normal samples keep, 2 sqrt(6 n (n - 1) / ((n -
+/// 2) (n + 1) (n + 3))). False for n < 3.
 ///
 /// G = (sum (x - mean)^3 / n) / (sum (x - mean)^2 / n)^1.5. Source: W. G. Cochran, Sampling
 /// Techniques, 3rd ed., section 2.15 (n > 25 G^2); its standard error: D. N. Joanes, C. A. Gill,
 /// The Statistician 47(1), 1998.
 bool too_skewed_for_t(std::span<const double> values);
 
-/// The method of this name, "t", "betting" or "star"; nothing for no name.
-/// @throws std::invalid_argument for any other
+/// Interval method of this name, "t", "betting" or "star"; none without a name.
+/// @throws std::invalid_argument for any other name
 std::optional<IntervalMethod> method_named(const std::optional<std::string>& name);
 
-/// The method in words, for captions: "by STaR-Bets", "by betting", "by Student's t".
+/// Method as a phrase for captions: "by STaR-Bets", "by betting", "by Student's t".
 std::string_view words_of(IntervalMethod method);
+
+/// Notice that intervals of a metric do not use the requested method, with the reason; empty if
+/// they do.
+/// @param used  methods of the intervals
+std::string other_method_text(std::string_view metric, std::optional<IntervalMethod> wish,
+                              std::span<const IntervalMethod> used);
 
 }  // namespace rovernet

@@ -8,15 +8,17 @@
 
 namespace rovernet {
 
-/// Method by which the interval of a mean is made. A study may name it; otherwise the metric
-/// decides, and whether the number of replications was fixed beforehand.
+/// Method for the confidence interval of a mean. A study may choose it; otherwise it depends on the
+/// metric, and on whether the number of replications is fixed beforehand.
 ///
-/// - `t`: Student's t, which supposes that means are normal.
-/// - `betting`: supposes only that the values have bounds, and holds however often one looks.
-/// - `star`: STaR-Bets, supposes as little and is narrower, for a number of values fixed
-/// beforehand.
+/// - `t`: Student's t, which assumes that means are normal.
+/// - `betting`: betting confidence sequence; assumes only that values are bounded, and is valid at
+///   any stopping time.
+/// - `star`: STaR-Bets; also assumes only bounded values, and is narrower, but needs a number of
+/// values fixed beforehand.
 ///
-/// [study] interval chooses one; interval_of() in study/interval.hpp makes all of them.
+/// [study] interval chooses the method; interval_of() in study/statistics/interval.hpp computes the
+/// interval.
 enum class IntervalMethod { t, betting, star };
 
 inline constexpr std::array all_interval_methods = {IntervalMethod::t, IntervalMethod::betting,

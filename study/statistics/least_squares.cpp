@@ -190,26 +190,4 @@ LinearFit least_squares(const Observations& observations, const std::vector<bool
     }
 }
 
-std::optional<double> left_out_rmse(const Observations& observations,
-                                    const std::vector<bool>& not_below_0) {
-    std::map<std::uint32_t, std::pair<Observations, Observations>> parts;  // others, the group
-    for (std::size_t i = 0; i < observations.rows(); ++i) parts[group_of(observations, i)];
-    if (parts.size() < 2) return std::nullopt;
-    double sse = 0;
-    for (auto& [group, part] : parts) {
-        auto& [others, own] = part;
-        others.columns = own.columns = observations.columns;
-        for (std::size_t i = 0; i < observations.rows(); ++i) {
-            const bool is_own = group_of(observations, i) == group;
-            (is_own ? own : others).add(observations.row(i), observations.y[i]);
-        }
-        const LinearFit fit = least_squares(others, not_below_0);
-        for (std::size_t i = 0; i < own.rows(); ++i) {
-            const double error = own.y[i] - fit.predict(own.row(i));
-            sse += error * error;
-        }
-    }
-    return std::sqrt(sse / static_cast<double>(observations.rows()));
-}
-
 }  // namespace rovernet

@@ -7,24 +7,24 @@
 
 namespace rovernet {
 
-/// The range that a metric's values lie in, in its unit; nothing where it has no end.
+/// Natural bounds of a metric's values, in the metric's unit; none: unbounded on that side.
 struct Bounds {
     std::optional<double> low, high;
 
     bool closed() const { return low && high; }
-    /// Whether every value lies in it.
+    /// Whether every value lies within the bounds.
     bool hold(std::span<const double> values) const;
     friend bool operator==(const Bounds&, const Bounds&) = default;
 };
 
-/// The bounds of a metric by its name: 0 to 1 for shares, from 0 for times and counts. A metric of
-/// one flow or robot, "delivery_ratio.NAME", has those of the metric before the dot.
+/// Bounds of a metric, by its name: 0 to 1 for shares; 0 and no upper bound for times and counts. A
+/// metric of a flow or robot, "delivery_ratio.NAME", has the bounds of the metric before the dot.
 ///
-/// `reach` passes 1 where robots move or relay late. Its bounds are 0 and 1 all the same; where a
-/// value lies beyond them they do not hold, and who asks hold() sees it.
+/// The metric `reach` may exceed 1 if robots move or forward late. Its bounds are nevertheless 0
+/// and 1; callers must check values by hold().
 Bounds bounds_of(std::string_view metric);
 
-/// The bounds of the difference of two values of a metric: -(high - low) to high - low.
+/// Bounds of the difference of two values of a metric: -(high - low) to high - low.
 Bounds difference_bounds(const Bounds& bounds);
 
 }  // namespace rovernet

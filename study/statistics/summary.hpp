@@ -7,36 +7,36 @@
 
 namespace rovernet {
 
-/// Summary of n replications of one metric, in the metric's unit. The replication is the unit of
-/// analysis: one value from each, and the values are independent.
+/// Summary of n replications of one metric, in the metric's unit. Each replication gives one value;
+/// the values are independent.
 struct Summary {
-    std::size_t n = 0;                         ///< values, > 0
-    double mean = 0;                           ///< (x1 + ... + xn) / n
-    std::optional<double> standard_deviation;  ///< standard deviation with n - 1; nothing for n = 1
+    std::size_t n = 0;  ///< number of values, > 0
+    double mean = 0;    ///< (x1 + ... + xn) / n
+    /// Sample standard deviation (divisor n - 1); none for n = 1.
+    std::optional<double> standard_deviation;
     double min = 0;
     double max = 0;
     friend bool operator==(const Summary&, const Summary&) = default;
 };
 
-/// The summary of the values, nothing without one. Exact when all are equal: their standard
-/// deviation is then 0, and otherwise it is not (for values and differences that are not beyond
-/// 1e150 or below 1e-150).
+/// Summary of the values; none without values. The standard deviation is 0 exactly if all values
+/// are equal (for values and differences between 1e-150 and 1e150).
 ///
-/// In two passes over x - x1, in the order of the values: an offset that all share costs no digits,
-/// and every machine gets the same bits. Source: T. F. Chan, G. H. Golub, R. J. LeVeque, The
-/// American Statistician 37(3), 1983, on shifted data.
+/// Computed in two passes over x - x1, in the order of the values, so that a common offset costs no
+/// precision and all machines give the same bits. Source: T. F. Chan, G. H. Golub, R. J. LeVeque,
+/// The American Statistician 37(3), 1983, on shifted data.
 /// @throws std::invalid_argument if a value is not finite
 std::optional<Summary> summary_of(std::span<const double> values);
 
-/// Half the width of Student's interval for the true mean, mean +- t s / sqrt(n), in the metric's
-/// unit; nothing for n = 1. It covers the truth with probability `confidence` if the values are
-/// normal, and nearly so for the mean of many that are not.
+/// Half-width of Student's interval for the true mean, mean +- t s / sqrt(n), in the metric's unit;
+/// none for n = 1. The interval covers the true mean with probability `confidence` if values are
+/// normal, and approximately if there are many values.
 /// @throws std::invalid_argument unless 0 < confidence < 1
 std::optional<double> half_width(const Summary& summary, double confidence = 0.95);
 
-/// Number of replications in all that, as far as these tell, give the wanted half-width: the least
-/// N >= n with t(N - 1) s / sqrt(N) <= wanted. Only an estimate, as s is: run more, summarize all,
-/// ask again. Nothing for n = 1, or if 10^9 would not do.
+/// Estimated total number of replications for the wanted half-width: the least N >= n with t(N - 1)
+/// s / sqrt(N) <= wanted. It is an estimate since s is one: repeat it after more runs. None for n =
+/// 1, or if 10^9 would not suffice.
 ///
 /// Source: A. M. Law, Simulation Modeling and Analysis, 5th ed., section 9.4.1.
 /// @param  wanted  > 0, in the metric's unit

@@ -125,7 +125,7 @@ std::vector<double> starting_point(const Observations& observations,
         if (!unseen[i]) seen.add(observations.row(i), observations.y[i]);
     }
     if (seen.rows() < observations.columns + 1) {
-        throw std::invalid_argument("tobit: too few rows are seen");
+        throw std::invalid_argument("tobit: too few levels are above the floor");
     }
     const LinearFit start = least_squares(seen);
     const double g = 1 / std::max(start.rmse, 1e-6);

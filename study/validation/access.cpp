@@ -120,9 +120,8 @@ void check_access(Promises& promises) {
     Promise collisions{"share of their frames that collide, against Bianchi", "", 0.012, 0, 0};
     for (const int n : {1, 5, 20}) {
         const CellErrors errors = cell_errors(n);
-        throughput.worst = std::max(throughput.worst, errors.throughput);
-        collisions.worst = std::max(collisions.worst, errors.collisions);
-        ++throughput.n, ++collisions.n;
+        throughput.add(errors.throughput);
+        collisions.add(errors.collisions);
     }
     constexpr Duration difs = 50us, eifs = 10us + 304us + difs;
     Promise access{"time of the next access after a frame that was not decoded", "ns", 0, 0, 0};
@@ -133,9 +132,7 @@ void check_access(Promises& promises) {
              Missed{EifsRule::ns2, 550, 400, 0, 0, 990us + eifs + difs},
              Missed{EifsRule::none, 250, -200, 100, 200, 990us + difs},
          }) {
-        const auto off = static_cast<double>((next_access(c) - c.expected).count());
-        access.worst = std::max(access.worst, std::abs(off));
-        ++access.n;
+        access.add(static_cast<double>((next_access(c) - c.expected).count()));
     }
     for (const Promise& each : {throughput, collisions, access}) promises.push_back(each);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/propagation/ray_tracer.hpp"
-#include "models/variation/fading.hpp"
-#include "models/variation/shadowing.hpp"
+#include "models/variation/fades.hpp"
+#include "models/variation/shadowing_field.hpp"
 #include "scene/scene.hpp"
 #include "sim/math.hpp"
 #include "study/calibration/disc_fit.hpp"
@@ -85,8 +85,7 @@ Promise rooms() {
           Room{30, 2.5, {1.2, 1.1, 2}, {28, 1.9, 1}}}) {
         for (const int order : {0, 1, 2, 3, 6}) {
             const double ratio = power_by_tracer(room, order) / power_by_images(room, order);
-            out.worst = std::max(out.worst, std::abs(10 * math::log10(ratio)));
-            ++out.n;
+            out.add(10 * math::log10(ratio));
         }
     }
     return out;
@@ -113,9 +112,7 @@ Promise shadowing_field() {
     constexpr std::uint32_t seeds = 20'000;
     Promise out{"correlation of the field of shadowing, against exp(-D / d_cor)", "", limit, 0, 0};
     for (const double moved : {1.0, 5.0, 10.0, 20.0, 40.0}) {
-        const double error = field_correlation(moved, seeds) - math::exp(-moved / 10);
-        out.worst = std::max(out.worst, std::abs(error));
-        ++out.n;
+        out.add(field_correlation(moved, seeds) - math::exp(-moved / 10));
     }
     return out;
 }
@@ -167,9 +164,7 @@ Promise discs() {
         };
         auto best = wrong(0);
         for (const DiscLink& link : links) best = std::min(best, wrong(link.distance));
-        const auto more = wrong(fit_disc(links).range.value) - best;
-        out.worst = std::max(out.worst, std::abs(static_cast<double>(more)));
-        ++out.n;
+        out.add(static_cast<double>(wrong(fit_disc(links).range.value) - best));
     }
     return out;
 }
@@ -205,8 +200,7 @@ Promise level_crossings() {
             const double theory = std::sqrt(2 * std::numbers::pi * m * power) *
                                   math::exp((m - 1) * math::log(m * power) - m * power);
             const double found = crossings[k] / (static_cast<double>(seeds) * steps * step);
-            out.worst = std::max(out.worst, std::abs(found / theory - 1));
-            ++out.n;
+            out.add(found / theory - 1);
         }
     }
     return out;

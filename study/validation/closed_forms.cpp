@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,18 +36,12 @@ struct GroundLink {
 };
 
 double loss_over(const Propagation& model, const GroundLink& link, const Scene& scene = {}) {
-    const Vec3 to{link.distance, 0.5, link.to_height};
-    const std::uint64_t key = 2;
     const LinkBatch batch{.frequency = link.frequency,
                           .from = {0, 0.5, link.from_height},
-                          .to = {&to, 1},
                           .from_key = 1,
-                          .to_keys = {&key, 1},
                           .scene = &scene,
                           .floor_height = Meters{3}};
-    double loss = 0;
-    model.loss(batch, Db{std::numeric_limits<double>::infinity()}, {&loss, 1});
-    return loss;
+    return model.loss_to({link.distance, 0.5, link.to_height}, batch, 2);
 }
 
 /// Computed values and the true ones.

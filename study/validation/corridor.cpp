@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -73,17 +72,11 @@ double power_of_images_db(const CorridorLink& link) {
 }
 
 double corridor_loss(const Propagation& model, const CorridorLink& link, const Scene& scene) {
-    const Vec3 to{link.along, receiver_y, 1};
-    const std::uint64_t key = 2;
     const LinkBatch batch{.frequency = Hertz{link.frequency},
                           .from = {0, sender_y, 1},
-                          .to = {&to, 1},
                           .from_key = 1,
-                          .to_keys = {&key, 1},
                           .scene = &scene};
-    double loss = 0;
-    model.loss(batch, Db{std::numeric_limits<double>::infinity()}, {&loss, 1});
-    return loss;
+    return model.loss_to({link.along, receiver_y, 1}, batch, 2);
 }
 
 Rays rays_of(int order, RaySum sum) {
@@ -104,21 +97,19 @@ ValidationPanel corridor_panel(std::string title, RaySum sum, double (*truth)(co
             return corridor_loss(model, link, *scenes[link.width == 2.0 ? 0 : 1]);
         };
         double squares = 0, worst = 0;
+        std::vector<double> parts;
         for (const CorridorLink& link : corridor_links) {
             const double error = loss(link) - truth(link);
-            squares += error * error;
+            parts.push_back(error * error);
+            squares += parts.back();
             worst = std::max(worst, std::abs(error));
         }
         const double n = static_cast<double>(std::size(corridor_links));
         panel.points.push_back({.label = i == 0 ? "friis" : fmt::format("rays, order {}", i - 1),
                                 .error = std::sqrt(squares / n),
-                                .details = {{"largest error [dB]", worst}}});
-        timed.push_back({[loss] {
-                             double all = 0;
-                             for (const CorridorLink& link : corridor_links) all += loss(link);
-                             return all;
-                         },
-                         n});
+                                .details = {{"largest error [dB]", worst}},
+                                .parts = std::move(parts)});
+        timed.push_back(timed_sum(corridor_links, loss));
     }
     set_costs(panel, timed, size.turns());
     return panel;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <functional>
 #include <numbers>
 #include <span>
@@ -118,12 +117,7 @@ ValidationPanel shadow_panel(std::string title, std::span<const Shadowed> cases,
         panel.points.push_back({.label = method.label,
                                 .error = std::sqrt(squares / values),
                                 .details = {{"largest error [dB]", worst}}});
-        timed.push_back({[&methods, cases, i = panel.points.size() - 1] {
-                             double sum = 0;
-                             for (const Shadowed& s : cases) sum += methods[i].fields(s).hard;
-                             return sum;
-                         },
-                         static_cast<double>(cases.size())});
+        timed.push_back(timed_sum(cases, [&](const Shadowed& s) { return method.fields(s).hard; }));
     }
     set_costs(panel, timed, size.turns());
     return panel;

@@ -3,7 +3,6 @@
 
 #include "experiment/timeline.hpp"
 #include "mobility/random_waypoint.hpp"
-#include "models/propagation/list.hpp"
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "sim/fate.hpp"
@@ -15,10 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <malloc.h>
 #include <numbers>
 #include <stdexcept>
-#include <time.h>
 
 namespace rovernet {
 namespace {
@@ -28,11 +27,7 @@ constexpr double sensing_range = 550;   // [m] of reception models with interfer
 constexpr double mean_neighbours = 12;  // where there is no border
 constexpr std::uint32_t payload = 64;   // [bytes]
 
-double cpu_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) / 1e9;
-}
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Bytes that this process has allocated and not freed.
 double allocated() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "study/validation/validation_charts.hpp"
 #include "study/validation/cases/validation_scene.hpp"
+#include "study/validation/validation_charts.hpp"
 
 #include <fmt/format.h>
 
@@ -68,14 +68,16 @@ ValidationPanel delivery_panel(std::string title, const ValidationScene& scene,
     ValidationPanel panel{.title = std::move(title),
                           .cost_label = "CPU per transmission [ns]",
                           .error_label = "error of a run's delivery ratio [-]",
-                          .log_error = false};
+                          .log_error = false,
+                          .interval_label = "95 % interval"};
     for (std::size_t i = 0; i < variants.size(); ++i) {
         const RunErrors errors = run_errors(runs[i], runs.back());
         ValidationPoint point{.label = variants[i].label,
                               .cost = runs[i].cost,
                               .error = errors.mean,
                               .details = {{"bias [-]", errors.bias},
-                                          {"replications", static_cast<double>(replications)}}};
+                                          {"replications", static_cast<double>(replications)}},
+                              .parts = errors.distances};
         if (errors.likely) {
             point.error_low = errors.likely->low;
             point.error_high = errors.likely->high;

@@ -170,10 +170,12 @@ std::vector<ChangeMethod> change_methods(const Passes& where, const ValidationSi
 ValidationPoint judged_changes(const ChangeMethod& method, const Passes& where,
                                const std::vector<Changes>& truth, double& latest) {
     double wrong = 0, missed = 0, known = 0;
+    std::vector<double> parts;  // of each pass
     latest = 0;
     for (std::size_t i = 0; i < truth.size(); ++i) {
         const Changes found = method.changes(where.all[i]);
-        wrong += disagreement(found, truth[i]);
+        parts.push_back(disagreement(found, truth[i]));
+        wrong += parts.back();
         known += static_cast<double>(truth[i].size());
         missed +=
             std::max(0.0, static_cast<double>(truth[i].size()) - static_cast<double>(found.size()));
@@ -182,10 +184,13 @@ ValidationPoint judged_changes(const ChangeMethod& method, const Passes& where,
             latest = std::max(latest, std::abs(seconds(found[k] - truth[i][k])));
         }
     }
+    for (double& part : parts)
+        part *= 1e3 * static_cast<double>(truth.size()) / std::max(known, 1.0);
     return {.label = method.label,
             .error = 1e3 * wrong / std::max(known, 1.0),
             .details = {{"changes missed [%]", 100 * missed / std::max(known, 1.0)},
-                        {"changes", known}}};
+                        {"changes", known}},
+            .parts = std::move(parts)};
 }
 
 ValidationPanel changes_panel(const Passes& where, const std::vector<Changes>& truth,
@@ -199,14 +204,9 @@ ValidationPanel changes_panel(const Passes& where, const std::vector<Changes>& t
         double worst = 0;
         panel.points.push_back(judged_changes(method, where, truth, worst));
         if (method.label == "rovernet") latest = worst;
-        timed.push_back({[&] {
-                             double sum = 0;
-                             for (const Pass& pass : where.all) {
-                                 sum += static_cast<double>(method.changes(pass).size());
-                             }
-                             return sum;
-                         },
-                         where.link_seconds()});
+        timed.push_back(
+            timed_sum(where.all, [&](const Pass& pass) { return method.changes(pass).size(); }));
+        timed.back().operations = where.link_seconds();
     }
     set_costs(panel, timed, size.turns());
     return panel;

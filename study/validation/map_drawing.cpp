@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -47,16 +46,8 @@ std::vector<Link> links_of(const DrawnBuilding& office, std::size_t n) {
 }
 
 double drawn_loss(const Propagation& model, const Scene& scene, const Link& link) {
-    const std::uint64_t key = 2;
-    const LinkBatch batch{.frequency = carrier,
-                          .from = link.first,
-                          .to = {&link.second, 1},
-                          .from_key = 1,
-                          .to_keys = {&key, 1},
-                          .scene = &scene};
-    double loss = 0;
-    model.loss(batch, Db{std::numeric_limits<double>::infinity()}, {&loss, 1});
-    return loss;
+    return model.loss_to(
+        link.second, {.frequency = carrier, .from = link.first, .from_key = 1, .scene = &scene}, 2);
 }
 
 /// Listed models, with their defaults, whose losses follow what is drawn.
@@ -89,9 +80,11 @@ ValidationPoint judged_drawing(const Propagation& model, const Scene& scene, con
                                const std::vector<Link>& links) {
     constexpr double budget = 90;  // [dB]
     double squares = 0, sum = 0, flipped = 0;
+    std::vector<double> parts;
     for (const Link& link : links) {
         const double truth = drawn_loss(model, exact, link), found = drawn_loss(model, scene, link);
-        squares += (found - truth) * (found - truth);
+        parts.push_back((found - truth) * (found - truth));
+        squares += parts.back();
         sum += found - truth;
         flipped += (found <= budget) != (truth <= budget);
     }
@@ -99,7 +92,8 @@ ValidationPoint judged_drawing(const Propagation& model, const Scene& scene, con
     return {.label = {},
             .series = std::string(model.name()),
             .error = std::sqrt(squares / n),
-            .details = {{"bias [dB]", sum / n}, {"flipped decisions [%]", 100 * flipped / n}}};
+            .details = {{"bias [dB]", sum / n}, {"flipped decisions [%]", 100 * flipped / n}},
+            .parts = std::move(parts)};
 }
 
 /// A drawing of the building: its cells, and whether the inside of thick walls is filled.
@@ -120,13 +114,8 @@ ValidationPanel drawing_panel(const Propagation& model, const std::vector<Drawin
         point.label = drawing.label;
         point.series = drawing.series;
         panel.points.push_back(std::move(point));
-        timed.push_back({[&] {
-                             double sum = 0;
-                             for (const Link& link : links)
-                                 sum += drawn_loss(model, *drawing.scene, link);
-                             return sum;
-                         },
-                         static_cast<double>(links.size())});
+        timed.push_back(timed_sum(
+            links, [&](const Link& link) { return drawn_loss(model, *drawing.scene, link); }));
     }
     set_costs(panel, timed, size.turns());
     return panel;

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -147,19 +146,18 @@ ValidationPanel building_panel(const MeasuredBuilding& building, const Validatio
                           .error_label = "error on another drive or day, rms [dB]",
                           .log_error = false,
                           .unknowable = repeated.one_level(),
+                          .interval_label =
+                              "bar: to the error where each receiver is predicted "
+                              "without its own levels",
                           .points = judged.points};
     panel.unknowable_label =
         fmt::format("{:.2f} dB between two measurements: a model that is right is {:.2f} dB off",
                     repeated.rms, repeated.one_level());
     std::vector<TimedMethod> timed;
     for (const Propagation& model : judged.models) {
-        timed.push_back({[&] {
-                             double sum = 0;
-                             for (const KnownLink& link : building.second.links)
-                                 sum += building.second.loss_by(model, link);
-                             return sum;
-                         },
-                         static_cast<double>(building.second.links.size())});
+        timed.push_back(timed_sum(building.second.links, [&](const KnownLink& link) {
+            return building.second.loss_by(model, link);
+        }));
     }
     set_costs(panel, timed, size.turns());
     return panel;

@@ -3,6 +3,7 @@
 #include "mobility/random_waypoint.hpp"
 #include "network/network.hpp"
 #include "scene/scene.hpp"
+#include "sim/legs.hpp"
 #include "sim/math.hpp"
 #include "study/validation/cases/drawn_map.hpp"
 #include "study/validation/validation_charts.hpp"

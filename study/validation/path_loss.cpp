@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "scenario/document/toml.hpp"
 #include "sim/math.hpp"
+#include "study/advise/medium_cost.hpp"
 #include "study/calibration/calibration.hpp"
 #include "study/calibration/free_parameters.hpp"
 #include "study/calibration/known_links.hpp"
-#include "study/advise/medium_cost.hpp"
 #include "study/calibration/prediction_errors.hpp"
 #include "study/validation/cases/measured_levels.hpp"
-#include "study/validation/validation_charts.hpp"
 #include "study/validation/cases/validation_scene.hpp"
+#include "study/validation/validation_charts.hpp"
 
 #include <fmt/format.h>
 
@@ -60,7 +60,7 @@ Table propagation_settings(Table propagation) {
 Table settings_of(const Form& form) {
     return propagation_settings(*parse_toml(form.keys, form.label).table());
 }
-/// A model as a user would write it who gives nothing but its name.
+/// Model with all default parameters.
 Table settings_of(const std::string& model) {
     Table propagation;
     propagation.set("model", model);
@@ -126,8 +126,8 @@ std::vector<JudgedModel> models_of(const ValidationScene& scene, const Truth& tr
     return out;
 }
 
-/// The truth with an error of its own, as large as against the measured building: a field of
-/// shadowing over its losses.
+/// Reference with an error as large as in the measured building: a shadowing field added to its
+/// losses.
 Table moved_by_its_error(const Truth& truth) {
     Table settings = settings_of(truth.model), shadowing;
     shadowing.set("model", "field");
@@ -209,7 +209,7 @@ std::string truth_sentence(const ValidationPanel& panel, const Truth& truth,
         off(*panel.unknowable));
 }
 
-/// What is left of the error with fewer paths.
+/// Remaining error with fewer paths.
 std::string convergence_sentence(const ValidationPanel& panel,
                                  const std::function<std::string(double)>& off) {
     std::vector<std::string> forms;
@@ -243,6 +243,21 @@ std::string reach_sentence(const ValidationPanel& panel) {
                        panel.title, fmt::join(models, ", "));
 }
 
+/// Point of a model in the panel of delivery ratios, made of its point in the panel of links.
+ValidationPoint delivery_point(ValidationPoint point, const RunErrors& errors,
+                               std::size_t replications) {
+    point.error = errors.mean;
+    point.parts = errors.distances;
+    if (errors.likely) {
+        point.error_low = errors.likely->low;
+        point.error_high = errors.likely->high;
+    }
+    point.details.insert(
+        point.details.begin(),
+        {{"bias [-]", errors.bias}, {"replications", static_cast<double>(replications)}});
+    return point;
+}
+
 ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::size_t replications,
                       const ValidationSize& size) {
     const Calibration calibration =
@@ -256,7 +271,8 @@ ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::siz
     ValidationPanel delivery{.title = scene.name,
                              .cost_label = "CPU per transmission [ns]",
                              .error_label = "error of a run's delivery ratio [-]",
-                             .log_error = false};
+                             .log_error = false,
+                             .interval_label = "95 % interval"};
     ValidationPanel links = delivery;
     links.error_label = "links decided wrongly [%]";
     if (truth.own_error) {
@@ -275,17 +291,8 @@ ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::siz
                               .details = {{receivers_found, cost.receivers}},
                               .parts = wrong_by_group(models[i].links)};
         links.points.push_back(point);
-        const RunErrors errors = run_errors(runs[i], runs.front());
-        point.error = errors.mean;
-        point.parts = errors.distances;
-        if (errors.likely) {
-            point.error_low = errors.likely->low;
-            point.error_high = errors.likely->high;
-        }
-        point.details.insert(
-            point.details.begin(),
-            {{"bias [-]", errors.bias}, {"replications", static_cast<double>(replications)}});
-        delivery.points.push_back(std::move(point));
+        delivery.points.push_back(
+            delivery_point(std::move(point), run_errors(runs[i], runs.front()), replications));
     }
     ScenePanels out{std::move(delivery), std::move(links), {}, {}};
     out.delivery_sentences = {truth_sentence(out.delivery, truth, off_in_a_run),

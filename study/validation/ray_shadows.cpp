@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <vector>
 
 // Shadows of the model `rays`: of the end of a wall, of a block, of a wall that is drawn askew.
 
@@ -22,11 +20,8 @@ namespace {
 constexpr Hertz shadow_carrier{2450e6};
 
 double loss_of(const Rays& model, const Scene& scene, Vec3 from, Vec3 to) {
-    double loss = 0;
-    const LinkBatch link{
-        .frequency = shadow_carrier, .from = from, .to = {&to, 1}, .to_keys = {}, .scene = &scene};
-    model.loss(link, Db{std::numeric_limits<double>::infinity()}, {&loss, 1});
-    return loss;
+    return Propagation(model).loss_to(to,
+                                      {.frequency = shadow_carrier, .from = from, .scene = &scene});
 }
 
 /// Largest change of the loss over 1 mm as a receiver passes the shadow of a wall's free end; the
@@ -42,9 +37,8 @@ Promise wall_ends() {
             double before = loss_of(model, scene, {4, 12, 1}, {16, 7.8, 1});
             for (int i = 1; i <= 400; ++i) {
                 const double now = loss_of(model, scene, {4, 12, 1}, {16, 7.8 + 0.001 * i, 1});
-                out.worst = std::max(out.worst, std::abs(now - before));
+                out.add(now - before);
                 before = now;
-                ++out.n;
             }
         }
     return out;
@@ -68,8 +62,7 @@ Promise behind_blocks() {
             const double open = free_space_db(distance(from, to), shadow_carrier);
             power += math::exp10((open - loss_of(model, scene, from, to)) / 10) / 31;
         }
-        out.worst = std::max(out.worst, std::abs(-10 * math::log10(power) - shadow.loss));
-        ++out.n;
+        out.add(-10 * math::log10(power) - shadow.loss);
     }
     return out;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "models/variation/shadowing.hpp"
-
+#include "models/variation/shadowing_field.hpp"
 #include "sim/math.hpp"
 #include "sim/random.hpp"
 #include "study/validation/validation_charts.hpp"
@@ -8,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <numbers>

@@ -12,20 +12,21 @@
 
 namespace rovernet {
 
-/// Everything that a validation has found.
+/// Results of `rovernet validate`: charts, and checked error limits.
 struct Validation {
     ValidationSize size;
     std::vector<ValidationChart> charts = {};
     std::vector<Promise> promises = {};
-    std::vector<std::string> left_out = {};  ///< what was not looked at, and why
+    std::vector<std::string> left_out = {};  ///< skipped checks, with reasons
 
-    /// Whether every promise was kept.
+    /// Whether every error is within its promised limit.
     bool kept() const;
 };
 
-/// Makes all charts and checks all promises: errors of this build, and its costs on this machine.
-/// @param field  folder of measurements, see measured_flat(); without it their chart is left out
-/// @param tell   told what is done next; may be empty
+/// Makes all charts and checks all promised error limits: errors of this build, and costs on this
+/// machine.
+/// @param field  folder of measurements, see measured_flat(); without it their chart is omitted
+/// @param tell   called with the name of the next step; may be empty
 /// @throws InputError for a damaged folder of measurements
 Validation validate(const ValidationSize& size, const std::optional<std::string>& field,
                     const std::function<void(std::string_view)>& tell);

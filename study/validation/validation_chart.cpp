@@ -17,23 +17,10 @@ void set_costs(ValidationPanel& panel, std::span<const TimedMethod> methods, con
     for (std::size_t i = 0; i < costs.size(); ++i) panel.points[i].cost = costs[i];
 }
 
-std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points) {
-    std::vector<std::size_t> order(points.size()), front;
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        if (points[a].cost.median != points[b].cost.median)
-            return points[a].cost.median < points[b].cost.median;
-        return points[a].error < points[b].error;
-    });
-    for (const std::size_t i : order) {
-        if (front.empty() || points[i].error < points[front.back()].error) front.push_back(i);
-    }
-    return front;
-}
-
 namespace {
 
-/// Whether the mean difference of the parts of two errors is told from 0 at that level.
+/// Whether the mean difference of the parts of two errors differs significantly from 0 at this
+/// level.
 bool told_apart(const ValidationPoint& a, const ValidationPoint& b, double level) {
     constexpr std::size_t fewest = 6;
     const std::size_t n = std::min(a.parts.size(), b.parts.size());
@@ -49,11 +36,44 @@ bool told_apart(const ValidationPoint& a, const ValidationPoint& b, double level
     return std::abs(mean) > t_critical(count - 1, level) * error;
 }
 
+/// Whether two errors differ, by their parts or intervals; see pareto_front().
+bool differ(const ValidationPoint& a, const ValidationPoint& b, double level) {
+    if (!a.parts.empty() && !b.parts.empty()) return told_apart(a, b, level);
+    return a.error_high.value_or(a.error) < b.error_low.value_or(b.error) ||
+           b.error_high.value_or(b.error) < a.error_low.value_or(a.error);
+}
+
 std::string name_of(const ValidationPoint& p) {
     return p.series.empty() ? p.label : p.label + " " + p.series;
 }
 
 }  // namespace
+
+std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points) {
+    std::vector<std::size_t> order(points.size()), front;
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        if (points[a].cost.median != points[b].cost.median)
+            return points[a].cost.median < points[b].cost.median;
+        return points[a].error < points[b].error;
+    });
+    const auto n = static_cast<double>(points.size());
+    const double level = 0.05 / std::max(1.0, n * (n - 1) / 2);
+    for (auto i = order.begin(); i != order.end(); ++i) {
+        const ValidationPoint& point = points[*i];
+        const bool is_nearer = std::all_of(order.begin(), i, [&](std::size_t cheaper) {
+            return point.error < points[cheaper].error && differ(point, points[cheaper], level);
+        });
+        if (is_nearer) front.push_back(*i);
+    }
+    return front;
+}
+
+bool have_intervals(const std::vector<ValidationPoint>& points) {
+    return std::any_of(points.begin(), points.end(), [](const ValidationPoint& p) {
+        return !p.parts.empty() || p.error_low.has_value();
+    });
+}
 
 Nearest nearest_to_truth(const ValidationPanel& panel,
                          const std::function<bool(const ValidationPoint&)>& takes) {

@@ -3,6 +3,8 @@
 
 #include "study/validation/cases/turns.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -12,92 +14,105 @@
 #include <utility>
 #include <vector>
 
-// Charts of error against cost, as plain data: what each validation makes, and the report shows.
+// Charts of error against cost, as plain data. Validations produce them; the report shows them.
 
 namespace rovernet {
 
-/// Further number of a point, for the tables: its name with its unit, and the number.
+/// Further column of a table of results: name with unit, and number.
 using Detail = std::pair<std::string, double>;
 
-/// Method in a chart: what it costs, and how wrong it is.
+/// Method in a chart, with its cost and its error.
 struct ValidationPoint {
     std::string label;        ///< name of the method
-    std::string series = {};  ///< methods that belong together, such as "fitted"
-    TurnCost cost = {};       ///< [ns] of what the panel's axis says
+    std::string series = {};  ///< series of related methods, such as "fitted"
+    TurnCost cost = {};       ///< cost [ns] of the operation named on the panel's axis
     double error = 0;         ///< error in the panel's unit, >= 0
-    std::optional<double> error_low = {}, error_high = {};  ///< interval around the error
-    std::vector<Detail> details = {};  ///< details, with the same names in all points of a panel
-    /// Shares of the error that are independent, such as of each replication, in the same order in
-    /// all points of a panel: their mean is the error, or its square.
+    std::optional<double> error_low = {}, error_high = {};  ///< confidence interval of the error
+    /// Further columns of the table; all points of a panel have the same ones.
+    std::vector<Detail> details = {};
+    /// Independent parts of the error, such as one for each replication, in the same order in all
+    /// points of a panel. Their mean is the error, or its square.
     std::vector<double> parts = {};
 };
 
-/// Methods that answer one question on one scene.
+/// Panel of a chart: methods for one question on one scene.
 struct ValidationPanel {
     std::string title = {};
     std::string cost_label = "CPU per link [ns]";
-    std::string error_label = {};  ///< error and its unit
-    bool log_error = true;         ///< logarithmic axis; an error of 0 stands at its left end
-    /// Error below which the truth itself is not known, and why.
+    std::string error_label = {};  ///< label of the error, with unit
+    bool log_error = true;         ///< logarithmic axis; an error of 0 is drawn at its left end
+    /// Uncertainty of the reference: smaller errors are meaningless; and the reason.
     std::optional<double> unknowable = {};
     std::string unknowable_label = {};
+    std::string interval_label = {};  ///< meaning of error_low to error_high, for the legend
     std::vector<ValidationPoint> points = {};
 };
 
-/// Chart: one question, with what its errors are measured against.
+/// Chart for one question, with the reference of its errors.
 struct ValidationChart {
-    std::string name;   ///< name of its files
-    std::string title;  ///< question or subject
-    std::string truth;  ///< sentence: what is taken as true, and what was asked how often
+    std::string name;   ///< name of the chart's files, without ending
+    std::string title;  ///< question that the chart answers, or subject
+    std::string truth;  ///< sentence on the reference ("truth") and the number of cases
     std::vector<ValidationPanel> panels = {};
-    std::vector<std::string> sentences = {};  ///< conclusions for a user, with their numbers
+    std::vector<std::string> sentences = {};  ///< conclusions for users, with numbers
 };
 
-/// Promise of the code about its errors, and the worst that this run has seen.
+/// Claimed error limit of the code, and the worst error found in this run.
 struct Promise {
-    std::string what;   ///< "loss of friis against its closed form"
-    std::string unit;   ///< of both numbers; empty: a count
-    double limit = 0;   ///< greatest error that is promised
-    double worst = 0;   ///< greatest error of this run
-    std::size_t n = 0;  ///< cases that were looked at
+    std::string what;   ///< description: "loss of friis against its closed form"
+    std::string unit;   ///< unit of `limit` and `worst`; empty: a count
+    double limit = 0;   ///< claimed largest error
+    double worst = 0;   ///< largest error found in this run
+    std::size_t n = 0;  ///< number of cases that were checked
 
     bool kept() const { return worst <= limit; }
+    /// Adds the error of one more case.
+    void add(double error) {
+        worst = std::max(worst, std::abs(error));
+        ++n;
+    }
 };
 
-/// Measures methods in turns, and gives their costs to the points of a panel, one for each.
+/// Measures methods in turns, and sets the costs of the panel's points; one method for each point.
 void set_costs(ValidationPanel& panel, std::span<const TimedMethod> methods, const Turns& turns);
 
-/// Points that no other point of the panel beats in both, cost (median) and error; in the order of
-/// their costs.
+/// Pareto front: the cheapest point (by median cost), and each point with a significantly smaller
+/// error than all cheaper points; in order of cost. Errors with parts are compared by their parts,
+/// at 95 % for all pairs together (Bonferroni). Errors with intervals differ if the intervals do
+/// not overlap. Errors without either always differ.
 std::vector<std::size_t> pareto_front(const std::vector<ValidationPoint>& points);
 
-/// The point of least error, and those that the parts of its error do not tell apart from it.
+/// Whether some points have parts or intervals, which give the uncertainty of their errors.
+bool have_intervals(const std::vector<ValidationPoint>& points);
+
+/// Point of least error, and points whose errors do not differ significantly from it.
 struct Nearest {
-    const ValidationPoint* point = nullptr;  ///< null: there is none
+    const ValidationPoint* point = nullptr;  ///< point of least error; null: there is none
     std::vector<const ValidationPoint*> alike = {};
 };
 
-/// Finds the point of least error of those that `takes` wants. Another one is told apart if
-/// Student's interval for the mean difference of their parts, at 95 % for all pairs together
-/// (Bonferroni), leaves out 0. Fewer than six parts tell nothing apart: if all of five differences
-/// have one sign, chance does that in 6 % of cases.
+/// Finds the point of least error among points for which `takes` returns true. A point differs
+/// significantly from it if Student's interval for the mean difference of their parts, at 95 % for
+/// all pairs together (Bonferroni), excludes 0. With fewer than six parts no point differs: five
+/// differences have the same sign by chance in 6 % of cases.
 Nearest nearest_to_truth(const ValidationPanel& panel,
                          const std::function<bool(const ValidationPoint&)>& takes);
 
-/// The winner in words, or that there is none: "multi_wall fitted is nearest, 4.01 dB off" or
-/// "disc fitted (0.012 off) is not told apart from friis as given (0.013 off)".
-/// @param nearest  with a point
-/// @param off  words for an error, such as "4.01 dB off"
+/// Sentence naming the best method, or methods that do not differ from it: "multi_wall fitted is
+/// nearest, 4.01 dB off" or "disc fitted (0.012 off) is not told apart from friis as given (0.013
+/// off)".
+/// @param nearest  result with a point
+/// @param off  function that formats an error, as in "4.01 dB off"
 std::string nearest_text(const Nearest& nearest, const std::function<std::string(double)>& off);
 
-/// Point of that label and series. @throws std::out_of_range if there is none
+/// Point with this label and series. @throws std::out_of_range if it does not exist
 const ValidationPoint& point_of(const ValidationPanel& panel, std::string_view label,
                                 std::string_view series = "");
 
-/// Two digits of a cost or a ratio of costs, without an exponent: "1400000", "0.0043".
+/// Cost or ratio of costs with two digits, without an exponent: "1400000", "0.0043".
 std::string two_digits(double value);
 
-/// Detail of that name. @throws std::out_of_range if there is none
+/// Number of a point's detail with this name. @throws std::out_of_range if it does not exist
 double detail_of(const ValidationPoint& point, const std::string& name);
 
 }  // namespace rovernet

@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-// The validations, one function and one file each. Errors are the same in every run and on every
-// machine; costs are not. Each appends the promises that it has looked at.
+// Validations, each with its own function and file. Errors are the same in every run and on every
+// machine; costs are not. Each function appends its checks: claimed bound and worst error found.
 
 namespace rovernet {
 
-/// Size of a validation: whole, or a quick look at the same with fewer samples.
+/// Size of a validation: full, or quick with fewer samples.
 struct ValidationSize {
     bool quick = false;
 
@@ -26,46 +26,50 @@ struct ValidationSize {
 
 using Promises = std::vector<Promise>;
 
-/// Length of wall on a link: the scene against rasters and samples.
+/// Chart on the length of a link inside walls: Scene against rasters and sampling.
 ValidationChart wall_length_chart(const ValidationSize& size, Promises& promises);
-/// Reflections in a corridor, added by power or coherently, against exact sums.
+/// Chart on reflections in a corridor, summed by power or coherently, against exact sums.
 ValidationChart corridor_chart(const ValidationSize& size);
-/// Field in the shadow of an edge: knife edges and the uniform theory against exact solutions.
+/// Chart on the field in the shadow of an edge: knife-edge models and the uniform theory of
+/// diffraction (UTD) against exact solutions.
 ValidationChart diffraction_chart(const ValidationSize& size, Promises& promises);
-/// Times at which links come up and go down: found ahead against looked for at fixed steps.
+/// Chart on the times at which links go up and down: predicted, against sampling at fixed steps.
 ValidationChart link_changes_chart(const ValidationSize& size, Promises& promises);
-/// Decisions without logarithms: ranges, tables of shadowed links, bounds of levels.
+/// Chart on fast link decisions without logarithms: ranges, tables of shadowed links, level bounds.
 ValidationChart decisions_chart(const ValidationSize& size, Promises& promises);
-/// Frames that are too weak to be counted as interference.
+/// Chart on the effect of ignoring weak frames as interference (interference_cut).
 ValidationChart interference_cut_chart(const ValidationSize& size);
-/// Reception models on the same floods.
+/// Chart that compares reception models on the same floods.
 ValidationChart reception_chart(const ValidationSize& size);
-/// Shadowing that is redrawn, kept by link, or a field of both places: how often links flip.
+/// Chart on shadowing that is redrawn for each frame, fixed for each link, or a spatial field: rate
+/// of link changes.
 ValidationChart shadowing_chart(const ValidationSize& size);
-/// Path loss models as given and fitted: the delivery ratio, and wrong links.
-/// @param field  folder of measurements, to say how wrong the model is that is taken as true
+/// Charts on path loss models with given and with fitted parameters: errors of the delivery ratio
+/// and of link decisions.
+/// @param field  folder of measurements, for the error of the reference model itself
 std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
                                               const std::optional<std::string>& field);
-/// Cells and drawing of a map.
+/// Chart on the effect of the cell size and the drawing of a map.
 ValidationChart map_drawing_chart(const ValidationSize& size);
-/// Losses measured in buildings. @param folder  with flat/ and lab/
+/// Chart on losses measured in buildings against models. @param folder  folder with flat/ and lab/
 ValidationChart measured_chart(const std::string& folder, const ValidationSize& size,
                                Promises& promises);
-/// Closed forms and published values.
+/// Checks models against closed forms and published values.
 void check_closed_forms(Promises& promises);
-/// Sums over everything, means over many draws, and solutions by hand.
+/// Checks results against brute force: complete sums, means over many draws, and solutions by hand.
 void check_by_brute_force(Promises& promises);
-/// Walls, doors and floors on a link, against how many there are.
+/// Checks the numbers of walls, doors and floors found on a link.
 void check_counts(Promises& promises);
 
-/// Saturated cells, and the time of the next access.
+/// Checks the throughput of saturated 802.11 stations, and the time of the next medium access.
 void check_access(Promises& promises);
-/// Places and speeds of robots: random waypoint, and arcs in the open and at a wall.
+/// Checks positions and speeds of robots: random waypoint, and arcs in the open and at a wall.
 void check_motion(Promises& promises);
-/// Shadows of the model `rays`: of walls' ends, of blocks, of walls drawn askew.
+/// Checks shadows of the model `rays`: behind wall ends, blocks and oblique walls.
 void check_ray_shadows(Promises& promises);
 
-/// Draw in (0, 1) of a validation. @param what  its name, and what is drawn
+/// Random number in (0, 1) for a validation. @param what  name of the validation and of the drawn
+/// quantity
 double validation_draw(std::string_view what, std::uint64_t of, std::uint64_t index);
 
 }  // namespace rovernet

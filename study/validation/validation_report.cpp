@@ -43,7 +43,8 @@ DotPlot plot_of(const ValidationPanel& panel) {
                  .log = axis_begin(panel) > 0,
                  .least = axis_begin(panel),
                  .band = panel.unknowable,
-                 .band_label = panel.unknowable_label};
+                 .band_label = panel.unknowable_label,
+                 .whisker_label = panel.interval_label};
     bool below = false;
     for (const ValidationPoint& p : panel.points) {
         row_of(plot, p.label)
@@ -59,7 +60,9 @@ DotPlot plot_of(const ValidationPanel& panel) {
     std::stable_sort(plot.rows.begin(), plot.rows.end(), [](const DotRow& a, const DotRow& b) {
         return a.dots.back().beside < b.dots.back().beside;
     });
-    plot.note = "from cheap to dear; bold: nothing cheaper is nearer the truth";
+    plot.note =
+        fmt::format("from cheap to dear; bold: {} the truth than all that is cheaper",
+                    have_intervals(panel.points) ? "surely nearer" : "in these cases nearer");
     if (below) plot.note += fmt::format("; errors below {:.1g} stand at the left end", plot.least);
     return plot;
 }

@@ -9,20 +9,20 @@
 
 namespace rovernet {
 
-/// Chart as a picture: cost along x and error along y, both mostly logarithmic; the whiskers of x
-/// are the lowest and highest turn, and a dashed line joins the points that nothing beats.
+/// Picture of a chart: cost along x and error along y, both mostly logarithmic. Whiskers along x
+/// show the lowest and highest measurement. A dashed line joins the points of the Pareto front.
 std::string validation_svg(const ValidationChart& chart);
 
-/// Numbers of a chart as comma-separated values: panel, method, series, cost_ns, cost_low_ns,
-/// cost_high_ns, error, error_low, error_high, then further columns with their units. Costs are
-/// those of this machine.
+/// Numbers of a chart as comma-separated values. Columns: panel, method, series, cost_ns,
+/// cost_low_ns, cost_high_ns, error, error_low, error_high, then further columns with their units.
+/// Costs are measured on this machine.
 std::string validation_csv(const ValidationChart& chart);
 
-/// Everything as one page that needs no other file and no network: sentences, pictures, tables.
+/// Self-contained HTML page with sentences, pictures and tables.
 std::string validation_html(const Validation& validation);
 
 /// Page of the documentation, docs/accuracy.md: sentences and tables, with links to the pictures.
-/// Costs have two digits.
+/// Costs are rounded to two digits.
 std::string validation_page(const Validation& validation);
 
 }  // namespace rovernet

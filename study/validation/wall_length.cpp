@@ -188,12 +188,7 @@ ValidationChart wall_length_chart(const ValidationSize& size, Promises& promises
             promises.push_back({"length of wall on a link, against clipping every wall", "m", 1e-8,
                                 worst, links.size()});
         }
-        timed.push_back({[&] {
-                             double sum = 0;
-                             for (const WallLink& link : links) sum += method.length(link);
-                             return sum;
-                         },
-                         static_cast<double>(links.size())});
+        timed.push_back(timed_sum(links, method.length));
     }
     set_costs(panel, timed, size.turns());
     return {.name = "wall_length",

@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::uint64_t second_in_ns = 1'000'000'000;
 
-/// Exactly `digits` digits, with leading zeros.
+/// Writes exactly `digits` digits, with leading zeros.
 char* write_padded(char* out, std::uint64_t value, int digits) {
     for (int i = digits; i-- > 0; value /= 10) out[i] = static_cast<char>('0' + value % 10);
     return out + digits;
 }
 
-/// |time| [ns]; writes the sign.
+/// Writes the sign of the time, and returns |time| [ns].
 std::uint64_t magnitude(char*& out, Time time) {
     const auto ns = time.time_since_epoch().count();
     if (ns >= 0) return static_cast<std::uint64_t>(ns);
@@ -24,12 +24,12 @@ std::uint64_t magnitude(char*& out, Time time) {
     return 0 - static_cast<std::uint64_t>(ns);
 }
 
-/// round(100 a), a >= 0 and below 2^52 / 100: the exact product, ties to even.
+/// round(100 a), for 0 <= a < 2^52 / 100: the exact product, ties to even.
 std::uint64_t hundredths(double a) {
     const double product = a * 100;
     const auto whole = static_cast<std::uint64_t>(product);
-    // The distance to the tie is exact and a multiple of ulp(product), so that the rounding error
-    // of the product decides only where it is zero.
+    // The distance to the tie is exact and a multiple of ulp(product), so the product's rounding
+    // error only matters if the distance is zero.
     double beyond_tie = (product - static_cast<double>(whole)) - 0.5;
     if (beyond_tie == 0) beyond_tie = std::fma(a, 100.0, -product);
     const bool up = beyond_tie > 0 || (beyond_tie == 0 && whole % 2 == 1);

@@ -9,24 +9,24 @@
 
 namespace rovernet {
 
-// Numbers as text, each as printf would round it, but several times faster. Every function writes
-// at `out`, without a terminating zero, and returns the end of what it wrote.
+// Conversion of numbers to text, rounded like printf, but several times faster. Each function
+// writes to `out` without a terminating zero, and returns the end of the text.
 
-/// Room [bytes] that any of the functions below needs at most (%.2f of the largest double).
+/// Largest number of bytes that any function of this file writes (%.2f of the largest double).
 inline constexpr std::size_t longest_decimal = 320;
 
 char* write_integer(char* out, std::uint64_t value);
-/// Lower case, without 0x.
+/// Writes hexadecimal digits in lower case, without 0x.
 char* write_hex(char* out, std::uint32_t value);
 
-/// "%.2f", to the last digit: the exact binary value is rounded, ties to the even digit.
+/// Writes "%.2f" exactly: the exact binary value is rounded, ties to the even digit.
 char* write_fixed2(char* out, double value);
 
-/// Seconds [s] with 9 decimals, exact.
+/// Writes seconds [s] with 9 decimals, exact.
 char* write_seconds(char* out, Time time);
-/// Seconds [s] with 5 decimals: the exact value rounded, ties to the even digit.
+/// Writes seconds [s] with 5 decimals: the exact value is rounded, ties to the even digit.
 char* write_seconds5(char* out, Time time);
-/// Seconds [s] with as many decimals as the exact value needs: "10", "0.25".
+/// Writes seconds [s] with as many decimals as the exact value needs: "10", "0.25".
 char* write_seconds_short(char* out, Time time);
 
 inline char* write_text(char* out, std::string_view text) {

@@ -12,7 +12,7 @@
 namespace rovernet {
 namespace {
 
-/// Lines on their way into a file.
+/// Output file of lines.
 class LinesOut {
   public:
     explicit LinesOut(const std::string& path) : file_(path) {}
@@ -37,7 +37,7 @@ class LinesOut {
     std::string buffer_;
 };
 
-/// Where robots are by their M lines: straight to the goal, at constant speed.
+/// Positions of robots by their M lines: straight to the goal, at constant speed.
 class PlacesByMoves {
   public:
     void on(const Ns2Move& move) {
@@ -60,7 +60,7 @@ class PlacesByMoves {
 constexpr std::string_view no_place =
     "packets of robots without an M line before them: nobody knows where they are";
 
-/// Adds the event. @return why it cannot be
+/// Converts and adds the event. @return reason if that is not possible
 std::string_view convert_event(const Ns2Line& event, std::string_view text, TraceForm form,
                                PlacesByMoves& places, std::string& out) {
     if (form == TraceForm::csv) {

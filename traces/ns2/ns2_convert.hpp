@@ -12,39 +12,40 @@
 
 namespace rovernet {
 
-/// Forms that an ns-2 trace can be written in.
+/// Output format for an ns-2 trace.
 enum class TraceForm { csv, ns2_old, ns2_new };
 
-/// Counts of the lines of a file that was written anew.
+/// Numbers of events written to a new trace file, and left out of it.
 struct Converted {
     Ns2Counts counts;
-    std::uint64_t written = 0;                      ///< events that were written
-    std::map<std::string, std::uint64_t> left_out;  ///< events that were not written, by reason
+    std::uint64_t written = 0;                      ///< number of events written
+    std::map<std::string, std::uint64_t> left_out;  ///< number of events not written, by reason
 };
 
-/// Writes the events of a trace in another form; comments and other lines that are no events are
-/// left out.
+/// Converts the events of a trace to another format; comments and other lines that are not events
+/// are left out.
 ///
-/// From the old format to the new one, places are those of the `M` lines; a packet of a robot that
-/// has none before it is left out. `M`, `N` and `v` lines are the same in all formats. The way back
-/// gives the same bytes for every trace of ours without MAC lines. Energies are written in
-/// the new format only, which has fewer fields for them.
-/// @param out  file that gets its name when it is whole
-/// @throws InputError as Ns2File; RunError if it cannot be written
+/// From the old format to the new one, positions are taken from the `M` lines; packets that a robot
+/// sends before its first `M` line are left out. `M`, `N` and `v` lines are the same in all
+/// formats. Converting back gives the same bytes for every trace of rovernet without MAC lines.
+/// Energies are only written in the new format, which has fewer fields for them.
+/// @param out  output file, which gets its name when it is complete
+/// @throws InputError as Ns2File; RunError if `out` cannot be written
 Converted convert_ns2(Ns2Source in, const std::string& out, TraceForm,
                       Ns2Strictness = Ns2Strictness::tolerant);
 
-/// Piece of a trace: every line that none of these members rules out.
+/// Selection of events: an event is kept unless one of these members excludes it.
 struct TraceCut {
-    std::optional<Time> from = {};     ///< no packet before it
-    std::optional<Time> to = {};       ///< nothing at this time or later
-    std::optional<NodeId> robot = {};  ///< lines of this robot only
-    /// Packets of this id only; none of routing agents and of the MAC's own, whose ids repeat.
+    std::optional<Time> from = {};     ///< only packets at or after this time
+    std::optional<Time> to = {};       ///< only events before this time
+    std::optional<NodeId> robot = {};  ///< only lines of this robot
+    /// Only packets with this id; packets of routing agents and of the MAC are left out, because
+    /// their ids repeat.
     std::optional<std::uint64_t> message = {};
 };
 
-/// Writes the events of a trace that belong to a piece of it, as they stand. `M` lines before its
-/// begin stay, as nobody would know where the robots are.
+/// Writes the selected events of a trace, unchanged. `M` lines before `from` are kept, because they
+/// give the positions of the robots.
 /// @throws InputError, RunError as convert_ns2()
 Converted cut_ns2(Ns2Source in, const std::string& out, const TraceCut&,
                   Ns2Strictness = Ns2Strictness::tolerant);

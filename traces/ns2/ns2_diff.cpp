@@ -5,20 +5,19 @@
 #include <optional>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 
 namespace rovernet {
 namespace {
 
-constexpr std::size_t around = 2;  // events shown before and behind the first that differ
+constexpr std::size_t around = 2;  // events shown before and after the first difference
 
-/// What both lines tell.
+/// Whether both lines have the field, with different values.
 template <class T>
 bool both_differ(const std::optional<T>& a, const std::optional<T>& b) {
     return a && b && !(*a == *b);
 }
 
-/// Name of the first field that differs, but for the time; "" if none does.
+/// Name of the first IP field that differs; "" if none does.
 std::string_view ip_difference(const Ns2Packet& a, const Ns2Packet& b) {
     if (!a.ip || !b.ip) return a.ip.has_value() == b.ip.has_value() ? "" : "IP header";
     if (a.ip->from != b.ip->from || a.ip->from_port != b.ip->from_port) return "source";
@@ -85,7 +84,7 @@ std::string kind_name(const Ns2Line& event) {
     return kind;
 }
 
-/// One of the two files, with what came last.
+/// One of the two files, with its last event.
 class Side {
   public:
     Side(Ns2Source source, Ns2Strictness strictness) : file_(std::move(source), strictness) {}
@@ -95,7 +94,7 @@ class Side {
     const Ns2Counts& counts() const { return file_.counts(); }
     void expect_trace() const { file_.expect_trace(); }
 
-    /// Keeps the event, and forgets the oldest of more than `most`.
+    /// Stores the event, and removes the oldest if there are more than `most`.
     void keep(std::vector<NumberedLine>& shown, std::size_t most) const {
         if (!event_) return;
         if (shown.size() == most) shown.erase(shown.begin());
@@ -107,7 +106,7 @@ class Side {
     const Ns2Line* event_ = nullptr;
 };
 
-/// Counts the kinds to the end of a file of which the current event has not been counted yet.
+/// Counts the kinds of all remaining events of a file, including the current one.
 template <class Count>
 void count_rest(Side& side, std::vector<NumberedLine>& shown, Count count) {
     for (std::size_t n = 0; side.event(); side.next(), ++n) {

@@ -12,29 +12,30 @@
 
 namespace rovernet {
 
-/// A line of a trace and its number, from 1.
+/// Line of a trace with its number, from 1.
 struct NumberedLine {
     std::uint64_t line = 0;
     std::string text;
 };
 
-/// Where two traces part, and how many events of each kind they have.
+/// First difference of two traces, and number of events by kind in each of them.
 struct TraceDifference {
     bool is_equal = true;
-    /// What parts them: the field that differs first, such as "time", or that one of them ends.
+    /// Name of the first field that differs, such as "time", or the end of one trace.
     std::string field;
-    /// Events around the first that differ: up to two that are equal, the one that differs
-    /// (`place`-th of the list; behind the last: the file ends there), up to two that follow.
+    /// Events around the first difference: up to two equal events, the different event (index
+    /// `place`; beyond the list if the file ends there), and up to two that follow.
     std::vector<NumberedLine> a, b;
     std::size_t place = 0;
-    /// Number of events in both, by kind: "s AGT", "D MAC COL", "M".
+    /// Number of events in trace a and in trace b, by kind: "s AGT", "D MAC COL", "M".
     std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> kinds;
     Ns2Counts counts_a, counts_b;
 };
 
-/// Compares two traces event by event, in any formats: what both lines tell is compared. Lines that
-/// are no events, and blanks, do not matter; nor do the reason and the payload between formats.
-/// @param tolerance  times differ if they are further apart
+/// Compares two traces event by event, in any formats, by the fields that both lines have. Lines
+/// that are not events, and blanks, are ignored; reason and payload are ignored between different
+/// formats.
+/// @param tolerance  largest time difference of equal events
 /// @throws InputError as Ns2File
 TraceDifference diff_ns2(Ns2Source a, Ns2Source b, Duration tolerance,
                          Ns2Strictness = Ns2Strictness::tolerant);

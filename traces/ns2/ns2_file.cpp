@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "traces/ns2/ns2_file.hpp"
 
+#include "files/word.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 #include <variant>
 
 namespace rovernet {
 namespace {
 
 constexpr std::size_t most_shown = 10;
-
-std::string printable(std::string_view text, std::size_t longest) {
-    std::string shown(text.substr(0, longest));
-    for (char& c : shown) {
-        if (c < ' ' || c > '~') c = '?';
-    }
-    if (text.size() > longest) shown += "...";
-    return shown;
-}
 
 std::string said_of(const Ns2Refused& refused) {
     constexpr std::size_t longest = 40;
@@ -136,7 +128,9 @@ void Ns2File::refuse(int column, const std::string& why) {
 void Ns2File::expect_trace() const {
     const Ns2Counts& c = counts_;
     const std::uint64_t empty = c.skipped_of(Ns2Other::blank) + c.skipped_of(Ns2Other::comment);
-    if (c.refused == 0 || c.events > 0 || c.lines > empty + c.refused) return;
+    // Some lines of any text look like one that ns-2 prints.
+    const std::uint64_t skipped = c.lines - empty - c.refused;
+    if (c.refused == 0 || c.events > 0 || skipped > c.refused) return;
     const Ns2RefusedLine& first = c.refused_lines.front();
     throw InputError(place(first.line, first.column),
                      first.why + "; no line of this file is one of an ns-2 trace");

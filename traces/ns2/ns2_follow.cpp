@@ -6,53 +6,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <utility>
 
 namespace rovernet {
 namespace {
 
-class Follower {
-  public:
-    explicit Follower(std::uint64_t uid) { way_.uid = uid; }
+std::optional<NodeId> from(const Ns2Packet& p) {
+    if (!p.mac || !p.mac->has_sent() || p.mac->from >= most_robots) return std::nullopt;
+    return NodeId{p.mac->from};
+}
 
-    void on(const Ns2Packet& p);
-    void on(const Ns2Move& m) { robots_.insert(m.node.value); }
-    template <class Other>
-    void on(const Other&) {}
+}  // namespace
 
-    bool is_found() const { return is_found_; }
-    /// The ids that the trace has, in words.
-    std::string known() const {
-        if (!least_) return "it has none";
-        return fmt::format("expected an id of its messages, which are from {} to {}", *least_,
-                           most_);
-    }
-    FollowedMessage way() const;
+bool Ns2Follower::carries(const Ns2Packet& p) const {
+    return is_found_ && p.uid == way_.uid && p.type == way_.type && p.ip &&
+           p.ip->from_port != routing_port;
+}
 
-  private:
-    bool carries(const Ns2Packet& p) const {
-        return is_found_ && p.uid == way_.uid && p.type == way_.type && p.ip &&
-               p.ip->from_port != routing_port;
-    }
-    void begin(const Ns2Packet& p);
-    void received(const Ns2Packet& p);
-    static std::optional<NodeId> from(const Ns2Packet& p) {
-        if (!p.mac || p.mac->ethertype == 0 || p.mac->from >= most_robots) return std::nullopt;
-        return NodeId{p.mac->from};
-    }
-
-    FollowedMessage way_;
-    bool is_found_ = false;
-    std::map<std::uint32_t, FollowedRobot> by_robot_;
-    std::vector<std::uint32_t> order_;  ///< robots in the order of their first copies
-    std::set<std::uint32_t> robots_;
-    std::optional<std::uint64_t> least_;  ///< least id of a message, until it is found
-    std::uint64_t most_ = 0;              ///< greatest one
-};
-
-void Follower::begin(const Ns2Packet& p) {
+void Ns2Follower::begin(const Ns2Packet& p) {
     is_found_ = true;
     way_.type = p.type;
     way_.origin = p.node;
@@ -67,7 +38,7 @@ void Follower::begin(const Ns2Packet& p) {
     order_.push_back(p.node.value);
 }
 
-void Follower::received(const Ns2Packet& p) {
+void Ns2Follower::received(const Ns2Packet& p) {
     const bool is_own_on_its_way_down = p.layer == "RTR" && !from(p);
     if (is_own_on_its_way_down) return;
     const auto [entry, is_new] = by_robot_.try_emplace(p.node.value);
@@ -85,7 +56,7 @@ void Follower::received(const Ns2Packet& p) {
     if (p.layer == "AGT" && p.node != way_.origin) robot.is_delivered = true;
 }
 
-void Follower::on(const Ns2Packet& p) {
+void Ns2Follower::on(const Ns2Packet& p) {
     robots_.insert(p.node.value);
     const bool begins = p.op == 's' && p.layer == "AGT" && p.type != "ack" && p.ip &&
                         p.ip->from_port != routing_port;
@@ -104,7 +75,15 @@ void Follower::on(const Ns2Packet& p) {
     }
 }
 
-FollowedMessage Follower::way() const {
+FollowedMessage Ns2Follower::way(const std::string& trace) const {
+    if (!is_found_) {
+        const std::string known =
+            least_ ? fmt::format("expected an id of its messages, which are from {} to {}", *least_,
+                                 most_)
+                   : "it has none";
+        throw InputError({.source = trace},
+                         fmt::format("found no message {}; {}", way_.uid, known));
+    }
     FollowedMessage way = way_;
     std::map<std::uint32_t, std::vector<std::uint32_t>> children;
     std::set<std::uint32_t> earlier;
@@ -128,20 +107,12 @@ FollowedMessage Follower::way() const {
     return way;
 }
 
-}  // namespace
-
 FollowedMessage follow_ns2(Ns2Source source, std::uint64_t uid, Ns2Strictness strictness) {
     Ns2File file(std::move(source), strictness);
-    Follower follower(uid);
-    while (const Ns2Line* line = file.next()) {
-        std::visit([&](const auto& event) { follower.on(event); }, *line);
-    }
+    Ns2Follower follower(uid);
+    while (const Ns2Line* line = file.next()) follower.take(*line);
     file.expect_trace();
-    if (!follower.is_found()) {
-        throw InputError({.source = file.name()},
-                         fmt::format("found no message {}; {}", uid, follower.known()));
-    }
-    FollowedMessage way = follower.way();
+    FollowedMessage way = follower.way(file.name());
     way.counts = file.counts();
     return way;
 }

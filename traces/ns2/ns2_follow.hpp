@@ -6,50 +6,87 @@
 #include "traces/ns2/ns2_file.hpp"
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace rovernet {
 
-/// A copy of a message that went no further.
+/// Copy of a message that was lost or not forwarded.
 struct LostCopy {
     Time time;
-    NodeId robot;                ///< where it was lost
-    std::optional<NodeId> from;  ///< who sent it, if a MAC says so
-    std::string layer, reason;   ///< as in the trace
+    NodeId robot;                ///< robot where the copy was lost
+    std::optional<NodeId> from;  ///< sender of the copy, if the MAC header gives it
+    std::string layer, reason;   ///< layer and reason as in the trace
 };
 
-/// A robot on the way of a message.
+/// Robot that received a message, in the tree of first copies.
 struct FollowedRobot {
     NodeId robot;
-    int depth = 0;               ///< hops by which its first copy came; 0: it sent the message
-    std::optional<NodeId> from;  ///< whose frame it was
-    Time time;                   ///< of its first copy; of the sending
-    bool is_delivered = false;   ///< its application has the message
-    std::uint64_t copies = 0;    ///< received, the first one included
-    std::vector<Time> on_air;    ///< times at which it sent the message on
+    int depth = 0;               ///< number of hops of its first copy; 0: sender of the message
+    std::optional<NodeId> from;  ///< robot that transmitted the first copy
+    Time time;                   ///< time of the robot's first copy, or of sending
+    bool is_delivered = false;   ///< true if the robot's application received the message
+    std::uint64_t copies = 0;    ///< number of copies received, including the first
+    std::vector<Time> on_air;    ///< times at which the robot forwarded the message
 };
 
-/// The way of one message.
+/// Path of one message through the network.
 struct FollowedMessage {
     std::uint64_t uid = 0;
     std::string type;
     NodeId origin;
-    std::optional<std::uint32_t> to;  ///< its destination; nothing: everybody
+    std::optional<std::uint32_t> to;  ///< destination of the message; empty for a broadcast
     Time sent;
-    std::uint64_t size = 0;  ///< [bytes]
+    std::uint64_t size = 0;  ///< size of the message [bytes]
     std::int64_t ttl = 0;
-    std::vector<FollowedRobot> robots;  ///< the tree: each before those that have it from it
-    std::vector<LostCopy> lost;         ///< in the order of the file
+    std::vector<FollowedRobot> robots;  ///< tree of first copies: a sender before its receivers
+    std::vector<LostCopy> lost;         ///< lost copies in the order of the file
     std::vector<NodeId> without;        ///< robots of the trace that received no copy
     Ns2Counts counts;
 };
 
-/// Follows the message of an application with this id: the first that the trace has.
+/// Tracer of one message through the events of a trace.
+class Ns2Follower {
+  public:
+    explicit Ns2Follower(std::uint64_t uid) { way_.uid = uid; }
+
+    /// Processes the next event. Events of other messages only matter by the ids of sent messages,
+    /// and by the robots that they name.
+    void take(const Ns2Line& line) {
+        std::visit([&](const auto& event) { on(event); }, line);
+    }
+    /// Adds a robot of the trace that an event of another message names.
+    void tell_of(NodeId robot) { robots_.insert(robot.value); }
+    /// Path of the message. @throws InputError if no message has this id
+    /// @param trace  name of the trace, for the error
+    FollowedMessage way(const std::string& trace) const;
+
+  private:
+    void on(const Ns2Packet& p);
+    void on(const Ns2Move& m) { robots_.insert(m.node.value); }
+    template <class Other>
+    void on(const Other&) {}
+    bool carries(const Ns2Packet& p) const;
+    void begin(const Ns2Packet& p);
+    void received(const Ns2Packet& p);
+
+    FollowedMessage way_;
+    bool is_found_ = false;
+    std::map<std::uint32_t, FollowedRobot> by_robot_;
+    std::vector<std::uint32_t> order_;  ///< robots in the order of their first copies
+    std::set<std::uint32_t> robots_;
+    std::optional<std::uint64_t> least_;  ///< smallest id so far, until the message is found
+    std::uint64_t most_ = 0;              ///< largest id of a message so far
+};
+
+/// Traces the message of an application with this id: the first such message in the trace.
 ///
-/// A robot's place in the tree is that of its first copy, `r RTR` or `r AGT`, and of the sender
-/// that the MAC header names.
+/// The position of a robot in the tree follows from its first copy, `r RTR` or `r AGT`, and from
+/// the sender in the MAC header.
 /// @throws InputError as read_ns2_trace(), and if no message has this id
 FollowedMessage follow_ns2(Ns2Source source, std::uint64_t uid,
                            Ns2Strictness = Ns2Strictness::tolerant);

@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 namespace rovernet {
-
 namespace {
 
 using Words = Ns2Words;
 
-/// Reasons of ns-2.35 (cmu-trace.h), and none.
+/// Whether the text is a drop reason of ns-2.35 (cmu-trace.h) or "---".
 bool is_ns2_reason(std::string_view text) {
     constexpr std::string_view reasons[] = {"---",  "COL", "DUP", "TTL",  "SLP", "END", "ERR",
                                             "BSY",  "RET", "IFQ", "NRTE", "ARP", "CBK", "TOUT",
@@ -58,6 +56,15 @@ bool read_address(Words& words, std::string_view word, char separator, std::int6
 constexpr std::string_view a_ttl = "a ttl";
 constexpr std::string_view a_mac_field = "a field of the MAC in hexadecimal";
 
+/// Reads an address of S-MAC, which prints it as a signed number: -1 is broadcast.
+bool read_smac_address(Words& words, std::string_view word, std::uint32_t& address) {
+    std::int64_t value = 0;
+    if (!words.integer(word, value, "an address")) return false;
+    if (value < -1 || value > 0xffffffff) return words.fail(word, "an address");
+    address = static_cast<std::uint32_t>(value);
+    return true;
+}
+
 /// `[dur to from type]` in hexadecimal; SMAC writes `[%.2f %d %d]`.
 bool read_old_mac(Ns2Packet& p, Words& words, std::string_view first) {
     Ns2Mac& mac = p.mac.emplace();
@@ -66,9 +73,10 @@ bool read_old_mac(Ns2Packet& p, Words& words, std::string_view first) {
     std::string_view to = words.next(), from = words.next();
     if (is_smac) {
         double duration = 0;
+        mac.is_smac = true;
         return words.number(first, duration, "a duration") &&
-               words.integer(to, mac.to, "an address") && words.strip(from, "", "]", "\"]\"") &&
-               words.integer(from, mac.from, "an address");
+               read_smac_address(words, to, mac.to) && words.strip(from, "", "]", "\"]\"") &&
+               read_smac_address(words, from, mac.from);
     }
     std::string_view ethertype = words.next();
     return words.integer(first, mac.duration_us, a_mac_field, 16) &&
@@ -78,7 +86,7 @@ bool read_old_mac(Ns2Packet& p, Words& words, std::string_view first) {
            words.integer(ethertype, mac.ethertype, a_mac_field, 16);
 }
 
-/// `[energy E ei A es B et C er D]`, of which the first number is what is left.
+/// Reads `[energy E ei A es B et C er D]`; the first number is the remaining energy.
 bool read_old_energy(Ns2Packet& p, Words& words) {
     if (!words.number(words.next(), p.energy.emplace(), "an energy [J]")) return false;
     std::string_view word = words.next();
@@ -207,7 +215,7 @@ bool read_tagged_place(Ns2Packet& p, Words& words) {
     return read;
 }
 
-/// The IP header of a tagged line: its keys with numbers.
+/// Reads the IP header of a tagged line: its keys with numbers.
 bool read_tagged_ip(Ns2Packet& p, Words& words, std::int64_t next_hop) {
     Ns2Ip& ip = p.ip.emplace();
     ip.next_hop = std::max<std::int64_t>(next_hop, 0);
@@ -238,7 +246,7 @@ bool read_tagged(Ns2Packet& p, Words& words) {
     p.type = words.next();
     if (p.type == "MAC") p.type = {};
     Ns2Mac& mac = p.mac.emplace();
-    // -M:s is the receiver and -M:d the transmitter: ns-2.35 has them the wrong way round.
+    // -M:s is the receiver and -M:d the transmitter: ns-2.35 has them in the wrong order.
     const bool read = words.expect("-k") && read_layer(p, words, words.next()) &&
                       words.expect("-i") && read_uid(p, words, words.next()) &&
                       words.expect("-N:loc") && read_tagged_place(p, words) &&
@@ -250,7 +258,14 @@ bool read_tagged(Ns2Packet& p, Words& words) {
     return true;
 }
 
-/// M T NODE (X, Y, Z), (TO_X, TO_Y), SPEED
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// Whether the word is a name of letters, as in `M 0.0 nn 50 x 670 y 670 rp AODV`.
+bool is_name(std::string_view word) {
+    return !word.empty() && std::all_of(word.begin(), word.end(), is_letter);
+}
+
+/// M T NODE (X, Y, Z), (TO_X, TO_Y), SPEED; or options of the script, names with values.
 Ns2Line read_move(Words& words) {
     constexpr std::string_view place = "a coordinate [m] as in (x, y, z), (x, y), speed";
     Ns2Move m;
@@ -258,7 +273,9 @@ Ns2Line read_move(Words& words) {
         std::string_view word = words.next();
         return words.strip(word, before, after, place) && words.number(word, value, place);
     };
-    const bool read = words.time(words.next(), m.time) && words.robot(words.next(), m.node) &&
+    const bool has_time = words.time(words.next(), m.time);
+    if (has_time && is_name(words.peek())) return Ns2Other::header;
+    const bool read = has_time && words.robot(words.next(), m.node) &&
                       coordinate("(", ",", m.from.x) && coordinate("", ",", m.from.y) &&
                       coordinate("", "),", m.from.z) && coordinate("(", ",", m.to.x) &&
                       coordinate("", "),", m.to.y) &&
@@ -278,7 +295,7 @@ Ns2Line read_energy(Words& words) {
     return e;
 }
 
-/// v T eval {set sim_annotation {reachable UID N}}; any other annotation is somebody else's.
+/// Reads v T eval {set sim_annotation {reachable UID N}}; other annotations are not of rovernet.
 Ns2Line read_annotation(Words& words) {
     const std::string_view when = words.next();
     if (when == "-t") return Ns2Other::nam;
@@ -307,7 +324,7 @@ bool is_wired(Words& words, std::string_view third) {
            is_number(words.next()) && !words.next().empty();
 }
 
-/// A line of a packet, or of a wired link; `op` is its first word.
+/// Reads a line of a packet, or of a wired link; `op` is its first word.
 Ns2Line read_packet(char op, Words& words) {
     Ns2Packet p;
     p.op = op == 'd' ? 'D' : op == '+' ? 's' : op == 'h' ? 'f' : op;
@@ -335,7 +352,7 @@ Ns2Line read_packet(char op, Words& words) {
     return words.refused;
 }
 
-/// What ns, and the scripts that everybody copies, print while it runs.
+/// Whether a line is one that ns, or widely used scripts, print during a run.
 bool is_of_terminal(std::string_view line) {
     constexpr std::string_view begins[] = {"INITIALIZE THE LIST",
                                            "SORTING LISTS",
@@ -351,9 +368,7 @@ bool is_of_terminal(std::string_view line) {
                        [&](std::string_view begin) { return line.starts_with(begin); });
 }
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-/// The word of a line that no packet has: an S and a name, such as SFf and S$hit.
+/// Whether the word begins a line of DSR statistics: S and a name, such as SFf and S$hit.
 bool is_of_dsr(std::string_view op) {
     return op.size() > 1 && op[0] == 'S' && (is_letter(op[1]) || op[1] == '$');
 }

@@ -48,20 +48,20 @@ void Ns2Motion::Track::begin(Vec3 place) {
     told = start_of_run;
 }
 
-/// Whether the plan has the robot at rest there.
+/// Whether the robot rests at that position according to the plan.
 bool Ns2Motion::Track::rests_at(Vec3 place, Time time) const {
     const bool rests = plan.velocity == Vec3{} || time >= plan.end;
     return rests && is_same_place(place, plan.to);
 }
 
-/// Whether the robot is on its way, and misses the place by no more than rounding does.
+/// Whether the robot moves by the plan, and rounding explains its distance from the position.
 bool Ns2Motion::Track::explains(Vec3 place, Time time) const {
     constexpr double of_places = 0.02, of_speed = 0.005;  // [m], [m/s]
     return plan.velocity != Vec3{} && distance(plan.position(time), place) <=
                                           of_places + of_speed * seconds(time - plan.start);
 }
 
-/// The robot has come to a place on its way.
+/// The robot has reached a position on its planned path.
 void Ns2Motion::Track::reach(Vec3 place, Time time) {
     past.push_back(straight_between(plan.from, plan.start, place, time));
     plan = is_same_place(place, plan.to)
@@ -70,7 +70,7 @@ void Ns2Motion::Track::reach(Vec3 place, Time time) {
     told = time;
 }
 
-/// The robot has gone to a place of which its plan knows nothing.
+/// The robot has moved to a position that the plan does not explain.
 void Ns2Motion::Track::appear(Vec3 place, Time time) {
     const bool was_told_before = told < time;
     if (told > plan.start) past.push_back(plan);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -18,7 +17,7 @@
 namespace rovernet {
 namespace {
 
-/// Fate of a frame that a MAC received in vain; a repeated unicast is dropped there, too.
+/// Fate of a frame whose reception at a MAC failed; a repeated unicast is also dropped there.
 std::optional<Fate> loss_of(std::string_view reason) {
     if (reason == "DUP") return Fate::duplicate;
     std::optional<Fate> found;
@@ -30,7 +29,7 @@ std::optional<Fate> loss_of(std::string_view reason) {
     return found;
 }
 
-/// Reason for which a copy was dropped other than by the fate of its reception.
+/// Reason of a drop outside a reception.
 std::optional<DropReason> drop_of(std::string_view reason, std::string_view layer) {
     std::optional<DropReason> found;
     for_each_reason([&](auto each) {
@@ -41,10 +40,10 @@ std::optional<DropReason> drop_of(std::string_view reason, std::string_view laye
     return found;
 }
 
-/// Robots that have got a message. Most messages are for one.
+/// Robots that have received a message. Most messages are for one robot.
 class Getters {
   public:
-    /// False if it has got the message before.
+    /// Adds a robot; false if it has received the message before.
     bool add(NodeId node) {
         if (first_ == everyone)
             first_ = node;
@@ -65,7 +64,7 @@ class Getters {
     std::vector<bool> others_;  ///< by robot
 };
 
-/// Turns events into records.
+/// Converts events to records.
 class Replay {
   public:
     Replay(Sink sink, Ns2File& file, const OnNs2Packet& on_packet)
@@ -76,7 +75,7 @@ class Replay {
     void on(const Ns2Reachable& r) { reachable_ = r; }
     template <class Other>
     void on(const Other&) {}
-    /// The last reception is complete.
+    /// Emits the last reception, which is complete.
     void flush();
 
   private:
@@ -84,7 +83,7 @@ class Replay {
         Frame frame;
         Reception reception;
     };
-    /// What the file has told of a message.
+    /// Data of a message in the file so far.
     struct Known {
         std::int64_t ttl = 0;    ///< as its first frame carries it
         bool is_on_air = false;  ///< the origin has put it on air
@@ -92,7 +91,7 @@ class Replay {
     };
     using Flow = std::tuple<std::string, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
 
-    /// True if the line begins a message.
+    /// Handles a sending; true if the line begins a message.
     bool sent(const Ns2Packet&);
     void carried(const Ns2Packet&, MessageId);
     void received(const Ns2Packet&, MessageId);
@@ -194,9 +193,9 @@ bool Replay::sent(const Ns2Packet& p) {
     return true;
 }
 
-/// The robot that the packet came from, once a MAC has seen it. Some MACs write other numbers.
+/// Robot that transmitted the packet, if a MAC header names it. Some MACs write other numbers.
 std::optional<NodeId> Replay::heard_from(const Ns2Packet& p) const {
-    if (!p.mac || p.mac->ethertype == 0) return std::nullopt;
+    if (!p.mac || !p.mac->has_sent()) return std::nullopt;
     if (p.mac->from >= seen_.size() || !seen_[p.mac->from]) return std::nullopt;
     return NodeId{p.mac->from};
 }
@@ -213,7 +212,7 @@ Frame Replay::frame_of(const Ns2Packet& p, MessageId id) const {
             .hops = static_cast<Hops>(std::clamp<std::int64_t>(first - ttl + 1, 0, most_hops))};
 }
 
-/// Whether the line goes on with the reception of the line before.
+/// Whether the line continues the reception of the previous line.
 bool Replay::goes_on(const Ns2Packet& p, MessageId id) const {
     return open_ && open_->frame.message == id && open_->reception.node == p.node &&
            open_->reception.time == p.time && open_->reception.fate == Fate::waiting;
@@ -228,7 +227,7 @@ void Replay::carried(const Ns2Packet& p, MessageId id) {
 }
 
 void Replay::received(const Ns2Packet& p, MessageId id) {
-    const bool is_own_on_its_way_down = !p.mac || p.mac->ethertype == 0;
+    const bool is_own_on_its_way_down = !p.mac || !p.mac->has_sent();
     if (is_own_on_its_way_down) return;
     open_ = Copy{frame_of(p, id), {p.time, p.node, Fate::waiting, false}};
 }
@@ -297,12 +296,6 @@ Ns2Counts read_ns2_trace(Ns2Source source, Sink sink, Ns2Strictness strictness,
     replay.flush();
     file.expect_trace();
     return file.counts();
-}
-
-MetricValues trace_metrics(Ns2Source source, Ns2Strictness strictness) {
-    const auto metrics = std::make_shared<Metrics>();
-    read_ns2_trace(std::move(source), metrics, strictness);
-    return metrics->values();
 }
 
 }  // namespace rovernet

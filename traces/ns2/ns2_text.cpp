@@ -22,7 +22,7 @@ void add(std::string& out, fmt::format_string<Values...> format, Values&&... val
     fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
 }
 
-/// Numbers of a payload that both formats have.
+/// Numbers in a payload that both formats have.
 struct KnownPayload {
     enum class Kind { none, cbr, tcp, other } kind = Kind::other;
     std::int64_t seq = 0, ack = 0, forwards = 0, optimum = 0;
@@ -88,6 +88,13 @@ constexpr std::string_view other_payload =
     "packets of routing agents, and others of which only numbers of TCP and of constant bit rate "
     "can be converted";
 
+/// Ethertype of a packet; that of IP if S-MAC gives none, because a reader recognises by it that a
+/// MAC has sent the packet.
+std::uint32_t ethertype_of(const Ns2Mac& mac) {
+    constexpr std::uint32_t ip = 0x800;
+    return mac.ethertype == 0 && mac.has_sent() ? ip : mac.ethertype;
+}
+
 }  // namespace
 
 std::string_view write_old_line(const Ns2Packet& p, std::string& out) {
@@ -97,7 +104,7 @@ std::string_view write_old_line(const Ns2Packet& p, std::string& out) {
     add(out, "{} ", p.op);
     add_seconds(out, p.time);
     add(out, " _{}_ {:>3} {:>4} {} {} {} [{:x} {:x} {:x} {:x}] ", p.node.value, p.layer, p.reason,
-        p.uid, p.type, *p.size, p.mac->duration_us, p.mac->to, p.mac->from, p.mac->ethertype);
+        p.uid, p.type, *p.size, p.mac->duration_us, p.mac->to, p.mac->from, ethertype_of(*p.mac));
     add(out, "------- [{}:{} {}:{} {} {}] ", p.ip->from, p.ip->from_port, p.ip->to, p.ip->to_port,
         p.ip->ttl, p.ip->next_hop);
     if (payload.kind == KnownPayload::Kind::cbr) {
@@ -121,7 +128,7 @@ std::string_view write_new_line(const Ns2Packet& p, Vec3 place, std::string& out
     add(out, " -Nx {:.2f} -Ny {:.2f} -Nz {:.2f} -Ne {:.6f} -Nl {} -Nw {}", place.x, place.y,
         place.z, p.energy.value_or(-1), p.layer, p.reason);
     add(out, " -Ma {:x} -Md {:x} -Ms {:x} -Mt {:x} ", p.mac->duration_us, p.mac->to, p.mac->from,
-        p.mac->ethertype);
+        ethertype_of(*p.mac));
     add(out, "-Is {}.{} -Id {}.{} -It {} -Il {} -If {} -Ii {} -Iv {} ", p.ip->from, p.ip->from_port,
         p.ip->to, p.ip->to_port, p.type, *p.size, p.flow, p.uid, p.ip->ttl);
     if (payload.kind == KnownPayload::Kind::cbr) {
@@ -141,7 +148,7 @@ const std::string_view ns2_csv_head =
 
 namespace {
 
-/// A cell of text, which may hold anything.
+/// Appends a cell with any text.
 void add_cell(std::string& out, std::string_view text) {
     if (text.find_first_of(",\"") == text.npos) {
         out += text;

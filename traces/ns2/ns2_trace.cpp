@@ -3,26 +3,24 @@
 
 #include "files/part_file.hpp"
 #include "sim/error.hpp"
+#include "sim/legs.hpp"
 #include "traces/ns2/decimal.hpp"
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <exception>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <variant>
 
 namespace rovernet {
 namespace {
 
-/// The PLCP preamble and header at 1 Mb/s, which ns-2 counts among a frame's bytes.
+/// Size of PLCP preamble and header at 1 Mb/s, which ns-2 includes in a frame's size.
 constexpr std::uint32_t plcp_bytes = 24;
 /// [bytes] that a frame with this header of the access model has on air beside its message.
 constexpr std::uint32_t on_air(std::uint32_t header) { return header ? header + plcp_bytes : 0; }
 
-/// Fields that a MAC wrote into a packet; nothing: it has not seen it.
+/// MAC header fields of a packet; empty before a MAC has sent it.
 struct MacHeader {
     std::uint32_t reserved_us = 0;
     NodeId to{0}, from{0};
@@ -35,7 +33,7 @@ MacHeader ip_header(NodeId from, NodeId to = everyone, Duration reserved = {}) {
     return {static_cast<std::uint32_t>(us), to, from, "800"};
 }
 
-/// CTS and ACK do not say who sent them; 802.11-2020, 9.3.1.3 and 9.3.1.4.
+/// MAC header of a frame. CTS and ACK have no transmitter; 802.11-2020, 9.3.1.3 and 9.3.1.4.
 MacHeader mac_header(const AirFrame& air) {
     MacHeader header = ip_header(air.frame.sender, air.frame.next_hop, air.reserved);
     if (air.kind == AirFrame::data) return header;
@@ -57,7 +55,7 @@ std::string_view type_of(AirFrame::Kind kind) {
     return {};
 }
 
-/// Fields that all lines of packets have in common.
+/// Common fields of all packet lines.
 struct Line {
     char op;
     Time time;
@@ -67,7 +65,7 @@ struct Line {
     MacHeader mac = {};
 };
 
-/// Fields of a message's packets.
+/// Fields of lines about a message's packets.
 struct PacketLine : Line {
     MessageId message;
     unsigned ttl;
@@ -257,7 +255,7 @@ void Ns2Trace::Writer::packet(const PacketLine& line, const RecordContext& conte
     end_line();
 }
 
-/// A frame that has no network part.
+/// Writes a frame without a network part.
 void Ns2Trace::Writer::control(const Line& line, const AirFrame& air, std::uint32_t bytes,
                                const RecordContext& context) {
     begin_line();
@@ -286,7 +284,7 @@ void Ns2Trace::Writer::old_start(const Line& line, std::uint64_t uid, std::strin
     text("] ");
 }
 
-// A packet of type `message` shows no payload: the line ends with the blank before it.
+// A packet of type `message` has no payload in the line, which ends with the blank before it.
 void Ns2Trace::Writer::old_packet(const PacketLine& line, const Message& message) {
     old_start(line, message.uid, type_of(message), message.size + line.added);
     text("------- ["), integer(message.origin.value);
@@ -340,7 +338,7 @@ Ns2Trace::~Ns2Trace() {
     try {
         close();
     } catch (const RunError&) {
-        // The file is gone; who wants to know why calls close().
+        // The file is removed; close() reports the reason.
     }
 }
 

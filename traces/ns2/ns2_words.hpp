@@ -8,35 +8,34 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <string_view>
 #include <system_error>
 
 namespace rovernet {
 
-/// Words of one line, taken from left to right, and what they were expected to be. A word that is
-/// something else stops the reading: its function returns false, and `refused` has the place.
+/// Reader of the words of one line, from left to right, with checks. For a word of the wrong form a
+/// function returns false, and `refused` has the place.
 class Ns2Words {
   public:
     explicit Ns2Words(std::string_view line) : line_(line) {}
 
     Ns2Refused refused;
 
-    /// The next word; empty at the end of the line.
+    /// Next word; empty at the end of the line.
     std::string_view next() {
         while (at_ < line_.size() && is_blank(line_[at_])) ++at_;
         const std::size_t begin = at_;
         while (at_ < line_.size() && !is_blank(line_[at_])) ++at_;
         return line_.substr(begin, at_ - begin);
     }
-    /// The next word, which stays the next one.
+    /// Next word, without consuming it.
     std::string_view peek() {
         const std::size_t here = at_;
         const std::string_view word = next();
         at_ = here;
         return word;
     }
-    /// All that is left, without blanks around it.
+    /// Rest of the line, without blanks around it.
     std::string_view rest() {
         peek_blanks();
         std::string_view all = line_.substr(at_);
@@ -44,7 +43,7 @@ class Ns2Words {
         at_ = line_.size();
         return all;
     }
-    /// Column of a piece of the line, from 1.
+    /// Column in the line of a part of it, from 1.
     int column(std::string_view word) const {
         return static_cast<int>(word.data() - line_.data()) + 1;
     }
@@ -57,7 +56,7 @@ class Ns2Words {
         const std::string_view word = next();
         return word == text || fail(word, text);
     }
-    /// Takes `before` and `after` off the word's ends.
+    /// Removes `before` and `after` from the word's ends.
     bool strip(std::string_view& word, std::string_view before, std::string_view after,
                std::string_view expected) {
         if (word.size() < before.size() + after.size() || !word.starts_with(before) ||
@@ -84,7 +83,7 @@ class Ns2Words {
                 std::isfinite(value)) ||
                fail(word, expected);
     }
-    /// A time [s], rounded to 1 ns.
+    /// Reads a time [s], rounded to 1 ns.
     bool time(std::string_view word, Time& value);
 
   private:

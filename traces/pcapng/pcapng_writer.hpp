@@ -12,13 +12,14 @@
 
 namespace rovernet {
 
-/// Hardware address, the first byte first.
+/// Hardware (MAC) address, first byte first.
 using MacAddress = std::array<std::uint8_t, 6>;
 
-/// Writes a pcapng file: one section, its interfaces, then packets. Wireshark and tshark read it.
+/// Writer of pcapng files: one section, its interfaces, then packets. Wireshark and tshark read
+/// them.
 ///
-/// All interfaces come before the first packet. They carry 802.11 frames behind radiotap headers
-/// (link type 127), with times in nanoseconds.
+/// All interfaces are added before the first packet. Packets are 802.11 frames with radiotap
+/// headers (link type 127), with times in nanoseconds.
 ///
 ///     PcapngWriter file("run.pcapng", "rovernet 0.1.0");
 ///     const auto a = file.add_interface("A", {2, 0, 0, 0, 0, 1});
@@ -28,24 +29,24 @@ using MacAddress = std::array<std::uint8_t, 6>;
 /// Source: draft-ietf-opsawg-pcapng, PCAP Next Generation Capture File Format, sections 4.1 to 4.3.
 class PcapngWriter {
   public:
-    /// Way of a packet, as its interface sees it; values of the draft's section 4.3.1.
+    /// Direction of a packet at its interface; values of the draft's section 4.3.1.
     enum class Way : std::uint32_t { in = 1, out = 2 };
 
-    /// Begins the file; it gets its name by close(). @throws RunError if it cannot be written, as
-    /// all functions below do
+    /// Opens the file; close() gives it its name. @throws RunError if it cannot be written, like
+    /// all functions below
     PcapngWriter(const std::string& path, std::string_view application);
 
     /// Adds an interface. @return its number, from 0
     std::uint32_t add_interface(std::string_view name, const MacAddress& address);
     /// Adds a packet.
-    /// @param time   [ns] since the start of the run, which stands as 1970-01-01 00:00
+    /// @param time   [ns] since the start of the run, which counts as 1970-01-01 00:00
     /// @param bytes  radiotap header and frame
     void add_packet(std::uint32_t interface, Time time, Way way, std::string_view bytes);
-    /// Ends the writing, and gives the file its name.
+    /// Completes the file and gives it its name.
     void close();
 
   private:
-    // Begins a block. @return place of its length
+    // Begins a block. @return position of its length field
     std::size_t begin_block(std::uint32_t type);
     // Ends the block that begin_block() began.
     void end_block(std::size_t length_at);
@@ -54,7 +55,7 @@ class PcapngWriter {
     void write_some();
 
     PartFile file_;
-    ByteWriter block_;  // blocks that are not written yet
+    ByteWriter block_;  // blocks not written yet
     std::uint32_t interfaces_ = 0;
 };
 

@@ -24,19 +24,19 @@ void put_address(const MacAddress& address, ByteWriter& to) {
     to.bytes({reinterpret_cast<const char*>(address.data()), address.size()});
 }
 
-/// A level in whole dB, as far as a byte has them.
+/// Level in whole dB, limited to the range of a byte.
 std::uint8_t whole_db(Dbm level) {
     return static_cast<std::uint8_t>(
         static_cast<std::int8_t>(std::clamp(std::round(level.value), -128.0, 127.0)));
 }
 
-/// Duration field: what the frame reserves, in microseconds that have begun; 802.11-2020, 9.2.5.
+/// Duration field: reserved time in microseconds, rounded up; 802.11-2020, 9.2.5.
 std::uint16_t duration_field(Duration reserved) {
     const std::int64_t us = (reserved.count() + 999) / 1000;
     return static_cast<std::uint16_t>(std::clamp<std::int64_t>(us, 0, 32'767));
 }
 
-/// Appends the check sequence of all that was appended since `begin`.
+/// Appends the frame check sequence of all bytes since `begin`.
 void put_check_sequence(std::size_t begin, ByteWriter& to) {
     to.fixed(mcap_crc(to.view().substr(begin)));  // that of 802.11, too: ISO 3309
 }

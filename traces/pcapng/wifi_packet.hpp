@@ -9,48 +9,48 @@
 #include <cstdint>
 #include <optional>
 
-// Bytes of a frame as a wireless card in monitor mode would capture it: a radiotap header, the
-// 802.11 frame, and its check sequence.
+// Bytes of a frame as captured by a wireless card in monitor mode: a radiotap header, the 802.11
+// frame, and its frame check sequence.
 
 namespace rovernet {
 
-/// Facts of the radio that a radiotap header has.
+/// Radio data in a radiotap header.
 struct RadiotapFacts {
     BitRate rate;
     /// Carrier frequency [Hz]; written in whole MHz.
     Hertz frequency;
-    /// Reception: its power, and the noise of the receiver [dBm]; written in whole dB.
+    /// Reception: received power and noise of the receiver [dBm]; written in whole dB.
     struct Signal {
         Dbm level, noise;
     };
-    /// Nothing in the packet of the sender.
+    /// Reception data; empty in the sender's packet.
     std::optional<Signal> signal = std::nullopt;
 };
-/// Appends a radiotap header of 16 bytes: flags (the check sequence is there), rate if it is a
+/// Appends a radiotap header of 16 bytes: flags (frame check sequence present), rate if it is a
 /// multiple of 500 kb/s below 128 Mb/s, channel, level, noise.
 ///
 /// Source: https://www.radiotap.org, fields 1, 2, 3, 5 and 6.
 void append_radiotap(const RadiotapFacts& facts, ByteWriter& to);
 
-/// Addresses of both ends of a packet.
+/// Addresses in a packet.
 struct PacketAddresses {
-    /// Sender of the frame, and its receiver on this hop; all ones for everyone.
+    /// Sender and receiver of the frame on this hop; all ones for everyone.
     MacAddress sender, receiver;
-    /// Robot that made the message, and its destination; all ones for everyone.
+    /// Origin and destination of the message; all ones for everyone.
     std::uint32_t origin = 0, destination = 0;
 };
-/// UDP port of both ends.
+/// UDP port of source and destination in captured packets.
 inline constexpr std::uint16_t capture_port = 49'600;
-/// Size of the header before the message in a UDP packet [bytes]; docs/trace.md has its table.
+/// Size of the header before the message in a UDP packet [bytes]; docs/trace.md has its layout.
 inline constexpr std::size_t message_header = 32;
-/// Size of the longest message that a packet takes whole [bytes]; of a longer one the begin is
-/// there.
+/// Size of the longest message that a packet can contain completely [bytes]; a longer one is
+/// truncated.
 inline constexpr std::size_t longest_captured = 65'000;
 
-/// Appends an 802.11 data frame without access point, LLC/SNAP, IPv4 and UDP, with the message in
-/// it: `size` bytes, those of its payload and zeros behind them.
+/// Appends an 802.11 data frame (ad hoc), LLC/SNAP, IPv4 and UDP with the message: Message::size
+/// bytes, the payload filled up with zeros.
 ///
-/// @param bytes  size of the frame in the run
+/// @param bytes  size of the frame in the simulation
 ///
 /// Sources: IEEE 802.11-2020, 9.2 and 9.3.2; RFC 791; RFC 768.
 void append_data_frame(const AirFrame& air, const Message& message, std::uint32_t bytes,

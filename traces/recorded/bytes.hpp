@@ -4,20 +4,19 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
-// Numbers as bytes, and back. Whole numbers of a fixed size are little endian. A varint takes 7
-// bits a byte, the lowest first, with the high bit set in all bytes but the last (LEB128). A signed
-// number is folded into an unsigned one first: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
+// Encoding of numbers as bytes. Integers of a fixed size are little endian. A varint has 7 bits per
+// byte, lowest first, with the high bit set in all bytes but the last (LEB128). A signed number is
+// first folded into an unsigned one: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
 
 namespace rovernet {
 
 /// Longest varint [bytes].
 inline constexpr std::size_t longest_varint = 10;
 
-/// Writes a varint at `at`. @return the place behind it
+/// Writes a varint at `at`. @return the position after it
 inline char* write_varint(char* at, std::uint64_t value) {
     while (value >= 0x80) {
         *at++ = static_cast<char>(value | 0x80);
@@ -26,46 +25,46 @@ inline char* write_varint(char* at, std::uint64_t value) {
     *at++ = static_cast<char>(value);
     return at;
 }
-/// Unsigned number that stands for a signed one.
+/// Unsigned number that encodes a signed one.
 constexpr std::uint64_t folded(std::int64_t value) {
     return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
 }
-/// Signed number that an unsigned one stands for.
+/// Signed number encoded by an unsigned one.
 constexpr std::int64_t unfolded(std::uint64_t value) {
     return static_cast<std::int64_t>((value >> 1) ^ (~(value & 1) + 1));
 }
 
-/// Bytes to which numbers and texts are appended.
+/// Buffer to which numbers and texts are appended.
 class ByteWriter {
   public:
-    /// Makes room for `size` bytes at the end. @return their place, good until the next call
+    /// Reserves `size` bytes at the end. @return their position, valid until the next call
     char* room(std::size_t size) {
         if (used_ + size > bytes_.size()) bytes_.resize(2 * bytes_.size() + size);
         return bytes_.data() + used_;
     }
-    /// Ends what was written into that room at `end`.
+    /// Sets the end of the bytes written into room().
     void end_at(const char* end) { used_ = static_cast<std::size_t>(end - bytes_.data()); }
 
-    /// Appends a whole number of a fixed size, little endian.
+    /// Appends an integer of a fixed size, little endian.
     template <class Integer>
     void fixed(Integer value) {
         char* at = room(sizeof value);
         put(at, value);
         used_ += sizeof value;
     }
-    /// Appends a number in as few bytes as it takes.
+    /// Appends a number as a varint.
     void varint(std::uint64_t value) { end_at(write_varint(room(longest_varint), value)); }
     void signed_varint(std::int64_t value) { varint(folded(value)); }
     /// Appends the 8 bytes of an IEEE 754 number.
     void real(double value) { fixed(std::bit_cast<std::uint64_t>(value)); }
-    /// Appends bytes as they are.
+    /// Appends bytes unchanged.
     void bytes(std::string_view text);
-    /// Appends a text behind its length, which takes 4 bytes.
+    /// Appends a text after its length, which takes 4 bytes.
     void text(std::string_view text) {
         fixed(static_cast<std::uint32_t>(text.size()));
         bytes(text);
     }
-    /// Overwrites a number that was appended at `place`.
+    /// Overwrites an integer at the position `place` [bytes].
     template <class Integer>
     void overwrite(std::size_t place, Integer value) {
         put(bytes_.data() + place, value);
@@ -86,8 +85,8 @@ class ByteWriter {
     std::size_t used_ = 0;
 };
 
-/// Bytes from which numbers and texts are taken, one behind the other. What is taken beyond the end
-/// is 0 or empty, and failed() says so.
+/// Reader of numbers and texts from bytes, in order. Reading beyond the end returns 0 or empty, and
+/// sets failed().
 class ByteReader {
   public:
     explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -106,13 +105,13 @@ class ByteReader {
     double real() { return std::bit_cast<double>(fixed<std::uint64_t>()); }
     /// Next `size` bytes; empty if there are fewer.
     std::string_view take(std::uint64_t size);
-    /// Text behind its length, which takes 4 bytes.
+    /// Text after its length, which takes 4 bytes.
     std::string_view text() { return take(fixed<std::uint32_t>()); }
 
     std::size_t left() const { return rest_.size(); }
-    /// Something was taken beyond the end, or a varint was longer than 64 bits.
+    /// Whether anything was read beyond the end, or a varint was longer than 64 bits.
     bool failed() const { return failed_; }
-    /// Everything was taken, and nothing beyond the end.
+    /// Whether everything was read, without failure.
     bool is_done() const { return !failed_ && rest_.empty(); }
 
   private:

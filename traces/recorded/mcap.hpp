@@ -6,18 +6,18 @@
 #include <string>
 #include <string_view>
 
-// MCAP, the container of a recorded trace: a file is the magic, records, and the magic again. A
-// record is its opcode (1 byte), the length of its content (8 bytes) and the content.
+// MCAP, the container format of a recorded trace: a file is the magic, records, and the magic
+// again. A record is its opcode (1 byte), the length of its content (8 bytes) and the content.
 // Source: the MCAP format specification, https://mcap.dev/spec, version 0.
 
 namespace rovernet {
 
-/// First and last bytes of a file.
+/// First and last bytes of an MCAP file.
 inline constexpr std::string_view mcap_magic{"\x89MCAP0\r\n", 8};
-/// Opcode and length before the content of a record [bytes].
+/// Size of opcode and length before the content of an MCAP record [bytes].
 inline constexpr std::size_t mcap_record_head = 9;
 
-/// Kinds of records of the container.
+/// Kinds of records of an MCAP file.
 enum class McapOpcode : std::uint8_t {
     header = 0x01,
     footer = 0x02,
@@ -25,6 +25,7 @@ enum class McapOpcode : std::uint8_t {
     channel = 0x04,
     message = 0x05,
     chunk = 0x06,
+    message_index = 0x07,
     chunk_index = 0x08,
     attachment = 0x09,
     attachment_index = 0x0a,
@@ -35,15 +36,15 @@ enum class McapOpcode : std::uint8_t {
     data_end = 0x0f,
 };
 
-/// File that travels inside the trace.
+/// File attached to a recorded trace.
 struct AttachedFile {
     std::string name;
-    /// Media type, such as text/plain.
+    /// Media type of the file, such as text/plain.
     std::string type;
     std::string content;
 };
 
-/// CRC-32 of the container: that of zlib (ISO 3309).
+/// CRC-32 of the container: the CRC-32 of zlib (ISO 3309).
 std::uint32_t mcap_crc(std::string_view bytes);
 
 }  // namespace rovernet

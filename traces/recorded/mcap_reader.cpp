@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "traces/recorded/mcap_reader.hpp"
 
+#include "files/text_source.hpp"
 #include "sim/error.hpp"
 #include "traces/recorded/bytes.hpp"
 
@@ -18,7 +19,7 @@
 namespace rovernet {
 namespace {
 
-// A chunk of ours has about 1 MB; what claims more than this is broken.
+// Chunks of rovernet have about 1 MB; a much larger size means damage.
 constexpr std::uint64_t largest_chunk = 64 << 20;
 // Opcode and length of a chunk, times, size and CRC; then its compression.
 constexpr std::uint64_t before_compression = mcap_record_head + 8 + 8 + 8 + 4;
@@ -47,7 +48,10 @@ std::string_view mapped(const std::string& path) {
 
 McapReader::McapReader(const std::string& path) : file_(mapped(path)), at_(mcap_magic.size()) {
     if (file_.starts_with(mcap_magic)) return;
+    const std::string kind(foreign_kind(file_.substr(0, 512)));
     unmap();
+    if (!kind.empty())
+        throw InputError({.source = path}, kind + "; expected a recorded trace, unpacked");
     throw InputError({.source = path},
                      "this is no recorded trace: expected a file that begins as MCAP does");
 }
@@ -58,7 +62,7 @@ void McapReader::unmap() {
     if (!file_.empty()) munmap(const_cast<char*>(file_.data()), file_.size());
 }
 
-/// Whether a whole record that can stand there begins at this place.
+/// Whether a complete record of a possible kind begins at this position.
 bool McapReader::is_record_at(std::uint64_t at) const {
     if (at > file_.size() || file_.size() - at < mcap_record_head) return false;
     ByteReader head(file_.substr(at, mcap_record_head));
@@ -69,7 +73,44 @@ bool McapReader::is_record_at(std::uint64_t at) const {
            length <= file_.size() - at - mcap_record_head;
 }
 
-/// Place of the next chunk behind `from`; the end of the file if there is none.
+/// Whether a complete chunk begins at this position, judged by its lengths.
+bool McapReader::is_chunk_at(std::uint64_t at) const {
+    if (!is_record_at(at)) return false;
+    ByteReader head(file_.substr(at, mcap_record_head));
+    head.fixed<std::uint8_t>();
+    ByteReader content(file_.substr(at + mcap_record_head, head.fixed<std::uint64_t>()));
+    content.take(8 + 8 + 8 + 4);  // times, size and CRC
+    content.text();               // compression
+    content.take(content.fixed<std::uint64_t>());
+    return file_[at] == static_cast<char>(McapOpcode::chunk) && content.is_done();
+}
+
+/// Whether the records from this position on lead to a chunk or to the end of the data. Bytes
+/// inside a record may look like one or two records, but hardly like such a sequence.
+bool McapReader::leads_on(std::uint64_t at) const {
+    constexpr int most = 64;  // behind a chunk there are fewer before the next
+    for (int i = 0; i < most && at != file_.size(); ++i) {
+        if (!is_record_at(at)) return false;
+        ByteReader head(file_.substr(at, mcap_record_head));
+        const auto opcode = static_cast<McapOpcode>(head.fixed<std::uint8_t>());
+        const auto length = head.fixed<std::uint64_t>();
+        if (opcode == McapOpcode::chunk) return is_chunk_at(at);
+        if (opcode == McapOpcode::data_end) return length == sizeof(std::uint32_t);
+        at += mcap_record_head + length;
+    }
+    return at == file_.size();
+}
+
+/// Whether the record at this position is valid: bytes that only look like an end or an index would
+/// not be followed by valid records.
+bool McapReader::is_sound(const McapRecord& record) const {
+    const std::uint64_t behind = record.offset + mcap_record_head + record.content.size();
+    const std::string_view rest = file_.substr(behind, mcap_magic.size());
+    if (record.opcode == McapOpcode::footer) return mcap_magic.starts_with(rest);
+    return record.opcode != McapOpcode::message_index || leads_on(behind);
+}
+
+/// Place of the next chunk from `from` on; the end of the file if there is none.
 std::uint64_t McapReader::next_chunk(std::uint64_t from) const {
     for (std::size_t found = file_.find(zstd_text, from); found != std::string_view::npos;
          found = file_.find(zstd_text, found + 1)) {
@@ -87,11 +128,7 @@ std::optional<McapRecord> McapReader::next() {
         return std::nullopt;
     }
     if (!is_record_at(at_)) {
-        const std::uint64_t chunk = next_chunk(at_ + 1);
-        const bool is_last = chunk == file_.size();
-        // A chunk that was being written when the writer died is part of the missing end.
-        if (!is_last) tell(fmt::format("bytes {} to {} are broken", at_, chunk));
-        at_ = chunk;
+        skip_to_chunk();
         return next();
     }
     ByteReader head(file_.substr(at_, mcap_record_head));
@@ -99,9 +136,22 @@ std::optional<McapRecord> McapReader::next() {
                       .content = {},
                       .offset = at_};
     record.content = file_.substr(at_ + mcap_record_head, head.fixed<std::uint64_t>());
+    if (!is_sound(record)) {
+        skip_to_chunk();
+        return next();
+    }
     at_ += mcap_record_head + record.content.size();
     if (record.opcode == McapOpcode::footer) has_end_ = true;
     return record;
+}
+
+/// Moves to the next chunk.
+void McapReader::skip_to_chunk() {
+    const std::uint64_t chunk = next_chunk(at_ + 1);
+    const bool is_last = chunk == file_.size();
+    // A chunk that was being written when the writer died is part of the missing end.
+    if (!is_last) tell(fmt::format("bytes {} to {} are broken", at_, chunk));
+    at_ = chunk;
 }
 
 std::optional<McapMessages> McapReader::unpack(const McapRecord& chunk) {
@@ -119,7 +169,9 @@ std::optional<McapMessages> McapReader::unpack(const McapRecord& chunk) {
         return std::nullopt;
     };
     if (!from.is_done()) {
-        at_ = std::min(at_, next_chunk(chunk.offset + 1));  // not behind a chunk that it covers
+        // Not after a chunk that it covers, and not into the following data.
+        const std::uint64_t chunk_behind = next_chunk(chunk.offset + 1);
+        if (at_ > chunk_behind || !leads_on(at_)) at_ = chunk_behind;
         return broken("its length is wrong");
     }
     if (compression != "zstd" && !compression.empty()) return broken("it is packed otherwise");

@@ -13,7 +13,8 @@ namespace rovernet {
 namespace {
 
 constexpr std::string_view encoding = "rovernet";
-// Higher levels take longer than the run itself and save little: the columns are small already.
+// Higher levels take longer than the run itself and save little, because the columns are already
+// small.
 constexpr int level = 1;
 
 void put_record(ByteWriter& to, McapOpcode opcode, std::string_view content) {
@@ -31,6 +32,9 @@ std::uint32_t mcap_crc(std::string_view bytes) {
 
 void McapChunk::begin_message(std::uint16_t channel, std::uint64_t time) {
     constexpr std::uint32_t sequence = 0;  // the order is that of the file
+    ByteWriter& index = indexes_[channel];
+    index.fixed(time);
+    index.fixed(std::uint64_t{bytes_.size()});
     bytes_.fixed(static_cast<std::uint8_t>(McapOpcode::message));
     begun_ = bytes_.size();
     bytes_.fixed(std::uint64_t{0});
@@ -40,7 +44,6 @@ void McapChunk::begin_message(std::uint16_t channel, std::uint64_t time) {
     bytes_.fixed(time);
     first_ = std::min(first_, time);
     last_ = std::max(last_, time);
-    ++counts_[channel];
 }
 
 void McapChunk::end_message() {
@@ -131,21 +134,40 @@ void McapWriter::write(const McapChunk& chunk) {
     content.text(compression);
     content.fixed(std::uint64_t{size});
     content.bytes({packed_.data(), size});
+    const std::uint64_t begin = written_;
+    write_record(McapOpcode::chunk, content.view());
+    const std::uint64_t end = written_;
+    const std::string places = write_message_indexes(chunk);
     index.fixed(chunk.first_);
     index.fixed(chunk.last_);
-    index.fixed(written_);
-    index.fixed(std::uint64_t{mcap_record_head + content.size()});
-    index.text("");                 // no index of messages, ...
-    index.fixed(std::uint64_t{0});  // ... and its length
+    index.fixed(begin);
+    index.fixed(end - begin);
+    index.text(places);
+    index.fixed(written_ - end);
     index.text(compression);
     index.fixed(std::uint64_t{size});
     index.fixed(std::uint64_t{plain.size()});
     put_record(chunk_index_, McapOpcode::chunk_index, index.view());
     ++chunks_;
-    for (const auto& [channel, count] : chunk.counts_) counts_[channel] += count;
     first_ = std::min(first_, chunk.first_);
     last_ = std::max(last_, chunk.last_);
-    write_record(McapOpcode::chunk, content.view());
+}
+
+/// Writes an index of the chunk's messages for each of its channels, and counts the messages.
+/// @return the channels, each with the position of its index in the file
+std::string McapWriter::write_message_indexes(const McapChunk& chunk) {
+    constexpr std::size_t entry = 2 * sizeof(std::uint64_t);
+    ByteWriter places;
+    for (const auto& [channel, entries] : chunk.indexes_) {
+        counts_[channel] += entries.size() / entry;
+        places.fixed(channel);
+        places.fixed(written_);
+        ByteWriter content;
+        content.fixed(channel);
+        content.text(entries.view());
+        write_record(McapOpcode::message_index, content.view());
+    }
+    return std::string(places.view());
 }
 
 std::string McapWriter::statistics() const {

@@ -12,14 +12,14 @@
 #include <string_view>
 #include <utility>
 
-struct ZSTD_CCtx_s;  // zstd's
+struct ZSTD_CCtx_s;  // of zstd
 
 namespace rovernet {
 
-/// Messages of a chunk, as they are collected before the chunk is packed.
+/// Messages of a chunk before it is packed.
 class McapChunk {
   public:
-    /// Begins a message on a channel; its content goes to bytes() until end_message().
+    /// Begins a message on a channel; its content is written to bytes() until end_message().
     /// @param time  [ns]
     void begin_message(std::uint16_t channel, std::uint64_t time);
     void end_message();
@@ -32,26 +32,28 @@ class McapChunk {
     explicit McapChunk(ByteWriter bytes) : bytes_(std::move(bytes)) { bytes_.clear(); }
 
     ByteWriter bytes_;
-    std::size_t begun_ = 0;                               // place of the current message's length
-    std::uint64_t first_ = ~std::uint64_t{0}, last_ = 0;  // [ns]
-    std::map<std::uint16_t, std::uint64_t> counts_;       // messages by channel
+    std::size_t begun_ = 0;  // position of the current message's length field
+    // [ns] times of the first and the last message
+    std::uint64_t first_ = ~std::uint64_t{0}, last_ = 0;
+    std::map<std::uint16_t, ByteWriter> indexes_;  // time and position of each message, by channel
 };
 
-/// Writes an MCAP file: metadata, attachments, schemas and channels first, then chunks packed with
-/// zstd, then the summary with an index of the chunks. Chunks have no index of messages, which
-/// would take 16 bytes a message. Source: the MCAP format specification, https://mcap.dev/spec.
+/// Writer of MCAP files: first metadata, attachments, schemas and channels; then chunks packed with
+/// zstd, each followed by an index of its messages; then the summary with an index of the chunks.
+/// The message indexes take 16 bytes per message, not packed; some readers need them. Source: the
+/// MCAP format specification, https://mcap.dev/spec.
 class McapWriter {
   public:
-    /// Begins the file. @throws RunError if it cannot be written, as all functions below do
+    /// Opens the file. @throws RunError if it cannot be written, like all functions below
     McapWriter(const std::string& path, std::string_view profile, std::string_view library);
 
     void metadata(std::string_view name, const std::map<std::string, std::string>& entries);
     void attach(const AttachedFile& file);
-    /// Declares a schema and the channel of the same number whose messages it describes.
+    /// Declares a schema, and the channel of the same number that uses it.
     void declare(std::uint16_t number, std::string_view topic, std::string_view layout);
-    /// Packs the messages and writes them.
+    /// Packs and writes the messages of a chunk.
     void write(const McapChunk& chunk);
-    /// Writes the summary, and ends the writing.
+    /// Writes the summary, and completes the file.
     void finish();
     /// Gives the file its name.
     void give_name() { file_.give_name(); }
@@ -61,15 +63,16 @@ class McapWriter {
         void operator()(ZSTD_CCtx_s* packer) const;
     };
 
+    std::string write_message_indexes(const McapChunk& chunk);
     void write_record(McapOpcode opcode, std::string_view content);
     void write_bytes(std::string_view bytes);
-    /// Writes records that were collected, with an offset record for them in the summary.
+    /// Writes a group of records, and an offset record for them in the summary.
     void write_group(McapOpcode opcode, ByteWriter& records, ByteWriter& offsets);
     std::string statistics() const;
 
     PartFile file_;
-    std::uint64_t written_ = 0;      // [bytes]
-    std::uint32_t summary_crc_ = 0;  // of what was written since it was set to 0
+    std::uint64_t written_ = 0;      // bytes written so far
+    std::uint32_t summary_crc_ = 0;  // CRC of the bytes written since it was set to 0
     std::unique_ptr<ZSTD_CCtx_s, Free> packer_;
     std::string packed_;
     ByteWriter schemas_, channels_, chunk_index_, attachment_index_, metadata_index_;

@@ -36,7 +36,7 @@ std::uint8_t parts_of(const Leg& leg) {
     return parts;
 }
 
-/// Fields of a record to bytes.
+/// Encodes the fields of a record.
 class Encoder {
   public:
     Encoder(ByteWriter& to, Time time) : to_(to), time_(time) {}
@@ -120,8 +120,7 @@ class Encoder {
     Time time_;
 };
 
-/// Fields of a record from bytes. A value that is out of its range counts as bytes that are
-/// missing.
+/// Decodes the fields of a record. A value out of its range counts as missing bytes.
 class Decoder {
   public:
     Decoder(std::string_view bytes, Time time, std::vector<Reception>& receptions)
@@ -143,7 +142,7 @@ class Decoder {
         if (value > last) in_range_ = false;
         return value;
     }
-    /// Time so long after another, both of them between 0 and `never`.
+    /// Time plus a duration, both times between 0 and `never`.
     Time after(Time before, std::int64_t ns) {
         const std::int64_t begin = before.time_since_epoch().count();
         if (ns > 0 ? ns > never.time_since_epoch().count() - begin : begin + ns < 0) {
@@ -163,7 +162,7 @@ class Decoder {
         return node == everyone ? std::nullopt : std::optional(node);
     }
     MessageId message() { return {whole<std::uint32_t>()}; }
-    /// Number that a place or a speed can be: those of a Network are so too.
+    /// Number that is valid as a position or a speed, as in a Network.
     double real() {
         constexpr double largest = 1e15;
         const double value = from_.real();
@@ -196,7 +195,7 @@ class Decoder {
     }
     void take_receptions(NodeId sender) {
         const auto n = from_.varint();
-        // A reception takes three bytes or more: no other length gets memory.
+        // A reception takes at least three bytes; larger counts are damage and get no memory.
         receptions_.resize(n <= from_.left() / 3 ? n : 0);
         if (receptions_.size() != n) in_range_ = false;
         Time time = time_;
@@ -302,7 +301,7 @@ ControlReceived Decoder::record<ControlReceived>() {
     return r;
 }
 
-/// Calls visit<R>() for the kind of record at that place of Record.
+/// Calls visit<R>() for the type R with that index in Record.
 template <class Visit, std::size_t... index>
 bool with_kind(std::size_t place, Visit visit, std::index_sequence<index...>) {
     return ((index == place &&

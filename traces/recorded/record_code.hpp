@@ -6,33 +6,32 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
-// Bytes of a record in a recorded trace, and back. docs/trace-format.md tells of them for other
-// readers. A record gives its time to the container; everything else is here.
+// Encoding of records in a recorded trace. docs/trace-format.md describes it for other readers. The
+// time of a record is stored by the container, all other data here.
 //
 // Letters of the layouts: `v` unsigned varint, `z` signed varint (folded), `b` one byte, `d` 8
-// bytes of a double, `s` a varint of the length and so many bytes. `node?` is 0 for everyone or
-// nobody, else the node's number + 1. `n * x` is a column: n times x, one behind the other.
+// bytes of a double, `s` a varint of the length and that many bytes. `node?` is 0 for everyone or
+// none, otherwise the node's number + 1. `n * x` is a column: n values of x in a row.
 
 namespace rovernet {
 
-/// Version of these layouts; a reader refuses any other.
+/// Version of the layouts of records in a recorded trace; a reader refuses any other version.
 inline constexpr std::uint32_t recorded_format = 1;
 
-/// Kind of message of a recorded trace: its topic, and what its bytes are.
+/// Kind of message in a recorded trace: its topic, and the layout of its bytes.
 struct RecordedKind {
     std::string_view topic;
     std::string_view layout;
 };
 
-/// Layout of a Frame: `message` is a slot that a Message before it has filled.
+/// Layout of a Frame; `message` is a slot that an earlier Message has defined.
 #define ROVERNET_FRAME "message:v sender:v ttl:v hops:v next_hop:node?"
 
-/// All kinds by channel - 1: the definition of a message, then the records by the bit of their
-/// kind.
+/// Kinds of messages in a recorded trace, at index channel - 1: first the definition of a message,
+/// then the records in the order of their bits.
 inline constexpr std::array<RecordedKind, 1 + std::variant_size_v<Record>> recorded_kinds{{
     {"Message",
      "slot:v uid:v origin:v number:v to:node? size:v created:z(before this time) flow:v "
@@ -59,30 +58,29 @@ inline constexpr std::array<RecordedKind, 1 + std::variant_size_v<Record>> recor
 }};
 #undef ROVERNET_FRAME
 
-/// Channel of the definitions of messages, and of the records of this place in Record.
+/// Channel of the definitions of messages; and channel of the records with this index in Record.
 inline constexpr std::uint16_t message_channel = 1;
 constexpr std::uint16_t channel_of(std::size_t index) {
     return static_cast<std::uint16_t>(index + 2);
 }
 
-/// Time that the container keeps for a record: a Received's is that of its first reception. A
-/// Received without receptions has none of its own and gets `otherwise`.
+/// Time under which the container stores a record: for a Received the time of its first reception.
+/// A Received without receptions gets `otherwise`.
 Time time_of(const Record& record, Time otherwise);
 
 /// Appends the bytes of a record whose time is `time`.
 void encode(const Record& record, Time time, ByteWriter& to);
-/// Appends the bytes of the message that fills `slot` at `time`.
+/// Appends the bytes of the definition of the message in `slot` at `time`.
 void encode(const Message& message, MessageId slot, Time time, ByteWriter& to);
 
-/// Record of these bytes, on the channel of its kind.
-/// @param receptions  gets those of a Received, to which the record then points
-/// @return whether the bytes are a record: neither too short nor too long, all values in their
-///         ranges
+/// Decodes a record from its bytes, on the channel of its kind.
+/// @param receptions  receives the receptions of a Received, to which the record then points
+/// @return whether the bytes are a valid record: of the right length, with all values in range
 bool decode(std::uint16_t channel, Time time, std::string_view bytes,
             std::vector<Reception>& receptions, Record& record);
-/// Message of these bytes.
-/// @param kind  gets the text of Message::kind, which the caller has to keep
-/// @return whether the bytes are a message
+/// Decodes the definition of a message from its bytes.
+/// @param kind  receives the text of Message::kind, which the caller has to store
+/// @return whether the bytes are a valid definition
 bool decode(Time time, std::string_view bytes, MessageId& slot, Message& message,
             std::string_view& kind);
 

@@ -2,6 +2,7 @@
 #include "traces/recorded/recorded_reader.hpp"
 
 #include "sim/error.hpp"
+#include "sim/legs.hpp"
 #include "traces/recorded/record_code.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -37,8 +37,8 @@ std::vector<std::string> lines_of(std::string_view text) {
 
 constexpr std::string_view names_file = "robots.txt";
 
-/// Calls visit(robot) for each robot that the record tells of, also for those that a frame comes
-/// from or goes to; `everyone` may be among them.
+/// Calls visit(robot) for each robot in the record, including senders and destinations of frames;
+/// `everyone` may be among them.
 template <class Visit>
 void for_each_robot(const Record& record, Visit visit) {
     const auto visit_frame = [&](const Frame& frame) {
@@ -70,8 +70,15 @@ bool is_recorded_trace(const std::string& path) {
     if (!std::filesystem::is_regular_file(path, ignored)) return false;
     std::ifstream file(path, std::ios::binary);
     std::string begin(mcap_magic.size(), '\0');
-    return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) &&
-           begin == mcap_magic;
+    if (file.read(begin.data(), static_cast<std::streamsize>(begin.size())) &&
+        begin == mcap_magic) {
+        return true;
+    }
+    if (std::filesystem::path(path).extension() != ".mcap") return false;
+    if (file.gcount() == 0)
+        throw InputError({.source = path}, "the file is empty, expected a recorded trace");
+    const McapReader says_why(path);
+    return false;
 }
 
 std::string RecordedRun::names_in_words() const {
@@ -157,7 +164,7 @@ void RecordedReader::read_attachment(std::string_view content) {
     run_.files.push_back(std::move(file));
 }
 
-/// Unpacks the next chunk that is whole. @return false at the end of the file
+/// Unpacks the next complete chunk. @return false at the end of the file
 bool RecordedReader::begin_chunk() {
     while (const auto record = file_.next()) {
         if (record->opcode == McapOpcode::statistics) tell_missing_chunks(record->content);
@@ -172,7 +179,7 @@ bool RecordedReader::begin_chunk() {
     return false;
 }
 
-/// Tells of chunks that look like something else, and so were passed over.
+/// Reports chunks that were damaged beyond recognition and skipped.
 void RecordedReader::tell_missing_chunks(std::string_view statistics) {
     ByteReader from(statistics);
     from.take(8 + 2 + 4 + 4 + 4);  // messages, schemas, channels, attachments, metadata
@@ -201,7 +208,7 @@ const Record* RecordedReader::next() {
     }
 }
 
-/// Takes a definition, or a record. @return whether it is one
+/// Handles a definition or a record. @return whether it is a record
 bool RecordedReader::take_message(std::string_view content) {
     ByteReader from(content);
     const auto channel = from.fixed<std::uint16_t>();
@@ -240,9 +247,12 @@ bool RecordedReader::define(std::string_view bytes) {
     MessageId slot;
     std::string_view kind;
     if (!decode(now_, bytes, slot, message, kind)) return false;
-    // The run used a slot again before it made a new one, so that slots are small numbers.
+    // A run reuses a slot before it creates a new one, so slots are small numbers.
     constexpr std::uint32_t most = 1 << 22;
-    if (slot.value >= most || (kind.empty() && message.to == message.origin)) return false;
+    constexpr std::size_t longest_kind = 1024;  // a run has words; a line of ns-2 has to hold it
+    if (slot.value >= most || kind.size() > longest_kind ||
+        (kind.empty() && message.to == message.origin))
+        return false;
     for (const NodeId end : {message.origin, message.to}) meet(end);
     constexpr std::uint32_t most_flows = 1 << 20;
     if (message.flow > most_flows) {
@@ -258,10 +268,10 @@ bool RecordedReader::define(std::string_view bytes) {
     return true;
 }
 
-/// Checks that the trace names the robot, and makes room for it; `everyone` is none.
+/// Checks that the trace names the robot, and allocates its state; ignores `everyone`.
 void RecordedReader::meet(NodeId robot) {
     if (robot == everyone) return;
-    // Robots that were added later to a network made in code have no names; the leg that brought
+    // Robots added later to a network built by a C++ program have no names; the leg that introduced
     // one may have been in a broken chunk.
     constexpr std::size_t most_more = 1 << 20;
     const std::size_t named = run_.robots.size();
@@ -276,7 +286,7 @@ void RecordedReader::meet(const Record& record) {
     for_each_robot(record, [&](NodeId robot) { meet(robot); });
 }
 
-/// Whether the record's message, if it is about one, was defined.
+/// Whether the record's message, if it has one, was defined.
 bool RecordedReader::has_message(const Record& record) const {
     const auto is_message = [&](MessageId slot) {
         return slot.index() < slots_.size() && slots_[slot.index()];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/legs.hpp"
 #include "sim/record.hpp"
 #include "sim/sink.hpp"
 #include "traces/recorded/bytes.hpp"
@@ -15,60 +16,62 @@
 
 namespace rovernet {
 
-/// What a recorded trace says of its run.
+/// Facts about the run of a recorded trace.
 struct RecordedRun {
-    /// Version of the program that wrote it.
+    /// Version of the program that wrote the trace.
     std::string version;
-    /// Scenario as TOML, every default filled in; empty: a network that was made in code.
+    /// Scenario as TOML, with all defaults; empty if the network was built by a C++ program.
     std::string scenario;
     std::uint64_t seed = 0;
     std::uint32_t replication = 0;
     /// Names of the robots by NodeId.
     std::vector<std::string> robots;
-    /// Files that the scenario names.
+    /// Files that the scenario refers to.
     std::vector<AttachedFile> files;
-    /// Names of files inside that are broken: what they hold is not known.
+    /// Names of attached files that are broken; their content is not known.
     std::vector<std::string> broken;
-    /// A whole robots.txt is inside, which may be empty.
+    /// True if robots.txt is attached completely; it may be empty.
     bool has_names = true;
 
-    /// Number of robots that have names, and why there is none if it is no file that says so.
+    /// Text for messages: number of named robots, and the reason if there is none and no attached
+    /// file explains it.
     std::string names_in_words() const;
 };
 
-/// Whether the file begins as a recorded trace does. A pipe is none: what it has can be read once.
+/// Whether the file begins like a recorded trace. False for a pipe, because it can be read only
+/// once.
+/// @throws InputError if the file has the extension of a recorded trace (.mcap), but another
+///         content
 bool is_recorded_trace(const std::string& path);
 
-/// Gives the records of a recorded trace back, in the order of the run, with legs and messages as
-/// they were then. Any sink can be driven by it: metrics, fingerprint and ns-2 trace come out as
-/// they would have in the run.
+/// Reader of the records of a recorded trace, in the order of the run, with legs and messages as
+/// they were then. It can drive any sink: metrics, fingerprint and ns-2 trace are those of the run.
 ///
 ///     RecordedReader reader("runs/rescue-s7/trace.mcap");
 ///     while (const Record* record = reader.next()) sink.on(*record, reader.context());
 ///
-/// Whatever a record is about can be looked up: its robots are among those that the trace names,
-/// and its message is defined. Robots of a network that was made in code may have been added later;
-/// they have no names.
+/// All objects of a record are available: its robots are named in the trace, and its message is
+/// defined. In a network built by a C++ program, robots added later have no names.
 ///
-/// Not in the records: keys of random draws (0), and levels of receptions (none). A file without an
-/// end is read up to its last whole chunk. A broken chunk is left out: behind it the messages are
-/// right at once, and the place of a robot from its next leg on. Memory grows with robots and
-/// messages that are under way, not with records.
+/// Not in the records: keys of random draws (0), and levels of receptions (empty). An incomplete
+/// file is read up to its last complete chunk. A broken chunk is skipped: after it, messages are
+/// correct at once, and the position of a robot is correct from its next leg on. Memory grows with
+/// the number of robots and of messages in use, not with records.
 class RecordedReader {
   public:
-    /// Opens the file and reads what stands before the records.
-    /// @throws InputError if it is no recorded trace, or of a version that is not known
+    /// Opens the file and reads the parts before the records.
+    /// @throws InputError if it is not a recorded trace, or of an unknown version
     explicit RecordedReader(const std::string& path);
 
     const RecordedRun& run() const { return run_; }
-    /// Next record, good until the next call; null at the end.
-    /// @throws InputError if it is of a robot that the trace does not name, or of a flow too many
+    /// Next record, valid until the next call; null at the end.
+    /// @throws InputError for a robot that the trace does not name, or for too many flows
     const Record* next();
-    /// Legs and messages as the run had them when it made the record.
+    /// Legs and messages at the time of the last record that next() returned.
     RecordContext context() const { return {legs_, messages_}; }
-    /// Drives a sink by all records that are left: begin, on, finish. @throws InputError as next()
+    /// Passes all remaining records to a sink: begin, on, finish. @throws InputError as next()
     void read(const Sink& sink);
-    /// What is broken or missing in what was read so far, as sentences; empty: nothing.
+    /// Broken and missing parts found so far, as sentences; empty if there are none.
     const std::vector<std::string>& damage() const { return file_.damage(); }
     /// Time of the last record so far.
     Time now() const { return now_; }
@@ -88,18 +91,18 @@ class RecordedReader {
     std::string path_;
     McapReader file_;
     RecordedRun run_;
-    ByteReader chunk_{{}};  // what is left of the current chunk
+    ByteReader chunk_{{}};  // rest of the current chunk
     std::uint64_t chunk_offset_ = 0;
-    std::uint32_t chunks_ = 0;   // so far
-    std::uint64_t records_ = 0;  // so far
+    std::uint32_t chunks_ = 0;   // number of chunks so far
+    std::uint64_t records_ = 0;  // number of records so far
     Time now_ = start_of_run;
     Record record_;
     bool has_record_ = false;  // the last message was a record, not a definition
     std::vector<Reception> receptions_;
     Legs legs_;
     MessageTable messages_;
-    std::vector<std::optional<MessageId>> slots_;  // our messages by slots of the file
-    std::set<std::string, std::less<>> kinds_;     // that Message::kind refers to
+    std::vector<std::optional<MessageId>> slots_;  // message ids by slots of the file
+    std::set<std::string, std::less<>> kinds_;     // texts to which Message::kind refers
 };
 
 }  // namespace rovernet

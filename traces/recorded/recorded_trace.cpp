@@ -4,42 +4,35 @@
 #include "traces/recorded/mcap_writer.hpp"
 #include "traces/recorded/record_code.hpp"
 
-#include <fmt/format.h>
-
 #include <condition_variable>
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <exception>
-#include <map>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <thread>
 #include <utility>
 #include <variant>
-#include <vector>
 
 namespace rovernet {
 
-/// Copies of records that become one chunk.
+/// Copied records that become one chunk.
 struct RecordedTrace::Batch {
-    /// Message that is defined before the record of that number.
+    /// Message that is defined before the record with that index.
     struct Definition {
         std::size_t before;
         MessageId slot;
         Message message;
     };
-    // A reception takes about 4 bytes of a chunk, a record without them about 50.
+    // A reception takes about 4 bytes in a chunk, any other record about 50.
     static constexpr std::size_t receptions_a_record = 12;
 
     std::vector<Definition> definitions;
-    /// Records in their order; a Received does not point to its receptions, but says how many of
-    /// them are its own.
+    /// Records in order; a Received does not point to its receptions, but contains their number.
     std::vector<Record> records;
     std::vector<Reception> receptions;
-    /// uid + 1 of the message that fills each slot, as defined in this batch; 0: none. Every chunk
-    /// defines the messages that it speaks of, so that it can be read without those before.
+    /// By slot: uid + 1 of its message, as defined in this batch; 0: none. Every chunk defines all
+    /// its messages, so that it can be read without earlier chunks.
     std::vector<std::uint64_t> defined;
 
     std::size_t size() const { return receptions.size() + receptions_a_record * records.size(); }
@@ -59,7 +52,7 @@ struct RecordedTrace::Batch {
     }
 };
 
-/// Thread that makes chunks of batches.
+/// Thread that encodes batches as chunks.
 class RecordedTrace::Packer {
   public:
     Packer(const std::string& path, Contents contents)
@@ -123,7 +116,7 @@ void RecordedTrace::Packer::begin(const RunInfo& run) {
     thread_ = std::thread([this] { work(); });
 }
 
-/// A batch without records; waits while too many are waiting.
+/// Returns a batch without records; waits while too many batches are queued.
 std::unique_ptr<RecordedTrace::Batch> RecordedTrace::Packer::empty_batch() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return error_ || waiting_.size() < most_waiting; });

@@ -12,47 +12,47 @@
 
 namespace rovernet {
 
-/// Writes the run as a recorded trace: all its records, and what is needed to run it again, in one
-/// MCAP file. RecordedReader gives the records back; docs/trace-format.md describes the file.
+/// Sink that writes the run as a recorded trace: all its records, and the data for running it
+/// again, in one MCAP file. RecordedReader reads it; docs/trace-format.md describes the format.
 ///
-/// The thread of the run only copies records. When about a megabyte of them has come together, a
-/// thread of the trace's own makes a chunk of them, packs and writes it. At most 4 such batches
-/// wait for it; then the run waits. The bytes of the file do not depend on the threads.
+/// The simulation thread only copies records. When about a megabyte of records is collected, a
+/// second thread encodes, packs and writes them as a chunk. At most 4 such batches wait; then the
+/// simulation waits. The bytes of the file do not depend on the threads.
 ///
-/// Not kept: keys of random draws (Message::key, Frame::path), and levels of receptions.
+/// Not stored: keys of random draws (Message::key, Frame::path), and levels of receptions.
 class RecordedTrace {
   public:
-    /// What the file holds beside the records.
+    /// Contents of the file in addition to the records.
     struct Contents {
         /// Version of the program, as text.
         std::string version;
-        /// Scenario as TOML, in place of the run's own; empty: the run's own.
+        /// Scenario as TOML, which replaces the run's own; empty: the run's own.
         std::string scenario = {};
-        /// Files that the scenario names.
+        /// Files that the scenario refers to.
         std::vector<AttachedFile> files = {};
-        /// Changes of links are recorded, too, which costs the search for them.
+        /// True: link changes are recorded, too, which costs a search for them.
         bool links = false;
-        /// Receptions of a chunk; any record beside them counts as 12.
+        /// Size of a chunk in receptions; any other record counts as 12.
         std::size_t chunk = 250'000;
     };
 
-    /// Begins the file; `path` itself appears at the end, see PartFile. The part is kept if a write
-    /// fails. @throws RunError if it cannot be written
+    /// Opens the file; `path` itself appears at the end, see PartFile. The incomplete file
+    /// NAME.N.part is kept if a write fails. @throws RunError if it cannot be written
     RecordedTrace(const std::string& path, Contents contents);
     RecordedTrace(RecordedTrace&&) noexcept;
     RecordedTrace& operator=(RecordedTrace&&) noexcept;
-    /// Ends the thread; removes the file unless close() has given it its name.
+    /// Ends the writing thread; removes the file unless close() has named it.
     ~RecordedTrace();
 
     KindMask kinds() const;
-    /// Writes the scenario, its seed and the robots' names.
+    /// Writes the scenario, its seed and the names of the robots.
     void begin(const RunInfo& run);
-    /// @throws RunError if the file cannot be written (disk full, say); this may show some records
-    ///         late
+    /// @throws RunError if the file cannot be written (disk full, for example); the error may come
+    ///         some records later
     void on(const Record& record, const RecordContext& context);
-    /// Writes what has not been written, and ends the writing. @throws RunError as on()
+    /// Writes the remaining records, and completes the file. @throws RunError as on()
     void finish();
-    /// Gives the file its name, after finish(). @throws RunError if that cannot be done
+    /// Gives the file its name, after finish(). @throws RunError if that fails
     void close();
 
   private:

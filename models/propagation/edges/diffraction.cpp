@@ -13,16 +13,17 @@ namespace {
 using math::Complex;
 using std::numbers::pi;
 
-/// f + j g: the transition function is sqrt(2 pi x) times that of t = sqrt(2 x / pi).
+/// Complex tail f + j g: the transition function is sqrt(2 pi x) times the tail at t = sqrt(2 x /
+/// pi).
 Complex tail(double t) {
     const auto [f, g] = math::fresnel_tail(t);
     return {f, g};
 }
 
-/// cot(e / 2n) F(2 k L sin^2(e / 2)) with the sign of e given apart.
+/// Boundary term cot(e / 2n) F(2 k L sin^2(e / 2)), with the sign of e as an argument.
 ///
-/// cot and F are never computed: F is |sin(e / 2)| times a smooth function, and |sin(e / 2)| over
-/// sin(e / 2n) is finite, n at e = 0.
+/// cot and F are not computed separately: F is |sin(e / 2)| times a smooth function, and |sin(e /
+/// 2)| / sin(e / 2n) is finite, n at e = 0.
 Complex boundary_term(double e, bool positive, double n, double kL) {
     const double size = std::abs(e);
     const double sine = math::sincos(size / 2).sin;
@@ -33,8 +34,8 @@ Complex boundary_term(double e, bool positive, double n, double kL) {
     return (positive ? factor : -factor) * tail(t);
 }
 
-/// Angles e = pi - beta and e = pi + beta, each nearest to 0, and whether they were turned by 2 n
-/// pi for that.
+/// Angles e = pi - beta and e = pi + beta, each reduced to the value nearest to 0, and whether 2 n
+/// pi was subtracted.
 struct Deviations {
     double minus, plus;
     bool minus_turned, plus_turned;
@@ -53,7 +54,7 @@ Deviations sum(const WedgePath& path) {
     return deviations(path.phi.value + path.phi_incident.value, path.n);
 }
 
-/// Angle to the normal of a ray at `grazing` to a face's plane, from either side of it.
+/// Angle of incidence of a ray with the angle `grazing` to a face's plane, from either side.
 Radians to_normal(double grazing) {
     const double folded = grazing > pi ? 2 * pi - grazing : grazing;
     return {std::abs(pi / 2 - folded)};
@@ -62,7 +63,7 @@ Radians to_normal(double grazing) {
 }  // namespace
 
 double knife_edge_loss_db(double nu) {
-    // Beyond the edge by f and g: C - 1/2 and S - 1/2 oscillate, and cancel far off.
+    // Behind the edge by f and g, because C - 1/2 and S - 1/2 oscillate and cancel for large nu.
     if (nu >= 0) return -10 * math::log10(std::norm(tail(nu)) / 2);
     const auto [c, s] = math::fresnel(nu);
     return -10 * math::log10(std::norm(Complex{0.5 - c, 0.5 - s}) / 2);

@@ -4,29 +4,30 @@
 #include "sim/complex_math.hpp"
 #include "sim/units.hpp"
 
-// Diffraction at one edge: at a screen, as a loss in decibels, and at a wedge, as a field.
-// Time convention of all fields: e^(+j omega t), so that a wave that travels is e^(-j k s).
+// Diffraction at one edge: as a loss in decibels at a screen, as a field at a wedge. Time
+// convention of all fields: e^(+j omega t), so that a travelling wave is e^(-j k s).
 
 namespace rovernet {
 
-/// Loss at a knife edge [dB] that stands on the way of a wave, in the open otherwise:
+/// Loss of a single knife edge [dB] in the path of a wave:
 ///
 ///   J(nu) = -20 log10( sqrt((1 - C - S)^2 + (C - S)^2) / 2 ),
 ///   nu = h sqrt(2 (d1 + d2) / (lambda d1 d2)),
 ///
-/// with the Fresnel integrals C and S of nu, and the edge's height h [m] above the straight line,
-/// d1 and d2 [m] from its ends. The loss is 6.02 dB where the edge touches the line, and negative
-/// in places below it, a gain of up to 1.4 dB. Valid for any nu; infinite for infinity.
+/// with the Fresnel integrals C and S of nu, the edge's height h [m] above the straight line, and
+/// its distances d1 and d2 [m] from the ends of the line. The loss is 6.02 dB if the edge touches
+/// the line; for edges below the line it may be negative, a gain of up to 1.4 dB. Valid for any nu;
+/// infinite for infinity.
 /// Source: Recommendation ITU-R P.526-15, section 4.1, equations 26 and 30.
 double knife_edge_loss_db(double nu);
 
-/// Loss at a knife edge [dB] by the approximation of Recommendation ITU-R P.526-15, equation 31:
+/// Loss of a single knife edge [dB], approximated by Recommendation ITU-R P.526-15, equation 31:
 ///
 ///   J(nu) = 6.9 + 20 log10( sqrt((nu - 0.1)^2 + 1) + nu - 0.1 ) for nu > -0.78, else 0
 ///
-/// The approximation is within 0.13 dB of knife_edge_loss_db() from -0.78 on, and leaves out the
-/// ripple below. Its step at -0.78 is 0.004 dB; farther below the equation has a gain without
-/// bound.
+/// The approximation is within 0.13 dB of knife_edge_loss_db() for nu > -0.78, and neglects the
+/// oscillation below. Its step at -0.78 is 0.004 dB; without the limit it would be an unbounded
+/// gain.
 double knife_edge_loss_p526_db(double nu);
 
 /// Transition function F(x) [-] of the uniform theory of diffraction, for x >= 0:
@@ -38,48 +39,49 @@ double knife_edge_loss_p526_db(double nu);
 /// surface, Proc. IEEE 62(11), 1974.
 math::Complex transition_function(double x);
 
-/// Way of a wave over the edge of a wedge, seen along the edge.
+/// Path of a wave over the edge of a wedge, seen along the edge.
 struct WedgePath {
-    double n;              ///< open angle around the edge over pi [-]: 2 a screen, 1.5 a corner
+    double n;  ///< exterior angle of the wedge over pi [-]: 2 a screen, 1.5 a right-angled corner
     Radians phi;           ///< direction to the receiver, from face 0: 0 to n pi
     Radians phi_incident;  ///< direction to the source, from face 0: 0 to n pi
 };
 
-/// Rays of geometrical optics that reach a receiver past a wedge.
+/// Rays of geometrical optics that reach a receiver near a wedge.
 struct LitBy {
     bool direct;  ///< the straight ray:            |phi - phi'| <= pi
     bool face_0;  ///< the ray that face 0 reflects: phi + phi' <= pi
     bool face_n;  ///< the ray that face n reflects: phi + phi' >= (2 n - 1) pi
 };
-/// Rays at a receiver as the angles say.
+/// Rays that reach a receiver, by the angles of the path.
 LitBy lit_by(const WedgePath& path);
 
-/// Coefficients of a wedge's faces [-]: fields at a face over that of the incident wave.
+/// Coefficients of a wedge's faces [-]: ratios of fields to the incident field.
 struct WedgeFaces {
     math::Complex face_0;      ///< reflection by face 0
     math::Complex face_n;      ///< reflection by face n
-    math::Complex through{0};  ///< transmission into the shadow; 0 for what is opaque
+    math::Complex through{0};  ///< transmission into the shadow; 0 for an opaque wedge
 };
-/// Faces where the field is 0 (soft), and where its slope is (hard): those of metal for an electric
-/// field along the edge, and across it.
+/// Faces at which the field is 0 (soft), and at which its normal derivative is 0 (hard): metal for
+/// an electric field parallel to the edge, and perpendicular to it.
 inline constexpr WedgeFaces soft_faces{-1, -1};
 inline constexpr WedgeFaces hard_faces{1, 1};
 
-/// Angles to the normals at which the coefficients of a lossy wedge's faces are to be taken: those
-/// of grazing angles min(phi, phi') for face 0 and n pi - max(phi, phi') for face n.
+/// Angles of incidence for the reflection coefficients of a lossy wedge's faces: from the grazing
+/// angles min(phi, phi') for face 0 and n pi - max(phi, phi') for face n.
 ///
-/// Luebbers takes phi' for face 0 and n pi - phi for face n, so that source and receiver cannot be
-/// exchanged. With the smaller of both the coefficient is reciprocal, and where a face's ray of
-/// reflection appears (phi + phi' = pi at face 0) it is that ray's: sin(phi) = sin(phi') there.
+/// Luebbers uses phi' for face 0 and n pi - phi for face n, so that exchanging source and receiver
+/// changes the result. With the smaller angle the coefficient is reciprocal; at the boundary where
+/// the reflected ray of a face appears (phi + phi' = pi at face 0) it equals that ray's
+/// coefficient, because sin(phi) = sin(phi').
 struct FaceIncidence {
-    Radians face_0, face_n;  ///< 0 (square to the face) to pi / 2 (along it)
+    Radians face_0, face_n;  ///< 0 (perpendicular to the face) to pi / 2 (parallel to it)
 };
 FaceIncidence face_incidence(const WedgePath& path);
 
 /// Diffraction coefficient D of a wedge [sqrt(m)]: the diffracted field is u D A e^(-j k s), with
-/// the incident field u at the edge, and the spreading A = 1 / sqrt(s) for a plane or cylindrical
-/// wave, A = sqrt(s' / (s (s + s'))) for a spherical one, where s' and s [m] lead to the edge and
-/// on from it.
+/// the incident field u at the edge, and the spreading factor A = 1 / sqrt(s) for a plane or
+/// cylindrical wave, A = sqrt(s' / (s (s + s'))) for a spherical one; s' [m] is the distance from
+/// the source to the edge, s [m] from the edge to the receiver.
 ///
 ///   D = -e^(-j pi/4) / (2 n sqrt(2 pi k))
 ///       [ (1 - T) (K(pi - b) + K(pi + b)) + R0 K(pi - c) + Rn K(pi + c) ],
@@ -87,13 +89,14 @@ FaceIncidence face_incidence(const WedgePath& path);
 ///
 /// with e reduced by the multiple of 2 pi n that leaves it nearest to 0.
 ///
-/// A ray of geometrical optics appears where e = 0, and K jumps there by as much as that ray. The
-/// sign of K is taken from `lit`: whoever adds the rays of the same `lit` has a sum without a step,
-/// on the boundary too. Where the wedge lets a part T through, the shadow holds T times the direct
-/// ray.
+/// A ray of geometrical optics appears where e = 0, and K has a step there of the size of that ray.
+/// The sign of K is taken from `lit`: the sum with the rays of the same `lit` has no step, also on
+/// the boundary. If the wedge transmits a part T, the field in the shadow contains T times the
+/// direct ray.
 ///
-/// Exact for a screen that is soft or hard in a plane wave; within 0.05 dB of a right angle's field
-/// from 10 / k off the edge on. R0, Rn and T of a lossy wedge are a heuristic, poor in deep shadow.
+/// Exact for a soft or hard screen in a plane wave; within 0.05 dB of the field of a right-angled
+/// wedge from a distance of 10 / k on. R0, Rn and T of a lossy wedge are a heuristic, inaccurate in
+/// deep shadow.
 /// Source: Kouyoumjian and Pathak 1974, with a = 2 sin^2(e / 2); R0 and Rn: R. J. Luebbers, Finite
 /// conductivity uniform GTD versus knife edge diffraction, IEEE Trans. Antennas Propag.
 /// 32(1), 1984; T: W. D. Burnside and K. W. Burgener, High frequency scattering by a thin lossless
@@ -102,8 +105,8 @@ FaceIncidence face_incidence(const WedgePath& path);
 /// @param path  1 <= n <= 2
 /// @param k     wave number 2 pi / lambda [rad/m], > 0
 /// @param L     distance parameter [m], >= 0: s for a plane wave, s s' / (s + s') for others
-/// @param lit   lit_by(path), or as the caller's own geometry says; both may differ where a ray
-///              appears, and only there
+/// @param lit   lit_by(path), or from the caller's own geometry; the two may differ only at a
+///              boundary
 math::Complex wedge_coefficient(const WedgePath& path, double k, Meters L, const WedgeFaces& faces,
                                 LitBy lit);
 inline math::Complex wedge_coefficient(const WedgePath& path, double k, Meters L,

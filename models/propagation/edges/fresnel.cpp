@@ -15,7 +15,8 @@ namespace {
 
 constexpr double near_end = 2.5;
 
-// f and g in 2 t / near_end - 1, for t from 0 to near_end: Chebyshev interpolation, error 1e-17.
+// Coefficients of f and g in 2 t / near_end - 1, for t from 0 to near_end: Chebyshev interpolation,
+// error 1e-17.
 constexpr std::array<double, 27> near_f{
     0x1.e526f6fb621c4p-3,   -0x1.83aaf85944ca8p-3,  0x1.e89d3065e9b69p-4,   -0x1.8d98202586c8cp-5,
     -0x1.70456466daaeap-9,  0x1.bdaaff70a81ap-6,    -0x1.e83aa4349f75p-6,   0x1.5ddd98a5fccc2p-6,
@@ -33,7 +34,8 @@ constexpr std::array<double, 27> near_g{
     -0x1.46525d57b5a71p-20, 0x1.21da2a5846421p-21,  -0x1.6bee24201c2c8p-23, 0x1.54142333a5cb7p-26,
     0x1.6c81f8648eae5p-26,  -0x1.eb88e07678344p-27, 0x1.9180700e2f7c5p-29};
 
-// pi t f and pi^2 t^3 g in 2 (near_end / t)^4 - 1 beyond it, error 2e-16 of the result.
+// Coefficients of pi t f and pi^2 t^3 g in 2 (near_end / t)^4 - 1 for t > near_end; error 2e-16 of
+// the result.
 constexpr std::array<double, 25> far_f{
     0x1.fe16c22c334e1p-1,  -0x1.d6874a3ceb884p-9,  0x1.104b490c66e8cp-13,  -0x1.7216a0e6d3a3bp-17,
     0x1.97a4057cff0bdp-20, -0x1.3335f8400f782p-22, 0x1.20ad73eb83aa4p-24,  -0x1.3f922d588ede5p-26,
@@ -51,11 +53,11 @@ constexpr std::array<double, 25> far_g{
     0x1.e0473d01d4965p-31, 0x1.fae38598eb4c1p-32,  -0x1.b1303322fe394p-32, -0x1.f4bf5ba9d1a2bp-34,
     0x1.8c6e5f9f8fe08p-34};
 
-// x modulo 4, exact.
+// Remainder of x modulo 4, exact.
 double modulo_4(double x) { return x - 4 * std::floor(x / 4); }
 
-// x^2 modulo 4 for x >= 0: the halves of x have at most 27 bits, so that their products are exact
-// but for a last bit of lo * lo.
+// Remainder of x^2 modulo 4 for x >= 0: the halves of x have at most 27 bits, so their products are
+// exact except for the last bit of lo * lo.
 double square_modulo_4(double x) {
     const auto upper_bits = ~std::uint64_t{0x7ffffff};
     const double hi = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & upper_bits);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "models/access/dcf.hpp"
+#include "models/access/csma.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -9,17 +9,17 @@
 
 namespace rovernet {
 
-/// Saturation throughput of the 802.11 DCF, for `n` stations that hear one another and always have
-/// a frame to send: the share of the time in which payload bits get through.
+/// Saturation throughput of the 802.11 DCF for `n` stations in range of each other that always have
+/// a frame to send: the share of time in which payload bits are received.
 ///
 /// Source: G. Bianchi, Performance analysis of the IEEE 802.11 distributed coordination function,
 /// IEEE JSAC 18(3), 2000; equations 7, 9-13.
 struct Bianchi {
     int window = 32;                           ///< W = CWmin + 1 [slots]
-    int stages = 3;                            ///< m: the window doubles so often
-    double slot, payload, success, collision;  ///< [us]; of a slot, E[P], Ts, Tc
+    int stages = 3;                            ///< m: number of doublings of the window
+    double slot, payload, success, collision;  ///< [us] slot time, E[P], Ts, Tc
 
-    /// Probability that a station sends in a slot, where the others collide with it with `p`.
+    /// Probability that a station transmits in a slot, given the collision probability `p`.
     double attempts(double p) const {
         const double q = 1 - 2 * p;
         return 2 * q / (q * (window + 1) + p * window * (1 - std::pow(2 * p, stages)));
@@ -41,17 +41,17 @@ struct Bianchi {
     }
 };
 
-/// A cell of Bianchi's, table II: 1 Mb/s; slot 50, SIFS 28, DIFS 128 us; 8184 bits of payload
-/// behind 272 of the MAC and a preamble of 128 us. No EIFS, no end of retries, no time to notice
-/// energy.
+/// Cell (group of stations in range of each other) with the parameters of Bianchi's table II: 1
+/// Mb/s; slot 50, SIFS 28, DIFS 128 us; 8184 bits of payload after 272 bits of MAC header and a
+/// preamble of 128 us. No EIFS, no retry limit, no sensing delay.
 struct BianchiCell {
-    static constexpr std::uint32_t payload = 1023;  ///< [bytes]
+    static constexpr std::uint32_t payload = 1023;  ///< payload of a frame [bytes]
     static constexpr BitRate rate{1e6};
     static constexpr Duration preamble = std::chrono::microseconds{128};
 
-    int window = 32;    ///< W [slots]
-    int stages = 3;     ///< m
-    bool asks = false;  ///< RTS and CTS go ahead of the data
+    int window = 32;    ///< W = CWmin + 1 [slots]
+    int stages = 3;     ///< m: number of doublings of the window
+    bool asks = false;  ///< true: RTS and CTS precede each data frame
 
     Bianchi theory() const {
         constexpr double sifs = 28, difs = 128, bits = 8 * payload;
@@ -81,30 +81,6 @@ struct BianchiCell {
                 .long_retries = 0,
                 .rts_threshold = asks ? 0U : 100'000U,
                 .header = 34};
-    }
-};
-
-/// A cell of 802.11b at 1 Mb/s in which all send broadcasts of 1000 bytes: nothing is answered or
-/// repeated, the window stays at 32 slots. A station whose draw is 0 sends at once behind its last
-/// frame, which the theory leaves out: it holds up to some 10 stations.
-struct BroadcastCell {
-    static constexpr std::uint32_t payload = 1000;  ///< [bytes]
-    static constexpr BitRate rate{1e6};
-
-    std::uint32_t header = data_header_bytes;  ///< [bytes]
-
-    Csma csma() const { return {.eifs = EifsRule::none, .header = header}; }
-    /// Share of the time in which payload reaches a station, of `n` that send.
-    double throughput(int n) const {
-        constexpr double preamble = 192, difs = 50;
-        const double busy = preamble + 8 * (payload + header) + difs;
-        const Bianchi cell{.window = 32,
-                           .stages = 0,
-                           .slot = 20,
-                           .payload = 8 * payload,
-                           .success = busy,
-                           .collision = busy};
-        return cell.throughput(n, 2.0 / (cell.window + 1));
     }
 };
 

@@ -3,15 +3,15 @@
 
 namespace rovernet {
 
-/// Loss of a wave at 2450 MHz past a block 1 m deep over that in the open [dB]: mean power within
-/// 15 cm of (8 m, y), from (-8 m, 0.3 m); the block reaches from -width / 2 to width / 2 in x, and
-/// from 0 to 1 m in y. The field is 0 on its sides.
+/// Excess loss [dB] over free space of a 2450 MHz wave behind a block. Source at (-8 m, 0.3 m);
+/// receiver: mean power within 15 cm of (8 m, y). The block covers -width / 2 to width / 2 in x and
+/// 0 to 1 m in y; the field is 0 on its sides.
 ///
-/// Within 0.3 dB. Computed as an integral over the block's outline in two dimensions, without any
-/// optics: test/study/validation/block_shadows_test.cpp computes it anew.
+/// Accuracy: 0.3 dB. Computed by a two-dimensional boundary integral over the block's outline,
+/// without ray optics; test/study/validation/cases/block_shadows_test.cpp repeats the computation.
 struct BlockShadow {
-    double width, y;  ///< [m]
-    double loss;      ///< [dB]
+    double width, y;  ///< width of the block, and y of the receiver [m]
+    double loss;      ///< excess loss over free space [dB]
 };
 inline constexpr BlockShadow block_shadows[] = {
     {0.3, 0.2, 14.38}, {0.3, 0.5, 13.94}, {0.3, 0.9, 13.91}, {0.6, 0.2, 15.07},

@@ -8,11 +8,11 @@
 #include <functional>
 #include <vector>
 
-// Maps of our own that the validations run on, as shapes that can be drawn in cells of any size.
+// Maps of the validations, defined as shapes that can be rasterised with any cell size.
 
 namespace rovernet {
 
-/// Upright rectangle [m].
+/// Axis-parallel rectangle [m].
 struct DrawnRectangle {
     Vec3 low, high;
 
@@ -21,26 +21,27 @@ struct DrawnRectangle {
     }
 };
 
-/// Building of rectangles: walls, and the doors that are cut out of them.
+/// Building of rectangular walls, with doors cut out of them.
 struct DrawnBuilding {
-    double width = 0, depth = 0;  ///< [m] from (0, 0)
+    double width = 0, depth = 0;  ///< size of the building [m], from (0, 0)
     std::vector<DrawnRectangle> walls = {}, doors = {};
 
     bool is_wall(Vec3 p) const;
 };
 
-/// Office of 40 m x 20 m: four rows of eight rooms along two corridors, inner walls of 15 cm and
-/// outer ones of 30 cm, a door in every room.
+/// Office of 40 m x 20 m: four rows of eight rooms along two corridors; inner walls 15 cm, outer
+/// walls 30 cm thick; a door in every room.
 DrawnBuilding drawn_office();
-/// Cells that draw the office without loss.
+/// Cell size [m] of a map that represents drawn_office() exactly.
 inline constexpr Meters office_cell{0.05};
 
-/// Cave of 60 m x 40 m: seven chambers in the rock, and the winding galleries between them, 2.4 m
-/// wide or more.
+/// Whether a point is rock in a cave of 60 m x 40 m: seven chambers joined by winding galleries, at
+/// least 2.4 m wide.
 bool is_rock(Vec3 p);
 inline constexpr double cave_width = 60, cave_depth = 40;  // [m]
 
-/// Map in square cells of a size [m], from (0, 0): a cell is a wall if its middle is one.
+/// Map with square cells of size `cell` [m], from (0, 0): a cell is a wall if its centre is in a
+/// wall.
 OccupancyGrid drawn_map(double width, double depth, double cell,
                         const std::function<bool(Vec3)>& is_wall);
 

@@ -7,27 +7,29 @@
 
 #include <string>
 
-// Levels that were measured in two buildings, as known links; their README tells how. The folder
-// has flat/ (cells.csv, anchors.csv, map.yaml) and lab/ (links.csv, sensors.csv).
+// Levels measured in two buildings, as known links; the README beside them describes the
+// measurements. The folder has flat/ (cells.csv, anchors.csv, map.yaml) and lab/ (links.csv,
+// sensors.csv).
 
 namespace rovernet {
 
-/// Levels of a building: what models are fitted to, and another drive or day to check them on.
+/// Levels measured in a building: a first set to fit models to, and a second set (a different drive
+/// or day) to check them.
 struct MeasuredBuilding {
     std::string name;
     Scenario scenario;
     KnownLinks first, second;
 };
 
-/// A furnished flat: a robot's tag heard by six anchors, local means of half a metre; the second
-/// set is another drive. @throws InputError if a file is missing or damaged
+/// Levels in a furnished flat: a robot's tag received by six anchors, averaged over 0.5 m; the
+/// second set is a different drive. @throws InputError if a file is missing or damaged
 MeasuredBuilding measured_flat(const std::string& folder);
-/// An open laboratory: a beacon heard by twelve sensors, medians of half an hour; the second set is
-/// another day.
+/// Levels in an open laboratory: a beacon received by twelve sensors, medians over half an hour;
+/// the second set is a different day.
 MeasuredBuilding measured_lab(const std::string& folder);
 
-/// Error of a model's losses in a building, root mean square [dB], without that of the levels
-/// themselves: with its one constant fitted to the first set, judged on the second.
+/// Root mean square error [dB] of a model in a building, without the measurement error of levels.
+/// The model's constant is fitted to the first set, and the error is taken on the second.
 Db error_against(const MeasuredBuilding& building, const Propagation& model);
 
 }  // namespace rovernet

@@ -8,21 +8,23 @@
 #include <functional>
 #include <vector>
 
-// Lengths of wall as simulators often find them. They are here to be compared with Scene alone.
+// Simple methods for the length of a link inside walls, as used by other simulators; only for
+// comparison with Scene.
 
 namespace rovernet {
 
-/// Raster of walls in square cells along the axes of the world.
+/// Raster of walls with square cells parallel to the axes.
 class NaiveRaster {
   public:
-    /// @param is_wall  asked for the middle of each cell
+    /// @param is_wall  called for the centre of each cell
     NaiveRaster(Vec3 low, Vec3 high, double cell, const std::function<bool(Vec3)>& is_wall);
 
-    /// Length [m] inside cells of wall, cell by cell along the line: a digital differential
-    /// analyser. Source: J. Amanatides and A. Woo, A fast voxel traversal algorithm, 1987.
+    /// Length [m] of the line a-b inside wall cells, by traversal of cells along the line (digital
+    /// differential analyser). Source: J. Amanatides and A. Woo, A fast voxel traversal algorithm,
+    /// 1987.
     double traversed(Vec3 a, Vec3 b) const;
-    /// Share of the cells of a line that are wall, times its length [m]. Source: J. E. Bresenham,
-    /// IBM Systems Journal 4(1), 1965.
+    /// Length [m] of the line a-b times the share of wall cells among its Bresenham cells. Source:
+    /// J. E. Bresenham, IBM Systems Journal 4(1), 1965.
     double bresenham(Vec3 a, Vec3 b) const;
 
   private:
@@ -38,7 +40,8 @@ class NaiveRaster {
     std::vector<std::uint8_t> cells_;
 };
 
-/// Length of wall [m] by looking at points a fixed step apart. @param is_wall  asked for each point
+/// Length [m] of the line a-b inside walls, by samples at a fixed step. @param is_wall  called for
+/// each sample
 template <class IsWall>
 double sampled_wall(Vec3 a, Vec3 b, double step, const IsWall& is_wall) {
     const double length = distance(a, b);

@@ -12,52 +12,52 @@
 #include <string>
 #include <vector>
 
-// Scenes of our own, and runs on them that differ in a model alone.
+// Scenes of the validations, and paired runs that differ in one model only.
 
 namespace rovernet {
 
-/// Scenario without a file: its text and, if it has any, its walls.
+/// Scenario without a file: its text and, optionally, its walls.
 struct ValidationScene {
     std::string name;
-    std::string text;  ///< as in a scenario file, without [scene]
+    std::string text;  ///< content of a scenario file, without [scene]
     std::shared_ptr<const Scene> walls = nullptr;
 
-    /// Scenario with these tables over the text's.
+    /// Scenario of the text, overridden by the tables `settings`.
     /// @param settings  tables by name, such as [propagation] of a fitted model
     Scenario scenario(const Table& settings, std::uint32_t replication = 0) const;
 };
 
-/// Open field of 900 m x 900 m: 20 robots on the move, a message every two seconds that all pass
-/// on.
+/// Open field of 900 m x 900 m with 20 moving robots; a message every two seconds, which all robots
+/// forward.
 ValidationScene open_field_scene();
-/// Office of drawn_office(): 8 robots on the move.
+/// Office of drawn_office() with 8 moving robots.
 ValidationScene office_scene();
-/// Cave of is_rock(): 8 robots on the move.
+/// Cave of is_rock() with 8 moving robots.
 ValidationScene cave_scene();
 
-/// Variant of a scene, such as another model.
+/// Variant of a scene, such as a different model.
 struct Variant {
     std::string label, series;
     Table settings;
 };
 
-/// Runs of a variant.
+/// Results of the runs of a variant.
 struct VariantRuns {
     std::vector<double> delivery_ratio;  ///< delivery ratio of each replication
-    TurnCost cost;                       ///< [ns] CPU of a run per transmission, over the runs
+    TurnCost cost;  ///< CPU time of a run for each transmission [ns], over the runs
 };
 
-/// Runs all variants on the same replications, one after the other in each of them.
+/// Runs all variants on the same replications; each replication runs all variants in turn.
 std::vector<VariantRuns> paired_runs(const ValidationScene& scene,
                                      const std::vector<Variant>& variants,
                                      std::size_t replications);
 
-/// Distances of the runs of a variant to those of the truth, pair by pair.
+/// Differences between the runs of a variant and of the reference ("truth"), pair by pair.
 struct RunErrors {
-    std::vector<double> distances = {};  ///< of each replication
-    double mean = 0;                     ///< mean distance
-    std::optional<MeanInterval> likely;  ///< its 95 % interval
-    double bias = 0;                     ///< mean difference
+    std::vector<double> distances = {};  ///< absolute difference of each replication
+    double mean = 0;                     ///< mean absolute difference of delivery ratios
+    std::optional<MeanInterval> likely;  ///< 95 % interval of the mean absolute difference
+    double bias = 0;                     ///< mean difference of delivery ratios (with sign)
 };
 RunErrors run_errors(const VariantRuns& runs, const VariantRuns& truth);
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/record.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rovernet {
+
+/// Check that records are plain, that is, that ns-2 trace lines can represent them. Records of a
+/// run always are plain. Records of a damaged or foreign file may have a time, a robot number or a
+/// packet kind that no ns-2 line can represent, so that a reader of the lines would reject them.
+///
+/// The check also collects the robots that occur in the lines so far.
+class PlainRecords {
+  public:
+    /// Checks the next record of a trace. @return whether the record is plain
+    bool take(const Record& record, const RecordContext& context);
+
+    /// For each robot number: whether the robot occurs in ns-2 trace lines so far.
+    const std::vector<bool>& seen() const { return seen_; }
+    /// Number of robots that occur in ns-2 trace lines so far.
+    std::uint32_t robots() const { return robots_; }
+
+  private:
+    bool take(Time time, NodeId node);
+    bool takes_message(MessageId id, const RecordContext& context);
+
+    std::vector<bool> seen_;
+    std::uint32_t robots_ = 0;
+    std::vector<const char*> kinds_;  ///< packet kinds that passed the check, by MessageId
+};
+
+}  // namespace rovernet

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "traces/ns2/ns2_follow.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// Path of a message in a recorded trace.
+struct RecordedWay {
+    FollowedMessage way;
+    /// Names of the robots, by robot number.
+    std::vector<std::string> robots;
+    /// Broken or missing parts of the trace.
+    std::vector<std::string> damage;
+};
+
+/// Follows a message through a recorded trace. The result equals follow_ns2() on the ns-2 text of
+/// the run. ns-2 lines are made from records of that message only, or from all records if some line
+/// would be rejected. `way.counts` contains only the number of rejected lines.
+/// @throws InputError as follow_ns2()
+RecordedWay follow_recorded(const std::string& path, std::uint64_t uid,
+                            Ns2Strictness strictness = Ns2Strictness::tolerant);
+
+/// Follows a message in the whole ns-2 text of a recorded trace: slow; used by tests as the
+/// reference for follow_recorded().
+RecordedWay follow_recorded_text(const std::string& path, std::uint64_t uid,
+                                 Ns2Strictness strictness);
+
+}  // namespace rovernet

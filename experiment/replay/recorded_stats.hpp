@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "traces/ns2/ns2_stats.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// Statistics of a recorded trace.
+struct RecordedStats {
+    /// Counts of ns-2 lines, including MAC lines. Metrics and drops are those of the run, without
+    /// the warm-up.
+    TraceStats stats;
+    /// Number of receptions in the whole file, including duplicates and the warm-up.
+    std::uint64_t receptions = 0;
+    std::uint64_t file_bytes = 0;  ///< size of the trace file [bytes]
+    /// Broken or missing parts of the trace.
+    std::vector<std::string> damage;
+};
+
+/// Computes statistics from the records of a trace. The result equals ns2_stats() on the ns-2 text
+/// of the run, but the text is only made if some record has no valid line.
+/// @throws InputError as read_ns2_trace() and recorded_metrics()
+RecordedStats recorded_stats(const std::string& path,
+                             Ns2Strictness strictness = Ns2Strictness::tolerant,
+                             TraceRows rows = TraceRows::none);
+
+/// Computes statistics from the ns-2 text of a recorded trace: slow; used by tests as the reference
+/// for recorded_stats().
+RecordedStats recorded_stats_of_text(const std::string& path, Ns2Strictness strictness,
+                                     TraceRows rows);
+
+}  // namespace rovernet

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "experiment/playing.hpp"
+#include "models/propagation/rays.hpp"
+#include "models/radio.hpp"
+#include "scene/scene.hpp"
+#include "sim/time.hpp"
+#include "sim/units.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+struct Scenario;
+
+/// Report of the link from robot A to robot B at a time.
+struct LinkReport {
+    std::string from, to, model;
+    Time at;
+    double distance_m;
+    std::vector<Wall> walls;
+    std::vector<std::string> materials;  ///< material of each wall on the link
+    std::vector<Db> wall_losses;         ///< loss of each wall [dB]; included in the path loss
+    double wall_m;
+    /// Number of ceilings between the antennas, in a scene with several storeys.
+    std::size_t ceilings;
+    Db ceiling_loss;  ///< loss of all ceilings; included in the path loss
+    /// Number of floors between the antennas whose loss the propagation model gives.
+    std::size_t floors;
+    Db floor_loss;  ///< loss of the floors counted in `floors`; included in the path loss
+    Radio sender, receiver;
+    Db path_loss;                 ///< total path loss of the link, including walls and shadowing
+    std::optional<Db> shadowing;  ///< shadowing, included in the path loss; none: no shadowing
+    Db sender_pattern, receiver_pattern;  ///< pattern gain of each antenna towards the peer, <= 0
+    Dbm received;
+    Db margin;
+    bool up;               ///< true if the received level suffices and both robots are on
+    std::string why_down;  ///< reason, such as "B is off"; empty if the link is up
+    std::optional<Rays::Paths> rays;  ///< propagation paths (rays), if the model is `rays`
+    /// Range of a propagation model without levels (disc); the values in dB are meaningless then.
+    std::optional<Meters> range;
+};
+
+/// Runs the scenario until `at`, then reports one link. To save time, only these two robots move,
+/// and the robots on which their movements depend, unless the scenario has reactions.
+/// @throws std::invalid_argument if a robot does not exist or both are the same
+LinkReport report_link(const Scenario& scenario, const std::string& from, const std::string& to,
+                       Time at, const TellTime& tell = {});
+
+}  // namespace rovernet

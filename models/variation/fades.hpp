@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "models/variation/fading.hpp"
+#include "models/variation/gamma.hpp"
+#include "models/variation/pair_waves.hpp"
+#include "sim/geometry.hpp"
+#include "sim/random.hpp"
+#include "sim/units.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace rovernet {
+
+/// Fading of a run: the gain g of each frame at each receiver, the same for all calls.
+///
+/// With coherence `frame`, z is a draw for the frame and the receiver. With `place` it is a random
+/// field over the positions a and b of both ends,
+///
+///   z(a, b) = (W(a, b) + W(b, a)) / sqrt(2 N (1 + J0(2 pi |a - b| / lambda)^2)),
+///   W(a, b) = sum over m of e^(j (2 pi (u_m.a + v_m.b) / lambda + phi_m)),  |u_m| = |v_m| = 1,
+///
+/// with N = 32 waves of uniform directions and phases. z is the same in both directions; its
+/// autocorrelation, when one end moves by D, is J0(2 pi D / lambda), as in R. H. Clarke, Bell
+/// System Technical Journal 47(6), 1968. Distances are horizontal. There is no time step: between
+/// robots at rest the fading is constant.
+///
+/// With `place`, nakagami consists of ceil(m) such fields, at that many times the cost. If 2 m is
+/// an integer, its level crossing rate is that of theory (M. D. Yacoub, J. E. V. Bautista, L.
+/// Guedes, IEEE Trans. Vehicular Technology 48(3), 1999). For any other m, the power of the nearest
+/// such m is transformed to the distribution of m: -15 dB is crossed 9 % too seldom for m = 1.8,
+/// and 23 % too often for m = 1.2.
+class Fades {
+  public:
+    /// @param settings  settings with a model other than `none`
+    /// @throws std::invalid_argument if a setting is out of its range
+    Fades(const Fading& settings, std::uint64_t seed, std::uint32_t replication);
+
+    /// Frame at a receiver.
+    struct Frame {
+        /// Key of the frame, and key of the receiver.
+        std::uint64_t key, receiver;
+        /// Positions of both antennas [m].
+        Vec3 from, to;
+        /// Carrier frequency [Hz].
+        Hertz frequency;
+    };
+    /// Gain by fading 10 log10 g [dB] of a frame at a receiver, from -200 dB to most().
+    Db gain(const Frame& frame) const;
+    /// Largest gain by fading [dB].
+    Db most() const { return most_; }
+
+  private:
+    // Turns of a wave per metre, and amplitude of a field at the two positions.
+    struct Scale {
+        double per_metre, size;
+    };
+    Scale scale(const Frame& frame) const;
+    PairWaves::Value scattered(const Frame& frame) const;
+    double nakagami_of_places(const Frame& frame) const;
+    double power(const Frame& frame) const;
+
+    Fading settings_;
+    PairDraws draws_;
+    // Random fields for `place`: one, or several whose powers are added.
+    std::vector<PairWaves> fields_;
+    // Number of real fields whose squares are added, for nakagami with `place`.
+    double parts_ = 2;
+    // Gamma variates, for nakagami that is not only a sum of fields.
+    std::optional<GammaTable> gamma_;
+    // Amplitudes of the line of sight and of the other waves [-].
+    double direct_ = 0, scattered_ = 1;
+    Db most_{};
+};
+
+}  // namespace rovernet

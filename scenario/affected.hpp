@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenario/unlikely.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+/// Robots that a notice to the user concerns: text about the first robot, number of the others.
+struct Affected {
+    std::string first;
+    std::size_t others = 0;
+
+    void add(const auto& words) {
+        if (first.empty()) {
+            first = words();
+        } else {
+            ++others;
+        }
+    }
+    void note(std::vector<std::string>& notices) const {
+        if (first.empty()) return;
+        add_notice(notices, others == 0 ? first : fmt::format("{}; and {} more", first, others));
+    }
+};
+
+}  // namespace rovernet

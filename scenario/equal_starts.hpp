@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenario/scenario.hpp"
+#include "sim/time.hpp"
+
+#include <cstdint>
+
+// Detection of messages of several robots that start at the same time, so that their frames
+// collide.
+
+namespace rovernet {
+
+/// Least time between the starts of two frames [ns] with which they do not collide. Under csma the
+/// sender of the second frame then senses the first one, or both senders back off; under other
+/// access models the first frame has ended. 0 if frames never collide.
+/// @param bytes  size of a message [bytes]
+Duration collision_free_gap(const Scenario& scenario, std::uint32_t bytes);
+
+/// Adds one notice if flows of several robots start messages at the same instant and their frames
+/// collide. The notice names the first two robots.
+void note_equal_starts(Scenario& scenario);
+
+}  // namespace rovernet

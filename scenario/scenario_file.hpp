@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenario/document/value.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rovernet {
+
+struct Scenario;
+struct WorldFile;
+
+/// Options of the command line that change a scenario file.
+struct ScenarioOptions {
+    /// Assignments "path=value", see set_option(): --set.
+    std::vector<std::string> set = {};
+    /// Folders to search for parts of a Stage world, relative to the current folder: --world-path.
+    std::vector<std::string> world_path = {};
+    /// Replacements "OLD=NEW": read file NEW wherever the Stage world names bitmap OLD: --bitmap.
+    std::vector<std::string> bitmaps = {};
+    /// True if a missing part of a Stage world is a notice, not an error: --lenient.
+    bool lenient = false;
+    /// True if a scenario without robots is an error. Pictures of a map need no robots.
+    bool needs_robots = true;
+};
+
+/// Input file of a scenario, overridden by the options of the command line. It is a scenario file,
+/// a Stage world (NAME.world) or a movement file. The file is read once; a study makes a Scenario
+/// of it for each of its points.
+/// Example: examples/parameters.cpp.
+class ScenarioFile {
+  public:
+    /// @param path  file; "-": a scenario from standard input, relative to the current folder
+    /// @throws InputError if the file is no scenario; the message names its kind and the remedy
+    ScenarioFile(const std::string& path, const ScenarioOptions& options);
+    /// Makes a ScenarioFile of a document that was made in code.
+    /// @param path  file that the document replaces: paths in the document are relative to its
+    ///              folder; empty: to the current folder
+    /// @throws InputError if the document is no table, or its Stage world is wrong
+    ScenarioFile(Value document, const std::string& path, const ScenarioOptions& options);
+
+    /// Scenario of the file (see scenario.hpp), overridden by `settings` (values by the path of
+    /// their key, as for --set).
+    /// @throws InputError at the first mistake; at the position of the setting if a setting is
+    /// wrong
+    Scenario scenario(const Table& settings = {}) const;
+
+  private:
+    // File name as the user wrote it, and its document with the values of the command line.
+    std::string path_;
+    Value document_;
+    bool needs_robots_;
+    // Notices of reading the Stage world.
+    std::vector<std::string> notices_;
+    std::shared_ptr<const WorldFile> world_;  // null unless [scene] names a world
+};
+
+/// Loads the scenario of ScenarioFile(path, options) and its map, and checks the robots' positions
+/// on the map. Used by commands that need one scenario.
+/// @throws InputError as ScenarioFile, and for the map
+Scenario load_scenario(const std::string& path, const ScenarioOptions& options);
+/// Loads the scenario of a file that was read before, and its map, and checks the robots' positions
+/// on the map.
+/// @param settings  values by path, see ScenarioFile::scenario()
+Scenario load_scenario(const ScenarioFile& file, const Table& settings = {});
+
+}  // namespace rovernet

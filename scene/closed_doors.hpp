@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/doors.hpp"
+#include "scene/obstacles.hpp"
+#include "sim/geometry.hpp"
+#include "sim/units.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rovernet {
+
+/// Closed doors as obstacles for robots.
+class ClosedDoors {
+  public:
+    /// @param scene  scene with the storeys of the doors
+    ClosedDoors(const Scene& scene, std::span<const Door> doors);
+
+    /// Whether a disc of that radius [m] can move straight from a to b; touching is allowed. If any
+    /// part of the path is on a door's storey, the whole path is checked against that door.
+    bool passable(Vec3 a, Vec3 b, Meters radius) const;
+    /// Position on the path from a to b where the disc stops, a micrometre before it touches a
+    /// door; a if it cannot move at all; empty if the whole path is free.
+    std::optional<Vec3> stop(Vec3 a, Vec3 b, Meters radius) const;
+
+  private:
+    // Door as an obstacle, and the heights [m] of its storey's bottom and top.
+    struct Closed {
+        Obstacles door;
+        double bottom, top;
+    };
+    std::vector<Closed> doors_;
+};
+
+}  // namespace rovernet

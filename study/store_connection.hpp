@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "study/write_lock.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <memory>
+#include <string>
+
+// Opening the file of a store, depending on its file system. See docs/slurm.md.
+//
+//   local, with locks and shared mappings         journal WAL: readers work while a process writes
+//   shared by hosts, or no shared mappings        rollback journal: readers wait for a moment
+//   no range locks                                rollback journal, without SQLite's locks: no
+//                                                 reading during a write
+
+namespace rovernet {
+
+/// Connection to the SQLite file of a study's store.
+struct StoreConnection {
+    /// Opens a connection for writing; creates the file if missing.
+    /// @throws RunError if another process writes to the file; SQLite::Exception
+    static StoreConnection to_write(const std::string& path);
+    /// Opens a connection for reading. If a killed process left a journal that cannot be recovered
+    /// in place, the connection is to a copy in a temporary folder.
+    /// @throws RunError if another process writes to the file and locks cannot prevent that;
+    /// SQLite::Exception
+    static StoreConnection to_read(const std::string& path);
+
+    /// Temporary folder with a copy of the store, removed by the destructor.
+    struct Copy {
+        explicit Copy(const std::string& path);
+        ~Copy();
+        Copy(const Copy&) = delete;
+        Copy& operator=(const Copy&) = delete;
+        std::string file() const { return folder + "/store.db"; }
+        std::string folder;
+    };
+
+    std::unique_ptr<Copy> copy = {};
+    std::unique_ptr<WriteLock> lock = {};  ///< must outlive the connection, see flock(2)
+    std::unique_ptr<SQLite::Database> sqlite;
+};
+
+}  // namespace rovernet

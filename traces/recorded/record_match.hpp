@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/record.hpp"
+
+namespace rovernet {
+
+/// Whether two records are equal in all data of a recorded trace, bit for bit. True only if
+/// append_text() gives the same text for both; may be false for equal texts, such as those of two
+/// Received without receptions.
+bool are_same(const Record& a, const RecordContext& of_a, const Record& b,
+              const RecordContext& of_b);
+
+}  // namespace rovernet
