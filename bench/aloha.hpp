@@ -51,7 +51,7 @@ inline double aloha_throughput(double load, Duration slot, int frames) {
         t += from_seconds(exponential(key) * frame / load);
         key.a = 1;
         const NodeId from = nodes[1 + below(key, robots)];
-        net.at(t, [&net, from, to = nodes[0]] { net.unicast(from, to, "", bytes); });
+        net.at(t, [&net, from, to = nodes[0]] { net.send(from, to, "", {.size = bytes}); });
     }
     net.run_until(t + std::chrono::seconds{1});
     return static_cast<double>(count->delivered) * frame / seconds(t);

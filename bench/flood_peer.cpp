@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
     for (int k = 0; k < messages; ++k) {
         const NodeId from = nodes[static_cast<std::size_t>(37 * k) % count];
         net.at(start_of_run + from_seconds(1 + k * interval),
-               [&net, from, payload] { net.broadcast(from, "", payload); });
+               [&net, from, payload] { net.send(from, everyone, "", {.size = payload}); });
     }
     const Usage ready = Usage::now();
     net.run_until(start_of_run + from_seconds(1 + messages * interval + 5));

@@ -126,7 +126,7 @@ class Crowd {
 
   private:
     void say(NodeId node) {
-        net_.broadcast(node, "", payload);
+        net_.send(node, everyone, "", {.size = payload});
         net_.at(net_.now() + between_broadcasts, [this, node] { say(node); });
     }
     Vec3 free_place(std::uint64_t robot) const {

@@ -32,6 +32,6 @@ int main() {
     net.on_receive(b,
                    [&](const Message&) { fmt::print("{:4.1f} s  heard\n", seconds(net.now())); });
     net.on_link_lost(b, [&](NodeId) { fmt::print("{:4.1f} s  lost\n", seconds(net.now())); });
-    net.every(2s, [&] { net.broadcast(a, "hello"); });
+    net.every(2s, [&] { net.send(a, everyone, "hello"); });
     net.run_for(17s);
 }

@@ -17,16 +17,16 @@ int main() {
     net.route(Flood{.ttl = 20});
     const NodeId first{0}, last{columns * rows - 1};
     int hops = 0;
-    net.on_receive(last, [&](const Message&, const Heard& heard) { hops = heard.hops; });
+    net.on_receive(last, [&](const Heard& heard) { hops = heard.hops; });
     for (const int fails : {6, 12, 3, 7, 2}) {
-        net.broadcast(first, "are you there?");
+        net.send(first, everyone, "are you there?");
         net.run_for(1s);
         fmt::print("{}", hops > 0 ? fmt::format("heard over {} hops", hops) : "not heard");
         hops = 0;
         net.switch_off(NodeId{static_cast<std::uint32_t>(fails)});
         fmt::print("; {} fails\n", net.name(NodeId{static_cast<std::uint32_t>(fails)}));
     }
-    net.broadcast(first, "are you there?");
+    net.send(first, everyone, "are you there?");
     net.run_for(1s);
     fmt::print("{}\n", hops > 0 ? fmt::format("heard over {} hops", hops) : "not heard");
 }

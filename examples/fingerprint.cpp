@@ -19,7 +19,7 @@ std::string run(std::uint64_t seed, std::uint32_t replication) {
     net.route(Flood{});
     const auto fingerprint = std::make_shared<Fingerprint>();
     net.add_sink(fingerprint);
-    net.every(1s, [&] { net.broadcast(NodeId{0}, "ping"); });
+    net.every(1s, [&] { net.send(NodeId{0}, everyone, "ping"); });
     net.run_for(20s);
     return fingerprint->text();
 }

@@ -20,8 +20,8 @@ int main() {
                                 .at = {5, 0},
                                 .radio = radio,
                                 .move = ToGoal{.to = {105, 0}, .speed = {5}}});
-    net.every(11ms, [&] { net.unicast(rover, base, "frame", 1400, video); });
-    net.every(100ms, [&] { net.unicast(rover, base, "state", 50, telemetry); });
+    net.every(11ms, [&] { net.send(rover, base, "frame", {.size = 1400, .flow = video}); });
+    net.every(100ms, [&] { net.send(rover, base, "state", {.size = 50, .flow = telemetry}); });
     net.run_for(20s);
     const MetricValues metrics = net.metrics();
     for (const Flow flow : {video, telemetry}) {

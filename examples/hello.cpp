@@ -18,7 +18,7 @@ int main() {
     net.route(Flood{.ttl = 3});
     double farthest = 0;
     net.on_receive(rover, [&](const Message&) { farthest = net.position(rover).x; });
-    net.every(3s, [&] { net.broadcast(base, "come back"); });
+    net.every(3s, [&] { net.send(base, everyone, "come back"); });
     net.run_for(120s);
 
     const auto metrics = net.metrics();

@@ -17,8 +17,8 @@ void run(std::string_view what, AccessModel access) {
     const auto middle = net.add({.name = "middle", .at = {50, 0}});
     const auto right = net.add({.name = "right", .at = {100, 0}});
     net.route(Flood{.ttl = 1});
-    net.every(10ms, [&] { net.unicast(left, middle, "a", 1000); });
-    net.every(10100us, [&] { net.unicast(right, middle, "b", 1000); });
+    net.every(10ms, [&] { net.send(left, middle, "a", {.size = 1000}); });
+    net.every(10100us, [&] { net.send(right, middle, "b", {.size = 1000}); });
     net.run_for(10s);
     const auto metrics = net.metrics();
     fmt::print("{:14} {:4} of {} delivered in {} frames\n", what, metrics.deliveries,

@@ -53,7 +53,7 @@ int main() {
     net.add({.name = "right", .at = {40, -10}});
     net.route(Flood{.jitter = 500us});
     net.add_sink(LevelTable{rover});
-    net.every(2s, [&] { net.broadcast(base, "where are you?"); });
+    net.every(2s, [&] { net.send(base, everyone, "where are you?"); });
     net.run_for(10s);
     net.finish();
 }

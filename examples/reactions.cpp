@@ -25,7 +25,7 @@ int main() {
         if (lost != base) return;
         net.stop(scout);
         log(scout, "has lost the base, stops and calls");
-        net.broadcast(scout, "lost the base");
+        net.send(scout, everyone, "lost the base");
     });
     Subscription called = net.on_receive(messenger, [&](const Message& m) {
         log(messenger, fmt::format("hears \"{}\" from {}", m.payload, net.name(m.origin)));
@@ -34,7 +34,7 @@ int main() {
     });
     net.on_arrival(messenger, [&] {
         log(messenger, "is back and reports");
-        net.unicast(messenger, base, "the scout waits at the edge");
+        net.send(messenger, base, "the scout waits at the edge");
     });
     net.on_receive(base, [&](const Message& m) {
         log(base, fmt::format("hears \"{}\" from {}", m.payload, net.name(m.origin)));

@@ -22,7 +22,7 @@ double delivery_ratio(int ttl, std::uint32_t replication) {
     for (int i = 0; i < 20; ++i)
         net.add({.name = fmt::format("rover{}", i), .at = {}, .move = wander});
     net.route(Flood{.ttl = ttl});
-    net.every(10s, [&] { net.broadcast(NodeId{0}, "who is there?"); });
+    net.every(10s, [&] { net.send(NodeId{0}, everyone, "who is there?"); });
     net.run_for(100s);
     net.finish();
     return *net.metrics().delivery_ratio;

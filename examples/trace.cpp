@@ -15,7 +15,7 @@ int main() {
     net.route(Flood{.ttl = 2});
     net.add_sink(
         Ns2Trace{[](std::string_view lines) { fmt::print("{}", lines); }, Ns2Format::old_format});
-    net.at(start_of_run + 1s, [&] { net.broadcast(a, "hello"); });
+    net.at(start_of_run + 1s, [&] { net.send(a, everyone, "hello"); });
     net.run_for(2s);
     net.finish();
 }

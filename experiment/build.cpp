@@ -143,7 +143,8 @@ std::function<void(NodeId)> Builder::answer(const Built& robot, const ReactionTa
     std::optional<std::uint32_t> size;
     if (reaction.size) size = reaction.size->value;
     const bool to_sender = reaction.to == ReactionTable::sender;
-    const auto to = reaction.to && !to_sender ? network_.find(*reaction.to) : std::nullopt;
+    const bool to_robot = reaction.to && !to_sender;
+    const NodeId to = to_robot ? network_.find(*reaction.to).value() : everyone;
     if (to == robot.node) {
         throw InputError(reaction.to_where, fmt::format("to: robot \"{}\" cannot send to itself; "
                                                         "expected another robot",
@@ -155,11 +156,7 @@ std::function<void(NodeId)> Builder::answer(const Built& robot, const ReactionTa
         if (stop) this_->stop(node);
         if (move) this_->move(node, *move);
         if (!send) return;
-        if (to || to_sender) {
-            this_->unicast(node, to.value_or(sender), *send, size);
-        } else {
-            this_->broadcast(node, *send, size);
-        }
+        this_->send(node, to_sender ? sender : to, *send, {.size = size});
     };
 }
 
@@ -168,14 +165,14 @@ void Builder::react(const Built& robot, const ReactionTable& reaction, MotionBui
     const auto from = reaction.from ? network_.find(*reaction.from) : std::nullopt;
     switch (reaction.trigger) {
         case Trigger::on_receive:
-            network_.on_receive(robot.node,
-                                [act, from, prefix = reaction.payload, hops = reaction.hops](
-                                    const Message& message, const Heard& heard) mutable {
-                                    const bool wanted = message.payload.starts_with(prefix) &&
-                                                        (!from || message.origin == *from) &&
-                                                        (!hops || heard.hops <= *hops);
-                                    if (wanted) act(message.origin);
-                                });
+            network_.on_receive(robot.node, [act, from, prefix = reaction.payload,
+                                             hops = reaction.hops](const Heard& heard) mutable {
+                const Message& message = heard.message;
+                const bool wanted = message.payload.starts_with(prefix) &&
+                                    (!from || message.origin == *from) &&
+                                    (!hops || heard.hops <= *hops);
+                if (wanted) act(message.origin);
+            });
             return;
         case Trigger::on_arrival:
             network_.on_arrival(robot.node, [act]() mutable { act(everyone); });
@@ -196,7 +193,7 @@ struct Source {
     Network& network;
     TrafficTable table;
     std::uint32_t flow;
-    std::optional<NodeId> to;
+    NodeId to;
     std::vector<NodeId> from;  ///< one robot, or all that a random one is drawn from
     Key draw;                  ///< of the robot
     int sent = 0;
@@ -209,7 +206,7 @@ struct Source {
 };
 
 /// Robots that may send, in an order that depends on their names only.
-std::vector<NodeId> any_robot(const Network& network, std::optional<NodeId> but) {
+std::vector<NodeId> any_robot(const Network& network, NodeId but) {
     std::vector<std::pair<std::uint64_t, NodeId>> keyed;
     for (NodeId n{0}; n.index() < network.size(); ++n.value) {
         if (n != but) keyed.emplace_back(name_key(network.name(n)), n);
@@ -227,15 +224,12 @@ void send_and_repeat(const std::shared_ptr<Source>& source) {
     const auto size = table.size ? std::optional(table.size->value) : std::nullopt;
     if (table.saturate) {
         const auto length = static_cast<std::uint32_t>(table.payload.size());
-        return network.saturate(sender, to.value_or(everyone), size.value_or(length), flow);
+        return network.saturate(sender, to, size.value_or(length), flow);
     }
     const Time end = table.stop ? start_of_run + *table.stop : never;
     if (network.now() >= end) return;  // "arrival" may come as late
-    if (to) {
-        network.unicast(sender, *to, table.payload, size, flow);
-    } else {
-        network.broadcast(sender, table.payload, size, flow);
-    }
+    network.send(sender, to, table.payload,
+                 {.size = size, .flow = flow, .one_hop = table.hops.has_value()});
     if (!table.every || ++sent == table.count) return;
     const Time next = network.now() + *table.every;
     if (next >= end) return;
@@ -245,7 +239,7 @@ void send_and_repeat(const std::shared_ptr<Source>& source) {
 void Builder::add_traffic() {
     std::uint32_t flow = 0;
     for (const auto& table : scenario_.traffic) {
-        const auto to = table.to ? network_.find(*table.to) : std::nullopt;
+        const NodeId to = table.to ? network_.find(*table.to).value() : everyone;
         const auto one = network_.find(table.from);
         const auto source = std::make_shared<Source>(
             Source{network_,

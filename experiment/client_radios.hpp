@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,11 +22,8 @@ namespace rovernet {
 /// client gets every message.
 ///
 /// Messages are queued for each client until heard() fetches them. A client that never fetches must
-/// call set_hearing(), or its queue fills the memory.
-///
-/// A sink takes uid, last hop and level of messages from the records Sent and Received, since
-/// callbacks of the network do not include them. The sink is added when the first client joins, so
-/// that a network without clients does not pay for it.
+/// call set_hearing(), or its queue fills the memory. A robot whose clients do not hear costs the
+/// network nothing.
 class ClientRadios {
   public:
     /// @param network  must outlive this object
@@ -41,14 +37,13 @@ class ClientRadios {
     /// @param client  id of a client that has not joined yet, for the calls below
     /// @param robots  each listed once; may be empty
     void join(ClientId client, const std::vector<NodeId>& robots);
-    /// Removes a client and its queued messages.
-    /// @param robots  robots given to join()
-    void leave(ClientId client, const std::vector<NodeId>& robots);
+    /// Removes a client and its queued messages. Does nothing if it has not joined.
+    void leave(ClientId client);
     /// Whether a client has joined with that robot.
     bool has(ClientId client, NodeId robot) const;
 
     /// Sends a message from a robot for any client; the right to use the robot's radio is not
-    /// checked. At least one client must have joined.
+    /// checked.
     /// @return uid of the message, unique in the run; none if the robot is off and sends nothing
     /// @throws std::invalid_argument if the message is for everyone and the network has no routing
     /// protocol
@@ -62,11 +57,11 @@ class ClientRadios {
     void set_hearing(ClientId client, bool hears);
 
   private:
-    class Ears;
-    /// Messages queued for a client.
-    struct Inbox {
+    /// Client: the robots whose radios it uses, and the messages queued for it.
+    struct Client {
+        std::vector<NodeId> robots;
         std::vector<HeardMessage> heard = {};
-        bool hears = true;
+        bool hears = false;
     };
     /// Clients that get the messages received by a robot.
     struct Listeners {
@@ -76,12 +71,11 @@ class ClientRadios {
 
     void listen(ClientId client, NodeId robot);
     void stop_listening(ClientId client, NodeId robot);
-    void hear(NodeId robot, const Message& message, const Heard& how);
+    void hear(NodeId robot, const Heard& heard);
 
     Network& network_;
-    std::map<ClientId, Inbox> inboxes_;
+    std::map<ClientId, Client> clients_;
     std::map<NodeId, Listeners> listeners_;
-    std::shared_ptr<Ears> ears_;  // null until a client joins
 };
 
 }  // namespace rovernet

@@ -93,10 +93,11 @@ ClientId Session::attach(const std::vector<NodeId>& robots, std::string name) {
 }
 
 ClientId Session::attach_radios(const std::vector<NodeId>& robots, std::string name) {
-    advance(network_->now(), every_event);  // a command comes after all events of its time
     const ClientId client = next_client_++;
     clients_[client] = {.name = std::move(name), .robots = robots};
-    radios_->join(client, robots);
+    radios_->join(client, robots);          // first, so that frames of this time have levels
+    advance(network_->now(), every_event);  // a command comes after all events of its time
+    radios_->heard(client);                 // what came before the client
     return client;
 }
 
@@ -107,7 +108,7 @@ void Session::detach(ClientId client) {
         carry_out(client, robot, StopCommand{});
         drivers_.erase(robot);
     }
-    radios_->leave(client, robots);
+    radios_->leave(client);
     clients_.erase(client);
 }
 

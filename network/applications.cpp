@@ -4,23 +4,26 @@
 #include "network/world.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
 namespace rovernet {
 
-MessageId Applications::new_message(NodeId id, NodeId to, std::string payload, Outgoing what,
-                                    bool is_routed) {
+MessageId Applications::new_message(NodeId from, NodeId to, std::string payload,
+                                    const SendOptions& options, bool is_routed) {
     has_sent_ = true;
-    if (id.index() >= messages_sent_.size()) messages_sent_.resize(id.index() + 1);
-    const std::uint32_t number = messages_sent_[id.index()]++;
-    return world_.new_message({.origin = id,
+    if (from.index() >= messages_sent_.size()) messages_sent_.resize(from.index() + 1);
+    const std::uint32_t number = messages_sent_[from.index()]++;
+    const auto length = static_cast<std::uint32_t>(payload.size());
+    return world_.new_message({.origin = from,
                                .number = number,
                                .to = to,
-                               .key = combine(world_.key(id), number),
-                               .size = what.bytes,
+                               .key = combine(world_.key(from), number),
+                               .size = options.size.value_or(length),
                                .payload = std::move(payload),
-                               .flow = what.flow,
+                               .flow = options.flow,
+                               .port = options.port,
                                .is_routed = is_routed});
 }
 
@@ -37,50 +40,47 @@ std::optional<std::uint32_t> Applications::reachable(NodeId from, NodeId to) {
     return reachability_.count(w.medium, from, w.now, w.legs);
 }
 
-/// Checks the destination of a message. @throws std::invalid_argument unless it is another robot
-void Applications::check_destination(NodeId from, NodeId to) const {
+bool Applications::is_routed(NodeId from, NodeId to, bool one_hop) const {
     if (to != everyone && (to.index() >= world_.size() || to == from)) {
         throw std::invalid_argument("a unicast needs another robot to go to");
     }
-}
-
-void Applications::send(NodeId id, NodeId to, std::string payload, Outgoing what) {
+    if (one_hop) return false;
     const auto& router = routing_.router();
+    if (to != everyone) return router && router->traits().routes_unicasts;
     if (!router) throw std::invalid_argument("no routing protocol: call route() before sending");
-    check_destination(id, to);
-    if (to != everyone && !router->traits().routes_unicasts) {
-        throw std::invalid_argument("the routing protocol brings messages to everyone only");
+    return true;
+}
+
+std::optional<std::uint64_t> Applications::send(NodeId from, NodeId to, std::string payload,
+                                                const SendOptions& options) {
+    const bool routed = is_routed(from, to, options.one_hop);
+    if (!world_.medium.stations().is_on(from)) return std::nullopt;
+    const MessageId id = new_message(from, to, std::move(payload), options, routed);
+    const Message& message = world_.messages[id];
+    const std::uint64_t uid = message.uid;
+    const Hops ttl = routed ? routing_.router()->initial_ttl(message) : Hops{1};
+    const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
+    world_.emit(Sent{world_.now, from, id, ttl, robots, reachable(from, to)});
+    if (routed) {
+        routing_.originate(from, id);
+    } else {
+        routing_.send_one_hop({.message = id,
+                               .sender = from,
+                               .path = world_.key(from),
+                               .ttl = 1,
+                               .hops = 1,
+                               .next_hop = to});
     }
-    if (!world_.medium.stations().is_on(id)) return;
-    const MessageId message = new_message(id, to, std::move(payload), what, true);
-    const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
-    world_.emit(Sent{world_.now, id, message, router->initial_ttl(world_.messages[message]), robots,
-                     reachable(id, to)});
-    routing_.originate(id, message);
-    world_.release(message);
+    world_.release(id);
+    return uid;
 }
 
-void Applications::send_one_hop(NodeId id, NodeId to, std::string payload, Outgoing what) {
-    check_destination(id, to);
-    if (!world_.medium.stations().is_on(id)) return;
-    const MessageId message = new_message(id, to, std::move(payload), what, false);
-    const auto robots = static_cast<std::uint32_t>(to == everyone ? world_.size() : 2);
-    world_.emit(Sent{world_.now, id, message, 1, robots, reachable(id, to)});
-    routing_.send_one_hop({.message = message,
-                           .sender = id,
-                           .path = world_.key(id),
-                           .ttl = 1,
-                           .hops = 1,
-                           .next_hop = to});
-    world_.release(message);
-}
-
-void Applications::saturate(NodeId id, NodeId to, Outgoing what) {
+void Applications::saturate(NodeId node, NodeId to, const SendOptions& options) {
     if (!mac_.queues()) {
         throw std::invalid_argument("saturated traffic needs an access model: aloha or csma");
     }
-    saturated_[id] = {to, what};
-    for (int waiting = 0; waiting < 2; ++waiting) send_one_hop(id, to, {}, what);
+    saturated_[node] = {to, options};
+    for (int waiting = 0; waiting < 2; ++waiting) send(node, to, {}, options);
 }
 
 /// Sends the next frame of a node with saturated traffic, 1 us after the last one.
@@ -89,45 +89,54 @@ void Applications::has_room(NodeId id) {
     const auto found = saturated_.find(id);
     if (found == saturated_.end()) return;
     world_.schedule(world_.now + least_reaction, Callback<>([this, id, traffic = found->second] {
-                        send_one_hop(id, traffic.to, {}, traffic.what);
+                        send(id, traffic.to, {}, traffic.options);
                     }));
 }
 
-void Applications::on_receive(NodeId id, Callback<const Message&, const Heard&> react) {
-    if (id.index() >= on_receive_.size()) on_receive_.resize(id.index() + 1);
-    on_receive_[id.index()].push_back(std::move(react));
+void Applications::on_receive(NodeId id, Callback<const Heard&> react, HearOptions options) {
+    if (id.index() >= reactions_.size()) reactions_.resize(id.index() + 1);
+    reactions_[id.index()].push_back({std::move(react), options});
+    if (options.level) world_.want_level_at(id);
 }
 
-void Applications::delivered(const Frame& frame, std::span<const Reception> receptions) {
-    if (on_receive_.empty()) return;
+void Applications::delivered(const Frame& frame, std::span<const Reception> receptions,
+                             std::span<const Dbm> levels) {
+    if (reactions_.empty()) return;
     reacting_.clear();
-    for (const auto& r : receptions) {
-        if (r.delivered && reacts(r.node)) reacting_.push_back(r);
+    for (std::size_t i = 0; i < receptions.size(); ++i) {
+        if (receptions[i].delivered && reacts(receptions[i].node)) reacting_.push_back(i);
     }
-    std::sort(reacting_.begin(), reacting_.end(), [this](const Reception& a, const Reception& b) {
+    std::sort(reacting_.begin(), reacting_.end(), [&](std::size_t i, std::size_t k) {
+        const Reception &a = receptions[i], &b = receptions[k];
         return a.time != b.time ? a.time < b.time : world_.key(a.node) < world_.key(b.node);
     });
-    const std::uint64_t hops = frame.hops;
-    for (const Reception& r : reacting_) {
+    for (const std::size_t i : reacting_) {
+        constexpr Dbm unknown{std::numeric_limits<double>::quiet_NaN()};
         world_.messages.hold(frame.message);
-        world_.events.schedule(
-            r.time + least_reaction, Priority::user,
-            {Occurrence::Kind::handed_over, r.node, hops << 32 | frame.message.value});
+        const std::size_t slot = deliveries_.take();
+        deliveries_[slot] = {.message = frame.message,
+                             .last_hop = frame.sender,
+                             .hops = frame.hops,
+                             .level = levels.empty() ? unknown : levels[i]};
+        world_.events.schedule(receptions[i].time + least_reaction, Priority::user,
+                               {Occurrence::Kind::handed_over, receptions[i].node, slot});
     }
 }
 
-void Applications::react(NodeId id, std::uint64_t handed_over) {
-    const MessageId message{static_cast<std::uint32_t>(handed_over)};
-    const Heard how{static_cast<int>(handed_over >> 32)};
-    const Message heard = world_.messages[message];  // a copy: reactions may send
-    world_.release(message);
+void Applications::react(NodeId id, std::size_t slot) {
+    const Delivery delivery = deliveries_[slot];
+    deliveries_.release(slot);
+    const Message message = world_.messages[delivery.message];  // a copy: reactions may send
+    world_.release(delivery.message);
     if (!world_.medium.stations().is_on(id)) return;
     // The list is read again in each step, because a reaction may add callbacks.
-    for (std::size_t i = 0; i < on_receive_[id.index()].size(); ++i) {
-        const auto reaction = on_receive_[id.index()][i];
-        reaction(heard, how);
+    for (std::size_t i = 0; i < reactions_[id.index()].size(); ++i) {
+        const Reaction reaction = reactions_[id.index()][i];
+        Heard heard{message, delivery.hops, delivery.last_hop};
+        if (reaction.options.level) heard.level = delivery.level;
+        reaction.call(heard);
     }
-    on_receive_[id.index()].erase_if([](const auto& each) { return each.has_ended(); });
+    reactions_[id.index()].erase_if([](const Reaction& each) { return each.call.has_ended(); });
 }
 
 /// Drops the messages of which no frame has ended, at the end of the run.

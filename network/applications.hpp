@@ -6,6 +6,7 @@
 #include "network/few.hpp"
 #include "network/network.hpp"
 #include "network/routing.hpp"
+#include "sim/slots.hpp"
 
 #include <cstdint>
 #include <map>
@@ -16,14 +17,6 @@
 namespace rovernet {
 
 struct World;
-
-/// Parameters of a message that its sender chooses, besides the payload.
-struct Outgoing {
-    /// Size on air [bytes], without the bytes that the access model adds.
-    std::uint32_t bytes;
-    /// Number of the message's flow, from 1; 0 for no flow.
-    std::uint32_t flow = 0;
-};
 
 /// Applications of all robots: messages that robots send, and callbacks for received messages.
 ///
@@ -37,31 +30,27 @@ class Applications final : public RoutingUser {
     Applications(World& world, Routing& routing, const Mac& mac)
         : world_(world), routing_(routing), mac_(mac) {}
 
-    /// Sends a message by the routing protocol, as Network::broadcast and Network::send. A node
-    /// that is off does not send.
-    /// @throws std::invalid_argument without a protocol, for a unicast that the protocol cannot
-    ///         route, and for an invalid destination
-    void send(NodeId node, NodeId to, std::string payload, Outgoing what);
-    /// Sends a message over one hop without the protocol, as Network::unicast.
-    /// @throws std::invalid_argument for an invalid destination
-    void send_one_hop(NodeId node, NodeId to, std::string payload, Outgoing what);
-    /// Starts saturated traffic of a node over one hop, as Network::saturate: two messages are
-    /// queued at the start, and each message sent creates the next.
+    /// Sends a message, as Network::send.
+    std::optional<std::uint64_t> send(NodeId from, NodeId to, std::string payload,
+                                      const SendOptions& options);
+    /// Starts saturated traffic of a node, as Network::saturate: two messages are queued at the
+    /// start, and each message sent creates the next.
     /// @throws std::invalid_argument without an access model, because sending would be unlimited
-    void saturate(NodeId node, NodeId to, Outgoing what);
+    void saturate(NodeId node, NodeId to, const SendOptions& options);
     /// True once any message was sent; selects the hint in the event-limit error.
     bool has_sent() const { return has_sent_; }
-    /// Calls react(message, how) whenever a message is delivered to `node`.
-    void on_receive(NodeId node, Callback<const Message&, const Heard&> react);
+    /// Calls `react` whenever a message is delivered to `node`, as Network::on_receive.
+    void on_receive(NodeId node, Callback<const Heard&> react, HearOptions options);
     /// Serves the event of a delivered message: calls the node's callbacks, if it is still on.
     /// Nodes with messages at the same time react in the order of their keys.
-    /// @param handed_over  id of the message in the lower 32 bits, hops above
-    void react(NodeId node, std::uint64_t handed_over);
+    /// @param slot  place of the delivery in deliveries_
+    void react(NodeId node, std::size_t slot);
     /// Drops the messages of which no frame has ended yet, as Network::finish.
     void cut_off();
 
     /// Implements RoutingUser: handles receptions of which some are delivered to an application.
-    void delivered(const Frame& frame, std::span<const Reception> receptions) override;
+    void delivered(const Frame& frame, std::span<const Reception> receptions,
+                   std::span<const Dbm> levels) override;
     /// Implements RoutingUser: sends the next message of a node with saturated traffic.
     void has_room(NodeId node) override;
 
@@ -69,16 +58,31 @@ class Applications final : public RoutingUser {
     /// Saturated traffic of a node.
     struct Saturated {
         NodeId to;
-        Outgoing what;
+        SendOptions options;
+    };
+    /// Callback of a node.
+    struct Reaction {
+        Callback<const Heard&> call;
+        HearOptions options;
+    };
+    /// Message on its way from routing to the callbacks of a node; it holds a reference to the
+    /// message.
+    struct Delivery {
+        MessageId message;
+        NodeId last_hop;
+        Hops hops;
+        /// Received power [dBm]; NaN unless a callback asked for it.
+        Dbm level;
     };
 
     // Whether the node has a callback for messages.
     bool reacts(NodeId node) const {
-        return node.index() < on_receive_.size() && !on_receive_[node.index()].empty();
+        return node.index() < reactions_.size() && !reactions_[node.index()].empty();
     }
-    void check_destination(NodeId from, NodeId to) const;
+    // Whether the routing protocol forwards a message. @throws as Network::send
+    bool is_routed(NodeId from, NodeId to, bool one_hop) const;
     // Stores a message of the node with one reference, the caller's.
-    MessageId new_message(NodeId node, NodeId to, std::string payload, Outgoing what,
+    MessageId new_message(NodeId from, NodeId to, std::string payload, const SendOptions& options,
                           bool is_routed);
     std::optional<std::uint32_t> reachable(NodeId from, NodeId to);
 
@@ -88,14 +92,16 @@ class Applications final : public RoutingUser {
     // Number of messages sent by each node, and callbacks of each node. The lists end at the last
     // node that has any.
     std::vector<std::uint32_t> messages_sent_;
-    std::vector<Few<Callback<const Message&, const Heard&>>> on_receive_;
+    std::vector<Few<Reaction>> reactions_;
+    // Deliveries whose events are due.
+    Slots<Delivery> deliveries_;
     // Nodes with saturated traffic.
     std::map<NodeId, Saturated> saturated_;
     // Search for Sent::reachable; kept to reuse its memory.
     Reachability reachability_;
     bool has_sent_ = false;
-    // Receptions of one frame at nodes with callbacks; kept to reuse its memory.
-    std::vector<Reception> reacting_;
+    // Indices of the receptions of one frame at nodes with callbacks; kept to reuse its memory.
+    std::vector<std::size_t> reacting_;
 };
 
 }  // namespace rovernet

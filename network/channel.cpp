@@ -81,7 +81,7 @@ std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending&
         sort(flight.receivers);
     }
     flight.levels.clear();
-    if (world_.levels_wanted) find_levels(flight, end);
+    if (world_.wants_levels()) find_levels(flight, end);
     if (interference_) put_on_air(slot, how);
     const bool errors = world_.medium.stations().radio(frame.sender).success_rate < 1;
     if (errors) garble(flight);
@@ -116,26 +116,32 @@ void Channel::find_sensors(Flight& flight, Time end) {
     user_.sensed(sensed_);
 }
 
-/// Computes the received power of each reception.
+/// Computes the received power of each reception at a node that asks for it; NaN at the others.
 void Channel::find_levels(Flight& flight, Time end) {
     Medium& medium = world_.medium;
+    const std::span<const Reception> all = flight.receivers.all();
+    const auto is_wanted = [&](const Reception& r) { return world_.wants_level_at(r.node); };
+    if (std::none_of(all.begin(), all.end(), is_wanted)) return;
     const NodeId sender = flight.air.frame.sender;
     const Emission frame{.begin = world_.now,
                          .end = end,
-                         .origin = medium.origin(),
+                         .origin = flight.receivers.origin,
                          .from = sender,
-                         .heard_within = medium.heard_within(),
+                         .heard_within = flight.receivers.heard_within,
                          .squared_reach = std::numeric_limits<double>::infinity()};
-    for (const Reception& r : flight.receivers.all()) {
-        const Vec3 there = medium.position(r.node, world_.now, world_.legs);
+    const auto level_at = [&](NodeId node) {
+        const Vec3 there = medium.position(node, world_.now, world_.legs);
         const Headings headings{{world_.legs.leg(sender).heading_at(world_.now)},
-                                {world_.legs.leg(r.node).heading_at(world_.now)}};
+                                {world_.legs.leg(node).heading_at(world_.now)}};
         const auto arrives = medium.stations().is_directional()
-                                 ? medium.arrivals().of(frame, r.node, there, headings)
-                                 : medium.arrivals().of(frame, r.node, there);
+                                 ? medium.arrivals().of(frame, node, there, headings)
+                                 : medium.arrivals().of(frame, node, there);
         const bool open = std::isnan(arrives->level_dbm);
-        flight.levels.push_back(open ? medium.arrivals().level(*arrives, r.node)
-                                     : Dbm{arrives->level_dbm});
+        return open ? medium.arrivals().level(*arrives, node) : Dbm{arrives->level_dbm};
+    };
+    constexpr Dbm unknown{std::numeric_limits<double>::quiet_NaN()};
+    for (const Reception& r : all) {
+        flight.levels.push_back(is_wanted(r) ? level_at(r.node) : unknown);
     }
 }
 
@@ -145,7 +151,9 @@ void Channel::put_on_air(std::size_t slot, const Sending& how) {
     forget_frames();
     flight.emission = interference_->add({.begin = world_.now,
                                           .end = world_.now + how.airtime,
+                                          .origin = flight.receivers.origin,
                                           .from = flight.air.frame.sender,
+                                          .heard_within = flight.receivers.heard_within,
                                           .flight = static_cast<std::uint32_t>(slot)},
                                          how.rate, flight.receivers.all());
 }

@@ -24,7 +24,7 @@ struct World;
 struct Arriving {
     /// Receptions with the fate set by channel and reception model; higher layers may change it.
     std::span<Reception> receptions;
-    /// Received power of each reception [dBm]; empty unless requested.
+    /// Received power of each reception [dBm], NaN at nodes that do not ask for it; may be empty.
     std::span<const Dbm> levels;
     /// True if no reception can have errors, neither by interference nor by the sender's success
     /// rate.
@@ -103,7 +103,7 @@ class Channel {
         std::uint64_t emission = 0;
         /// Receptions of the frame, in order of time; the first `served` of them have been served.
         Medium::Receivers receivers;
-        /// Received power of each reception [dBm], if requested.
+        /// Received power of each reception [dBm], as in Arriving.
         std::vector<Dbm> levels;
         std::size_t served = 0;
         bool error_free = false;
@@ -113,7 +113,7 @@ class Channel {
     void find_sensors(Flight& flight, Time end);
     // Adds the frame to the frames that may interfere.
     void put_on_air(std::size_t slot, const Sending& how);
-    // Sets the received power of each reception.
+    // Sets the received power of each reception at a node that asks for it.
     void find_levels(Flight& flight, Time end);
     // Frees the flights of frames that cannot interfere any more.
     void forget_frames();

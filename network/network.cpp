@@ -21,36 +21,23 @@ void Network::route(Router router) { engine_->routing.set(std::move(router)); }
 SinkId Network::add_sink(Sink sink) { return engine_->add_sink(std::move(sink)); }
 void Network::remove_sink(SinkId sink) { engine_->world.records.remove(sink); }
 
-void Network::broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size,
-                        std::uint32_t flow) {
-    const auto bytes = size.value_or(static_cast<std::uint32_t>(payload.size()));
-    engine_->applications.send(node, everyone, std::move(payload), {bytes, flow});
-}
-
-void Network::send(NodeId node, NodeId to, std::string payload, std::optional<std::uint32_t> size,
-                   std::uint32_t flow) {
-    const auto bytes = size.value_or(static_cast<std::uint32_t>(payload.size()));
-    engine_->applications.send(node, to, std::move(payload), {bytes, flow});
-}
-
-void Network::unicast(NodeId node, NodeId to, std::string payload,
-                      std::optional<std::uint32_t> size, std::uint32_t flow) {
-    const auto bytes = size.value_or(static_cast<std::uint32_t>(payload.size()));
-    engine_->applications.send_one_hop(node, to, std::move(payload), {bytes, flow});
+std::optional<std::uint64_t> Network::send(NodeId from, NodeId to, std::string payload,
+                                           SendOptions options) {
+    return engine_->applications.send(engine_->known(from), to, std::move(payload), options);
 }
 void Network::saturate(NodeId node, NodeId to, std::uint32_t size, std::uint32_t flow) {
-    engine_->applications.saturate(node, to, {size, flow});
+    engine_->applications.saturate(node, to, {.size = size, .flow = flow, .one_hop = true});
 }
 
 Subscription Network::on_receive(NodeId node, std::function<void(const Message&)> react) {
     return on_receive(node,
-                      [react = std::move(react)](const Message& m, const Heard&) { react(m); });
+                      [react = std::move(react)](const Heard& heard) { react(heard.message); });
 }
 
-Subscription Network::on_receive(NodeId node,
-                                 std::function<void(const Message&, const Heard&)> react) {
-    const Callback<const Message&, const Heard&> callback(std::move(react));
-    engine_->applications.on_receive(engine_->known(node), callback);
+Subscription Network::on_receive(NodeId node, std::function<void(const Heard&)> react,
+                                 HearOptions options) {
+    const Callback<const Heard&> callback(std::move(react));
+    engine_->applications.on_receive(engine_->known(node), callback, options);
     return callback.subscription();
 }
 

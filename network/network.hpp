@@ -23,10 +23,35 @@
 
 namespace rovernet {
 
-/// Path of a message to the node that receives it.
+/// Options of a message that its sender chooses.
+struct SendOptions {
+    /// Size on air [bytes], without the bytes that the access model adds; the payload's length if
+    /// not given.
+    std::optional<std::uint32_t> size = {};
+    /// Number of the message's flow, from 1; 0 for no flow.
+    std::uint32_t flow = 0;
+    /// Port, which selects a program of the receiver; 0 for none.
+    std::uint16_t port = 0;
+    /// True: over one hop, without the routing protocol.
+    bool one_hop = false;
+};
+
+/// Message that a node receives, and the frame that brought it. References are valid during the
+/// callback.
 struct Heard {
+    const Message& message;
     /// Number of hops that the message travelled.
     int hops;
+    /// Transmitter of the frame.
+    NodeId last_hop;
+    /// Received power of the frame [dBm], if the callback asked for it.
+    std::optional<Dbm> level = {};
+};
+
+/// Options of a callback for received messages.
+struct HearOptions {
+    /// True: Heard::level is computed, at the start of each frame that this node can decode.
+    bool level = false;
 };
 
 /// Number of a sink in a Network, for remove_sink().
@@ -43,7 +68,7 @@ class Medium;
 ///   const NodeId a = network.add({.name = "A", .at = {0, 0}});
 ///   network.add({.name = "B", .at = {80, 0}});
 ///   network.route(Flood{.ttl = 3});
-///   network.at(start_of_run + 1s, [&] { network.broadcast(a, "hello"); });
+///   network.at(start_of_run + 1s, [&] { network.send(a, everyone, "hello"); });
 ///   network.run_for(10s);
 ///
 /// Two Networks in one process never interact. Not thread-safe; each thread runs its own.
@@ -70,21 +95,15 @@ class Network {
     /// a sink.
     void remove_sink(SinkId sink);
 
-    /// Sends a message from `node` to everyone. A node that is off does not send.
-    /// @param size  size on air [bytes]; the payload's length if not given
-    /// @param flow  flow of the message, from 1; 0 for no flow
-    /// @throws std::invalid_argument if no protocol is set
-    void broadcast(NodeId node, std::string payload, std::optional<std::uint32_t> size = {},
-                   std::uint32_t flow = 0);
-    /// Sends a message from `node` to `to` by the routing protocol. Parameters as for broadcast().
-    /// @throws std::invalid_argument if no protocol is set, or it only routes to everyone
-    void send(NodeId node, NodeId to, std::string payload, std::optional<std::uint32_t> size = {},
-              std::uint32_t flow = 0);
-    /// Sends a message from `node` to `to`, or to `everyone` in range, over one hop, without
-    /// routing: the access model "csma" repeats a message to one robot until it is acknowledged or
-    /// the retry limit is reached. Parameters as for broadcast().
-    void unicast(NodeId node, NodeId to, std::string payload,
-                 std::optional<std::uint32_t> size = {}, std::uint32_t flow = 0);
+    /// Sends a message from `from` to `to`, a robot or `everyone`. The routing protocol forwards it
+    /// if it can: every protocol forwards messages to everyone, protocols with the trait
+    /// routes_unicasts also those to one robot. All other messages go over one hop: the access
+    /// model "csma" repeats one to a robot until it is acknowledged or the retry limit is reached.
+    /// @return uid of the message, unique in the run; none if `from` is off, and does not send
+    /// @throws std::invalid_argument for a message to everyone, not over one hop, if no protocol is
+    ///         set; and if `to` is `from` or no robot
+    std::optional<std::uint64_t> send(NodeId from, NodeId to, std::string payload,
+                                      SendOptions options = {});
     /// Starts saturated traffic: from now on `node` always has another message of `size` [bytes] to
     /// send to `to`, or to everyone, over one hop.
     /// @throws std::invalid_argument without an access model, because sending would be unlimited
@@ -94,7 +113,8 @@ class Network {
     /// Calls `react` whenever a message is delivered to `node`, 1 us after its reception.
     /// Example: examples/reactions.cpp.
     Subscription on_receive(NodeId node, std::function<void(const Message&)> react);
-    Subscription on_receive(NodeId node, std::function<void(const Message&, const Heard&)> react);
+    Subscription on_receive(NodeId node, std::function<void(const Heard&)> react,
+                            HearOptions options = {});
     /// Calls `react` whenever `node` ends a movement and rests, 1 us later.
     Subscription on_arrival(NodeId node, std::function<void()> react);
     /// Calls `react(from)` whenever `node` cannot hear `from` any more, 1 us later. Link monitoring

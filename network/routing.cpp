@@ -192,8 +192,9 @@ void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
     } else {
         hand_up_heard(air.frame, part);
     }
-    world_.emit(Received{air.frame, part.receptions, {}, mac_.header(), part.levels});
-    user_.delivered(air.frame, part.receptions);
+    world_.emit(
+        Received{air.frame, part.receptions, {}, mac_.header(), world_.for_sinks(part.levels)});
+    user_.delivered(air.frame, part.receptions, part.levels);
 }
 
 /// Passes a frame to the router; without a router it is for everybody, and is not forwarded.
@@ -267,8 +268,8 @@ void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const
             r.delivered = true;
         }
     }
-    world_.emit(Received{air.frame, {&r, 1}, air.reserved, mac_.header(), level});
-    user_.delivered(air.frame, {&r, 1});
+    world_.emit(Received{air.frame, {&r, 1}, air.reserved, mac_.header(), world_.for_sinks(level)});
+    user_.delivered(air.frame, {&r, 1}, level);
 }
 
 void Routing::sent(const QueuedFrame& frame) {

@@ -23,7 +23,10 @@ class RoutingUser {
   public:
     /// Called for receptions of a frame; `delivered` marks those whose nodes pass the message to
     /// their application.
-    virtual void delivered(const Frame& frame, std::span<const Reception> receptions) = 0;
+    /// @param levels  received power of each reception [dBm], NaN where nobody asked for it; may be
+    ///                empty
+    virtual void delivered(const Frame& frame, std::span<const Reception> receptions,
+                           std::span<const Dbm> levels) = 0;
     /// Called when the node's queue has space for one more frame: a frame was sent, or dropped
     /// after its last attempt.
     virtual void has_room(NodeId node) = 0;
@@ -37,8 +40,7 @@ class RoutingUser {
 ///
 /// Frames that the protocol sends at once leave after the protocol's function has returned, so that
 /// it is not called back inside its own functions. Frames for a later time wait here, each with an
-/// event. Messages of Network::broadcast and Network::send go to the protocol; messages of
-/// Network::unicast go over one hop without it.
+/// event. Messages over one hop pass the protocol by.
 class Routing final : public LinkLayer, public MacUser {
   public:
     /// @param user  layer above, which may still be under construction

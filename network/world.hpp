@@ -18,7 +18,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace rovernet {
 
@@ -105,8 +107,25 @@ struct World {
     std::uint64_t next_uid = 0;
     /// Number of frames transmitted so far.
     std::uint64_t transmissions = 0;
-    /// True if a sink or the routing protocol requests received powers.
+    /// True if a sink or the routing protocol asks for the received powers at all nodes.
     bool levels_wanted = false;
+    /// Nodes whose applications ask for received powers, as flags; empty if none does.
+    std::vector<bool> level_wanted_at = {};
+    /// Whether the received power of frames is wanted anywhere, and at `node`.
+    bool wants_levels() const { return levels_wanted || !level_wanted_at.empty(); }
+    bool wants_level_at(NodeId node) const {
+        return levels_wanted ||
+               (node.index() < level_wanted_at.size() && level_wanted_at[node.index()]);
+    }
+    /// Received powers of receptions as records have them: none unless they are known at all nodes.
+    std::span<const Dbm> for_sinks(std::span<const Dbm> levels) const {
+        return levels_wanted ? levels : std::span<const Dbm>{};
+    }
+    /// Computes the received powers of frames at `node` from now on.
+    void want_level_at(NodeId node) {
+        if (node.index() >= level_wanted_at.size()) level_wanted_at.resize(node.index() + 1);
+        level_wanted_at[node.index()] = true;
+    }
 
   private:
     // Scheduled action of the user, and its period [ns]; 0: once.

@@ -18,6 +18,7 @@ Table section(const TrafficTable& traffic) {
     table.set("name", traffic.name);
     table.set("from", traffic.from);
     if (traffic.to) table.set("to", *traffic.to);
+    if (traffic.hops) table.set("hops", *traffic.hops);
     if (traffic.saturate) table.set("saturate", true);
     table.set("payload", traffic.payload);
     if (traffic.size) table.set("size", to_value(*traffic.size));

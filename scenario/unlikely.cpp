@@ -108,6 +108,31 @@ void note_payloads(Scenario& out) {
     sizes.note(out.notices);
 }
 
+/// Notices unicasts that go over one hop because the routing protocol does not route them, and that
+/// do not say so.
+void note_unicasts(Scenario& out) {
+    if (out.routing.make().traits().routes_unicasts) return;
+    Affected unicasts;
+    const auto note = [&](const Location& where, std::string_view to, std::string_view silent) {
+        unicasts.add([&] {
+            return fmt::format(
+                "{}: to: the routing protocol does not route messages to one robot, "
+                "so those to \"{}\" go over one hop{}",
+                where.text(), to, silent);
+        });
+    };
+    for (const TrafficTable& traffic : out.traffic) {
+        if (!traffic.to || traffic.hops || traffic.saturate) continue;
+        note(traffic.to_where, *traffic.to, "; hops = 1 asks for that");
+    }
+    for (const RobotTable& robot : out.robots) {
+        for (const ReactionTable& reaction : robot.reactions) {
+            if (reaction.to) note(reaction.to_where, *reaction.to, "");
+        }
+    }
+    unicasts.note(out.notices);
+}
+
 /// Calls look(propagation, where) for each choice of a propagation model that some robot uses.
 template <class Look>
 void for_each_used_model(const Scenario& scenario, Look look) {
@@ -152,6 +177,7 @@ void note_unlikely(Scenario& scenario) {
         }
     }
     note_payloads(scenario);
+    note_unicasts(scenario);
     note_equal_starts(scenario);
 }
 

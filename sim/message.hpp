@@ -40,6 +40,8 @@ struct Message {
     std::string payload;
     /// Number of the application's flow, from 1; 0 for no flow. Metrics are computed for each flow.
     std::uint32_t flow = 0;
+    /// Port, which selects a program of the receiver; 0 for none.
+    std::uint16_t port = 0;
     /// Kind of a routing protocol's control packet, as in a trace (a literal); empty for a message
     /// of an application.
     std::string_view kind = {};

@@ -217,15 +217,11 @@ void RecordedDay::schedule(Network& network) const {
     }
     for (const DayLog::Said& said : log_.said) {
         network.at(said.time, [&network, &message = said.message] {
-            if (message.to == everyone) {
-                network.broadcast(message.origin, message.payload, message.size, message.flow);
-            } else if (message.is_routed) {
-                network.send(message.origin, message.to, message.payload, message.size,
-                             message.flow);
-            } else {
-                network.unicast(message.origin, message.to, message.payload, message.size,
-                                message.flow);
-            }
+            network.send(message.origin, message.to, message.payload,
+                         {.size = message.size,
+                          .flow = message.flow,
+                          .port = message.port,
+                          .one_hop = !message.is_routed});
         });
     }
 }

@@ -210,18 +210,18 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
 
 void Medium::find_receivers(NodeId from, Time start, Time end, const Legs& legs, Receivers& out) {
     find(from, Strength::decodable, start, legs, links_.frame_key(from, start));
-    tell_arrivals(end, out);
+    put_arrivals(end, out);
 }
 
 std::span<const Medium::Found> Medium::find_sensors(NodeId from, Time start, Time end,
                                                     const Legs& legs, Receivers& out) {
     find(from, Strength::detectable, start, legs, links_.frame_key(from, start));
-    tell_arrivals(end, out);
+    put_arrivals(end, out);
     return sensors_.kept();
 }
 
-/// Computes the end, at each node found, of a frame that ends at `end` at its sender.
-void Medium::tell_arrivals(Time end, Receivers& out) const {
+/// Puts the nodes found into `out`, with the end of a frame there that ends at `end` at its sender.
+void Medium::put_arrivals(Time end, Receivers& out) const {
     const std::span<const Found> found = found_.kept();
     out.sieved.clear();
     double nearest2 = std::numeric_limits<double>::infinity(), farthest2 = 0;
@@ -237,15 +237,11 @@ void Medium::tell_arrivals(Time end, Receivers& out) const {
         farthest2 = std::max(d2, farthest2);
     }
     out.sieved.keep_to(receptions + found.size());
+    out.origin = origin_;
+    out.heard_within = std::sqrt(farthest2);
     if (found.empty()) return;
     out.first = end + arrivals_.delay(std::sqrt(nearest2));
-    out.last = end + arrivals_.delay(std::sqrt(farthest2));
-}
-
-double Medium::heard_within() {
-    double squared = 0;
-    for (const Found& f : found_.kept()) squared = std::max(squared, f.squared_distance);
-    return std::sqrt(squared);
+    out.last = end + arrivals_.delay(out.heard_within);
 }
 
 bool Medium::hears(NodeId from, NodeId to, Time t, const Legs& legs) {

@@ -99,6 +99,10 @@ class Medium {
     struct Receivers {
         /// Times at which the frame ends at the first and at the last receiver, if there are any.
         Time first, last;
+        /// Position of the sender's antenna [m].
+        Vec3 origin;
+        /// Distance of the farthest receiver [m]; 0 if there are none.
+        double heard_within = 0;
         /// Receptions of the frame, unsorted.
         Sieve<Reception> sieved;
         std::span<Reception> all() const { return sieved.kept(); }
@@ -110,10 +114,6 @@ class Medium {
     /// unsorted, valid until the next call.
     std::span<const Found> find_sensors(NodeId from, Time start, Time end, const Legs& legs,
                                         Receivers& out);
-    /// Position of the sender's antenna in the last search for receivers [m].
-    Vec3 origin() const { return origin_; }
-    /// Distance of the farthest receiver in the last search [m].
-    double heard_within();
 
     /// Nodes that hear `from` at `t`; valid until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
@@ -143,8 +143,8 @@ class Medium {
     // Search by the model's losses of all nodes within reach.
     void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs,
                        std::uint64_t frame);
-    // Computes the end, at each node found, of a frame that ends at `end` at its sender.
-    void tell_arrivals(Time end, Receivers& out) const;
+    // Puts the nodes found into `out`, for a frame that ends at `end` at its sender.
+    void put_arrivals(Time end, Receivers& out) const;
     // Prepares the index for queries about `from` at `t`.
     void look_from(NodeId from, Time t, const Legs& legs);
     // Fills shares_ with the contributions of all nodes.

@@ -10,8 +10,6 @@ void Interference::goes(NodeId node, const Leg& leg) {
 std::uint64_t Interference::add(Emission frame, BitRate rate,
                                 std::span<const Reception> receptions) {
     Medium& medium = *settings_.medium;
-    frame.origin = medium.origin();
-    frame.heard_within = medium.heard_within();
     frame.squared_reach = medium.arrivals().squared_reach(frame.from);
     const std::uint64_t serial = on_air_.add(frame);
     judge_->begins({on_air_[serial], *settings_.phy, rate,

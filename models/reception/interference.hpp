@@ -59,7 +59,7 @@ class Interference {
         on_air_.changes(node, settings_.legs->leg(node), on);
     }
 
-    /// Adds a frame that starts now; its receivers are the result of the medium's last search.
+    /// Adds a frame that starts now, with its origin and the distance of its farthest receiver.
     /// @param rate        bit rate of its payload [bit/s]
     /// @param receptions  receptions at the nodes that can decode it, in order
     /// @return serial number of the frame

@@ -22,8 +22,7 @@
 
 namespace rovernet {
 
-/// Values of [[traffic]] kind: messages to everyone by the routing protocol, or to one robot over
-/// one hop.
+/// Values of [[traffic]] kind: messages to everyone, or to one robot.
 enum class TrafficKind { broadcast, unicast };
 template <>
 struct EnumNames<TrafficKind> {
@@ -41,6 +40,9 @@ struct TrafficTable {
     std::string from;
     /// Name of the robot to which unicasts are sent.
     std::optional<std::string> to;
+    /// 1: messages go over one hop, without the routing protocol; none: the protocol forwards them
+    /// if it can, see Network::send.
+    std::optional<int> hops;
     /// Saturated source: the next message is queued as soon as the previous one is sent. Needs an
     /// access model.
     bool saturate = false;

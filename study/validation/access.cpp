@@ -100,8 +100,9 @@ Duration next_access(const Missed& c) {
         net.add({.name = {}, .at = {x, 0}, .radio = radio});
     }
     const auto ask = [&](std::uint32_t node, Duration t, std::uint32_t bytes) {
-        net.at(start_of_run + t,
-               [&net, node, bytes] { net.unicast(NodeId{node}, everyone, "", bytes); });
+        net.at(start_of_run + t, [&net, node, bytes] {
+            net.send(NodeId{node}, everyone, "", {.size = bytes, .one_hop = true});
+        });
     };
     const auto count = std::make_shared<AirCount>();
     net.add_sink(Sink{count});

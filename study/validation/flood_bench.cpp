@@ -146,7 +146,7 @@ double search_cost(Network& network, std::uint32_t nodes) {
 
 /// Sends one message and runs until nobody forwards it any more.
 void flood(Network& network, NodeId from) {
-    network.broadcast(from, "", payload);
+    network.send(from, everyone, "", {.size = payload});
     for (std::uint64_t before = ~std::uint64_t{0}; before != network.transmissions();) {
         before = network.transmissions();
         network.run_for(std::chrono::milliseconds{100});

@@ -57,7 +57,7 @@ double moved_into_range() {
     net.route(Shout{});
     double heard_at = -1;
     net.on_receive(b, [&](const Message&) { heard_at = net.position(b).x; });
-    net.at(start_of_run + 12s, [&] { net.broadcast(a, "home"); });
+    net.at(start_of_run + 12s, [&] { net.send(a, everyone, "home"); });
     net.run_for(13s);
     return heard_at;
 }
@@ -69,7 +69,7 @@ int main(int /*argc*/, char** argv) {
     net.add({.name = "far", .at = {92, 0}});
     net.route(Shout{});
     net.add_sink(Listener{});
-    net.at(start_of_run + 1s, [&] { net.broadcast(a, "hello"); });
+    net.at(start_of_run + 1s, [&] { net.send(a, everyone, "hello"); });
     net.run_for(2s);
     fmt::print("delivery ratio {}\n", net.metrics().delivery_ratio.value_or(-1));
     fmt::print("heard {:.1f} m from home\n", moved_into_range());

@@ -33,7 +33,7 @@ TEST_CASE("client radios: who stays at a shared radio hears on, with last hop an
     radios.join(2, {robots.b});
     CHECK(radios.has(2, robots.b));
     CHECK_FALSE(radios.has(2, robots.c));
-    radios.leave(1, {robots.b, robots.c});
+    radios.leave(1);
     CHECK_FALSE(radios.has(1, robots.b));
     radios.send(robots.a, {.to = robots.b, .port = 7, .payload = "x"});
     robots.net.run_for(1s);

@@ -8,6 +8,7 @@
 #include "network/network.hpp"
 #include "routing/flood.hpp"
 #include "scenario/document/toml.hpp"
+#include "scenario/scenario.hpp"
 #include "sim/random.hpp"
 #include "test/traces/ns2/trace_metrics.hpp"
 #include "test/traces/record_stream.hpp"
@@ -107,8 +108,8 @@ Traced traced(const Setting& setting) {
     }
     for (std::uint32_t k = 0; k < 10; ++k) {
         net.at(start_of_run + k * 1s, [&net, k] {
-            net.broadcast(NodeId{k}, "hello");
-            for (std::uint32_t i = 0; i < 60; i += 3) net.unicast({i}, {i + k % 2 + 1}, "you", {});
+            net.send(NodeId{k}, everyone, "hello");
+            for (std::uint32_t i = 0; i < 60; i += 3) net.send({i}, {i + k % 2 + 1}, "you");
         });
         net.at(start_of_run + k * 1s + 3ms, [&net, k] { net.switch_off(NodeId{20 + k}); });
         net.at(start_of_run + k * 1s + 500ms, [&net, k] { net.switch_on(NodeId{20 + k}); });
@@ -219,7 +220,7 @@ const Csma as_ns2{.rts_threshold = 0, .header = 34};
 }  // namespace
 
 TEST_CASE("MAC trace: sizes and durations of an exchange are those that ns-2.35 prints") {
-    const auto unicast = [](Network& net) { net.unicast({1}, {2}, "", 500); };
+    const auto unicast = [](Network& net) { net.send({1}, {2}, "", {.size = 500}); };
     CHECK(row(as_ns2, unicast) ==
           "s 1.000000000 _1_ AGT  --- 0 message 500 [0 0 0 0] ------- [1:0 2:0 1 0] \n"
           "r 1.000000000 _1_ RTR  --- 0 message 500 [0 0 0 0] ------- [1:0 2:0 1 0] \n"
@@ -244,7 +245,9 @@ TEST_CASE("MAC trace: sizes and durations of an exchange are those that ns-2.35 
 }
 
 TEST_CASE("MAC trace: a broadcast has a line at its sender and one at each robot that decodes it") {
-    const auto broadcast = [](Network& net) { net.unicast({1}, everyone, "", 64); };
+    const auto broadcast = [](Network& net) {
+        net.send({1}, everyone, "", {.size = 64, .one_hop = true});
+    };
     const std::string text = row(as_ns2, broadcast);
     CHECK(count(text, "^s .*_1_ MAC  --- 0 message 122 \\[0 ffffffff 1 800\\]") == 1);
     for (const char* node : {"_0_", "_2_"}) {
@@ -255,7 +258,7 @@ TEST_CASE("MAC trace: a broadcast has a line at its sender and one at each robot
 }
 
 TEST_CASE("MAC trace: without a header of the access model a frame is as large as its message") {
-    const auto unicast = [](Network& net) { net.unicast({1}, {2}, "", 64); };
+    const auto unicast = [](Network& net) { net.send({1}, {2}, "", {.size = 64}); };
     for (const AccessModel& access : {AccessModel{NoAccess{}}, AccessModel{Aloha{}}}) {
         const std::string text = row(access, unicast);
         CHECK(count(text, "^s .*_1_ MAC  --- 0 message 64 \\[0 2 1 800\\]") == 1);
@@ -265,7 +268,7 @@ TEST_CASE("MAC trace: without a header of the access model a frame is as large a
 }
 
 TEST_CASE("MAC trace: a repetition of an unanswered frame is another line; one overheard is none") {
-    const auto to_nobody = [](Network& net) { net.unicast({1}, {3}, "", 64); };
+    const auto to_nobody = [](Network& net) { net.send({1}, {3}, "", {.size = 64}); };
     const std::string text = row(as_ns2, to_nobody, 4);
     CHECK(count(text, "^s .*_1_ MAC  --- 0 RTS 44 \\[[0-9a-f]+ 3 1 0\\] $") == 7);
     CHECK(count(text, " MAC ") == 8);  // and the one that says that it was given up
@@ -274,7 +277,7 @@ TEST_CASE("MAC trace: a repetition of an unanswered frame is another line; one o
 
 TEST_CASE("MAC trace: a station that was switched off hears no more of an RTS") {
     const auto fails = [](Network& net) {
-        net.unicast({1}, {2}, "", 64);
+        net.send({1}, {2}, "", {.size = 64});
         net.at(net.now() + 100us, [&net] { net.switch_off({2}); });
     };
     const std::string text = row(as_ns2, fails);
@@ -284,8 +287,8 @@ TEST_CASE("MAC trace: a station that was switched off hears no more of an RTS") 
 
 TEST_CASE("MAC trace: an RTS that meets another is dropped at the station that it is for") {
     const auto hidden = [](Network& net) {
-        net.unicast({0}, {1}, "", 64);
-        net.unicast({2}, {1}, "", 64);
+        net.send({0}, {1}, "", {.size = 64});
+        net.send({2}, {1}, "", {.size = 64});
     };
     for (const Ns2Format format : {Ns2Format::old_format, Ns2Format::new_format}) {
         const std::string text = row(as_ns2, hidden, 3, format);

@@ -51,7 +51,7 @@ TEST_CASE("many robots: a reaction may add them, and its robot's other reactions
         }
     });
     net.on_receive(rover, [&](const Message& m) { second += m.payload == "go"; });
-    net.broadcast({0}, "go");
+    net.send({0}, everyone, "go");
     net.run_until(start_of_run + 10s);
     CHECK(second == 1);
     CHECK(arrivals == 1000);

@@ -23,7 +23,7 @@ int links_between(const Radio& a, const Radio& b) {
     const NodeId first = net.add({.name = "a", .at = {}, .radio = a});
     const NodeId second = net.add({.name = "b", .at = {1, 0, 0}, .radio = b});
     net.route(Flood{.ttl = 1});
-    net.broadcast(first, "x");
+    net.send(first, everyone, "x");
     net.run_for(1s);
     const auto heard = net.links(second, net.now()).size();
     CHECK(net.metrics().receptions == heard);  // the table and the medium agree
@@ -39,7 +39,7 @@ std::pair<std::uint64_t, std::uint64_t> through(double success_rate, bool crowd,
     const NodeId a = net.add({.name = "a", .at = {}, .radio = {.success_rate = success_rate}});
     net.add({.name = "b", .at = {1, 0, 0}});
     for (int i = 0; i < 2000; ++i) {
-        net.broadcast(a, "x");
+        net.send(a, everyone, "x");
         net.run_for(1ms);
     }
     net.run_for(1s);

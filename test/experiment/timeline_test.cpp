@@ -2,6 +2,7 @@
 #include "experiment/timeline.hpp"
 
 #include "experiment/run.hpp"
+#include "experiment/session.hpp"
 #include "experiment/summary.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"

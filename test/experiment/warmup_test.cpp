@@ -48,7 +48,7 @@ TEST_CASE("warm-up: messages sent before its end count nothing, with all that be
     const NodeId a = net.add({.name = "a", .at = {}});
     net.add({.name = "b", .at = {5, 0}});
     net.add({.name = "c", .at = {9, 0}});
-    net.at(Time{1'999'999'999ns}, [&] { net.broadcast(a, "early"); });  // is received later
+    net.at(Time{1'999'999'999ns}, [&] { net.send(a, everyone, "early"); });  // is received later
     net.run_until(Time{3s});
     const MetricValues before = net.metrics();
     CHECK(before.messages == 0);
@@ -57,7 +57,7 @@ TEST_CASE("warm-up: messages sent before its end count nothing, with all that be
     CHECK(before.deliveries == 0);
     CHECK_FALSE(before.delivery_ratio);
     for (const DropCount& drop : before.drops) CHECK(drop.count == 0);
-    net.broadcast(a, "late");
+    net.send(a, everyone, "late");
     net.run_until(Time{4s});
     CHECK(net.metrics().messages == 1);
     CHECK(net.metrics().transmissions == 3);
@@ -69,7 +69,7 @@ TEST_CASE("warm-up: a message sent at its end counts") {
     Network net({.propagation = Disc{.range = Meters{10}}, .warmup = 2s});
     net.route(Flood{});
     const NodeId a = net.add({.name = "a", .at = {}});
-    net.at(Time{2s}, [&] { net.broadcast(a, "one"); });
+    net.at(Time{2s}, [&] { net.send(a, everyone, "one"); });
     net.run_until(Time{3s});
     CHECK(net.metrics().messages == 1);
 }

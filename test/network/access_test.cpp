@@ -102,7 +102,8 @@ TEST_CASE("csma: stations that begin together collide, unless each draws a backo
         room.net.route(Flood{.ttl = 1});
         for (int i = 0; i < 400; ++i) {
             room.net.at(start_of_run + i * 1s, [&room] {
-                for (const int from : {0, 1}) room.net.broadcast(room.nodes[from], "x", 100);
+                for (const int from : {0, 1})
+                    room.net.send(room.nodes[from], everyone, "x", {.size = 100});
             });
         }
         room.net.run_for(400s);
@@ -134,8 +135,9 @@ TEST_CASE("csma: an idle medium is waited for by a DIFS, and by the slots of a b
                 }
             };
             room.net.add_sink(Begins{waits});
-            room.net.at(start_of_run + 1s,
-                        [&room] { room.net.broadcast(room.nodes.back(), "x", 100); });
+            room.net.at(start_of_run + 1s, [&room] {
+                room.net.send(room.nodes.back(), everyone, "x", {.size = 100});
+            });
             room.net.run_for(2s);
         }
         const auto slots = [&](std::int64_t wait) {
@@ -170,7 +172,7 @@ TEST_CASE("csma: saturated stations get what Bianchi's model says") {
 TEST_CASE("csma: an idle medium costs a DIFS, and the airtimes are those of the standard") {
     Room cell(2, Csma{}, {.rate = {11e6}});
     cell.net.at(start_of_run + 1ms,
-                [&] { cell.net.unicast(cell.nodes[0], cell.nodes[1], "", 995); });
+                [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "", {.size = 995}); });
     cell.net.run_for(1s);
     // 995 + 28 bytes at 11 Mb/s: 744 us behind the long preamble.
     REQUIRE(cell.ledger->deliveries.size() == 1);
@@ -198,7 +200,7 @@ double microseconds_of_answer(double rate, std::vector<BitRate> basic_rates) {
     const auto control = std::make_shared<ControlTimes>();
     cell.net.add_sink(Sink{control});
     cell.net.at(start_of_run,
-                [&] { cell.net.unicast(cell.nodes[0], cell.nodes[1], "", 1000 - 28); });
+                [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "", {.size = 1000 - 28}); });
     cell.net.run_for(1s);
     REQUIRE(control->times.size() == 2);
     return 1e6 * seconds(control->times[1] - control->times[0]);
@@ -220,8 +222,9 @@ TEST_CASE("csma: an answer goes at the highest basic rate that is not above the 
 TEST_CASE("csma: broadcasts and RTS go at the lowest basic rate") {
     for (const double lowest : {1e6, 5.5e6}) {
         Room cell(2, Csma{.basic_rates = {{11e6}, {lowest}}}, {.rate = {11e6}});
-        cell.net.at(start_of_run,
-                    [&] { cell.net.unicast(cell.nodes[0], everyone, "", 1000 - 28); });
+        cell.net.at(start_of_run, [&] {
+            cell.net.send(cell.nodes[0], everyone, "", {.size = 1000 - 28, .one_hop = true});
+        });
         cell.net.run_for(1s);
         REQUIRE(cell.ledger->deliveries.size() == 1);
         const double us = 50 + 192 + std::ceil(8000 / lowest * 1e6);
@@ -240,7 +243,7 @@ TEST_CASE("csma: a slot of no length, and no basic rate, are refused") {
 
 TEST_CASE("csma: a unicast that nobody answers is sent seven times and given up") {
     Room cell(2, Csma{}, {}, 1000);
-    cell.net.at(start_of_run, [&] { cell.net.unicast(cell.nodes[0], cell.nodes[1], "x", {}); });
+    cell.net.at(start_of_run, [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "x"); });
     cell.net.run_for(1s);
     CHECK(cell.ledger->transmitted == 7);
     CHECK(cell.ledger->drops[DropReason::retries] == 1);
@@ -248,7 +251,7 @@ TEST_CASE("csma: a unicast that nobody answers is sent seven times and given up"
 
 TEST_CASE("csma: behind an RTS that nobody answers no data goes out") {
     Room cell(2, Csma{.rts_threshold = 0}, {}, 1000);
-    cell.net.at(start_of_run, [&] { cell.net.unicast(cell.nodes[0], cell.nodes[1], "x", {}); });
+    cell.net.at(start_of_run, [&] { cell.net.send(cell.nodes[0], cell.nodes[1], "x"); });
     cell.net.run_for(1s);
     CHECK(cell.ledger->transmitted == 0);
     CHECK(cell.ledger->drops[DropReason::retries] == 1);
@@ -273,7 +276,8 @@ TEST_CASE("csma: hidden senders ruin each other, and an RTS keeps them apart") {
 TEST_CASE("csma: a full queue drops, and switching off drops what waits") {
     Room cell(2, Csma{.queue = 5});
     cell.net.at(start_of_run, [&] {
-        for (int i = 0; i < 8; ++i) cell.net.unicast(cell.nodes[0], cell.nodes[1], "x", 1000);
+        for (int i = 0; i < 8; ++i)
+            cell.net.send(cell.nodes[0], cell.nodes[1], "x", {.size = 1000});
     });
     cell.net.at(start_of_run + 1ms, [&] { cell.net.switch_off(cell.nodes[0]); });
     cell.net.run_for(1s);
@@ -286,7 +290,8 @@ TEST_CASE("csma: receivers that forward at once collide, as they ask at once; ji
     for (const bool parted : {false, true}) {
         Room room(6, Csma{}, {}, 10, 45);
         room.net.route(Flood{.ttl = 3, .jitter = parted ? Duration{2ms} : Duration{0}});
-        room.net.at(start_of_run, [&] { room.net.broadcast(room.nodes[0], "x", 100); });
+        room.net.at(start_of_run,
+                    [&] { room.net.send(room.nodes[0], everyone, "x", {.size = 100}); });
         room.net.run_for(1s);
         delivered[parted] = room.ledger->delivered;
     }
@@ -312,7 +317,7 @@ TEST_CASE("csma: saturated broadcasts go one hop, without a router, at the formu
 TEST_CASE("saturated traffic without an access model is refused") {
     Room cell(2, NoAccess{});
     CHECK_THROWS_AS(cell.net.saturate(cell.nodes[0], cell.nodes[1], 10), std::invalid_argument);
-    CHECK_THROWS_AS(cell.net.unicast(cell.nodes[0], cell.nodes[0], "x"), std::invalid_argument);
+    CHECK_THROWS_AS(cell.net.send(cell.nodes[0], cell.nodes[0], "x"), std::invalid_argument);
 }
 
 namespace {
@@ -340,7 +345,7 @@ std::string flooded(const ReceptionModel& reception, const AccessModel& access, 
                  .move = Waypoints{.path = {to}, .speed = {9}}});
     }
     for (std::uint32_t k = 0; k < 10; ++k) {
-        net.at(start_of_run + k * 1s, [&net, k] { net.broadcast(NodeId{k}, "hello"); });
+        net.at(start_of_run + k * 1s, [&net, k] { net.send(NodeId{k}, everyone, "hello"); });
     }
     net.run_for(20s);
     return fingerprint->text();

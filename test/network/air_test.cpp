@@ -151,7 +151,8 @@ struct Playground {
         for (int i = 0; i < 150; ++i) {
             const Time t = start_of_run + Duration{draw.below(40'000'000)};
             net.at(t, [this] {
-                net.broadcast(anyone(), "x", 50 + 50 * static_cast<std::uint32_t>(draw.below(8)));
+                net.send(anyone(), everyone, "x",
+                         {.size = 50 + 50 * static_cast<std::uint32_t>(draw.below(8))});
             });
             for (int k = 0; k < 2; ++k) {
                 net.at(t + Duration{draw.below(1'000'000)}, [this] { change(); });
@@ -305,7 +306,8 @@ struct OpenField {
         return net.add({.name = {}, .at = {x, 0}, .radio = radio});
     }
     void send(NodeId node, Duration t, std::uint32_t bytes = 100) {
-        net.at(start_of_run + t, [this, node, bytes] { net.broadcast(node, "x", bytes); });
+        net.at(start_of_run + t,
+               [this, node, bytes] { net.send(node, everyone, "x", {.size = bytes}); });
     }
 };
 
@@ -356,7 +358,7 @@ TEST_CASE("air: at collision a frame that was let pass harms none that comes lat
             net.add({.name = {}, .at = at, .radio = radio});
         }
         const auto send = [&](Time t, std::uint32_t from, std::uint32_t bytes) {
-            net.at(t, [&net, from, bytes] { net.unicast({from}, {0}, "", bytes); });
+            net.at(t, [&net, from, bytes] { net.send({from}, {0}, "", {.size = bytes}); });
         };
         if (strong) send(start_of_run, 1, 1000);
         send(start_of_run + 6ms, 2, 1000);

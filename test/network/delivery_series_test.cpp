@@ -21,9 +21,9 @@ TEST_CASE("delivery series: each message's share of the others that got it, in o
     const NodeId a = net.add({.name = "a", .at = {}});
     net.add({.name = "b", .at = {5, 0}});
     const NodeId c = net.add({.name = "c", .at = {50, 0}});
-    net.at(Time{1s}, [&] { net.broadcast(a, "one"); });
-    net.at(Time{2s}, [&] { net.broadcast(c, "two"); });
-    net.at(Time{3s}, [&] { net.broadcast(a, "three"); });
+    net.at(Time{1s}, [&] { net.send(a, everyone, "one"); });
+    net.at(Time{2s}, [&] { net.send(c, everyone, "two"); });
+    net.at(Time{3s}, [&] { net.send(a, everyone, "three"); });
     net.run_for(4s);
     CHECK(series->sent() == std::vector<Time>{Time{1s}, Time{2s}, Time{3s}});
     CHECK(series->delivered() == std::vector<double>{0.5, 0, 0.5});
@@ -34,7 +34,7 @@ TEST_CASE("delivery series: a lone robot's message reaches nobody") {
     net.route(Flood{});
     const auto series = std::make_shared<DeliverySeries>();
     net.add_sink(series);
-    net.broadcast(net.add({.name = "a", .at = {}}), "one");
+    net.send(net.add({.name = "a", .at = {}}), everyone, "one");
     net.run_for(1s);
     CHECK(series->delivered() == std::vector<double>{0});
 }

@@ -142,7 +142,9 @@ Log run(NetworkSettings settings, Radio radio = {.sensitivity = {-47}}) {
     network.add_sink(Sink{log});
     for (const Time t : times()) {
         for (std::uint32_t i = 0; i < network.size(); ++i) {
-            network.at(t, [&network, i] { network.unicast(NodeId{i}, everyone, "hello"); });
+            network.at(t, [&network, i] {
+                network.send(NodeId{i}, everyone, "hello", {.one_hop = true});
+            });
         }
     }
     network.run_until(start_of_run + 6s);
@@ -237,8 +239,10 @@ TEST_CASE("a frame that is on air as a door closes interferes as it was sent") {
         network.add({.name = {}, .at = {5, 4, 0}});
         const auto log = std::make_shared<Log>();
         network.add_sink(Sink{log});
-        network.at(start_of_run + first, [&] { network.unicast(NodeId{0}, everyone, "one"); });
-        network.at(start_of_run + second, [&] { network.unicast(NodeId{2}, everyone, "two"); });
+        network.at(start_of_run + first,
+                   [&] { network.send(NodeId{0}, everyone, "one", {.one_hop = true}); });
+        network.at(start_of_run + second,
+                   [&] { network.send(NodeId{2}, everyone, "two", {.one_hop = true}); });
         network.run_until(start_of_run + 3s);
         for (const auto& [sending, got] : log->sendings) {
             if (sending.second != NodeId{0}) continue;
@@ -267,7 +271,8 @@ TEST_CASE("a sender whose next frame goes through the closed door interferes by 
         const auto log = std::make_shared<Log>();
         network.add_sink(Sink{log});
         const auto send = [&](Duration t, std::uint32_t from) {
-            network.at(start_of_run + t, [&, from] { network.unicast({from}, everyone, "hello"); });
+            network.at(start_of_run + t,
+                       [&, from] { network.send({from}, everyone, "hello", {.one_hop = true}); });
         };
         send(closes - 2us, 0);
         send(closes - 1us, 2);
@@ -365,7 +370,8 @@ TEST_CASE("doors that are closed at the begin, and the number of reachable robot
     const auto reach = std::make_shared<Reach>();
     network.add_sink(Sink{reach});
     for (const Duration t : {0s, 1s})
-        network.at(start_of_run + t, [&] { network.unicast(NodeId{0}, everyone, "hello"); });
+        network.at(start_of_run + t,
+                   [&] { network.send(NodeId{0}, everyone, "hello", {.one_hop = true}); });
     network.run_until(start_of_run + 2s);
     CHECK(reach->reachable == std::vector<std::uint32_t>{0, 1});
     CHECK_FALSE(network.scene().occupied({6.5, 4, 0}));

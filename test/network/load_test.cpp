@@ -82,7 +82,8 @@ struct Watched {
     }
     /// `node` sends at `t`.
     void send(std::uint32_t node, Duration t) {
-        net.at(start_of_run + t, [this, node] { net.broadcast(NodeId{node}, "F", 64); });
+        net.at(start_of_run + t,
+               [this, node] { net.send(NodeId{node}, everyone, "F", {.size = 64}); });
     }
 };
 
@@ -180,7 +181,7 @@ TEST_CASE("load: a crowd that talks on takes no more memory") {
             constexpr std::uint32_t robots = 30;
             for (std::uint32_t i = 0; i < robots; ++i) net.add({.name = {}, .at = {}});
             std::uint32_t sent = 0;
-            net.every(50ms, [&] { net.broadcast({sent++ % robots}, "F", 64); });
+            net.every(50ms, [&] { net.send({sent++ % robots}, everyone, "F", {.size = 64}); });
             net.run_for(1s);
             const std::size_t before = allocated();
             net.run_for(4s);
@@ -199,7 +200,7 @@ TEST_CASE("load: a flood crosses 100,000 robots on a line, hop by hop") {
         for (std::uint32_t i = 0; i < robots; ++i) {
             line.net.add({.name = {}, .at = {10.0 * i, 0, 0}});
         }
-        line.net.broadcast({middle}, "F", 64);
+        line.net.send({middle}, everyone, "F", {.size = 64});
         line.net.run_for(1h);
         // Left of the middle are `middle` robots, right of it one fewer. All send that are reached
         // but in the last hop, and are heard by both neighbours; the rightmost has only one.

@@ -122,14 +122,15 @@ struct Busy {
                      .move = ToGoal{.to = {1e7, 10, 0}, .speed = {7}}});
         }
         net.route(Flood{.ttl = 4});
-        net.every(100ms, [this] { net.broadcast({next++ % robots}, "hello, world", 64); });
+        net.every(100ms,
+                  [this] { net.send({next++ % robots}, everyone, "hello, world", {.size = 64}); });
         for (std::uint32_t i = 0; i < robots; i += 4) {
             const Time t = start_of_run + 1s + draw.below(1000) * 1ms;
             net.at(t, [this, i] { net.switch_off({i}); });
             net.at(t + 700ms, [this, i] { net.switch_on({i}); });
         }
         net.on_receive({3}, [this](const Message& m) {
-            if (m.origin != NodeId{3}) net.broadcast({3}, "answer", 20);
+            if (m.origin != NodeId{3}) net.send({3}, everyone, "answer", {.size = 20});
         });
     }
     Busy(const Busy&) = delete;
@@ -238,7 +239,8 @@ TEST_CASE("network: over kilometres, where frames overlap in the air, records st
         }
         net.route(Flood{.ttl = 4, .jitter = Duration{2000}});
         for (std::uint32_t i = 0; i < robots; ++i) {
-            net.at(start_of_run + i * 700ns, [&net, i] { net.broadcast({i}, "x", 8); });
+            net.at(start_of_run + i * 700ns,
+                   [&net, i] { net.send({i}, everyone, "x", {.size = 8}); });
         }
         net.run_until(start_of_run + 1s);
         CHECK(text->lines.size() > 10'000);
@@ -252,7 +254,7 @@ TEST_CASE("network: whoever is near answers before whoever is far has heard") {
     net.route(Flood{.jitter = Duration{0}});
     const auto text = std::make_shared<Text>();
     net.add_sink(text);
-    net.broadcast({0}, "F", 64);
+    net.send({0}, everyone, "F", {.size = 64});
     net.run_for(1s);
     // The near robot answers 1 us after the frame, which takes 2 us more to the far one.
     CHECK(std::is_sorted(text->times.begin(), text->times.end()));
@@ -265,7 +267,7 @@ TEST_CASE("network: a frame arrives after its airtime and the way at the speed o
     net.route(OneHop{});
     const auto heard = std::make_shared<Receptions>();
     net.add_sink(heard);
-    net.at(start_of_run + 1ms, [&] { net.broadcast({0}, "F", 64); });
+    net.at(start_of_run + 1ms, [&] { net.send({0}, everyone, "F", {.size = 64}); });
     net.run_until(start_of_run + 1s);
     REQUIRE(heard->all.size() == 3);
     const Time end = start_of_run + 1ms + airtime_64_bytes;
@@ -283,7 +285,7 @@ TEST_CASE("network: a message is as long on air as its payload, unless a size is
     net.route(OneHop{});
     const auto heard = std::make_shared<Receptions>();
     net.add_sink(heard);
-    net.broadcast({0}, std::string(64, 'x'));
+    net.send({0}, everyone, std::string(64, 'x'));
     net.run_for(1s);
     REQUIRE(heard->all.size() == 1);
     CHECK(heard->all[0].time == start_of_run + airtime_64_bytes);
@@ -300,7 +302,7 @@ TEST_CASE("network: a user's router and sink are plain structs, held by value or
     for (const double x : {0.0, 5.0, 50.0}) net.add(robot_at(x));
     net.route(OneHop{});
     net.add_sink(Count{&received});
-    net.broadcast({0}, "F");
+    net.send({0}, everyone, "F");
     net.run_for(1s);
     CHECK(received == 1);
     CHECK(net.metrics().deliveries == 1);
@@ -316,7 +318,7 @@ TEST_CASE("network: a router that sends while it receives is told so") {
     Network net(disc(10));
     for (int i = 0; i < 2; ++i) net.add(robot_at(0));
     net.route(Hasty{});
-    net.broadcast({0}, "F");
+    net.send({0}, everyone, "F");
     CHECK_THROWS_AS(net.run_for(1s), std::invalid_argument);
 }
 
@@ -332,7 +334,7 @@ TEST_CASE("network: a message is handed over once, 1 us after it was received") 
         CHECK(m.created == start_of_run);
     });
     net.on_receive({0}, [&](const Message&) { FAIL("the source hears itself"); });
-    net.broadcast({0}, "F", 64);
+    net.send({0}, everyone, "F", {.size = 64});
     net.run_until(start_of_run + 1s);
     REQUIRE(times.size() == 1);
     CHECK(times[0] == start_of_run + airtime_64_bytes + 1001ns + 1us);
@@ -345,10 +347,10 @@ TEST_CASE("network: robots that answer each other do") {
     int heard = 0;
     for (std::uint32_t i = 0; i < 2; ++i) {
         net.on_receive({i}, [&net, &heard, i](const Message&) {
-            if (++heard < 10) net.broadcast({i}, "ping", 64);
+            if (++heard < 10) net.send({i}, everyone, "ping", {.size = 64});
         });
     }
-    net.broadcast({0}, "ping", 64);
+    net.send({0}, everyone, "ping", {.size = 64});
     net.run_for(1s);
     CHECK(heard == 10);
     CHECK(net.metrics().messages == 10);
@@ -362,7 +364,7 @@ TEST_CASE("network: whoever is switched off in mid-flight does not get the frame
     net.add_sink(heard);
     int reactions = 0;
     net.on_receive({1}, [&](const Message&) { ++reactions; });
-    net.at(start_of_run + 1ms, [&] { net.broadcast({0}, "F", 64); });
+    net.at(start_of_run + 1ms, [&] { net.send({0}, everyone, "F", {.size = 64}); });
     net.at(start_of_run + 1100us, [&] { net.switch_off({1}); });
     net.run_until(start_of_run + 1s);
     REQUIRE(heard->all.size() == 2);
@@ -381,7 +383,7 @@ TEST_CASE("network: whoever is switched on in mid-flight has missed the frame") 
     const auto heard = std::make_shared<Receptions>();
     net.add_sink(heard);
     net.switch_off({1});
-    net.at(start_of_run + 1ms, [&] { net.broadcast({0}, "F", 64); });
+    net.at(start_of_run + 1ms, [&] { net.send({0}, everyone, "F", {.size = 64}); });
     net.at(start_of_run + 1100us, [&] { net.switch_on({1}); });
     net.run_until(start_of_run + 1s);
     CHECK(heard->all.empty());
@@ -426,12 +428,12 @@ TEST_CASE("network: a robot that is off says nothing") {
     for (int i = 0; i < 2; ++i) net.add(robot_at(0));
     net.route(Flood{});
     net.switch_off({0});
-    net.broadcast({0}, "F");
+    net.send({0}, everyone, "F");
     net.run_for(1s);
     CHECK(net.metrics().messages == 0);
     CHECK(net.metrics().transmissions == 0);
     net.switch_on({0});
-    net.broadcast({0}, "F");
+    net.send({0}, everyone, "F");
     net.run_for(1s);
     CHECK(net.metrics().deliveries == 1);
 }
@@ -490,7 +492,7 @@ TEST_CASE("network: at the event limit a run fails, however little time passes")
         Network net(settings);
         for (int i = 0; i < 10; ++i) net.add(robot_at(0));
         net.route(Flood{.ttl = 20, .duplicates = Duplicates::forward});
-        net.broadcast({0}, "F");
+        net.send({0}, everyone, "F");
         CHECK_THROWS_AS(net.run_for(1h), RunError);
         CHECK(net.events() <= 20'000);
     }
@@ -565,7 +567,7 @@ TEST_CASE("network: a refused robot leaves nothing behind") {
     const NodeId next = net.add({.name = "bad", .at = {5, 0, 0}});
     CHECK(next == NodeId{1});
     net.route(Flood{});
-    net.broadcast({0}, "F");
+    net.send({0}, everyone, "F");
     net.run_for(1s);
     CHECK(net.metrics().deliveries == 1);
 }
@@ -573,7 +575,7 @@ TEST_CASE("network: a refused robot leaves nothing behind") {
 TEST_CASE("network: sending without a protocol and a second protocol are refused") {
     Network net;
     net.add(robot_at(0));
-    CHECK_THROWS_AS(net.broadcast({0}, "F"), std::invalid_argument);
+    CHECK_THROWS_AS(net.send({0}, everyone, "F"), std::invalid_argument);
     net.route(Flood{});
     CHECK_THROWS_AS(net.route(Flood{}), std::invalid_argument);
 }
@@ -584,7 +586,7 @@ TEST_CASE("network: a robot that joins during the run is one of them at once") {
     net.route(Flood{});
     net.at(start_of_run + 1s, [&] {
         net.add({.name = {}, .at = {1, 0, 0}, .move = ToGoal{.to = {5, 0, 0}, .speed = {1}}});
-        net.broadcast({0}, "F");
+        net.send({0}, everyone, "F");
     });
     net.run_until(start_of_run + 10s);
     CHECK(net.metrics().deliveries == 1);

@@ -77,7 +77,7 @@ struct Playground {
         net.route(std::move(router));
         for (std::uint32_t i = 0; i < robots; i += 6) {
             const auto begin = (i < robots / 2 ? i / 12 : i / 6) * 10ms;
-            net.at(start_of_run + begin, [this, i] { net.broadcast({i}, "hello"); });
+            net.at(start_of_run + begin, [this, i] { net.send({i}, everyone, "hello"); });
         }
         while (net.now() < start_of_run + 1s) {
             log->end_of_run = net.now() + step;
@@ -127,7 +127,7 @@ TEST_CASE("order: in reference mode receptions at different times are events of 
     Network net({.propagation = Disc{.range = {150}}, .reference = true, .metrics = false});
     net.route(Flood{.ttl = 1});
     for (const double x : {0.0, 10.0, 10.0, 20.0}) net.add({.name = {}, .at = {x, 0, 0}});
-    net.broadcast({0}, "hello");
+    net.send({0}, everyone, "hello");
     net.run_for(1s);
     CHECK(net.events() == 2);  // those of one time are one: no order of numbers is among them
 }
@@ -148,7 +148,7 @@ TEST_CASE("order: few and many receivers are in order, spread, in rings or all i
                     const double angle = draw.uniform(0, 6.28);
                     net.add({.name = {}, .at = {r * std::cos(angle), r * std::sin(angle), 0}});
                 }
-                net.broadcast({static_cast<std::uint32_t>(count / 2)}, "hello");
+                net.send({static_cast<std::uint32_t>(count / 2)}, everyone, "hello");
                 net.run_for(1s);
                 REQUIRE(log->receptions.size() == static_cast<std::size_t>(count - 1));
                 REQUIRE(log->always_in_order);
@@ -163,7 +163,7 @@ TEST_CASE("order: receivers that are light seconds away are in order, too") {
     net.add_sink(Sink{log});
     net.route(Flood{.ttl = 1});
     for (const double x : {0.0, 3e9, 2e9, 2e9, 10.0}) net.add({.name = {}, .at = {x, 0, 0}});
-    net.broadcast({0}, "hello");
+    net.send({0}, everyone, "hello");
     net.run_for(60s);
     std::vector<NodeId> order;
     for (const auto& reception : log->receptions) order.push_back(std::get<NodeId>(reception));

@@ -28,7 +28,7 @@ MetricValues after_messages(int messages, std::optional<bool> reach) {
     }
     net.add({.name = "", .at = {0, 500, 0}, .move = Waypoints{{{0s, {0, 500}}, {100s, {9, 500}}}}});
     for (int i = 0; i < messages; ++i) {
-        net.broadcast(NodeId{0}, "x");
+        net.send(NodeId{0}, everyone, "x");
         net.run_for(10ms);
     }
     net.finish();

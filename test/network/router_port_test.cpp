@@ -129,7 +129,7 @@ TEST_CASE("router port: a unicast reaches the protocol at its next hop, and it a
 TEST_CASE("router port: a unicast beside the protocol does not reach it") {
     Row row;
     row.net.route(Scripted{.diary = row.diary});
-    row.net.unicast({1}, {2}, "hello");
+    row.net.send({1}, {2}, "hello", {.one_hop = true});
     CHECK(row.run().empty());
     CHECK(row.net.metrics().deliveries == 1);
 }
@@ -166,7 +166,7 @@ TEST_CASE("router port: levels stay with their receptions where a robot goes off
             net.add({.name = {}, .at = {x, 0, 0}, .radio = {.rate = {1e6}}});
         }
         net.route(Curious{Scripted{.diary = diary}});
-        net.broadcast({0}, std::string(500, 'x'));  // 4 ms
+        net.send({0}, everyone, std::string(500, 'x'));  // 4 ms
         net.at(start_of_run + from_seconds(off_at), [&] { net.switch_off({1}); });
         net.run_for(1s);
         return diary->levels;
@@ -195,7 +195,7 @@ TEST_CASE("router port: results of csma: acknowledged, given up, no room, switch
     SUBCASE("a broadcast is sent") {
         Row row(Csma{});
         row.net.route(Scripted{.diary = row.diary});
-        row.net.broadcast({0}, "hello");
+        row.net.send({0}, everyone, "hello");
         CHECK(row.run() == Lines{"sent", "1 hears hello"});
     }
     SUBCASE("no room") {
@@ -228,7 +228,7 @@ TEST_CASE(
         if (result == SendResult::sent && more-- > 0) link.send(frame, {}, link.now());
     };
     row.net.route(Scripted{.diary = row.diary});
-    row.net.broadcast({0}, "x");
+    row.net.send({0}, everyone, "x");
     const Lines once{"sent", "1 hears x"};
     Lines expected{"queue_full"};
     for (int i = 0; i < 4; ++i) expected.insert(expected.end(), once.begin(), once.end());
@@ -247,7 +247,7 @@ TEST_CASE("router port: packets of the protocol's own are no application's") {
     row.net.route(Scripted{.diary = row.diary});
     int heard = 0;
     row.net.on_receive({1}, [&](const Message&) { ++heard; });
-    row.net.broadcast({0}, "hello");
+    row.net.send({0}, everyone, "hello");
     CHECK(row.run() == Lines{"sent", "1 hears rreq"});
     CHECK(heard == 0);
     CHECK(row.net.metrics().messages == 1);
@@ -276,7 +276,7 @@ TEST_CASE("router port: a frame that waits for its time may be changed or taken 
         for (const SendHandle each : handles) CHECK(link.waiting(each) == nullptr);
     };
     row.net.route(Scripted{.diary = row.diary});
-    row.net.broadcast({1}, "x");
+    row.net.send({1}, everyone, "x");
     CHECK(row.run() == Lines{"sent", "0 hears x", "2 hears x", "sent", "0 hears x", "sent",
                              "0 hears x", "2 hears x"});
 }
@@ -287,7 +287,7 @@ TEST_CASE("router port: a sender that is off when its frame's time comes is told
         link.send({.message = message, .sender = node, .ttl = 5, .hops = 1}, {}, link.now() + 2ms);
     };
     row.net.route(Scripted{.diary = row.diary});
-    row.net.broadcast({1}, "x");
+    row.net.send({1}, everyone, "x");
     row.net.at(start_of_run + 1ms, [&] { row.net.switch_off({1}); });
     row.net.at(start_of_run + 5ms, [&] { row.net.switch_on({1}); });
     CHECK(row.run() == Lines{"1 off", "off", "1 on"});
@@ -314,7 +314,7 @@ TEST_CASE("router port: the queue gives back frames for one next hop, but the on
             }
         };
         row.net.route(Scripted{.diary = row.diary});
-        row.net.broadcast({1}, "x");
+        row.net.send({1}, everyone, "x");
         const Lines lines = row.run();
         CHECK(std::count(lines.begin(), lines.end(), "0 hears x") == 1);
         CHECK(std::count(lines.begin(), lines.end(), "2 hears x") == 1);
@@ -339,18 +339,66 @@ TEST_CASE("router port: nodes start with the run in the order of their keys, or 
     CHECK(row.diary->lines.size() == 6);
 }
 
-TEST_CASE("router port: a protocol that floods refuses a message for one robot") {
+TEST_CASE("router port: a message for one robot goes over one hop past a protocol that floods") {
     struct Everyone {
+        int* asked;
         Hops initial_ttl() const { return 1; }
-        void send(LinkLayer&, NodeId, MessageId) {}
+        void send(LinkLayer&, NodeId, MessageId) { ++*asked; }
         void on_receive(LinkLayer&, const Frame&, std::span<Reception>) {}
     };
     Row row;
-    row.net.route(Everyone{});
-    CHECK_THROWS_WITH_AS(row.net.send({0}, {1}, "x"),
-                         "the routing protocol brings messages to everyone only",
-                         std::invalid_argument);
+    int asked = 0;
+    row.net.route(Everyone{&asked});
+    row.net.send({0}, {1}, "x");
+    row.net.run_for(1s);
+    CHECK(asked == 0);
+    CHECK(row.net.metrics().deliveries == 1);
+    row.net.send({0}, everyone, "x");
+    CHECK(asked == 1);
     CHECK_THROWS_AS(row.net.send({0}, {0}, "x"), std::invalid_argument);
+    CHECK_THROWS_AS(row.net.send({0}, {9}, "x"), std::invalid_argument);
+}
+
+TEST_CASE("send: returns the message's uid; a robot that is off sends none") {
+    Row row;
+    const auto first = row.net.send({0}, {1}, "a"), second = row.net.send({1}, {2}, "b");
+    REQUIRE((first && second));
+    CHECK(*first != *second);
+    row.net.switch_off({0});
+    CHECK_FALSE(row.net.send({0}, {1}, "c"));
+    std::vector<std::uint64_t> heard;
+    for (const NodeId to : {NodeId{1}, NodeId{2}}) {
+        row.net.on_receive(to, [&](const Message& m) { heard.push_back(m.uid); });
+    }
+    row.net.run_for(1s);
+    CHECK(heard == std::vector{*first, *second});
+}
+
+TEST_CASE("heard: a callback gets port, hops and last hop, and the level only if it asks for it") {
+    Network net({.propagation = Friis{}});
+    for (const double x : {0.0, 30.0}) net.add({.name = {}, .at = {x, 0, 0}});
+    std::vector<Heard> all;
+    std::vector<std::uint16_t> ports;
+    const auto keep = [&](const Heard& heard) {
+        ports.push_back(heard.message.port);
+        all.push_back(heard);
+    };
+    net.on_receive({1}, keep);
+    net.on_receive({1}, keep, {.level = true});
+    net.send({0}, {1}, "x", {.port = 7});
+    net.run_for(1s);
+    REQUIRE(all.size() == 2);
+    CHECK(ports == std::vector<std::uint16_t>{7, 7});
+    for (const Heard& heard : all) {
+        CHECK(heard.hops == 1);
+        CHECK(heard.last_hop == NodeId{0});
+    }
+    CHECK_FALSE(all[0].level);
+    const Radio radio;
+    const double loss =
+        20 * std::log10(4 * 3.14159265358979323846 * 30 * radio.frequency.value / 299792458);
+    REQUIRE(all[1].level);
+    CHECK(std::abs(all[1].level->value - (radio.power.value - loss)) < 1e-9);
 }
 
 }  // namespace router_port_test

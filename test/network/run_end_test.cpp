@@ -39,9 +39,9 @@ constexpr NodeId a{0}, b{1}, c{2};
 
 TEST_CASE("end of the run: a message that it cut off is left out of delivery ratio and reach") {
     Line net(2);
-    net.broadcast(a, "first");
+    net.send(a, everyone, "first");
     net.run_for(1s);
-    net.broadcast(a, "too late");
+    net.send(a, everyone, "too late");
     net.run_for(1us);
     CHECK(net.metrics().delivery_ratio == 0.5);
     net.finish();
@@ -56,7 +56,7 @@ TEST_CASE("end of the run: a message that it cut off is left out of delivery rat
 TEST_CASE("end of the run: a message that somebody has is not cut off, nor one nobody could hear") {
     Line net(3);
     net.run_for(1s);
-    net.broadcast(a, "on its way");
+    net.send(a, everyone, "on its way");
     net.run_for(1ms);  // b has it, and waits to pass it on
     net.finish();
     CHECK(net.metrics().cut_off == 0);
@@ -64,7 +64,7 @@ TEST_CASE("end of the run: a message that somebody has is not cut off, nor one n
 
     Line alone(1);
     alone.add({.name = "far", .at = {1000, 0, 0}});
-    alone.broadcast(a, "nobody");
+    alone.send(a, everyone, "nobody");
     alone.finish();
     CHECK(alone.metrics().cut_off == 0);
     CHECK(alone.metrics().delivery_ratio == 0.0);
@@ -72,7 +72,7 @@ TEST_CASE("end of the run: a message that somebody has is not cut off, nor one n
 
 TEST_CASE("unicast: one that its destination cannot hear has a reason") {
     Line net(3);
-    net.unicast(a, c, "too far");
+    net.send(a, c, "too far");
     net.run_for(1s);
     net.finish();
     const MetricValues values = net.metrics();
@@ -83,25 +83,25 @@ TEST_CASE("unicast: one that its destination cannot hear has a reason") {
 
 TEST_CASE("unicast: reach is of its destination, if a chain of links leads there") {
     Line net(4);
-    net.unicast(a, b, "near");
+    net.send(a, b, "near");
     net.run_for(1s);
     CHECK(net.metrics().reach == 1.0);
-    net.unicast(a, c, "reachable, if somebody relayed");
+    net.send(a, c, "reachable, if somebody relayed");
     net.run_for(1s);
     CHECK(net.metrics().reach == 0.5);
     net.switch_off(b);
-    net.unicast(a, c, "not reachable: it does not count");
+    net.send(a, c, "not reachable: it does not count");
     net.run_for(1s);
     CHECK(net.metrics().reach == 0.5);
 }
 
 TEST_CASE("flows: each is counted by itself, and what each robot gets") {
     Line net(3, {.metric_parts = {.flows = true, .robots = true}});
-    net.broadcast(a, "one", 100, 1);
+    net.send(a, everyone, "one", {.size = 100, .flow = 1});
     net.run_for(1s);
-    net.unicast(a, c, "two", 50, 2);
-    net.unicast(c, b, "two", 50, 2);
-    net.broadcast(b, "of no flow");
+    net.send(a, c, "two", {.size = 50, .flow = 2});
+    net.send(c, b, "two", {.size = 50, .flow = 2});
+    net.send(b, everyone, "of no flow");
     net.run_for(1s);
     const MetricValues values = net.metrics();
     REQUIRE(values.flows.size() == 2);

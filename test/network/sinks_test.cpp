@@ -51,11 +51,11 @@ TEST_CASE("sinks: begin before the first record and finish behind the last") {
     const auto told = std::make_shared<Told>();
     pair.net.add_sink(told);
     CHECK(told->lines.empty());
-    pair.net.at(start_of_run, [&] { pair.net.broadcast(pair.a, "x"); });
+    pair.net.at(start_of_run, [&] { pair.net.send(pair.a, everyone, "x"); });
     pair.net.run_for(1s);
     pair.net.run_for(1s);
     CHECK(told->lines == Lines{"begin 7/3 a b text", "sent"});
-    pair.net.broadcast(pair.a, "cut off");
+    pair.net.send(pair.a, everyone, "cut off");
     pair.net.finish();
     CHECK(told->lines == Lines{"begin 7/3 a b text", "sent", "sent", "dropped", "finish"});
 }
@@ -66,9 +66,9 @@ TEST_CASE("sinks: one that comes later begins then; one that is removed gets not
     const auto first = std::make_shared<Told>(), second = std::make_shared<Told>();
     const SinkId id = pair.net.add_sink(first);
     pair.net.add_sink(second);
-    pair.net.broadcast(pair.a, "x");
+    pair.net.send(pair.a, everyone, "x");
     pair.net.remove_sink(id);
-    pair.net.broadcast(pair.a, "y");
+    pair.net.send(pair.a, everyone, "y");
     pair.net.finish();
     CHECK(first->lines == Lines{"begin 7/3 a b text", "sent"});
     CHECK(second->lines.size() == 6);  // two sent, two cut off
@@ -94,7 +94,7 @@ TEST_CASE("sinks: received powers come with the receptions only if they are aske
         net.route(Flood{.ttl = 1});
         const auto sink = std::make_shared<Levels>(Levels{.more = asked ? kind_levels : 0});
         net.add_sink(sink);
-        net.broadcast({0}, "x");
+        net.send({0}, everyone, "x");
         net.run_for(1s);
         CHECK(sink->receptions == 2);
         REQUIRE(sink->levels.size() == (asked ? 2 : 0));
@@ -120,10 +120,10 @@ TEST_CASE("callbacks: one that is ended is called no more, not even if it is due
     Subscription arrives = net.on_arrival(pair.b, [&] { ++arrived; });
     const auto go = [&](double x) { net.move(pair.b, Waypoints{.path = {{x, 0, 0}}}); };
     go(11);
-    net.at(start_of_run + 2s, [&] { net.broadcast(pair.a, "x"); });
+    net.at(start_of_run + 2s, [&] { net.send(pair.a, everyone, "x"); });
     net.at(start_of_run + 3s, [&] { hears.end(), once.end(), arrives.end(); });
     net.at(start_of_run + 4s, [&] {
-        net.broadcast(pair.a, "y");
+        net.send(pair.a, everyone, "y");
         go(12);
     });
     net.run_for(10s);

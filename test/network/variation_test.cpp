@@ -78,7 +78,7 @@ std::shared_ptr<LevelLog> play(const Variation& v, const ReceptionModel& recepti
     for (std::uint32_t i = 0; i < robots; ++i) {
         for (int k = 0; k < 2; ++k) {
             const Time t = start_of_run + k * 3s + (i % 7) * 100us;
-            net.at(t, [&net, i] { net.broadcast(NodeId{i}, "x", 200); });
+            net.at(t, [&net, i] { net.send(NodeId{i}, everyone, "x", {.size = 200}); });
         }
     }
     const Duration slice = Duration{6s} / slices;

@@ -106,7 +106,7 @@ Ledger flooded(const Graph& graph, const Flood& flood, std::uint64_t seed = 1, M
     net.route(flood);
     const auto ledger = std::make_shared<Ledger>();
     net.add_sink(ledger);
-    net.broadcast({graph.source}, payload, 64);
+    net.send({graph.source}, everyone, payload, {.size = 64});
     net.run_until(end_of_flood);
     ledger->balances(flood);
     CHECK(ledger->originals == 1);
@@ -361,7 +361,7 @@ TEST_CASE("flood: without jitter copies are forwarded 1 us after they were recei
     net.route(Flood{.jitter = Duration{0}});
     std::vector<Time> heard;
     net.on_receive({2}, [&](const Message&) { heard.push_back(net.now()); });
-    net.broadcast({0}, "F", 64);
+    net.send({0}, everyone, "F", {.size = 64});
     net.run_until(end_of_flood);
     REQUIRE(heard.size() == 1);
     CHECK(heard[0] == start_of_run + 2 * (238'545ns + 1us));
@@ -386,7 +386,7 @@ TEST_CASE("flood: under forward, copies of one message wait each for a time of i
     };
     const auto echoes = std::make_shared<Echoes>();
     net.add_sink(echoes);
-    net.broadcast({0}, "F", 64);
+    net.send({0}, everyone, "F", {.size = 64});
     net.run_until(end_of_flood);
     REQUIRE(echoes->heard.size() == 2);
     REQUIRE(echoes->sent.size() == 2);
@@ -404,7 +404,7 @@ TEST_CASE("flood: many messages of many robots, each is handed to every other ro
     net.add_sink(ledger);
     for (std::uint32_t i = 0; i < 16; ++i) {
         net.at(start_of_run + i * 2ms, [&net, i] {
-            for (int k = 0; k < 3; ++k) net.broadcast({i}, "hello");
+            for (int k = 0; k < 3; ++k) net.send({i}, everyone, "hello");
         });
     }
     net.run_until(end_of_flood);
@@ -422,7 +422,7 @@ TEST_CASE("flood: robots that join while a message is under way hear it and forw
             net.route(flood);
             const auto ledger = std::make_shared<Ledger>();
             net.add_sink(ledger);
-            net.broadcast({0}, "F");
+            net.send({0}, everyone, "F");
             net.at(start_of_run + 1ms, [&] {
                 for (int i = robots; i < robots + 70; ++i)
                     net.add({.name = {}, .at = {1.0 * i, 0, 0}});
@@ -449,7 +449,7 @@ TEST_CASE("flood: the books balance when robots go off and on in the middle of f
         test::Draw draw(9);
         net.every(5ms, [&] {
             if (net.now() > start_of_run + 2s) return;
-            net.broadcast({static_cast<std::uint32_t>(draw.below(25))}, "F");
+            net.send({static_cast<std::uint32_t>(draw.below(25))}, everyone, "F");
         });
         for (int i = 0; i < 2000; ++i) {
             const NodeId node{static_cast<std::uint32_t>(draw.below(25))};

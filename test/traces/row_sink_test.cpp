@@ -91,7 +91,7 @@ TEST_CASE("rows: a table tells the places of its cells") {
     const NodeId sender = network.add({.name = "A", .at = {0, 0}});
     network.add({.name = "B", .at = {100, 0}});
     network.route(Flood{.ttl = 1});
-    network.at(start_of_run + 1s, [&] { network.broadcast(sender, "hello"); });
+    network.at(start_of_run + 1s, [&] { network.send(sender, everyone, "hello"); });
     network.run_for(2s);
 
     const RowSink::Table received = rows->table(kind_of<Received>());

@@ -186,7 +186,7 @@ TEST_CASE("medium: who judges a frame gets the losses that its receivers were fo
     twins.keeping.find_receivers(NodeId{0}, twins.now, twins.now + 1ms, twins.legs, heard);
     const Emission frame{.begin = twins.now,
                          .end = twins.now + 1ms,
-                         .origin = twins.keeping.origin(),
+                         .origin = heard.origin,
                          .from = NodeId{0},
                          .squared_reach = twins.keeping.arrivals().squared_reach(NodeId{0})};
     REQUIRE(heard.all().size() > 3);

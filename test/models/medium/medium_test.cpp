@@ -334,7 +334,8 @@ TEST_CASE("medium: ns-2's default radio decodes to 250 m and senses to 550 m ove
     }
     REQUIRE(heard.all().size() == 1);
     CHECK(heard.all()[0].node == NodeId{1});
-    CHECK(medium.heard_within() == 249.9);
+    CHECK(heard.heard_within == 249.9);
+    CHECK(heard.origin == Vec3{0, 0, radio.antenna_height.value});
     std::sort(sensors.begin(), sensors.end());
     CHECK(sensors == std::vector{NodeId{2}, NodeId{3}});
 }

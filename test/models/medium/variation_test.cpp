@@ -129,7 +129,6 @@ Emission frame_of(Medium& medium, NodeId from, Time t, const Legs& legs) {
             .end = t + 1ms,
             .origin = medium.stations().antenna(from, t, legs),
             .from = from,
-            .heard_within = medium.heard_within(),
             .squared_reach = medium.arrivals().squared_reach(from)};
 }
 
