@@ -21,7 +21,7 @@ set(ROVERNET_PUBLIC_HEADERS
     models/radio.hpp
     models/reception/collision.hpp models/reception/judge.hpp models/reception/sinr.hpp
     models/variation/fading.hpp models/variation/shadowing.hpp
-    network/neighbour.hpp network/network.hpp network/robot.hpp network/settings.hpp
+    network/heard.hpp network/neighbour.hpp network/network.hpp network/robot.hpp network/settings.hpp
     network/subscription.hpp
     routing/flood.hpp
     rovernet.hpp
@@ -32,7 +32,7 @@ set(ROVERNET_PUBLIC_HEADERS
     scene/occupancy.hpp scene/scene.hpp scene/scene_change.hpp scene/storeys.hpp
     sim/error.hpp sim/fate.hpp sim/fields.hpp sim/geometry.hpp sim/ids.hpp sim/leg.hpp
     sim/link_layer.hpp sim/math.hpp sim/message.hpp sim/random.hpp sim/record.hpp
-    sim/record_kind.hpp sim/router.hpp sim/sieve.hpp sim/sink.hpp sim/time.hpp sim/units.hpp
+    sim/record_kind.hpp sim/router.hpp sim/routing_protocol.hpp sim/sieve.hpp sim/sink.hpp sim/time.hpp sim/units.hpp
     study/statistics/interval.hpp study/statistics/interval_method.hpp
     study/statistics/metric_bounds.hpp study/statistics/summary.hpp
     traces/fingerprint.hpp traces/metric_values.hpp

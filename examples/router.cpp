@@ -46,8 +46,9 @@ struct Learning {
             pass_on(link, copy, frame.sender, r.time + 1us + from_seconds(0.005 * u));
         }
     }
-    void on_sent(LinkLayer& link, const Frame& frame, SendResult result) {
+    void on_sent(LinkLayer& link, const QueuedFrame& sent, SendResult result) {
         if (result != SendResult::retries) return;
+        const Frame& frame = sent.frame;
         const NodeId from = frame.sender, to = link.message(frame.message).to;
         fmt::print("robot {} is not answered by {}\n", from.value, frame.next_hop.value);
         next_hop.erase({from, to});

@@ -91,7 +91,7 @@ std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending&
         if (!interference_) flights_.release(slot);
         return all;
     }
-    if (air.kind == AirFrame::data) world_.messages.hold(frame.message);
+    if (air.kind == AirFrame::data) world_.hold(frame);
     world_.events.schedule(flight.receivers.first, Priority::frame_end,
                            {Occurrence::Kind::frame, frame.sender, slot});
     return all;
@@ -254,7 +254,7 @@ void Channel::arrive(const Event& event) {
     }
     const AirFrame air = flight.air;
     if (!interference_) flights_.release(event.payload.data);  // else once it is off the air
-    if (air.kind == AirFrame::data) world_.release(air.frame.message);
+    if (air.kind == AirFrame::data) world_.release(air.frame);
 }
 
 }  // namespace rovernet

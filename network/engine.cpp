@@ -97,6 +97,7 @@ void Engine::serve(const Event& event) {
         case Occurrence::Kind::link_change: return links.change_links();
         case Occurrence::Kind::access_timer:
             return mac.on_timer(node, static_cast<std::uint32_t>(data));
+        case Occurrence::Kind::unheard: return mac.on_unheard(data);
         case Occurrence::Kind::scene_change: return change_scene();
     }
 }

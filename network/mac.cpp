@@ -30,16 +30,48 @@ Time Mac::transmit(const AirFrame& air) {
         .rate = rate,
         .is_sensed = listens_};
     const auto receptions = channel_.transmit(air, how);
-    if (data && air.frame.next_hop != everyone) tell_if_unheard(air.frame, receptions);
-    return world_.now + how.airtime;
+    const Time end = world_.now + how.airtime;
+    const auto is_next_hop = [&](const Reception& r) { return r.node == air.frame.next_hop; };
+    if (data && !listens_ && air.frame.next_hop != everyone &&
+        std::none_of(receptions.begin(), receptions.end(), is_next_hop)) {
+        miss(air, end);
+    }
+    return end;
 }
 
-/// Emits Dropped for a unicast whose destination is out of range, if the access model has no
-/// acknowledgements.
-void Mac::tell_if_unheard(const Frame& frame, std::span<const Reception> receptions) {
-    const auto is_it = [&](const Reception& r) { return r.node == frame.next_hop; };
-    if (listens_ || std::any_of(receptions.begin(), receptions.end(), is_it)) return;
-    world_.emit(Dropped{world_.now, frame.sender, frame, DropReason::unheard});
+void Mac::miss(const AirFrame& air, Time end) {
+    const Frame& frame = air.frame;
+    if (!judges(frame)) {
+        world_.emit(Dropped{world_.now, frame.sender, frame, DropReason::unheard});
+        return;
+    }
+    const std::size_t slot = unheard_.take();
+    unheard_[slot] = {frame, air.heard_from};
+    world_.events.schedule(end, Priority::frame_end,
+                           {Occurrence::Kind::unheard, frame.sender, slot});
+}
+
+void Mac::on_unheard(std::size_t slot) {
+    const QueuedFrame frame = unheard_[slot];
+    unheard_.release(slot);
+    user_.lost(frame, DropReason::unheard);
+}
+
+void Mac::judge(const AirFrame& air, std::span<const Reception> receptions) {
+    const QueuedFrame frame{air.frame, air.heard_from};
+    for (const Reception& r : receptions) {
+        if (r.node != air.frame.next_hop) continue;
+        if (is_decoded(r.fate)) {
+            user_.sent(frame, true);
+        } else {
+            user_.lost(frame, DropReason::retries);
+        }
+    }
+}
+
+/// A unicast that the MAC judges has its result when it ends.
+void Mac::sent(const QueuedFrame& frame) {
+    if (!judges(frame.frame)) user_.sent(frame, listens_ && frame.frame.next_hop != everyone);
 }
 
 std::uint32_t Mac::bytes(const AirFrame& frame) const {
@@ -49,7 +81,8 @@ std::uint32_t Mac::bytes(const AirFrame& frame) const {
         case AirFrame::ack: return ack_bytes;
         case AirFrame::data: break;
     }
-    return world_.messages[frame.frame.message].size + header();
+    const std::uint32_t above = frame.frame.bytes;
+    return (above > 0 ? above : world_.messages[frame.frame.message].size) + header();
 }
 
 BitRate Mac::rate_of(const AirFrame& frame) const {
@@ -74,7 +107,10 @@ double Mac::access_draw(NodeId node, std::uint64_t index) const {
 }
 
 void Mac::frame_ended(const AirFrame& frame, const Arriving& part) {
-    if (frame.kind == AirFrame::data) user_.frame_ended(frame, part);
+    if (frame.kind == AirFrame::data) {
+        user_.frame_ended(frame, part);
+        if (judges(frame.frame)) judge(frame, part.receptions);
+    }
     if (listens_) tell_stations(frame, part.receptions);
 }
 

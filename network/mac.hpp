@@ -3,6 +3,7 @@
 
 #include "models/access/access.hpp"
 #include "network/channel.hpp"
+#include "sim/slots.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -18,11 +19,14 @@ class MacUser {
     /// Called when a frame of a message ends at some of its receivers, see ChannelUser. Control
     /// frames are not passed up.
     virtual void frame_ended(const AirFrame& frame, const Arriving& part) = 0;
-    /// Called when a frame was transmitted, and acknowledged if the access model uses
-    /// acknowledgements. Each frame passed to Mac::send causes one call of sent() or lost().
-    virtual void sent(const QueuedFrame& frame) = 0;
+    /// Called when a frame was transmitted. Each frame passed to Mac::send causes one call of
+    /// sent() or lost(), unless it was taken.
+    /// @param acked  the next hop acknowledged it, or is known to have received it
+    virtual void sent(const QueuedFrame& frame, bool acked) = 0;
     /// Called when a frame was dropped, with the reason.
     virtual void lost(const QueuedFrame& frame, DropReason reason) = 0;
+    /// Whether somebody waits for the result of this unicast.
+    virtual bool wants_result(const Frame& frame) const = 0;
 
   protected:
     ~MacUser() = default;
@@ -52,13 +56,13 @@ class Mac final : public Air, public ChannelUser {
     /// Accepts a frame from its sender, which must be on; the frame holds a reference to its
     /// message. Ends with a call of sent() or lost().
     void send(const QueuedFrame& frame) { access_->send(*this, frame); }
+    /// Serves the event of a unicast that its next hop, out of range, did not receive: it ends now.
+    void on_unheard(std::size_t slot);
     /// Serves a timer of the access model.
     void on_timer(NodeId node, std::uint32_t tag) { access_->on_timer(*this, node, tag); }
 
     /// Whether frames wait in a queue for access, so that a sender may pass several frames.
     bool queues() const { return access_->queues(); }
-    /// Whether unicasts are acknowledged.
-    bool acknowledges() const { return listens_; }
     /// Bit rates [bit/s] of the access model's frames, in addition to those of the radios.
     std::span<const BitRate> own_rates() const { return access_->own_rates(); }
     /// Bytes that the access model adds to a message.
@@ -79,7 +83,7 @@ class Mac final : public Air, public ChannelUser {
     std::uint32_t bytes(const AirFrame& frame) const override;
     void access_timer(NodeId node, Time at, std::uint32_t tag) override;
     double access_draw(NodeId node, std::uint64_t index) const override;
-    void sent(const QueuedFrame& frame) override { user_.sent(frame); }
+    void sent(const QueuedFrame& frame) override;
     void lost(const QueuedFrame& frame, DropReason reason) override { user_.lost(frame, reason); }
 
     // Implementation of ChannelUser, for the channel.
@@ -89,9 +93,14 @@ class Mac final : public Air, public ChannelUser {
   private:
     // Bit rate of a frame: the sender's, unless the access model sets its own.
     BitRate rate_of(const AirFrame& frame) const;
-    // Emits Dropped for a unicast whose destination is out of range, if the access model has no
-    // acknowledgements.
-    void tell_if_unheard(const Frame& frame, std::span<const Reception> receptions);
+    // Whether the MAC, in place of the access model, finds the result of a unicast: an ideal MAC.
+    bool judges(const Frame& frame) const {
+        return !listens_ && frame.next_hop != everyone && user_.wants_result(frame);
+    }
+    // Ends a unicast whose next hop has not received it, because it is out of range.
+    void miss(const AirFrame& air, Time end);
+    // Reports the result of a unicast that ends at its next hop.
+    void judge(const AirFrame& air, std::span<const Reception> receptions);
     // Reports to the access model which stations have received or missed the frame.
     void tell_stations(const AirFrame& frame, std::span<const Reception> receptions);
 
@@ -104,6 +113,8 @@ class Mac final : public Air, public ChannelUser {
     bool listens_, has_own_rates_;
     // Bytes that the access model adds to a message.
     std::uint32_t header_;
+    // Unicasts on air to a next hop out of range, if somebody waits for their results.
+    Slots<QueuedFrame> unheard_;
 };
 
 }  // namespace rovernet

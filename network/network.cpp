@@ -95,6 +95,7 @@ bool Network::advance(Time end, std::uint64_t most_events) {
 }
 void Network::finish() {
     engine_->applications.cut_off();
+    engine_->routing.check_held();
     engine_->world.records.finish();
 }
 Time Network::now() const { return engine_->world.now; }

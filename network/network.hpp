@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mobility/movement.hpp"
+#include "network/heard.hpp"
 #include "network/neighbour.hpp"
 #include "network/robot.hpp"
 #include "network/settings.hpp"
@@ -34,24 +35,6 @@ struct SendOptions {
     std::uint16_t port = 0;
     /// True: over one hop, without the routing protocol.
     bool one_hop = false;
-};
-
-/// Message that a node receives, and the frame that brought it. References are valid during the
-/// callback.
-struct Heard {
-    const Message& message;
-    /// Number of hops that the message travelled.
-    int hops;
-    /// Transmitter of the frame.
-    NodeId last_hop;
-    /// Received power of the frame [dBm], if the callback asked for it.
-    std::optional<Dbm> level = {};
-};
-
-/// Options of a callback for received messages.
-struct HearOptions {
-    /// True: Heard::level is computed, at the start of each frame that this node can decode.
-    bool level = false;
 };
 
 /// Number of a sink in a Network, for remove_sink().
@@ -152,7 +135,10 @@ class Network {
     bool advance(Time end, std::uint64_t most_events);
 
     /// Ends the run: messages still at their senders are recorded as dropped ("END"), so that
-    /// metrics() can leave them out; then the sinks finish. Call once, after the last run_until().
+    /// metrics() can leave them out unless the routing protocol held them; then the sinks finish.
+    /// Call once, after the last run_until().
+    /// @throws std::logic_error in a debug build if the protocol holds messages that it does not
+    ///         keep
     void finish();
 
     /// Simulated time: time of the current event, or the end of the last run.

@@ -32,6 +32,8 @@ struct Occurrence {
         link_change,
         /// Timer of the access model at `node`; data: the model's tag.
         access_timer,
+        /// End of a unicast of `node` that its next hop did not receive; data: its slot in Mac.
+        unheard,
         /// Change of the scene: a door closes or opens. `node` is not used.
         scene_change
     };

@@ -3,6 +3,8 @@
 
 #include "network/world.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -23,9 +25,16 @@ Frame as_received(const QueuedFrame& sending) {
 SendResult result_of(DropReason reason) {
     switch (reason) {
         case DropReason::queue_full: return SendResult::queue_full;
-        case DropReason::retries: return SendResult::retries;
+        case DropReason::retries:
+        case DropReason::unheard: return SendResult::retries;
         default: return SendResult::off;
     }
+}
+
+/// Name of a message in errors.
+[[maybe_unused]] std::string name_of(const Message& message) {
+    return fmt::format("message {} ({})", message.uid,
+                       message.kind.empty() ? "of an application" : message.kind);
 }
 
 }  // namespace
@@ -34,6 +43,7 @@ void Routing::set(Router router) {
     if (router_) throw std::invalid_argument("this network has a routing protocol already");
     router_.emplace(std::move(router));
     world_.on_forgotten = [this](MessageId id) { router_->forget(id); };
+    world_.on_header_forgotten = [this](std::uint32_t header) { router_->forget_header(header); };
     if (router_->traits().wants_levels) world_.levels_wanted = true;
 }
 
@@ -57,8 +67,8 @@ void Routing::originate(NodeId node, MessageId message) {
 }
 
 void Routing::send_one_hop(const Frame& frame) {
-    world_.messages.hold(frame.message);
-    mac_.send({frame, std::nullopt});
+    world_.hold(frame);
+    mac_.send({frame});
 }
 
 void Routing::on_timer(NodeId node, std::uint64_t tag) {
@@ -88,22 +98,38 @@ const Message& Routing::message(MessageId id) const { return world_.messages[id]
 bool Routing::is_on(NodeId node) const { return world_.medium.stations().is_on(node); }
 std::uint64_t Routing::key(NodeId node) const { return world_.key(node); }
 Vec3 Routing::position(NodeId node) const { return world_.legs.position(node, world_.now); }
-void Routing::hold(MessageId id) { world_.messages.hold(id); }
-void Routing::release(MessageId id) { world_.release(id); }
+void Routing::hold(MessageId id) {
+    count_holds(id, 1);
+    world_.messages.hold(id);
+}
+void Routing::release(MessageId id) {
+    count_holds(id, -1);
+    world_.release(id);
+}
+void Routing::hold(const Frame& frame) {
+    count_holds(frame.message, 1);
+    world_.hold(frame);
+}
+void Routing::release(const Frame& frame) {
+    count_holds(frame.message, -1);
+    world_.release(frame);
+}
 
 MessageId Routing::originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,
                              std::string content) {
     if (from.index() >= packets_.size()) packets_.resize(from.index() + 1);
     const std::uint32_t number = packets_[from.index()]++;
     constexpr std::uint64_t own = 0x70726f746f636f6c;  // apart from applications' messages
-    return world_.new_message({.origin = from,
-                               .number = number,
-                               .to = to,
-                               .key = combine(combine(world_.key(from), own), number),
-                               .size = bytes,
-                               .payload = std::move(content),
-                               .kind = kind,
-                               .is_routed = true});
+    const MessageId id = world_.new_message({.origin = from,
+                                             .number = number,
+                                             .to = to,
+                                             .key = combine(combine(world_.key(from), own), number),
+                                             .size = bytes,
+                                             .payload = std::move(content),
+                                             .kind = kind,
+                                             .is_routed = true});
+    count_holds(id, 1);
+    return id;
 }
 
 std::optional<SendHandle> Routing::send(const Frame& frame, std::optional<NodeId> heard_from,
@@ -113,13 +139,14 @@ std::optional<SendHandle> Routing::send(const Frame& frame, std::optional<NodeId
                                         ? "a router may not send while it receives: send 1 us later"
                                         : "a router sent a frame in the past");
     }
-    world_.messages.hold(frame.message);
+    world_.hold(frame);
+    const bool is_control = !world_.messages[frame.message].kind.empty();
     if (at == world_.now) {
-        outbox_.push_back({frame, heard_from});
+        outbox_.push_back({frame, heard_from, is_control});
         return std::nullopt;
     }
     const std::size_t slot = waiting_.take();
-    waiting_[slot] = {frame, heard_from};
+    waiting_[slot] = {frame, heard_from, is_control};
     world_.events.schedule(at, Priority::timer, {Occurrence::Kind::send, frame.sender, slot});
     return static_cast<SendHandle>(slot);
 }
@@ -133,7 +160,7 @@ void Routing::cancel(SendHandle handle) {
     QueuedFrame* frame = waiting(handle);
     if (!frame) return;
     frame->frame.sender = everyone;
-    world_.release(frame->frame.message);
+    world_.release(frame->frame);
 }
 
 void Routing::on_send(SendHandle handle) {
@@ -147,18 +174,31 @@ void Routing::on_send(SendHandle handle) {
 /// Sends a frame whose message is held for it.
 void Routing::send_now(const QueuedFrame& frame) {
     const NodeId sender = frame.frame.sender;
-    if (world_.medium.stations().is_on(sender)) return mac_.send(frame);
-    drop(sender, as_received(frame), DropReason::off);
-    tell(frame.frame, SendResult::off);
-    world_.release(frame.frame.message);
+    if (!world_.medium.stations().is_on(sender)) {
+        drop_sending(sender, as_received(frame), frame.frame, DropReason::off);
+        tell(frame, SendResult::off);
+        world_.release(frame.frame);
+        return;
+    }
+    mac_.send(frame);
 }
 
 std::vector<QueuedFrame> Routing::take_queued(NodeId node, NodeId next_hop) {
-    return mac_.take(node, next_hop);
+    auto taken = mac_.take(node, next_hop);
+    for (const QueuedFrame& each : taken) count_holds(each.frame.message, 1);
+    return taken;
 }
 
-void Routing::drop(NodeId node, const Frame& frame, DropReason reason) {
-    world_.emit(Dropped{world_.now, node, frame, reason});
+void Routing::drop(NodeId node, const Frame& frame, DropReason reason, std::string_view own_code) {
+    const Dropped dropped{world_.now, node, frame, reason, own_code};
+    if (!receiving_) return world_.emit(dropped);
+    world_.hold(frame);
+    drops_.push_back(dropped);
+}
+
+void Routing::drop_sending(NodeId node, const Frame& frame, const Frame& sending,
+                           DropReason reason) {
+    world_.emit(Dropped{world_.now, node, frame, reason, {}, wants_result(sending)});
 }
 
 Dbm Routing::level(const Reception& reception) const {
@@ -170,6 +210,10 @@ void Routing::timer(NodeId node, Time at, std::uint64_t tag) {
     world_.events.schedule(at, Priority::timer, {Occurrence::Kind::router_timer, node, tag});
 }
 
+Db Routing::snr(const Reception& reception) const {
+    return level(reception) - world_.medium.stations().noise(reception.node);
+}
+
 double Routing::draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t index) const {
     return world_.draw(purpose, world_.key(node), world_.messages[id].key, index);
 }
@@ -178,119 +222,50 @@ double Routing::draw(Purpose purpose, NodeId node, std::uint64_t index) const {
     return world_.draw(purpose, world_.key(node), 0, index);
 }
 
-void Routing::frame_ended(const AirFrame& frame, const Arriving& part) {
-    if (frame.frame.next_hop == everyone) {
-        receive_broadcast(frame, part);
-    } else {
-        receive_unicast(frame, part);
-    }
-}
-
-void Routing::receive_broadcast(const AirFrame& air, const Arriving& part) {
-    if (part.error_free && world_.medium.stations().all_are_on()) {
-        hand_up(air.frame, part.receptions, part.levels);
-    } else {
-        hand_up_heard(air.frame, part);
-    }
-    world_.emit(
-        Received{air.frame, part.receptions, {}, mac_.header(), world_.for_sinks(part.levels)});
-    user_.delivered(air.frame, part.receptions, part.levels);
-}
-
-/// Passes a frame to the router; without a router it is for everybody, and is not forwarded.
-void Routing::hand_up(const Frame& frame, std::span<Reception> receptions,
-                      std::span<const Dbm> levels) {
-    if (!router_) {
-        for (Reception& r : receptions) {
-            r.fate = Fate::arrived;
-            r.delivered = true;
-        }
-        return;
-    }
-    handed_up_ = receptions.data();
-    levels_ = levels;
-    receiving_ = true;
-    router_->on_receive(*this, frame, receptions);
-    receiving_ = false;
-    if (world_.messages[frame.message].kind.empty()) return;
-    for (Reception& r : receptions) r.delivered = false;  // no application's message
-}
-
-/// Passes up receptions that were decoded at nodes that are on; marks the others as off.
-void Routing::hand_up_heard(const Frame& frame, const Arriving& part) {
-    const std::span<Reception> receptions = part.receptions;
-    // Receptions are selected without a branch, which would often be mispredicted.
-    heard_.resize(receptions.size());
-    heard_levels_.resize(part.levels.size());
-    places_.resize(receptions.size());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < receptions.size(); ++i) {
-        const bool on = world_.medium.stations().is_on(receptions[i].node);
-        heard_[count] = receptions[i];
-        places_[count] = i;
-        count += on & is_decoded(receptions[i].fate);
-        if (!on) receptions[i].fate = Fate::off;
-    }
-    if (count == 0) return;
-    if (!part.levels.empty()) {
-        for (std::size_t k = 0; k < count; ++k) heard_levels_[k] = part.levels[places_[k]];
-    }
-    hand_up(frame, std::span{heard_}.first(count), heard_levels_);
-    for (std::size_t k = 0; k < count; ++k) receptions[places_[k]] = heard_[k];
-}
-
-void Routing::receive_unicast(const AirFrame& air, const Arriving& part) {
-    const bool overhears = router_ && router_->traits().overhears;
-    for (std::size_t i = 0; i < part.receptions.size(); ++i) {
-        Reception& r = part.receptions[i];
-        const auto level = part.levels.empty() ? part.levels : part.levels.subspan(i, 1);
-        if (r.node == air.frame.next_hop) {
-            receive_unicast(air, r, level);
-        } else if (overhears && is_decoded(r.fate) && world_.medium.stations().is_on(r.node)) {
-            Reception overheard = r;
-            hand_up(air.frame, {&overheard, 1}, level);
-        }
-    }
-}
-
-/// Passes a unicast frame to its destination.
-void Routing::receive_unicast(const AirFrame& air, Reception& r, std::span<const Dbm> level) {
-    if (!world_.medium.stations().is_on(r.node)) {
-        r.fate = Fate::off;
-    } else if (is_decoded(r.fate)) {
-        if (mac_.is_repeated(r.node, air)) {
-            r.fate = Fate::duplicate;
-            r.delivered = false;
-        } else if (world_.messages[air.frame.message].is_routed) {
-            hand_up(air.frame, {&r, 1}, level);
-        } else {
-            r.fate = Fate::arrived;
-            r.delivered = true;
-        }
-    }
-    world_.emit(Received{air.frame, {&r, 1}, air.reserved, mac_.header(), world_.for_sinks(level)});
-    user_.delivered(air.frame, {&r, 1}, level);
-}
-
-void Routing::sent(const QueuedFrame& frame) {
-    const bool acked = frame.frame.next_hop != everyone && mac_.acknowledges();
-    tell(frame.frame, acked ? SendResult::acked : SendResult::sent);
-    release(frame.frame.message);
+void Routing::sent(const QueuedFrame& frame, bool acked) {
+    tell(frame, acked ? SendResult::acked : SendResult::sent);
+    world_.release(frame.frame);
     user_.has_room(frame.frame.sender);
 }
 
 void Routing::lost(const QueuedFrame& frame, DropReason reason) {
-    drop(frame.frame.sender, frame.frame, reason);
-    tell(frame.frame, result_of(reason));
-    release(frame.frame.message);
+    drop_sending(frame.frame.sender, frame.frame, frame.frame, reason);
+    tell(frame, result_of(reason));
+    world_.release(frame.frame);
     if (reason == DropReason::retries) user_.has_room(frame.frame.sender);
 }
 
+bool Routing::wants_result(const Frame& frame) const {
+    return router_ && router_->hears_of_results() && world_.messages[frame.message].is_routed;
+}
+
 /// Reports the result of a frame to the router.
-void Routing::tell(const Frame& frame, SendResult result) {
-    if (!router_ || !router_->hears_of_results()) return;
-    if (!world_.messages[frame.message].is_routed) return;
-    call_router([&] { router_->on_sent(*this, frame, result); });
+void Routing::tell(const QueuedFrame& frame, SendResult result) {
+    if (wants_result(frame.frame)) call_router([&] { router_->on_sent(*this, frame, result); });
+}
+
+/// Counts the router's own references, so that one too few is found at once, and one too many at
+/// the end of the run.
+void Routing::count_holds([[maybe_unused]] MessageId id, [[maybe_unused]] int change) {
+#ifndef NDEBUG
+    if (id.index() >= held_.size()) held_.resize(id.index() + 1);
+    held_[id.index()] += change;
+    if (held_[id.index()] >= 0) return;
+    throw std::logic_error(
+        fmt::format("the routing protocol released {}, to which it holds no reference",
+                    name_of(world_.messages[id])));
+#endif
+}
+
+void Routing::check_held() const {
+#ifndef NDEBUG
+    for (MessageId id{0}; id.index() < held_.size(); ++id.value) {
+        if (held_[id.index()] == 0 || router_->keeps(id)) continue;
+        throw std::logic_error(fmt::format(
+            "the routing protocol still holds {} reference(s) to {}, and does not keep it",
+            held_[id.index()], name_of(world_.messages[id])));
+    }
+#endif
 }
 
 }  // namespace rovernet

@@ -65,6 +65,9 @@ class Routing final : public LinkLayer, public MacUser {
     /// Calls the protocol's on_start for a node added after the start of the run, or on_switched.
     void on_start(NodeId node);
     void on_switched(NodeId node, bool on);
+    /// Checks at the end of the run, in a debug build, that the protocol holds only messages that
+    /// it keeps. @throws std::logic_error naming a message
+    void check_held() const;
 
     // Implementation of LinkLayer, for the protocol: see sim/router.hpp.
     Time now() const override;
@@ -80,18 +83,23 @@ class Routing final : public LinkLayer, public MacUser {
     QueuedFrame* waiting(SendHandle handle) override;
     void cancel(SendHandle handle) override;
     std::vector<QueuedFrame> take_queued(NodeId node, NodeId next_hop) override;
-    void drop(NodeId node, const Frame& frame, DropReason reason) override;
+    void drop(NodeId node, const Frame& frame, DropReason reason,
+              std::string_view own_code = {}) override;
     Dbm level(const Reception& reception) const override;
+    Db snr(const Reception& reception) const override;
     void timer(NodeId node, Time at, std::uint64_t tag) override;
     void hold(MessageId id) override;
     void release(MessageId id) override;
+    void hold(const Frame& frame) override;
+    void release(const Frame& frame) override;
     double draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t index) const override;
     double draw(Purpose purpose, NodeId node, std::uint64_t index) const override;
 
     // Implementation of MacUser, for the MAC.
     void frame_ended(const AirFrame& frame, const Arriving& part) override;
-    void sent(const QueuedFrame& frame) override;
+    void sent(const QueuedFrame& frame, bool acked) override;
     void lost(const QueuedFrame& frame, DropReason reason) override;
+    bool wants_result(const Frame& frame) const override;
 
   private:
     // Calls the protocol, then transmits the frames that it queued meanwhile.
@@ -100,7 +108,17 @@ class Routing final : public LinkLayer, public MacUser {
     // Passes a frame to the MAC, or drops it if its sender is off.
     void send_now(const QueuedFrame& frame);
     // Reports the result of a frame to the protocol, if it has on_sent.
-    void tell(const Frame& frame, SendResult result);
+    void tell(const QueuedFrame& frame, SendResult result);
+    // Emits Dropped for a frame that its sender has lost.
+    void drop_sending(NodeId node, const Frame& frame, const Frame& sending, DropReason reason);
+    // Emits Received, and behind each reception the drops of its node in on_receive.
+    void emit_received(Received record);
+    // Emits the drops in on_receive; calls before(place) before the drop of a node whose reception
+    // has that place.
+    template <class Before>
+    void emit_drops(std::span<const Reception> receptions, Before before);
+    // Counts references of the protocol to a message, in a debug build.
+    void count_holds(MessageId id, int change);
     // Passes receptions to the protocol, which sets their fate; without a protocol they go no
     // further.
     void hand_up(const Frame& frame, std::span<Reception> receptions, std::span<const Dbm> levels);
@@ -136,6 +154,11 @@ class Routing final : public LinkLayer, public MacUser {
     std::vector<std::size_t> places_;
     // Number of control packets that each node has made so far.
     std::vector<std::uint32_t> packets_;
+    // Drops by the protocol in on_receive, until the Received of the frame is emitted; they hold
+    // references to their frames.
+    std::vector<Dropped> drops_;
+    // Number of the protocol's own references to each message; counted in a debug build.
+    std::vector<std::int32_t> held_;
     // First of the receptions in on_receive, and the levels of all, for level().
     const Reception* handed_up_ = nullptr;
     std::span<const Dbm> levels_;

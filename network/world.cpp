@@ -71,6 +71,15 @@ void World::schedule(Time time, Callback<> call, Duration period) {
     events.schedule(time, Priority::user, {Occurrence::Kind::action, NodeId{0}, slot});
 }
 
+void World::hold_header(std::uint32_t header) {
+    if (header >= header_holders_.size()) header_holders_.resize(header + std::size_t{1});
+    ++header_holders_[header];
+}
+
+void World::release_header(std::uint32_t header) {
+    if (--header_holders_[header] == 0) on_header_forgotten(header);
+}
+
 void World::act(std::size_t slot) {
     const Action action = actions_[slot];  // a copy: the call may add actions
     if (action.period > Duration{0} && !action.call.has_ended()) {

@@ -64,6 +64,17 @@ struct World {
     void release(MessageId id) {
         if (messages.release(id) && on_forgotten) on_forgotten(id);
     }
+    /// Adds a reference to the message and the header of a frame, or removes them.
+    void hold(const Frame& frame) {
+        messages.hold(frame.message);
+        if (frame.header != 0) [[unlikely]]
+            hold_header(frame.header);
+    }
+    void release(const Frame& frame) {
+        if (frame.header != 0) [[unlikely]]
+            release_header(frame.header);
+        release(frame.message);
+    }
 
     /// Calls `call` at `time`, and then every `period` [ns] unless that is 0. Actions of one time
     /// are called in the order of scheduling, after all other events of that time.
@@ -103,6 +114,8 @@ struct World {
     Recorder records;
     /// Called after the last reference to a message was removed; set by Routing.
     std::function<void(MessageId)> on_forgotten = {};
+    /// Called after the last reference to a header of a frame was removed; set by Routing.
+    std::function<void(std::uint32_t)> on_header_forgotten = {};
     /// Uid of the next message: number of messages made so far.
     std::uint64_t next_uid = 0;
     /// Number of frames transmitted so far.
@@ -128,6 +141,9 @@ struct World {
     }
 
   private:
+    void hold_header(std::uint32_t header);
+    void release_header(std::uint32_t header);
+
     // Scheduled action of the user, and its period [ns]; 0: once.
     struct Action {
         Callback<> call = {};
@@ -135,6 +151,8 @@ struct World {
     };
     // Actions by slot, which their events store.
     Slots<Action> actions_;
+    // Number of references to each header of frames, by its number.
+    std::vector<std::uint32_t> header_holders_;
 };
 
 }  // namespace rovernet

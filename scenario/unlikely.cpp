@@ -127,7 +127,8 @@ void note_unicasts(Scenario& out) {
     }
     for (const RobotTable& robot : out.robots) {
         for (const ReactionTable& reaction : robot.reactions) {
-            if (reaction.to) note(reaction.to_where, *reaction.to, "");
+            if (reaction.to && *reaction.to != robot.name)
+                note(reaction.to_where, *reaction.to, "");
         }
     }
     unicasts.note(out.notices);

@@ -45,8 +45,9 @@ constexpr bool is_decoded(Fate fate) {
 
 /// Reason for the loss of a copy outside a reception. Sinks read it in Dropped.
 ///
-/// The access model sets `queue_full`, `retries` and `end`; the network sets `off`, `unheard` and
-/// `cut_off`. A routing protocol passes its reason to LinkLayer::drop.
+/// The access model sets `queue_full`, `retries` and `end`; the network sets `off`, `unheard`,
+/// `cut_off` and `held`. A routing protocol passes one of the reasons from `no_route` on, or a code
+/// of its own, to LinkLayer::drop.
 enum class DropReason : std::uint8_t {
     /// The node was switched off while the copy waited to be forwarded.
     off,
@@ -60,6 +61,22 @@ enum class DropReason : std::uint8_t {
     unheard,
     /// The run ended before the first frame of the message did.
     cut_off,
+    /// The run ended while the routing protocol still held the message at its origin.
+    held,
+    /// The routing protocol knows no route to the destination.
+    no_route,
+    /// The packet came back to a node that had sent it.
+    loop,
+    /// The route broke, and the protocol does not repair it.
+    broken,
+    /// The protocol's buffer of packets without a route was full.
+    buffer_full,
+    /// The packet waited too long for a route.
+    timeout,
+    /// The packet was sent by other routes too often.
+    salvaged,
+    /// Reason of a protocol outside this list; Dropped::own_code names it.
+    own,
 };
 
 /// Code and layer of a loss, as written in traces and metrics.
@@ -95,15 +112,23 @@ constexpr LossReason reason_of(DropReason reason) {
         case DropReason::queue_full: return {"IFQ", "IFQ"};
         case DropReason::retries: return {"RET", "MAC"};
         case DropReason::end: return {"END", "IFQ"};
-        case DropReason::unheard: return {"NRTE", "MAC"};
+        case DropReason::unheard: return {"OOR", "MAC"};
         case DropReason::cut_off: return {"END", "AGT"};
+        case DropReason::held: return {"END", "RTR"};
+        case DropReason::no_route: return {"NRTE", "RTR"};
+        case DropReason::loop: return {"LOOP", "RTR"};
+        case DropReason::broken: return {"CBK", "RTR"};
+        case DropReason::buffer_full: return {"IFQ", "RTR"};
+        case DropReason::timeout: return {"TOUT", "RTR"};
+        case DropReason::salvaged: return {"SAL", "RTR"};
+        case DropReason::own: return {"OWN", "RTR"};
     }
     return {};
 }
 
 // Last enumerators. Update when an enumerator is appended; the static_assert below fails otherwise.
 inline constexpr auto last_fate = Fate::arrived;
-inline constexpr auto last_drop_reason = DropReason::cut_off;
+inline constexpr auto last_drop_reason = DropReason::own;
 static_assert(reason_of(static_cast<Fate>(static_cast<int>(last_fate) + 1)) == LossReason{} &&
               reason_of(static_cast<DropReason>(static_cast<int>(last_drop_reason) + 1)) ==
                   LossReason{});

@@ -28,13 +28,15 @@ inline constexpr Duration least_reaction{1000};
 using SendHandle = std::uint32_t;
 
 /// Result of sending a frame, for protocols that satisfy HearsOfResults. A broadcast ends as `sent`
-/// at best, a unicast as `acked` if the access model uses acknowledgements.
+/// at best, a unicast as `acked`. Access models without acknowledgements are an ideal MAC here: it
+/// knows at the end of the frame whether the next hop received it.
 enum class SendResult : std::uint8_t {
     /// The next hop acknowledged the frame.
     acked,
     /// The frame was transmitted; whether it was received is not known.
     sent,
-    /// No acknowledgement came within the retry limit.
+    /// No acknowledgement came within the retry limit; without acknowledgements, the next hop did
+    /// not receive the frame.
     retries,
     /// The sender's queue was full.
     queue_full,
@@ -75,7 +77,8 @@ class LinkLayer {
     /// Transmits a frame from frame.sender at `at`, to frame.next_hop or to everyone. `at` = now
     /// means as soon as the router's function has returned; in reaction to a reception it is at
     /// least `least_reaction` later. If the sender is off by then, a Dropped record is emitted. The
-    /// frame holds a reference to its message.
+    /// frame holds a reference to its message, and to its header if it has one: the protocol must
+    /// not change the entry of its own table that frame.header names until forget_header().
     /// @param heard_from  node from which the sender received the frame; empty if the sender
     ///     originates it
     /// @return handle of the waiting frame; empty if `at` is now
@@ -88,16 +91,23 @@ class LinkLayer {
     virtual QueuedFrame* waiting(SendHandle) = 0;
     /// Cancels a frame that waits for its send time; does nothing after that time.
     virtual void cancel(SendHandle) = 0;
-    /// Removes the frames for `next_hop` from the interface queue of `node`, except a frame in
-    /// transmission; used when a route has broken. The caller then holds the references to their
-    /// messages.
+    /// Removes the frames for `next_hop` from the interface queue of `node`, except a frame that is
+    /// on air or waits for its acknowledgement; used when a route has broken. They have no result.
+    /// The caller then holds their references: release(frame.frame). Frames that wait for their
+    /// send time are not in this queue: cancel() them by their handles.
     virtual std::vector<QueuedFrame> take_queued(NodeId node, NodeId next_hop) = 0;
-    /// Records that `node` loses a copy of a message.
-    /// @param frame  frame as the node received it
-    virtual void drop(NodeId node, const Frame& frame, DropReason reason) = 0;
+    /// Records that `node` loses a copy of a message. Within on_receive the record follows the
+    /// Received of the frame, at the time of the node's reception.
+    /// @param frame     frame as the node received it
+    /// @param own_code  code in traces, a literal, for DropReason::own
+    virtual void drop(NodeId node, const Frame& frame, DropReason reason,
+                      std::string_view own_code = {}) = 0;
     /// Received power [dBm] of a reception passed to on_receive, only during that call; for
     /// protocols with `wants_levels`.
     virtual Dbm level(const Reception&) const = 0;
+    /// Ratio of a reception's power to the noise floor of its receiver [dB], under the conditions
+    /// of level().
+    virtual Db snr(const Reception&) const = 0;
 
     /// Calls the router's on_timer(node, tag) at `at`; in reaction to a reception at least
     /// `least_reaction` later. A timer cannot be cancelled: on_timer should compare now() with a
@@ -109,6 +119,11 @@ class LinkLayer {
     /// Removes a reference to a message. After the last one the router's forget() is called, and
     /// the slot may be reused.
     virtual void release(MessageId) = 0;
+    /// Adds a reference to the message and to the header of a frame that the router stores.
+    virtual void hold(const Frame&) = 0;
+    /// Removes the references of hold(frame). After the last one to a header the router's
+    /// forget_header() is called.
+    virtual void release(const Frame&) = 0;
     /// Uniform draw in (0, 1), keyed by the run, the purpose, the node, the message and `index`.
     virtual double draw(Purpose, NodeId, MessageId, std::uint64_t index) const = 0;
     /// Uniform draw in (0, 1), the node's `index`-th for this purpose, independent of messages.

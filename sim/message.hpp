@@ -42,8 +42,8 @@ struct Message {
     std::uint32_t flow = 0;
     /// Port, which selects a program of the receiver; 0 for none.
     std::uint16_t port = 0;
-    /// Kind of a routing protocol's control packet, as in a trace (a literal); empty for a message
-    /// of an application.
+    /// Kind of a routing protocol's control packet, as in a trace (a literal): "REQUEST"; empty for
+    /// a message of an application.
     std::string_view kind = {};
     /// True if the routing protocol forwards it to its destination; false if it is sent over one
     /// hop without the protocol.
@@ -70,6 +70,11 @@ struct Frame {
     Hops hops = 0;
     /// Receiver of this hop; `everyone` for a broadcast.
     NodeId next_hop = everyone;
+    /// Size [bytes] at this hop, without the bytes that the access model adds; 0: the message's.
+    std::uint32_t bytes = 0;
+    /// Header of this copy: number of an entry in the routing protocol's own table, from 1; 0 for
+    /// none. See LinkLayer::send.
+    std::uint32_t header = 0;
 };
 
 /// Frame that waits to be sent: for its send time in Routing, or for channel access in a station's
@@ -77,7 +82,10 @@ struct Frame {
 struct QueuedFrame {
     Frame frame;
     /// Node from which the sender received the frame; empty if the sender is the message's origin.
-    std::optional<NodeId> heard_from;
+    std::optional<NodeId> heard_from = std::nullopt;
+    /// True for a control packet of the routing protocol, which an access model with priority
+    /// sends before messages of applications.
+    bool is_control = false;
 };
 
 /// Frame on air: a frame of a message (data), or a control frame of the access model (IEEE 802.11:

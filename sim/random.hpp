@@ -44,6 +44,14 @@ enum class Purpose : std::uint16_t {
     frame_fading = 17,
     /// Waves of the fading field. a = number of the wave.
     place_fading = 18,
+    /// Times of a routing protocol's HELLO packets. a = robot key.
+    hello = 19,
+    /// Time that a flood waits to assess whether to forward. a = robot key, b = message key.
+    assessment = 20,
+    /// Slot in which a relay forwards. a = robot key, b = message key.
+    relay_slot = 21,
+    /// Choice among several routes. a = robot key, b = message key.
+    route_choice = 22,
 };
 
 /// Key of one draw, which determines the number: equal keys give equal numbers, in any order and

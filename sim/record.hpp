@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <variant>
 
 // Records: all observable events of a run. The parts of a network pass them to World::emit; traces,
@@ -92,6 +93,15 @@ struct Received {
     std::span<const Dbm> levels = {};
 };
 
+/// A routing protocol passes a unicast frame to the MAC, once for each hop. A broadcast has none:
+/// its Transmitted says the same.
+struct Routed {
+    Time time;
+    Frame frame;
+    /// Node from which the sender received the frame, if the sender forwards it.
+    std::optional<NodeId> heard_from;
+};
+
 /// A node loses a copy outside a reception: while the copy waits, or before it is transmitted.
 /// Dropped and the fates of Received together cover every copy that is lost or not forwarded.
 struct Dropped {
@@ -102,6 +112,17 @@ struct Dropped {
     Frame frame;
     /// Reason for the loss.
     DropReason reason;
+    /// Code of the reason, if that is DropReason::own: a literal.
+    std::string_view own_code = {};
+    /// True if only one attempt at a link was lost: the routing protocol was notified, and sends
+    /// the packet again or drops it by another record. Such a record is not counted as a loss.
+    bool protocol_decides = false;
+
+    /// Code and layer of the reason.
+    LossReason loss() const {
+        const LossReason listed = reason_of(reason);
+        return reason == DropReason::own ? LossReason{own_code, listed.layer} : listed;
+    }
 };
 
 /// A node starts a new leg, which gives its position from `time` on. The first leg starts with the

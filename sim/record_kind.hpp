@@ -32,6 +32,7 @@ struct LinkUp;
 struct LinkDown;
 struct AirSent;
 struct ControlReceived;
+struct Routed;
 
 /// Set of kinds of records and of requests.
 using KindMask = std::uint32_t;
@@ -90,6 +91,10 @@ constexpr KindMask kind_of<AirSent>() {
 template <>
 constexpr KindMask kind_of<ControlReceived>() {
     return 1U << 11;
+}
+template <>
+constexpr KindMask kind_of<Routed>() {
+    return 1U << 12;
 }
 
 /// Both link records. They need a search for link changes, which runs only if a sink wants them.

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace rovernet {
@@ -35,7 +36,8 @@ class ToDestination {
     void on_timer(LinkLayer& link, NodeId node, std::uint64_t tag) {
         protocol_.on_timer(link, node, tag);
     }
-    void on_sent(LinkLayer& link, const Frame& frame, SendResult result) {
+    bool hears_of_results() const { return protocol_.hears_of_results(); }
+    void on_sent(LinkLayer& link, const QueuedFrame& frame, SendResult result) {
         protocol_.on_sent(link, frame, result);
     }
     void on_start(LinkLayer& link, NodeId node) { protocol_.on_start(link, node); }
@@ -43,6 +45,11 @@ class ToDestination {
         protocol_.on_switched(link, node, on);
     }
     void forget(MessageId message) { protocol_.forget(message); }
+    void forget_header(std::uint32_t header) { protocol_.forget_header(header); }
+    bool keeps(MessageId message) const { return protocol_.keeps(message); }
+    void describe(const Message& message, const Frame& frame, std::string& text) const {
+        protocol_.describe(message, frame, text);
+    }
 
   private:
     Router protocol_;

@@ -8,7 +8,6 @@
 #include "sim/record.hpp"
 #include "sim/time.hpp"
 
-#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <functional>
@@ -26,18 +25,6 @@
 //                                                                    -->  Air::sent, or Air::lost
 
 namespace rovernet {
-
-/// Removes the frames for `next_hop` from a queue, except its first frame, which is in
-/// transmission; implements Access::take for models with a queue. The order of the frames is kept.
-inline std::vector<QueuedFrame> take_waiting(std::vector<QueuedFrame>& queue, NodeId next_hop) {
-    if (queue.empty()) return {};
-    const auto taken = std::stable_partition(
-        queue.begin() + 1, queue.end(),
-        [&](const QueuedFrame& each) { return each.frame.next_hop != next_hop; });
-    std::vector<QueuedFrame> frames(taken, queue.end());
-    queue.erase(taken, queue.end());
-    return frames;
-}
 
 /// Functions that an access model may call; implemented by the MAC layer.
 class Air {
@@ -83,8 +70,9 @@ class Access {
     virtual void send(Air& air, const QueuedFrame& frame) = 0;
     /// Serves a timer set by Air::access_timer.
     virtual void on_timer(Air& /*air*/, NodeId /*node*/, std::uint32_t /*tag*/) {}
-    /// Removes the frames for `next_hop` from the node's queue, except a frame in transmission.
-    /// They count as neither sent nor lost: the routing protocol sends them on another path.
+    /// Removes the frames for `next_hop` from the node's queue, except a frame that is on air or
+    /// waits for its acknowledgement. They count as neither sent nor lost: the routing protocol
+    /// sends them on another path.
     virtual std::vector<QueuedFrame> take(NodeId /*node*/, NodeId /*next_hop*/) { return {}; }
     /// Clears the queue of a node that was switched off; its frames are lost.
     virtual void switch_off(Air& /*air*/, NodeId /*node*/) {}

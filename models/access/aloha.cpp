@@ -2,7 +2,6 @@
 #include "models/access/aloha.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace rovernet {
 
@@ -10,10 +9,11 @@ std::unique_ptr<Access> Aloha::make_access() const { return std::make_unique<Alo
 
 void AlohaAccess::send(Air& air, const QueuedFrame& frame) {
     const NodeId node = frame.frame.sender;
-    auto& queue = stations_[node.index()].queue;
-    if (queue.size() >= settings_.queue) return air.lost(frame, DropReason::queue_full);
-    queue.push_back(frame);
-    if (queue.size() == 1) expect(air, node);
+    TransmitQueue& queue = stations_[node.index()].queue;
+    const bool waits = !queue.empty();
+    const auto refused = queue.push(frame, settings_.queue, settings_.priority);
+    if (refused) return air.lost(*refused, DropReason::queue_full);
+    if (!waits) expect(air, node);
 }
 
 /// Sets the timer for the first frame of the queue.
@@ -28,21 +28,22 @@ void AlohaAccess::expect(Air& air, NodeId node) {
 
 void AlohaAccess::on_timer(Air& air, NodeId node, std::uint32_t /*tag*/) {
     Station& s = stations_[node.index()];
-    if (s.queue.empty()) return;  // switched off since
-    const QueuedFrame frame = s.queue.front();
-    s.queue.erase(s.queue.begin());
+    // Frames may have been taken since, or another timer was earlier.
+    if (s.queue.empty() || air.now() < s.free_from) return;
+    const QueuedFrame frame = s.queue.pop();
     s.free_from = air.transmit({.frame = frame.frame, .heard_from = frame.heard_from});
     if (!s.queue.empty()) expect(air, node);
     air.sent(frame);
 }
 
 std::vector<QueuedFrame> AlohaAccess::take(NodeId node, NodeId next_hop) {
-    return take_waiting(stations_[node.index()].queue, next_hop);
+    return stations_[node.index()].queue.take(next_hop, false);
 }
 
 void AlohaAccess::switch_off(Air& air, NodeId node) {
-    auto lost = std::exchange(stations_[node.index()].queue, {});
-    for (const QueuedFrame& frame : lost) air.lost(frame, DropReason::end);
+    for (const QueuedFrame& frame : stations_[node.index()].queue.take_all()) {
+        air.lost(frame, DropReason::end);
+    }
 }
 
 }  // namespace rovernet

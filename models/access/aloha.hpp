@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/access/access.hpp"
+#include "models/access/transmit_queue.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,8 @@ struct Aloha {
     /// Largest number of frames waiting at a node, including the frame to be sent next; further
     /// frames are dropped.
     std::uint32_t queue = 50;
+    /// True: control packets of the routing protocol are sent before messages of applications.
+    bool priority = false;
 
     /// Creates the access model for one Network.
     std::unique_ptr<Access> make_access() const;
@@ -57,7 +60,7 @@ class AlohaAccess final : public Access {
         /// End of the node's last frame: the next one starts no earlier.
         Time free_from = start_of_run;
         /// Frames that wait at the node; a timer is set for the first.
-        std::vector<QueuedFrame> queue = {};
+        TransmitQueue queue = {};
     };
     // Sets the timer for the first frame of the queue.
     void expect(Air& air, NodeId node);

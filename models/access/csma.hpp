@@ -64,6 +64,9 @@ struct Csma {
     std::uint32_t header = data_header_bytes;
     /// Largest number of frames waiting at a node; further frames are dropped.
     std::uint32_t queue = 50;
+    /// True: control packets of the routing protocol are sent before messages of applications, as
+    /// in ns-2's CMUPriQueue.
+    bool priority = false;
 
     /// Creates the model for one Network.
     /// @throws std::invalid_argument if the slot is not > 0, or there is no basic rate

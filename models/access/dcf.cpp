@@ -41,8 +41,8 @@ void Dcf::add() {
 
 void Dcf::send(Air& air, const QueuedFrame& frame) {
     const NodeId node = frame.frame.sender;
-    if (at(node).queue.size() >= settings_.queue) return air.lost(frame, DropReason::queue_full);
-    at(node).queue.push_back(frame);
+    const auto refused = at(node).queue.push(frame, settings_.queue, settings_.priority);
+    if (refused) return air.lost(*refused, DropReason::queue_full);
     if (at(node).state == State::idle) contend(air, node);
 }
 
@@ -167,12 +167,8 @@ void Dcf::answer_missing(Air& air, NodeId node) {
 /// follows, with or without another frame.
 void Dcf::finish(Air& air, NodeId node, Time end, std::optional<DropReason> reason) {
     Station& s = at(node);
-    const QueuedFrame done = s.queue.front();
-    s.queue.erase(s.queue.begin());
-    ++s.number;
-    s.short_count = s.long_count = 0;
-    s.asked = false;
-    s.window = settings_.timing.cw_min;
+    const QueuedFrame done = s.queue.pop();
+    next_frame(s);
     s.state = State::idle;
     s.timer = never;
     draw_backoff(air, node, end);
@@ -185,6 +181,13 @@ void Dcf::finish(Air& air, NodeId node, Time end, std::optional<DropReason> reas
     } else {
         air.sent(done);
     }
+}
+
+void Dcf::next_frame(Station& s) {
+    ++s.number;
+    s.short_count = s.long_count = 0;
+    s.asked = false;
+    s.window = settings_.timing.cw_min;
 }
 
 void Dcf::sensed(Air& air, std::span<const Sensing> nodes) {
@@ -270,18 +273,22 @@ void Dcf::defer_as_ns2(const Air& air, NodeId node, Time end) {
 }
 
 bool Dcf::is_repeated(NodeId node, const AirFrame& frame) {
-    auto& heard = at(node).heard;
-    const auto found = std::find_if(heard.begin(), heard.end(),
-                                    [&](const Heard& h) { return h.from == frame.frame.sender; });
-    if (found == heard.end()) {
-        heard.push_back({frame.frame.sender, frame.number});
-        return false;
-    }
-    return std::exchange(found->number, frame.number) == frame.number;
+    const std::uint64_t link = std::uint64_t{node.value} << 32 | frame.frame.sender.value;
+    const auto [last, is_new] = last_numbers_.try_emplace(link, frame.number);
+    return !is_new && std::exchange(last->second, frame.number) == frame.number;
 }
 
 std::vector<QueuedFrame> Dcf::take(NodeId node, NodeId next_hop) {
-    return take_waiting(at(node).queue, next_hop);
+    Station& s = at(node);
+    const bool contends = s.state == State::contending;
+    const bool takes_first = contends && s.queue.front().frame.next_hop == next_hop;
+    auto frames = s.queue.take(next_hop, !contends);
+    if (!takes_first) return frames;
+    next_frame(s);
+    if (!s.queue.empty()) return frames;
+    s.state = State::idle;  // its backoff goes on
+    s.timer = never;
+    return frames;
 }
 
 void Dcf::switch_off(Air& air, NodeId node) {
@@ -289,7 +296,7 @@ void Dcf::switch_off(Air& air, NodeId node) {
     s.state = State::idle;
     s.timer = never;
     s.response.reset();
-    for (const QueuedFrame& frame : std::exchange(s.queue, {})) air.lost(frame, DropReason::end);
+    for (const QueuedFrame& frame : s.queue.take_all()) air.lost(frame, DropReason::end);
 }
 
 }  // namespace rovernet

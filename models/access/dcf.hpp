@@ -4,6 +4,7 @@
 #include "models/access/access.hpp"
 #include "models/access/backoff.hpp"
 #include "models/access/csma.hpp"
+#include "models/access/transmit_queue.hpp"
 #include "models/phy/wifi.hpp"
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <unordered_map>  // order never observed
 #include <vector>
 
 // Carrier sense multiple access as in Wi-Fi. In code:
@@ -71,11 +73,6 @@ class Dcf final : public Access {
     /// Tag of a timer: for access, for an expected response, and for a response to send.
     enum Tag : std::uint32_t { access, answer, response };
 
-    /// Number of the last data frame that a station received from one sender.
-    struct Heard {
-        NodeId from;
-        std::uint32_t number;
-    };
     /// State changed by every sensed frame: one cache line for each station.
     struct alignas(64) Listening {
         Backoff backoff;
@@ -107,9 +104,7 @@ class Dcf final : public Access {
         /// End of the last frame that the station transmitted.
         Time sends_until = start_of_run;
         /// Frames in the station's queue; the first is in transmission.
-        std::vector<QueuedFrame> queue = {};
-        /// Number of the last data frame received from each sender of unicasts.
-        std::vector<Heard> heard = {};
+        TransmitQueue queue = {};
         /// Response (CTS or ACK) that the station sends after a SIFS.
         std::optional<AirFrame> response = {};
     };
@@ -126,6 +121,8 @@ class Dcf final : public Access {
     void contend(Air& air, NodeId node);
     // Sets the timer of a station; an older timer becomes void.
     void set_timer(Air& air, NodeId node, Time t, Tag tag);
+    // Begins the work on the next frame of the queue.
+    void next_frame(Station& station);
     // Draws a backoff whose slots count from `from` on.
     void draw_backoff(Air& air, NodeId node, Time from);
     // Transmits the first frame of the queue, or an RTS for it.
@@ -159,6 +156,9 @@ class Dcf final : public Access {
     std::deque<Station> stations_;
     // Backoffs by node.
     std::vector<Listening> listening_;
+    // Number of the last unicast that a station received from a sender, by both: the station in the
+    // upper 32 bits.
+    std::unordered_map<std::uint64_t, std::uint32_t> last_numbers_;
 };
 
 }  // namespace rovernet

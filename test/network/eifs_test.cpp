@@ -61,8 +61,9 @@ struct Listener {
     }
     /// `node` asks for the medium at `t`: a DIFS later its frame is on air, if it senses nothing.
     void ask(NodeId node, Duration t, std::uint32_t bytes, NodeId to = everyone) {
-        net.at(start_of_run + t,
-               [this, node, bytes, to] { net.send(node, to, "", {.size = bytes}); });
+        net.at(start_of_run + t, [this, node, bytes, to] {
+            net.send(node, to, "", {.size = bytes, .one_hop = true});
+        });
     }
     /// Time [ns] from `end` to the begin of the station's next frame.
     Duration waits(Duration end) {

@@ -28,7 +28,7 @@ struct Diary {
     std::vector<std::string> lines{};
     std::function<void(LinkLayer&, NodeId, MessageId)> send{};
     std::function<void(LinkLayer&, NodeId, std::uint64_t)> timer{};
-    std::function<void(LinkLayer&, const Frame&, SendResult)> result{};
+    std::function<void(LinkLayer&, const QueuedFrame&, SendResult)> result{};
     bool busy = false;  // a call to the link layer is under way
     std::vector<double> levels{};
 };
@@ -56,7 +56,7 @@ struct Scripted {
     void on_timer(LinkLayer& link, NodeId node, std::uint64_t tag) {
         diary->timer(link, node, tag);
     }
-    void on_sent(LinkLayer& link, const Frame& frame, SendResult result) {
+    void on_sent(LinkLayer& link, const QueuedFrame& frame, SendResult result) {
         static const std::map<SendResult, std::string> names{{SendResult::acked, "acked"},
                                                              {SendResult::sent, "sent"},
                                                              {SendResult::retries, "retries"},
@@ -119,7 +119,7 @@ TEST_CASE("router port: a unicast reaches the protocol at its next hop, and it a
     Row row;
     row.net.route(Scripted{.diary = row.diary});
     row.net.send({1}, {2}, "hello");
-    CHECK(row.run() == Lines{"sent", "2 hears hello"});
+    CHECK(row.run() == Lines{"2 hears hello", "acked"});
     const MetricValues metrics = row.net.metrics();
     CHECK(metrics.messages == 1);
     CHECK(metrics.deliveries == 1);
@@ -224,8 +224,8 @@ TEST_CASE(
             link.send({.message = message, .sender = node, .ttl = 1, .hops = 1}, {}, link.now());
         }
     };
-    row.diary->result = [&](LinkLayer& link, const Frame& frame, SendResult result) {
-        if (result == SendResult::sent && more-- > 0) link.send(frame, {}, link.now());
+    row.diary->result = [&](LinkLayer& link, const QueuedFrame& sent, SendResult result) {
+        if (result == SendResult::sent && more-- > 0) link.send(sent.frame, {}, link.now());
     };
     row.net.route(Scripted{.diary = row.diary});
     row.net.send({0}, everyone, "x");
@@ -303,14 +303,14 @@ TEST_CASE("router port: the queue gives back frames for one next hop, but the on
                     {.message = message, .sender = node, .ttl = 1, .hops = 1, .next_hop = {to}}, {},
                     link.now());
             }
-            link.timer(node, link.now(), 0);
+            link.timer(node, link.now() + 200us, 0);  // the first is on air
         };
         row.diary->timer = [](LinkLayer& link, NodeId node, std::uint64_t) {
             const auto taken = link.take_queued(node, NodeId{0});
             CHECK(taken.size() == 2);
             for (const QueuedFrame& each : taken) {
                 CHECK(each.frame.next_hop == NodeId{0});
-                link.release(each.frame.message);
+                link.release(each.frame);
             }
         };
         row.net.route(Scripted{.diary = row.diary});

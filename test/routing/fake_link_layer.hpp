@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,11 +20,13 @@ namespace rovernet::test {
 /// the test makes up. Nothing happens by itself.
 class FakeLinkLayer final : public LinkLayer {
   public:
+    /// State of a frame: before its time, in its sender's queue, or neither any more.
+    enum class Stage { waiting, queued, gone };
     /// A frame that the protocol sent, by its SendHandle.
     struct Sending {
         QueuedFrame queued;
         Time at;
-        bool is_waiting = true;
+        Stage stage = Stage::waiting;
     };
     struct Timer {
         NodeId node;
@@ -33,6 +37,7 @@ class FakeLinkLayer final : public LinkLayer {
         NodeId node;
         Frame frame;
         DropReason reason;
+        std::string_view own_code = {};
     };
 
     explicit FakeLinkLayer(std::size_t nodes) : on(nodes, true), positions(nodes) {}
@@ -50,11 +55,19 @@ class FakeLinkLayer final : public LinkLayer {
         protocol.on_receive(*this, frame, receptions);
         return receptions;
     }
-    /// The time of the last frame that was sent has come. @return it
+    /// The time of the last frame that was sent has come: it is in its sender's queue. @return it
     Frame go() {
-        sent.back().is_waiting = false;
+        sent.back().stage = Stage::queued;
         time = sent.back().at;
         return sent.back().queued.frame;
+    }
+    /// A frame in a queue ends with this result, which the protocol is told.
+    template <class Protocol>
+    void end(Protocol& protocol, std::size_t handle, SendResult result) {
+        const QueuedFrame frame = sent[handle].queued;
+        sent[handle].stage = Stage::gone;
+        if constexpr (HearsOfResults<Protocol>) protocol.on_sent(*this, frame, result);
+        release_reference(frame.frame);
     }
 
     Time now() const override { return time; }
@@ -74,38 +87,75 @@ class FakeLinkLayer final : public LinkLayer {
     }
     std::optional<SendHandle> send(const Frame& frame, std::optional<NodeId> heard_from,
                                    Time at) override {
-        sent.push_back({{frame, heard_from}, at});
+        const bool is_control = !messages[frame.message].kind.empty();
+        sent.push_back({{frame, heard_from, is_control}, at});
         messages.hold(frame.message);
-        return static_cast<SendHandle>(sent.size() - 1);
+        if (frame.header != 0) ++headers[frame.header];
+        const auto handle = static_cast<SendHandle>(sent.size() - 1);
+        if (at > time) return handle;
+        sent.back().stage = Stage::queued;
+        return std::nullopt;
     }
     QueuedFrame* waiting(SendHandle handle) override {
-        return sent[handle].is_waiting ? &sent[handle].queued : nullptr;
+        return sent[handle].stage == Stage::waiting ? &sent[handle].queued : nullptr;
     }
-    void cancel(SendHandle handle) override { sent[handle].is_waiting = false; }
-    std::vector<QueuedFrame> take_queued(NodeId, NodeId) override { return {}; }
-    void drop(NodeId node, const Frame& frame, DropReason reason) override {
-        drops.push_back({node, frame, reason});
+    void cancel(SendHandle handle) override {
+        if (!waiting(handle)) return;
+        sent[handle].stage = Stage::gone;
+        release_reference(sent[handle].queued.frame);
+    }
+    std::vector<QueuedFrame> take_queued(NodeId node, NodeId next_hop) override {
+        std::vector<QueuedFrame> taken;
+        for (Sending& each : sent) {
+            const Frame& frame = each.queued.frame;
+            if (each.stage != Stage::queued || frame.sender != node || frame.next_hop != next_hop)
+                continue;
+            each.stage = Stage::gone;
+            taken.push_back(each.queued);
+        }
+        return taken;
+    }
+    void drop(NodeId node, const Frame& frame, DropReason reason,
+              std::string_view own_code = {}) override {
+        drops.push_back({node, frame, reason, own_code});
     }
     Dbm level(const Reception&) const override { return received_power; }
+    Db snr(const Reception&) const override { return received_power - noise; }
     void timer(NodeId node, Time at, std::uint64_t tag) override {
         timers.push_back({node, at, tag});
     }
     void hold(MessageId id) override { messages.hold(id); }
-    void release(MessageId id) override { messages.release(id); }
+    void release(MessageId id) override {
+        if (messages.release(id) && on_forgotten) on_forgotten(id);
+    }
+    void hold(const Frame& frame) override {
+        messages.hold(frame.message);
+        if (frame.header != 0) ++headers[frame.header];
+    }
+    void release(const Frame& frame) override { release_reference(frame); }
     double draw(Purpose, NodeId, MessageId, std::uint64_t) const override { return drawn; }
     double draw(Purpose, NodeId, std::uint64_t) const override { return drawn; }
 
     Time time = start_of_run;
     std::vector<bool> on;
     std::vector<Vec3> positions;
-    Dbm received_power{-60};
+    Dbm received_power{-60}, noise{-95};
     double drawn = 0.5;  ///< by every draw
     MessageTable messages{};
     std::vector<Sending> sent{};
     std::vector<Timer> timers{};
     std::vector<Drop> drops{};
+    std::map<std::uint32_t, int> headers{};  ///< references to each header of frames
+    /// Called after the last reference to a message or a header: the protocol's functions.
+    std::function<void(MessageId)> on_forgotten{};
+    std::function<void(std::uint32_t)> on_header_forgotten{};
 
   private:
+    void release_reference(const Frame& frame) {
+        if (frame.header != 0 && --headers[frame.header] == 0 && on_header_forgotten)
+            on_header_forgotten(frame.header);
+        release(frame.message);
+    }
     MessageId add(Message message) {
         message.uid = next_uid_++;
         return messages.add(std::move(message));

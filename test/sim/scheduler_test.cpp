@@ -3,6 +3,7 @@
 
 #include "sim/error.hpp"
 #include "sim/random.hpp"
+#include "test/counted_allocations.hpp"
 
 #include <doctest/doctest.h>
 
@@ -16,38 +17,6 @@
 #include <string>
 #include <tuple>
 #include <vector>
-
-namespace scheduler_test {
-
-// Every allocation of the test program comes through here, so that a test can count them. Not
-// inlined: gcc would see malloc meet delete, and warn.
-namespace {
-std::size_t allocations = 0;
-
-void* counted(void* memory) {
-    ++allocations;
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
-}
-}  // namespace
-
-}  // namespace scheduler_test
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    return scheduler_test::counted(std::malloc(std::max(size, std::size_t{1})));
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
-    const auto a = static_cast<std::size_t>(alignment);
-    return scheduler_test::counted(std::aligned_alloc(a, (size + a - 1) / a * a));
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
-}
 
 namespace scheduler_test {
 using namespace rovernet;
@@ -305,9 +274,9 @@ TEST_CASE("scheduler: nothing is allocated once warm, however many are cancelled
         }
     };
     churn(100'000);
-    const std::size_t before = allocations;
+    const std::size_t before = test::allocations();
     churn(100'000);
-    CHECK(allocations == before);
+    CHECK(test::allocations() == before);
 }
 
 TEST_CASE("scheduler: nothing is allocated once warm, however many are served") {
@@ -324,9 +293,9 @@ TEST_CASE("scheduler: nothing is allocated once warm, however many are served") 
     };
     for (int i = 0; i < 1'000; ++i) queue.schedule(at(i), Priority::timer, 0);
     serve(100'000);
-    const std::size_t before = allocations;
+    const std::size_t before = test::allocations();
     serve(1'000'000);
-    CHECK(allocations == before);
+    CHECK(test::allocations() == before);
 }
 
 TEST_CASE("scheduler: far timers that are always put off do not pile up") {
@@ -340,9 +309,9 @@ TEST_CASE("scheduler: far timers that are always put off do not pile up") {
         }
     };
     put_off(10);
-    const std::size_t before = allocations;
+    const std::size_t before = test::allocations();
     put_off(100'000);
-    CHECK(allocations == before);
+    CHECK(test::allocations() == before);
     CHECK(served(queue) == std::vector{0, 1});
 }
 

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/ids.hpp"
+#include "sim/link_layer.hpp"
+#include "sim/message.hpp"
+#include "sim/record.hpp"
+
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+
+// Interface of routing protocols. A protocol is a plain struct that satisfies RouterProtocol; the
+// handle Router stores it by value. A complete one is in examples/router.cpp:
+//
+//     struct Once {
+//         Hops initial_ttl() const { return 1; }
+//         void send(LinkLayer& link, NodeId node, MessageId message) {
+//             link.send({.message = message, .sender = node, .ttl = 1, .hops = 1}, {}, link.now());
+//         }
+//         void on_receive(LinkLayer&, const Frame&, std::span<Reception> receptions) {
+//             for (Reception& r : receptions) { r.fate = Fate::ttl; r.delivered = true; }
+//         }
+//     };
+//     network.route(Once{});
+
+namespace rovernet {
+
+/// Routing protocol: one object for all its nodes, which calls the LinkLayer and is called by it.
+///
+/// Callbacks never occur inside the protocol's own functions: frames that a function sends leave
+/// after it has returned. Easily overlooked:
+///
+/// - on_receive gets the receptions of a frame at several nodes in one call: state of a node is
+///   looked up inside the loop, and link.now() is the time of the last reception; use
+///   reception.time.
+/// - `delivered` is set once for each message and destination; copies that were sent again arrive
+///   twice.
+/// - A `const Message&` is valid until the next originate(), also inside a function that is called.
+/// - `to` of a control packet is a label; next_hop of its frames decides.
+/// - A MessageId or Frame that is stored beyond a function needs a hold(), and then a release().
+template <class T>
+concept RouterProtocol = requires(T router, LinkLayer& link, NodeId node, MessageId message,
+                                  const Frame& frame, std::span<Reception> receptions) {
+    /// Called for a message that the node's application sends, to message.to or to everyone.
+    {router.send(link, node, message)};
+    /// Called for a frame at some of its destination nodes, in order of time and then of node; it
+    /// sets each reception's fate, and whether the message is delivered there.
+    {router.on_receive(link, frame, receptions)};
+    /// Initial TTL [hops] of messages of this router, for records.
+    { std::as_const(router).initial_ttl() } -> std::convertible_to<Hops>;
+};
+
+// Optional functions of a protocol.
+
+/// Protocol with timers, set by LinkLayer::timer. A timer cannot be cancelled: on_timer checks
+/// whether it is still wanted. `tag` is the value passed to LinkLayer::timer.
+template <class T>
+concept HasTimers = requires(T router, LinkLayer& link, NodeId node, std::uint64_t tag) {
+    {router.on_timer(link, node, tag)};
+};
+/// Protocol that stores data of messages: forget() is called when a message is gone and its slot of
+/// the table is free.
+template <class T>
+concept ForgetsMessages = requires(T router, MessageId message) {
+    {router.forget(message)};
+};
+/// Protocol that stores headers of frames: forget_header() is called when no frame has the header
+/// any more, and its number may be used again.
+template <class T>
+concept ForgetsHeaders = requires(T router, std::uint32_t header) {
+    {router.forget_header(header)};
+};
+/// Protocol that is notified of the results of its frames: every frame that was sent and neither
+/// cancelled nor taken causes one call. The call never occurs inside a call of the protocol to the
+/// link layer. After a failure the protocol decides about the packet: it sends it again, or ends it
+/// by LinkLayer::drop.
+template <class T>
+concept HearsOfResults = requires(T router, LinkLayer& link, const QueuedFrame& frame,
+                                  SendResult result) {
+    {router.on_sent(link, frame, result)};
+};
+/// Protocol that says which messages it holds references to: a debug build checks at the end of
+/// the run that there are no others.
+template <class T>
+concept KeepsMessages = requires(const T router, MessageId message) {
+    { router.keeps(message) } -> std::convertible_to<bool>;
+};
+/// Protocol that shows the content of its control packets in traces: describe() appends it to
+/// `text`, as ns-2 does in brackets: "[0x2 1 1 [3 0] [0 4]] (REQUEST)".
+template <class T>
+concept DescribesPackets = requires(const T router, const Message& message, const Frame& frame,
+                                    std::string& text) {
+    {router.describe(message, frame, text)};
+};
+/// Protocol that is notified of node starts: on_start is called for each node when the run begins,
+/// in the order of keys, or when the node is added later. HELLO messages start here.
+template <class T>
+concept HearsOfStarts = requires(T router, LinkLayer& link, NodeId node) {
+    {router.on_start(link, node)};
+};
+/// Protocol that is notified when a node is switched off or on. Frames that wait for their send
+/// time, and timers, remain; a frame from a node that is off is dropped.
+template <class T>
+concept HearsOfSwitches = requires(T router, LinkLayer& link, NodeId node, bool on) {
+    {router.on_switched(link, node, on)};
+};
+/// Protocol whose messages have different initial TTLs.
+template <class T>
+concept HasOwnTtls = requires(const T router, const Message& message) {
+    { router.initial_ttl(message) } -> std::convertible_to<Hops>;
+};
+/// Traits of a protocol: optional static members, false by default. The network reads them once,
+/// when the protocol is set.
+struct RouterTraits {
+    /// The protocol routes messages to one node, not only to everyone; Network::send() sends them
+    /// over one hop otherwise.
+    bool routes_unicasts = false;
+    /// on_receive also gets unicasts for other nodes; the fates that it sets for them are not
+    /// recorded.
+    bool overhears = false;
+    /// The protocol calls LinkLayer::level, which computes a path loss for each reception.
+    bool wants_levels = false;
+};
+
+}  // namespace rovernet

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/link_layer.hpp"
+#include "sim/random.hpp"
+#include "sim/router.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <queue>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace rovernet::test {
+
+/// A graph that runs any routing protocol without radio: a frame takes `hop_time` to each
+/// neighbour, none is lost, and a unicast over an edge that is not there ends with `retries`.
+class Graph final : public LinkLayer {
+  public:
+    using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+    /// @param edges  pairs of nodes that hear each other
+    Graph(std::size_t nodes, const std::vector<Edge>& edges, Router router)
+        : nodes_(nodes), router_(std::move(router)) {
+        for (const Edge& edge : edges) join(edge.first, edge.second);
+        for (std::uint32_t i = 0; i < nodes; ++i) router_.on_start(*this, NodeId{i});
+        send_outbox();
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) { edges_.insert({a, b}), edges_.insert({b, a}); }
+    void cut(std::uint32_t a, std::uint32_t b) { edges_.erase({a, b}), edges_.erase({b, a}); }
+    /// Cuts all edges of a node.
+    void isolate(std::uint32_t node) {
+        std::erase_if(edges_, [&](const Edge& e) { return e.first == node || e.second == node; });
+    }
+
+    /// Sends a message of an application at `at`. @return its number, an index into `delivered`
+    std::size_t send(std::uint32_t from, std::uint32_t to, Time at) {
+        delivered.emplace_back();
+        const std::size_t number = delivered.size() - 1;
+        schedule(at, [this, from, to, number] {
+            const MessageId id = add({.origin = NodeId{from},
+                                      .number = static_cast<std::uint32_t>(number),
+                                      .to = NodeId{to},
+                                      .key = number,
+                                      .size = 64,
+                                      .created = now_,
+                                      .payload = {},
+                                      .is_routed = true});
+            router_.send(*this, NodeId{from}, id);
+            send_outbox();
+            release(id);
+        });
+        return number;
+    }
+    /// Runs until `end`.
+    void run(Time end) {
+        while (!events_.empty() && events_.top().time <= end) {
+            const Event event = events_.top();
+            events_.pop();
+            now_ = event.time;
+            event.act();
+            send_outbox();
+        }
+        now_ = std::max(now_, end);
+    }
+
+    Time now() const override { return now_; }
+    std::size_t size() const override { return nodes_; }
+    const Message& message(MessageId id) const override { return messages_[id]; }
+    bool is_on(NodeId) const override { return true; }
+    std::uint64_t key(NodeId node) const override { return node.value; }
+    Vec3 position(NodeId) const override { return {}; }
+    MessageId originate(NodeId from, NodeId to, std::string_view kind, std::uint32_t bytes,
+                        std::string content) override {
+        return add({.origin = from,
+                    .to = to,
+                    .key = ~next_uid_,
+                    .size = bytes,
+                    .created = now_,
+                    .payload = std::move(content),
+                    .kind = kind,
+                    .is_routed = true});
+    }
+    std::optional<SendHandle> send(const Frame& frame, std::optional<NodeId> heard_from,
+                                   Time at) override {
+        if (at < now_) throw std::invalid_argument("a frame in the past");
+        hold(frame);
+        if (at == now_) {
+            outbox_.push_back({frame, heard_from});
+            return std::nullopt;
+        }
+        const auto handle = static_cast<SendHandle>(waiting_.size());
+        waiting_.push_back(QueuedFrame{frame, heard_from});
+        schedule(at, [this, handle] {
+            if (const auto frame = std::exchange(waiting_[handle], std::nullopt))
+                outbox_.push_back(*frame);
+        });
+        return handle;
+    }
+    QueuedFrame* waiting(SendHandle handle) override {
+        return waiting_[handle] ? &*waiting_[handle] : nullptr;
+    }
+    void cancel(SendHandle handle) override {
+        if (const auto frame = std::exchange(waiting_[handle], std::nullopt)) release(frame->frame);
+    }
+    /// Frames leave at once, so that none is queued.
+    std::vector<QueuedFrame> take_queued(NodeId, NodeId) override { return {}; }
+    void drop(NodeId, const Frame&, DropReason reason, std::string_view own_code = {}) override {
+        ++drops[reason == DropReason::own ? own_code : reason_of(reason).code];
+    }
+    Dbm level(const Reception&) const override { return Dbm{-60}; }
+    Db snr(const Reception&) const override { return Db{30}; }
+    void timer(NodeId node, Time at, std::uint64_t tag) override {
+        schedule(at, [this, node, tag] { router_.on_timer(*this, node, tag); });
+    }
+    void hold(MessageId id) override { messages_.hold(id); }
+    void release(MessageId id) override {
+        if (messages_.release(id)) router_.forget(id);
+    }
+    void hold(const Frame& frame) override {
+        hold(frame.message);
+        if (frame.header != 0) ++headers_[frame.header];
+    }
+    void release(const Frame& frame) override {
+        if (frame.header != 0 && --headers_[frame.header] == 0) router_.forget_header(frame.header);
+        release(frame.message);
+    }
+    double draw(Purpose purpose, NodeId node, MessageId id, std::uint64_t index) const override {
+        return uniform(
+            {.purpose = purpose, .a = node.value, .b = messages_[id].key, .index = index});
+    }
+    double draw(Purpose purpose, NodeId node, std::uint64_t index) const override {
+        return uniform({.purpose = purpose, .a = node.value, .index = index});
+    }
+
+    static constexpr Duration hop_time{1'000'000};
+    /// Nodes at which each message of an application was delivered, with the hops.
+    std::vector<std::vector<std::pair<NodeId, int>>> delivered{};
+    /// Number of frames by kind of their message; "" for those of applications.
+    std::map<std::string_view, int> frames{};
+    /// Number of drops by the protocol, by code.
+    std::map<std::string_view, int> drops{};
+    /// Number of messages in use.
+    std::size_t messages_in_use() const { return messages_.size(); }
+
+  private:
+    struct Event {
+        Time time;
+        std::uint64_t number;
+        std::function<void()> act;
+        bool operator<(const Event& other) const {
+            return std::pair{other.time, other.number} < std::pair{time, number};
+        }
+    };
+
+    void schedule(Time at, std::function<void()> act) {
+        events_.push({at, next_event_++, std::move(act)});
+    }
+    MessageId add(Message message) {
+        message.uid = next_uid_++;
+        return messages_.add(std::move(message));
+    }
+    void send_outbox() {
+        for (std::size_t i = 0; i < outbox_.size(); ++i) transmit(outbox_[i]);  // may grow
+        outbox_.clear();
+    }
+    void transmit(const QueuedFrame& queued) {
+        const Frame frame = queued.frame;
+        ++frames[messages_[frame.message].kind];
+        std::vector<Reception> receptions;
+        for (std::uint32_t i = 0; i < nodes_; ++i) {
+            const bool is_for = frame.next_hop == everyone || frame.next_hop == NodeId{i};
+            if (is_for && edges_.contains({frame.sender.value, i}))
+                receptions.push_back({now_ + hop_time, NodeId{i}});
+        }
+        schedule(now_ + hop_time, [this, queued, receptions] { arrive(queued, receptions); });
+    }
+    void arrive(const QueuedFrame& queued, std::vector<Reception> receptions) {
+        const Frame& frame = queued.frame;
+        const bool is_missed = receptions.empty() && frame.next_hop != everyone;
+        if (!receptions.empty()) router_.on_receive(*this, frame, receptions);
+        const Message message = messages_[frame.message];
+        for (const Reception& r : receptions) {
+            if (r.delivered && message.kind.empty())
+                delivered[message.number].emplace_back(r.node, frame.hops);
+        }
+        router_.on_sent(*this, queued,
+                        is_missed                    ? SendResult::retries
+                        : frame.next_hop != everyone ? SendResult::acked
+                                                     : SendResult::sent);
+        release(frame);
+    }
+
+    std::size_t nodes_;
+    Router router_;
+    std::set<Edge> edges_;
+    Time now_ = start_of_run;
+    std::priority_queue<Event> events_;
+    std::uint64_t next_event_ = 0, next_uid_ = 0;
+    MessageTable messages_;
+    std::vector<QueuedFrame> outbox_;
+    std::vector<std::optional<QueuedFrame>> waiting_;
+    std::map<std::uint32_t, int> headers_;
+};
+
+}  // namespace rovernet::test
