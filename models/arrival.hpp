@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/transmission.hpp"
 #include "sim/geometry.hpp"
 #include "sim/ids.hpp"
 #include "sim/time.hpp"
@@ -28,6 +29,8 @@ struct Emission {
     double squared_reach = 0;
     /// Index of the frame among the frames in flight of the Channel.
     std::uint32_t flight = 0;
+    /// Modulation and coding of the frame.
+    Coding coding{};
     /// Serial number of the frame, in the order of transmission.
     std::uint64_t serial = 0;
 };
@@ -49,6 +52,8 @@ struct Sensing {
     /// True if the signal is strong enough to be decoded; the access model is then notified of the
     /// result.
     bool decodable;
+    /// Modulation and coding of the frame.
+    Coding coding{};
     /// Begin and end of the frame at the node.
     Time begin, end;
 };
@@ -68,6 +73,8 @@ struct Arrival {
     NodeId from;
     /// True if the node itself transmits the frame; it cannot receive other frames at that time.
     bool own = false;
+    /// Modulation and coding of the frame.
+    Coding coding{};
     /// Lock state for the model "sinr"; null if the node cannot decode the frame.
     Lock* lock = nullptr;
 

@@ -66,18 +66,20 @@ Channel::Channel(World& world, ChannelUser& user) : world_(world), user_(user) {
                           std::move(judge));
 }
 
-std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending& how) {
+std::span<const Reception> Channel::transmit(const AirFrame& air, const Transmission& how,
+                                             bool is_sensed) {
     const Frame& frame = air.frame;
     ++world_.transmissions;
     const std::size_t slot = flights_.take();
     Flight& flight = flights_[slot];
     flight.air = air;
     flight.served = 0;
-    const Time end = world_.now + how.airtime;
-    if (how.is_sensed) {
-        find_sensors(flight, end);
+    const Time end = world_.now + how.airtime();
+    if (is_sensed) {
+        find_sensors(flight, how);
     } else {
-        world_.medium.find_receivers(frame.sender, world_.now, end, world_.legs, flight.receivers);
+        world_.medium.find_receivers(frame.sender, how.coding, world_.now, end, world_.legs,
+                                     flight.receivers);
         sort(flight.receivers);
     }
     flight.levels.clear();
@@ -91,27 +93,28 @@ std::span<const Reception> Channel::transmit(const AirFrame& air, const Sending&
         if (!interference_) flights_.release(slot);
         return all;
     }
-    if (air.kind == AirFrame::data) world_.hold(frame);
+    if (!air.control) world_.hold(frame);
     world_.events.schedule(flight.receivers.first, Priority::frame_end,
                            {Occurrence::Kind::frame, frame.sender, slot});
     return all;
 }
 
 /// Finds the receivers, and reports all nodes that sense the frame to the user.
-void Channel::find_sensors(Flight& flight, Time end) {
+void Channel::find_sensors(Flight& flight, const Transmission& how) {
     Medium& medium = world_.medium;
-    const Time now = world_.now;
+    const Duration airtime = how.airtime();
+    const Time now = world_.now, end = now + airtime;
     const NodeId sender = flight.air.frame.sender;
-    const auto sensors = medium.find_sensors(sender, now, end, world_.legs, flight.receivers);
+    const auto sensors =
+        medium.find_sensors(sender, how.coding, now, end, world_.legs, flight.receivers);
     sort(flight.receivers);
-    const Duration airtime = end - now;
     sensed_.clear();
     for (const Reception& r : flight.receivers.all()) {
-        sensed_.push_back({r.node, true, r.time - airtime, r.time});
+        sensed_.push_back({r.node, true, how.coding, r.time - airtime, r.time});
     }
     for (const Medium::Found& s : sensors) {
         const Duration delay = medium.arrivals().delay(std::sqrt(s.squared_distance));
-        sensed_.push_back({s.node, false, now + delay, end + delay});
+        sensed_.push_back({s.node, false, how.coding, now + delay, end + delay});
     }
     user_.sensed(sensed_);
 }
@@ -146,16 +149,17 @@ void Channel::find_levels(Flight& flight, Time end) {
 }
 
 /// Adds a frame to the interference, which keeps it while it may overlap with other frames.
-void Channel::put_on_air(std::size_t slot, const Sending& how) {
+void Channel::put_on_air(std::size_t slot, const Transmission& how) {
     Flight& flight = flights_[slot];
     forget_frames();
     flight.emission = interference_->add({.begin = world_.now,
-                                          .end = world_.now + how.airtime,
+                                          .end = world_.now + how.airtime(),
                                           .origin = flight.receivers.origin,
                                           .from = flight.air.frame.sender,
                                           .heard_within = flight.receivers.heard_within,
-                                          .flight = static_cast<std::uint32_t>(slot)},
-                                         how.rate, flight.receivers.all());
+                                          .flight = static_cast<std::uint32_t>(slot),
+                                          .coding = how.coding},
+                                         how, flight.receivers.all());
 }
 
 /// Removes frames that cannot affect receptions any more, and frees their flights.
@@ -192,7 +196,7 @@ std::optional<Db> Channel::interference_left_out() const {
 
 /// Marks receptions as garbled by the sender's success rate.
 void Channel::garble(Flight& flight) const {
-    if (flight.air.kind != AirFrame::data) return;
+    if (flight.air.control) return;
     const Frame& frame = flight.air.frame;
     const double success = world_.medium.stations().radio(frame.sender).success_rate;
     for (Reception& r : flight.receivers.all()) {
@@ -238,7 +242,7 @@ void Channel::arrive(const Event& event) {
     for (auto key = event.key;;) {
         const std::span<Reception> ended = next_of(flight, key);
         if (interference_) interference_->judge(flight.emission, ended, world_.now);
-        if (flight.air.kind == AirFrame::data) world_.messages.mark_ended(flight.air.frame.message);
+        if (!flight.air.control) world_.messages.mark_ended(flight.air.frame.message);
         const std::size_t begin = flight.served - ended.size();
         const std::span<const Dbm> levels =
             flight.levels.empty() ? std::span<const Dbm>{}
@@ -254,7 +258,7 @@ void Channel::arrive(const Event& event) {
     }
     const AirFrame air = flight.air;
     if (!interference_) flights_.release(event.payload.data);  // else once it is off the air
-    if (air.kind == AirFrame::data) world_.release(air.frame);
+    if (!air.control) world_.release(air.frame);
 }
 
 }  // namespace rovernet

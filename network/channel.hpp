@@ -61,20 +61,14 @@ class Channel {
     /// @param user  layer above, which may still be under construction
     Channel(World& world, ChannelUser& user);
 
-    /// Parameters of a transmission, chosen by the access model.
-    struct Sending {
-        /// Time on air [ns], > 0.
-        Duration airtime;
-        /// Bit rate [bit/s], for the reception model.
-        BitRate rate;
-        /// True if the access model uses carrier sensing: sensed() reports the nodes that sense the
-        /// frame.
-        bool is_sensed;
-    };
     /// Starts to transmit a frame now. The frame holds a reference to its message until the last
     /// reception.
+    /// @param is_sensed  the access model uses carrier sensing: sensed() reports the nodes that
+    /// sense
+    ///                   the frame
     /// @return receptions at the nodes that can decode it, in order; valid until the next call
-    std::span<const Reception> transmit(const AirFrame& frame, const Sending& how);
+    std::span<const Reception> transmit(const AirFrame& frame, const Transmission& how,
+                                        bool is_sensed);
     /// Serves the event of a frame: passes the receptions that end now to the layer above, and
     /// queues the event again for the rest.
     void arrive(const Event& event);
@@ -110,9 +104,9 @@ class Channel {
     };
 
     // Finds all nodes that sense the frame, with the receivers, and reports them.
-    void find_sensors(Flight& flight, Time end);
+    void find_sensors(Flight& flight, const Transmission& how);
     // Adds the frame to the frames that may interfere.
-    void put_on_air(std::size_t slot, const Sending& how);
+    void put_on_air(std::size_t slot, const Transmission& how);
     // Sets the received power of each reception at a node that asks for it.
     void find_levels(Flight& flight, Time end);
     // Frees the flights of frames that cannot interfere any more.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "network/mac.hpp"
 
-#include "models/phy/wifi.hpp"
 #include "network/world.hpp"
 
 #include <algorithm>
@@ -20,17 +19,14 @@ Mac::Mac(World& world, Channel& channel, MacUser& user)
 Time Mac::now() const { return world_.now; }
 
 Time Mac::transmit(const AirFrame& air) {
-    const bool data = air.kind == AirFrame::data;
+    const bool data = !air.control;
     if (data) world_.emit(Transmitted{world_.now, air.frame, air.heard_from});
-    if (world_.records.wants<AirSent>()) world_.emit(AirSent{world_.now, air, bytes(air)});
-    const BitRate rate = rate_of(air);
-    const Channel::Sending how{
-        .airtime = world_.phy.airtime(world_.medium.stations().radio(air.frame.sender).preamble,
-                                      rate, bytes(air)),
-        .rate = rate,
-        .is_sensed = listens_};
-    const auto receptions = channel_.transmit(air, how);
-    const Time end = world_.now + how.airtime;
+    const Transmission how = transmission(air);
+    if (world_.records.wants<AirSent>()) {
+        world_.emit(AirSent{world_.now, air, how.bytes, data ? header_ : 0});
+    }
+    const auto receptions = channel_.transmit(air, how, listens_);
+    const Time end = world_.now + how.airtime();
     const auto is_next_hop = [&](const Reception& r) { return r.node == air.frame.next_hop; };
     if (data && !listens_ && air.frame.next_hop != everyone &&
         std::none_of(receptions.begin(), receptions.end(), is_next_hop)) {
@@ -75,12 +71,7 @@ void Mac::sent(const QueuedFrame& frame) {
 }
 
 std::uint32_t Mac::bytes(const AirFrame& frame) const {
-    switch (frame.kind) {
-        case AirFrame::rts: return rts_bytes;
-        case AirFrame::cts: return cts_bytes;
-        case AirFrame::ack: return ack_bytes;
-        case AirFrame::data: break;
-    }
+    if (frame.control) return frame.control->bytes;
     const std::uint32_t above = frame.frame.bytes;
     return (above > 0 ? above : world_.messages[frame.frame.message].size) + header();
 }
@@ -93,9 +84,9 @@ BitRate Mac::rate_of(const AirFrame& frame) const {
                          to == everyone ? sender : world_.medium.stations().radio(to).rate);
 }
 
-Duration Mac::airtime(const AirFrame& frame) const {
+Transmission Mac::transmission(const AirFrame& frame) const {
     const Radio& radio = world_.medium.stations().radio(frame.frame.sender);
-    return world_.phy.airtime(radio.preamble, rate_of(frame), bytes(frame));
+    return world_.phy.transmission(radio, rate_of(frame), bytes(frame));
 }
 
 void Mac::access_timer(NodeId node, Time at, std::uint32_t tag) {
@@ -107,7 +98,7 @@ double Mac::access_draw(NodeId node, std::uint64_t index) const {
 }
 
 void Mac::frame_ended(const AirFrame& frame, const Arriving& part) {
-    if (frame.kind == AirFrame::data) {
+    if (!frame.control) {
         user_.frame_ended(frame, part);
         if (judges(frame.frame)) judge(frame, part.receptions);
     }
@@ -118,7 +109,7 @@ void Mac::frame_ended(const AirFrame& frame, const Arriving& part) {
 void Mac::tell_stations(const AirFrame& frame, std::span<const Reception> receptions) {
     const AirFrame air = frame;
     const Medium& medium = world_.medium;
-    if (air.kind != AirFrame::data && world_.records.wants<ControlReceived>()) {
+    if (air.control && world_.records.wants<ControlReceived>()) {
         for (const Reception& r : receptions) {
             if (r.node != air.frame.next_hop || !medium.stations().is_on(r.node)) continue;
             world_.emit(ControlReceived{air, r, bytes(air)});

@@ -78,8 +78,10 @@ class Mac final : public Air, public ChannelUser {
     /// Transmits a frame: emits Transmitted and AirSent, computes rate and airtime, and passes the
     /// frame to the channel.
     Time transmit(const AirFrame& frame) override;
-    /// Airtime [ns] and size [bytes] of a frame, including the access model's additions.
-    Duration airtime(const AirFrame& frame) const override;
+    /// Transmission, airtime [ns] and size [bytes] of a frame, including the access model's
+    /// additions.
+    Transmission transmission(const AirFrame& frame) const;
+    Duration airtime(const AirFrame& frame) const override { return transmission(frame).airtime(); }
     std::uint32_t bytes(const AirFrame& frame) const override;
     void access_timer(NodeId node, Time at, std::uint32_t tag) override;
     double access_draw(NodeId node, std::uint64_t index) const override;

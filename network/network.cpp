@@ -60,6 +60,11 @@ void Network::place(NodeId node, Vec3 at, std::optional<Radians> heading) {
     engine_->motion.place(node, at, heading);
 }
 void Network::stop(NodeId node) { engine_->motion.place(node, position(node)); }
+void Network::set_rate(NodeId node, BitRate rate) {
+    engine_->channel.check(rate);
+    engine_->world.medium.set_rate(engine_->known(node), rate);
+    engine_->links.look_at(node);
+}
 void Network::switch_off(NodeId node) { engine_->switch_robot(node, false); }
 void Network::take_away(NodeId node, Presence why) {
     engine_->away[engine_->known(node)] = why;

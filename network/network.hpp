@@ -110,6 +110,9 @@ class Network {
     void place(NodeId node, Vec3 at, std::optional<Radians> heading = {});
     /// Stops a robot at its position; its movement ends.
     void stop(NodeId node);
+    /// Sets the bit rate of a robot's radio, and with it the coding of its frames, from now on.
+    /// @throws std::invalid_argument if the reception model cannot judge frames at this rate
+    void set_rate(NodeId node, BitRate rate);
     /// Switches a robot off: it stops, and its radio neither transmits nor receives.
     void switch_off(NodeId node);
     /// Switches a robot off and marks it as absent.

@@ -25,11 +25,12 @@ World::World(NetworkSettings given)
               .propagation_delay = settings.propagation_delay,
               .all_pairs = settings.reference,
               .interference_cut = settings.reception.interference_cut(),
+              .phy = settings.access.phy(),
               .shadowing = settings.shadowing,
               .fading = settings.fading,
               .seed = settings.seed,
               .replication = settings.replication}),
-      phy(settings.access.phy()) {
+      phy(medium.settings().phy) {
     if (settings.floor_height != no_storeys && !positive.contains(settings.floor_height.value)) {
         throw_out_of_range("network", "floor_height", positive.text, settings.floor_height.value);
     }

@@ -107,7 +107,8 @@ struct World {
     Legs legs;
     /// Radios and propagation, which determine links and receivers.
     Medium medium;
-    const Phy phy;  // modulation and coding of the access model's frames
+    /// Physical layer of the access model's frames.
+    const Phy phy;
     /// Messages to which frames in flight or waiting copies refer.
     MessageTable messages;
     /// Sinks, which get the records of emit().

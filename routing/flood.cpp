@@ -116,8 +116,8 @@ SendHandle FloodRouter::forward(LinkLayer& link, const Frame& frame, const Recep
     const std::uint64_t which = forwards_all() ? frame.path : 0;
     const double u = link.draw(Purpose::flood_jitter, reception.node, frame.message, which);
     const Duration jitter = from_seconds(u * seconds(flood_.jitter));
-    const auto [copy, heard_from] = passed_on(link, frame, reception.node);
-    return link.send(copy, heard_from, reception.time + least_reaction + jitter).value();
+    const QueuedFrame copy = passed_on(link, frame, reception.node);
+    return link.send(copy.frame, copy.heard_from, reception.time + least_reaction + jitter).value();
 }
 
 void FloodRouter::forget(MessageId message) {

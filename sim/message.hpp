@@ -88,17 +88,26 @@ struct QueuedFrame {
     bool is_control = false;
 };
 
-/// Frame on air: a frame of a message (data), or a control frame of the access model (IEEE 802.11:
-/// RTS, CTS, ACK).
+/// Control frame of an access model: its name in traces, "RTS", and its size [bytes].
+struct ControlFrame {
+    std::string_view name;
+    std::uint32_t bytes;
+    friend bool operator==(const ControlFrame&, const ControlFrame&) = default;
+};
+
+/// Frame on air: a frame of a message (data), or a control frame of the access model.
 struct AirFrame {
-    /// Kind of frame: data, request to send, clear to send, acknowledgement.
-    enum Kind : std::uint8_t { data, rts, cts, ack };
+    /// Name of the kind of frame: "DATA", or the control frame's.
+    std::string_view kind() const { return control ? control->name : "DATA"; }
+    /// Whether it is a control frame of that name.
+    bool is(std::string_view name) const { return control && control->name == name; }
 
     /// Frame of the message. In a control frame only `sender` and `next_hop` are valid.
     Frame frame = {};
     /// Node from which the sender received the frame; empty if the sender is the message's origin.
     std::optional<NodeId> heard_from = std::nullopt;
-    Kind kind = data;
+    /// Control frame, a constant of the access model; null for data.
+    const ControlFrame* control = nullptr;
     /// Number of earlier transmissions of a data frame; 0 for control frames.
     std::uint8_t attempt = 0;
     /// Sequence number of a data frame, the same for all its retransmissions: a receiver detects a

@@ -185,6 +185,8 @@ struct AirSent {
     AirFrame air;
     /// Size [bytes], including the bytes that the access model adds.
     std::uint32_t bytes;
+    /// Bytes that the access model adds to a frame of a message.
+    std::uint32_t header = 0;
 };
 
 /// A control frame ends at its destination, if that is on. Other stations that overhear it have no

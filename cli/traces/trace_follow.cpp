@@ -172,14 +172,19 @@ Table robot_table(const FollowedRobot& r, const FollowedMessage& way, const Trac
     return table;
 }
 
+std::string in_lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower;
+}
+
 Table frame_table(const FrameAtRobot& frame, const MessageAtRobot& message) {
-    constexpr std::string_view kinds[] = {"data", "rts", "cts", "ack"};
     Array others;
     for (const OverlappingFrame& other : frame.others) {
         const std::string& from = message.names[other.from.index()];
         Table table;
         table.set("from", from);
-        table.set("kind", kinds[other.kind]);
+        table.set("kind", in_lower_case(other.kind));
         const bool has_level = other.has_level && from != message.robot;
         table.set("level_dbm", has_level ? Value(other.level.value) : Value());
         others.emplace_back(std::move(table));

@@ -109,7 +109,7 @@ void Capturing::add_sent(const AirSent& sent) {
 
 void Capturing::add_received(const AirFrame& air, const Reception& reception) {
     if (!is_decoded(reception.fate)) return;
-    const bool is_data = air.kind == AirFrame::data;
+    const bool is_data = !air.control;
     const std::uint64_t uid = is_data ? trace_.context().messages[air.frame.message].uid : 0;
     const RecordedFrame* frame = air_.frame_of(air, uid, reception);
     if (!frame) {
@@ -135,7 +135,7 @@ void Capturing::add_packet(NodeId at, Time time, PcapngWriter::Way way, const Re
                      .frequency = air_.medium().stations().radio(air.frame.sender).frequency,
                      .signal = signal},
                     bytes_);
-    if (air.kind == AirFrame::data) {
+    if (!air.control) {
         append_data_frame(air, trace_.context().messages[air.frame.message], frame.bytes,
                           addresses(air), bytes_);
     } else {
@@ -149,7 +149,7 @@ PacketAddresses Capturing::addresses(const AirFrame& air) const {
     const NodeId to = air.frame.next_hop;
     PacketAddresses both{.sender = hosts_[air.frame.sender.index()].mac,
                          .receiver = to == everyone ? every_station : hosts_[to.index()].mac};
-    if (air.kind != AirFrame::data) return both;
+    if (air.control) return both;
     const Message& message = trace_.context().messages[air.frame.message];
     const auto ip_of_robot = [&](NodeId node) {
         return node.index() < hosts_.size() ? hosts_[node.index()].ip : every_host;

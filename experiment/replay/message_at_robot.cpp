@@ -82,7 +82,7 @@ void Account::take(const Record& record) {
 
 /// Handles a frame that starts now: a frame of the message, or one that overlaps such a frame.
 void Account::begin(const RecordedFrame& frame) {
-    const bool is_of_message = frame.air.kind == AirFrame::data && frame.uid == uid_;
+    const bool is_of_message = !frame.air.control && frame.uid == uid_;
     if (!is_of_message || frame.air.frame.sender == robot_) {
         for (Open& open : frames_) meet(open, frame);
         return;
@@ -118,7 +118,7 @@ void Account::meet(Open& open, const RecordedFrame& other) const {
     const auto range = range_of(air_.medium().stations().model(arrival.from));
     if (!arrival.own && range && arrival.squared_distance > range->value * range->value) return;
     open.frame.others.push_back(
-        {arrival.from, other.air.kind, {arrival.level_dbm}, !range.has_value()});
+        {arrival.from, other.air.kind(), {arrival.level_dbm}, !range.has_value()});
 }
 
 /// Outcome of a frame as far as it is known at its start.

@@ -42,8 +42,8 @@ constexpr std::string_view name_of(Outcome outcome) {
 
 /// Frame that overlapped the examined frame at the robot.
 struct OverlappingFrame {
-    NodeId from;  ///< sender of the frame; may be the robot itself
-    AirFrame::Kind kind;
+    NodeId from;            ///< sender of the frame; may be the robot itself
+    std::string_view kind;  ///< kind of frame, see AirFrame::kind
     Dbm level;              ///< level at the robot; infinite for the robot's own frame
     bool has_level = true;  ///< false: the propagation model has no levels (disc)
 };

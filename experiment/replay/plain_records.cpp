@@ -58,7 +58,7 @@ bool PlainRecords::take(const Record& record, const RecordContext& context) {
     }
     if (const auto* moved = std::get_if<Moved>(&record)) return take(moved->time, moved->node);
     if (const auto* sent = std::get_if<AirSent>(&record)) {
-        const bool is_data = sent->air.kind == AirFrame::data;
+        const bool is_data = !sent->air.control;
         return (!is_data || takes_message(sent->air.frame.message, context)) &&
                take(sent->time, sent->air.frame.sender);
     }

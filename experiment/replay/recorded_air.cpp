@@ -92,7 +92,7 @@ void RecordedAir::take(const Record& record, const RecordContext& context) {
     } else if (const auto* switched = std::get_if<Switched>(&record)) {
         if (switched->node.index() < robots()) medium_.switch_radio(switched->node, switched->on);
     } else if (const auto* sent = std::get_if<AirSent>(&record)) {
-        const bool is_data = sent->air.kind == AirFrame::data;
+        const bool is_data = !sent->air.control;
         add({.air = sent->air,
              .uid = is_data ? context.messages[sent->air.frame.message].uid : 0,
              .bytes = sent->bytes,
@@ -113,8 +113,8 @@ void RecordedAir::add(const RecordedFrame& frame, Time now) {
     frames_.push_back(frame);
     RecordedFrame& added = frames_.back();
     added.rate = rate_of(added.air);
-    added.end =
-        now + phy_.airtime(medium_.stations().radio(from).preamble, added.rate, added.bytes);
+    const Radio& radio = medium_.stations().radio(from);
+    added.end = now + phy_.transmission(radio, added.rate, added.bytes).airtime();
 }
 
 void RecordedAir::place(NodeId node, const Leg& leg) {
@@ -138,7 +138,7 @@ const RecordedFrame* RecordedAir::frame_of(const AirFrame& air, std::uint64_t ui
     if (reception.node.index() >= robots()) return nullptr;
     const RecordedFrame* last = nullptr;
     for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
-        const bool is_like_it = frame->air.kind == air.kind && frame->uid == uid &&
+        const bool is_like_it = frame->air.kind() == air.kind() && frame->uid == uid &&
                                 frame->air.frame.sender == air.frame.sender &&
                                 frame->air.frame.next_hop == air.frame.next_hop &&
                                 frame->air.frame.hops == air.frame.hops;

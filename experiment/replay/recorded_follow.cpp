@@ -22,7 +22,7 @@ bool matters(const Record& record, const RecordContext& context, std::uint64_t u
             if constexpr (requires { r.message; }) return true;  // Sent
             if constexpr (requires { r.frame; }) return is_it(r.frame.message);
             if constexpr (requires { r.air; }) {
-                return r.air.kind == AirFrame::data && is_it(r.air.frame.message);
+                return !r.air.control && is_it(r.air.frame.message);
             }
             return false;
         },

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "models/arrival.hpp"
-#include "models/phy/wifi.hpp"
+#include "models/phy/phy.hpp"
 #include "sim/ids.hpp"
 #include "sim/message.hpp"
 #include "sim/record.hpp"
@@ -106,8 +106,8 @@ class Access {
     /// Bit rates of the model's frames, in addition to those of the radios; the reception model
     /// checks them.
     virtual std::span<const BitRate> own_rates() const { return {}; }
-    /// Physical layer of the model's frames: airtimes and bit error rates.
-    virtual Phy phy() const { return Wifi{}; }
+    /// Physical layer of the model's frames.
+    virtual Phy phy() const = 0;
 };
 
 /// Settings of an access model: its name, and a function that creates it.

@@ -3,6 +3,7 @@
 
 #include "models/access/access.hpp"
 #include "models/access/transmit_queue.hpp"
+#include "models/phy/wifi.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -53,6 +54,7 @@ class AlohaAccess final : public Access {
     void on_timer(Air& air, NodeId node, std::uint32_t tag) override;
     std::vector<QueuedFrame> take(NodeId node, NodeId next_hop) override;
     void switch_off(Air& air, NodeId node) override;
+    Phy phy() const override { return Wifi{}; }
 
   private:
     /// State of one node: its queue, and the end of its last frame.

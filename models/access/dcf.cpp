@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "models/access/dcf.hpp"
 
+#include "models/access/wifi_frames.hpp"
 #include "sim/fields.hpp"
 
 #include <functional>
@@ -28,8 +29,8 @@ BitRate Dcf::answer_rate(BitRate rate) const {
 
 BitRate Dcf::rate(const AirFrame& frame, BitRate sender, BitRate receiver) const {
     const bool for_everyone = frame.frame.next_hop == everyone;
-    if (frame.kind == AirFrame::data && !for_everyone) return sender;
-    if (frame.kind != AirFrame::ack) return settings_.basic_rates.front();  // a CTS answers an RTS
+    if (!frame.control && !for_everyone) return sender;
+    if (frame.control != &wifi_ack) return settings_.basic_rates.front();  // a CTS answers an RTS
     return for_everyone ? settings_.timing.lowest_rate : answer_rate(receiver);
 }
 
@@ -107,8 +108,8 @@ AirFrame Dcf::data_frame(NodeId node) const {
             .number = s.number};
 }
 
-AirFrame Dcf::control_frame(NodeId from, NodeId to, AirFrame::Kind kind) {
-    AirFrame control{.kind = kind};
+AirFrame Dcf::control_frame(NodeId from, NodeId to, const ControlFrame& kind) {
+    AirFrame control{.control = &kind};
     control.frame.sender = from;
     control.frame.next_hop = to;
     return control;
@@ -120,10 +121,10 @@ void Dcf::transmit_head(Air& air, NodeId node) {
     const NodeId to = data.frame.next_hop;
     const bool asks = to != everyone && air.bytes(data) > settings_.rts_threshold;
     if (!asks) return transmit_data(air, node);
-    AirFrame rts = control_frame(node, to, AirFrame::rts);
+    AirFrame rts = control_frame(node, to, wifi_rts);
     const Duration sifs = settings_.timing.sifs;
-    rts.reserved = 3 * sifs + air.airtime(control_frame(to, node, AirFrame::cts)) +
-                   air.airtime(data) + air.airtime(control_frame(to, node, AirFrame::ack));
+    rts.reserved = 3 * sifs + air.airtime(control_frame(to, node, wifi_cts)) + air.airtime(data) +
+                   air.airtime(control_frame(to, node, wifi_ack));
     await(air, node, transmit(air, rts), State::awaiting_cts);
 }
 
@@ -131,7 +132,7 @@ void Dcf::transmit_data(Air& air, NodeId node) {
     AirFrame data = data_frame(node);
     const NodeId to = data.frame.next_hop;
     if (to == everyone) return finish(air, node, transmit(air, data), std::nullopt);
-    data.reserved = settings_.timing.sifs + air.airtime(control_frame(to, node, AirFrame::ack));
+    data.reserved = settings_.timing.sifs + air.airtime(control_frame(to, node, wifi_ack));
     await(air, node, transmit(air, data), State::awaiting_ack);
 }
 
@@ -191,7 +192,7 @@ void Dcf::next_frame(Station& s) {
 }
 
 void Dcf::sensed(Air& air, std::span<const Sensing> nodes) {
-    for (const auto& [node, decodable, begin, end] : nodes) {
+    for (const auto& [node, decodable, coding, begin, end] : nodes) {
         Listening& l = listening_[node.index()];
         l.backoff.energy(begin, end);
         l.on_air_until = std::max(l.on_air_until, end);
@@ -220,24 +221,21 @@ void Dcf::reserve(NodeId node, Time from, Time until) {
 void Dcf::answer_to(Air& air, NodeId node, const AirFrame& frame) {
     Station& s = at(node);
     const NodeId from = frame.frame.sender;
-    switch (frame.kind) {
-        case AirFrame::rts: {
-            if (s.reserved_until > air.now()) return;
-            AirFrame cts = control_frame(node, from, AirFrame::cts);
-            cts.reserved = frame.reserved - settings_.timing.sifs - air.airtime(cts);
-            return respond(air, node, cts);
-        }
-        case AirFrame::cts:
-            if (s.state != State::awaiting_cts) return;
-            s.timer = never;
-            s.short_count = 0;
-            s.asked = true;
-            return respond(air, node, data_frame(node));
-        case AirFrame::data: return respond(air, node, control_frame(node, from, AirFrame::ack));
-        case AirFrame::ack:
-            if (s.state != State::awaiting_ack) return;
-            return finish(air, node, air.now(), std::nullopt);
+    if (!frame.control) return respond(air, node, control_frame(node, from, wifi_ack));
+    if (frame.control == &wifi_rts) {
+        if (s.reserved_until > air.now()) return;
+        AirFrame cts = control_frame(node, from, wifi_cts);
+        cts.reserved = frame.reserved - settings_.timing.sifs - air.airtime(cts);
+        return respond(air, node, cts);
     }
+    if (frame.control == &wifi_cts) {
+        if (s.state != State::awaiting_cts) return;
+        s.timer = never;
+        s.short_count = 0;
+        s.asked = true;
+        return respond(air, node, data_frame(node));
+    }
+    if (s.state == State::awaiting_ack) finish(air, node, air.now(), std::nullopt);
 }
 
 /// Schedules `frame` after a SIFS, without carrier sensing.
@@ -252,7 +250,7 @@ void Dcf::send_response(Air& air, NodeId node) {
     Station& s = at(node);
     if (!s.response) return;
     const AirFrame frame = *std::exchange(s.response, std::nullopt);
-    if (frame.kind == AirFrame::data) return transmit_data(air, node);
+    if (!frame.control) return transmit_data(air, node);
     transmit(air, frame);
 }
 
@@ -264,7 +262,7 @@ void Dcf::missed(Air& air, NodeId node, bool locked) {
 
 Duration Dcf::eifs(const Air& air, NodeId node) const {
     const WifiTiming& t = settings_.timing;
-    return t.sifs + air.airtime(control_frame(node, everyone, AirFrame::ack)) + t.difs;
+    return t.sifs + air.airtime(control_frame(node, everyone, wifi_ack)) + t.difs;
 }
 
 void Dcf::defer_as_ns2(const Air& air, NodeId node, Time end) {

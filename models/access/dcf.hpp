@@ -116,7 +116,7 @@ class Dcf final : public Access {
     // First frame of the queue, as transmitted.
     AirFrame data_frame(NodeId node) const;
     // Control frame of a kind, without a reservation.
-    static AirFrame control_frame(NodeId from, NodeId to, AirFrame::Kind kind);
+    static AirFrame control_frame(NodeId from, NodeId to, const ControlFrame& kind);
     // Starts contention for the first frame of the queue.
     void contend(Air& air, NodeId node);
     // Sets the timer of a station; an older timer becomes void.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/access/access.hpp"
+#include "models/phy/wifi.hpp"
 
 // No access control, the default of a network.
 
@@ -26,6 +27,7 @@ struct NoAccess {
             air.sent(frame);
         }
         bool queues() const override { return false; }
+        Phy phy() const override { return Wifi{}; }
     };
 };
 

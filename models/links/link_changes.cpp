@@ -67,7 +67,9 @@ class Search {
           most_looks_(most_looks),
           reach_(medium.stations()
                      .model(from)
-                     .reach(link_budget(medium.stations().radio(from), medium.stations().radio(to)),
+                     .reach(medium.stations().kinds().budget(Strength::decodable,
+                                                             medium.stations().kind(from),
+                                                             medium.stations().kind(to)),
                             medium.stations().radio(from).frequency)
                      .value) {}
 

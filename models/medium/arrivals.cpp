@@ -21,7 +21,8 @@ Arrival Arrivals::at_level(const Emission& frame, double d2, double level_dbm) c
             .end = frame.end + under_way,
             .level_dbm = level_dbm,
             .squared_distance = d2,
-            .from = frame.from};
+            .from = frame.from,
+            .coding = frame.coding};
 }
 
 std::optional<Arrival> Arrivals::of(const Emission& frame, NodeId to, Vec3 at,
@@ -33,14 +34,15 @@ std::optional<Arrival> Arrivals::of(const Emission& frame, NodeId to, Vec3 at,
 }
 
 std::optional<Arrival> Arrivals::by_loss(const Emission& frame, double d2, NodeId to, Vec3 there,
-                                         const Headings& headings) const {
-    const RadioKinds& kinds = stations_.kinds();
+                                         const Headings& headings) {
+    RadioKinds& kinds = stations_.kinds();
     const Radio &sender = kinds.radio(stations_.kind(frame.from)),
                 &receiver = kinds.radio(stations_.kind(to));
     const LinkGain gain = LinkGain::of(sender, receiver, [&] {
         return std::pair{Pose{frame.origin, headings.from}, Pose{there, headings.to}};
     });
-    const Db most = kinds.budget(Strength::interfering, sender, receiver, gain);
+    const Db most =
+        kinds.budget(Strength::interfering, sender_kind(frame), stations_.kind(to), gain);
     const std::uint64_t key = links_.frame_key(frame.from, frame.begin);
     const Db lost{links_.of_frame(frame.from, to, frame.origin, there, frame.begin, key, most)};
     if (lost > most) return std::nullopt;
@@ -50,7 +52,7 @@ std::optional<Arrival> Arrivals::by_loss(const Emission& frame, double d2, NodeI
 std::optional<Arrival> Arrivals::within_reach(const Emission& frame, double d2, NodeId to,
                                               Vec3 there) {
     RadioKinds& kinds = stations_.kinds();
-    const Stations::Kind mine = stations_.kind(frame.from), theirs = stations_.kind(to);
+    const Stations::Kind mine = sender_kind(frame), theirs = stations_.kind(to);
     if (!kinds.may_link(mine, theirs)) return std::nullopt;
     kinds.prepare(mine);
     switch (kinds.decision(mine)) {

@@ -57,7 +57,11 @@ class Arrivals {
     std::optional<Arrival> within_reach(const Emission& frame, double d2, NodeId to, Vec3 there);
     // Arrival of a frame between nodes that may have a link, by Decision::by_loss.
     std::optional<Arrival> by_loss(const Emission& frame, double d2, NodeId to, Vec3 there,
-                                   const Headings& headings) const;
+                                   const Headings& headings);
+    // Kind of the frame's sender while it transmits the frame's coding.
+    Stations::Kind sender_kind(const Emission& frame) const {
+        return stations_.kind(frame.from, frame.coding);
+    }
     // Arrival of a frame over a squared distance, with this level.
     Arrival at_level(const Emission& frame, double d2, double level_dbm) const;
 

@@ -30,8 +30,8 @@ Dbm LinkLosses::level(NodeId from, NodeId to, Time t, const Legs& legs) const {
 }
 
 Db LinkLosses::margin(NodeId from, NodeId to, Time t, const Legs& legs) const {
-    return link_budget(stations_.radio(from), stations_.radio(to),
-                       stations_.gain(from, to, t, legs)) -
+    return stations_.kinds().budget(Strength::decodable, stations_.kind(from), stations_.kind(to),
+                                    stations_.gain(from, to, t, legs)) -
            path_loss(from, to, t, legs);
 }
 

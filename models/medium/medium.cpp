@@ -68,8 +68,8 @@ void Medium::look_from(NodeId from, Time t, const Legs& legs) {
 /// Visitor for the index: calls use(entry, antenna, squared distance and, if the index returns it,
 /// place) for nodes within reach that are on and may have a link.
 template <class Use>
-auto Medium::within(NodeId from, double reach2, Use use) const {
-    return [=, this, mine = stations_.kind(from)](const Entry& e, Vec3 p, auto... place) {
+auto Medium::within(NodeId from, Kind mine, double reach2, Use use) const {
+    return [=, this](const Entry& e, Vec3 p, auto... place) {
         p.z += stations_.kinds().height(e.label);
         const double d2 = squared_distance(origin_, p);
         if (d2 > reach2 || e.node == from || !stations_.is_on(e.node)) return;
@@ -79,36 +79,37 @@ auto Medium::within(NodeId from, double reach2, Use use) const {
 }
 
 template <class Use>
-void Medium::visit(NodeId from, double reach2, Time t, const Legs& legs, Use use) {
+void Medium::visit(NodeId from, Kind mine, double reach2, Time t, const Legs& legs, Use use) {
     look_from(from, t, legs);
-    index_.visit(origin_, std::sqrt(std::max(reach2, 0.0)), t, legs, within(from, reach2, use));
+    index_.visit(origin_, std::sqrt(std::max(reach2, 0.0)), t, legs,
+                 within(from, mine, reach2, use));
 }
 
 /// Finds the nodes at which a signal of `from` is strong enough: nodes that can decode it go into
 /// found_, the others into sensors_.
-void Medium::find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame) {
-    const std::tuple search{from, strength, t, changes_};
+void Medium::find(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
+                  std::uint64_t frame) {
+    const std::tuple search{from, mine, strength, t, changes_};
     // Repeated search: Sent::reachable has just found the same nodes. Only frames that fade differ.
     if (std::exchange(last_, search) == search && !links_.fades()) return;
     found_.clear();
     sensors_.clear();
-    stations_.kinds().prepare(stations_.kind(from));
-    switch (stations_.kinds().decision(stations_.kind(from))) {
+    stations_.kinds().prepare(mine);
+    switch (stations_.kinds().decision(mine)) {
         case Decision::by_range:
             return stations_.kinds().size() == 1 && strength == Strength::decodable
-                       ? find_alike(from, t, legs)
-                       : find_in_range(from, strength, t, legs);
-        case Decision::by_table: return find_in_table(from, strength, t, legs);
-        case Decision::by_loss: return find_in_reach(from, strength, t, legs, frame);
+                       ? find_alike(from, mine, t, legs)
+                       : find_in_range(from, mine, strength, t, legs);
+        case Decision::by_table: return find_in_table(from, mine, strength, t, legs);
+        case Decision::by_loss: return find_in_reach(from, mine, strength, t, legs, frame);
     }
 }
 
-void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& legs) {
-    const Kind mine = stations_.kind(from);
+void Medium::find_in_range(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs) {
     const auto in_range = [&](const Entry& e, Strength s, double d2) {
         return d2 <= stations_.kinds().squared_range(mine, e.label, s);
     };
-    visit(from, stations_.kinds().squared_reach(mine, strength), t, legs,
+    visit(from, mine, stations_.kinds().squared_reach(mine, strength), t, legs,
           [&](const Entry& e, Vec3, double d2) {
               const bool decodes = in_range(e, Strength::decodable, d2);
               if (!decodes && !in_range(e, strength, d2)) return;
@@ -118,9 +119,8 @@ void Medium::find_in_range(NodeId from, Strength strength, Time t, const Legs& l
 
 /// Search as find_in_range(), for stations of one kind and therefore one network, and for nodes
 /// that can decode.
-void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
+void Medium::find_alike(NodeId from, Kind mine, Time t, const Legs& legs) {
     look_from(from, t, legs);
-    const Kind mine = stations_.kind(from);
     const double range2 = stations_.kinds().squared_range(mine, mine, Strength::decodable);
     const auto places = index_.near(origin_, std::sqrt(std::max(range2, 0.0)), t);
     Found* next = found_.room(places.size() + index_.apart());
@@ -138,9 +138,8 @@ void Medium::find_alike(NodeId from, Time t, const Legs& legs) {
     found_.keep_to(next);
 }
 
-void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& legs) {
+void Medium::find_in_table(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs) {
     look_from(from, t, legs);
-    const Kind mine = stations_.kind(from);
     const std::uint64_t share = draws_.share(stations_.key(from));
     const auto use = [&](const Entry& e, Vec3, double d2, std::uint32_t place) {
         const std::uint64_t theirs =
@@ -162,7 +161,7 @@ void Medium::find_in_table(NodeId from, Strength strength, Time t, const Legs& l
         return look.passes(at_least, PairDraws::bits_of_shares(share, shares[place]));
     };
     const double reach2 = stations_.kinds().squared_reach(mine, strength);
-    index_.visit_if(origin_, std::sqrt(reach2), t, legs, passes, within(from, reach2, use));
+    index_.visit_if(origin_, std::sqrt(reach2), t, legs, passes, within(from, mine, reach2, use));
 }
 
 /// Fills shares_.
@@ -171,19 +170,17 @@ void Medium::share_draws() {
     for (const Entry& e : index_.entries()) shares_.push_back(draws_.share(stations_.key(e.node)));
 }
 
-void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs,
+void Medium::find_in_reach(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
                            std::uint64_t frame) {
     stations_.measure(legs);  // the reach depends on it
-    const Radio& mine = stations_.kinds().radio(stations_.kind(from));
     const Scene& scene = settings_.scene_at(t);
     if (std::exchange(pairs_of_, &scene) != &scene) pairs_.forget_all();
     const bool fixed = settings_.keep_losses && !settings_.all_pairs && rests(legs.leg(from), t);
     candidates_.clear();
-    visit(from, stations_.kinds().squared_reach(stations_.kind(from), strength), t, legs,
+    visit(from, mine, stations_.kinds().squared_reach(mine, strength), t, legs,
           [&](const Entry& e, Vec3 p, double d2) {
-              const Db budget =
-                  stations_.kinds().budget(strength, mine, stations_.kinds().radio(e.label),
-                                           stations_.gain(from, e.node, t, legs));
+              const Db budget = stations_.kinds().budget(strength, mine, e.label,
+                                                         stations_.gain(from, e.node, t, legs));
               candidates_.add({.node = e.node,
                                .rests = fixed && !e.moves,
                                .key = stations_.key(e.node),
@@ -200,22 +197,25 @@ void Medium::find_in_reach(NodeId from, Strength strength, Time t, const Legs& l
         const double loss_db = links_.faded(c.loss_db, from, c.node, origin_, c.antenna, frame);
         if (loss_db > c.budget_db) continue;
         const auto budget = [&] {
-            return link_budget(mine, stations_.kinds().radio(stations_.kind(c.node)),
-                               stations_.gain(from, c.node, t, legs));
+            return stations_.kinds().budget(Strength::decodable, mine, stations_.kind(c.node),
+                                            stations_.gain(from, c.node, t, legs));
         };
         const bool decodes = strength == Strength::decodable || loss_db <= budget().value;
         (decodes ? found_ : sensors_).put({c.node, c.squared_distance}, true);
     }
 }
 
-void Medium::find_receivers(NodeId from, Time start, Time end, const Legs& legs, Receivers& out) {
-    find(from, Strength::decodable, start, legs, links_.frame_key(from, start));
+void Medium::find_receivers(NodeId from, Coding coding, Time start, Time end, const Legs& legs,
+                            Receivers& out) {
+    find(from, stations_.kind(from, coding), Strength::decodable, start, legs,
+         links_.frame_key(from, start));
     put_arrivals(end, out);
 }
 
-std::span<const Medium::Found> Medium::find_sensors(NodeId from, Time start, Time end,
-                                                    const Legs& legs, Receivers& out) {
-    find(from, Strength::detectable, start, legs, links_.frame_key(from, start));
+std::span<const Medium::Found> Medium::find_sensors(NodeId from, Coding coding, Time start,
+                                                    Time end, const Legs& legs, Receivers& out) {
+    find(from, stations_.kind(from, coding), Strength::detectable, start, legs,
+         links_.frame_key(from, start));
     put_arrivals(end, out);
     return sensors_.kept();
 }
@@ -263,8 +263,8 @@ bool Medium::hears(NodeId from, NodeId to, Time t, const Legs& legs) {
                 .in_range(d2, draws_.bits(stations_.key(from), stations_.key(to)));
         case Decision::by_loss: break;
     }
-    const Db budget = link_budget(stations_.kinds().radio(mine), stations_.kinds().radio(theirs),
-                                  stations_.gain(from, to, t, legs));
+    const Db budget = stations_.kinds().budget(Strength::decodable, mine, theirs,
+                                               stations_.gain(from, to, t, legs));
     return links_.of_frame(from, to, here, there, t, 0, budget) <= budget.value;
 }
 

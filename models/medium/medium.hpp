@@ -75,6 +75,11 @@ class Medium {
         pairs_.moved(node);
         stations_.moved(node, legs);
     }
+    /// Sets the bit rate of a node's radio, and with it the coding.
+    void set_rate(NodeId node, BitRate rate) {
+        ++changes_;
+        stations_.set_rate(node, rate);
+    }
     /// Switches a node's radio; a node that is off neither sends nor receives.
     void switch_radio(NodeId node, bool on) {
         ++changes_;
@@ -108,16 +113,18 @@ class Medium {
         std::span<Reception> all() const { return sieved.kept(); }
     };
     /// Finds the nodes that can decode a frame of `from` that starts at `start`.
-    /// @param end  end of the frame at the transmitter
-    void find_receivers(NodeId from, Time start, Time end, const Legs& legs, Receivers& out);
+    /// @param coding  modulation and coding of the frame, on which sensitivities may depend
+    /// @param end     end of the frame at the transmitter
+    void find_receivers(NodeId from, Coding coding, Time start, Time end, const Legs& legs,
+                        Receivers& out);
     /// Finds the receivers as find_receivers(), and returns the nodes that only sense the frame,
     /// unsorted, valid until the next call.
-    std::span<const Found> find_sensors(NodeId from, Time start, Time end, const Legs& legs,
-                                        Receivers& out);
+    std::span<const Found> find_sensors(NodeId from, Coding coding, Time start, Time end,
+                                        const Legs& legs, Receivers& out);
 
     /// Nodes that hear `from` at `t`; valid until the next call.
     std::span<const Found> hearers(NodeId from, Time t, const Legs& legs) {
-        find(from, Strength::decodable, t, legs, 0);
+        find(from, stations_.kind(from), Strength::decodable, t, legs, 0);
         return found_.kept();
     }
     /// Whether `to` hears `from` at `t`; checks only this link.
@@ -133,15 +140,17 @@ class Medium {
     void choose_cells();
     // Finds the nodes at which a signal of `from` is strong enough, by the Decision of its kind:
     // nodes that can decode it go into found_, the others into sensors_.
-    void find(NodeId from, Strength strength, Time t, const Legs& legs, std::uint64_t frame);
+    // `mine` is the kind of `from` for the coding of its frame.
+    void find(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
+              std::uint64_t frame);
     // Search by distance alone.
-    void find_in_range(NodeId from, Strength strength, Time t, const Legs& legs);
+    void find_in_range(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
     // Search as find_in_range() among stations of one kind, for nodes that can decode.
-    void find_alike(NodeId from, Time t, const Legs& legs);
+    void find_alike(NodeId from, Kind mine, Time t, const Legs& legs);
     // Search by distance and the draw of each pair.
-    void find_in_table(NodeId from, Strength strength, Time t, const Legs& legs);
+    void find_in_table(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs);
     // Search by the model's losses of all nodes within reach.
-    void find_in_reach(NodeId from, Strength strength, Time t, const Legs& legs,
+    void find_in_reach(NodeId from, Kind mine, Strength strength, Time t, const Legs& legs,
                        std::uint64_t frame);
     // Puts the nodes found into `out`, for a frame that ends at `end` at its sender.
     void put_arrivals(Time end, Receivers& out) const;
@@ -152,10 +161,10 @@ class Medium {
     // Visitor for the index: calls use(entry, antenna, squared distance and, if the index returns
     // it, place) for nodes within reach that are on and may have a link.
     template <class Use>
-    auto within(NodeId from, double reach2, Use use) const;
+    auto within(NodeId from, Kind mine, double reach2, Use use) const;
     // Visits the nodes within reach.
     template <class Use>
-    void visit(NodeId from, double reach2, Time t, const Legs& legs, Use use);
+    void visit(NodeId from, Kind mine, double reach2, Time t, const Legs& legs, Use use);
 
     Settings settings_;
     // Random draws of pairs, for Decision::by_table.
@@ -177,8 +186,9 @@ class Medium {
     // Whether the cell size of the index was set.
     bool cells_chosen_ = false;
 
-    // Parameters of the last search (from, strength, time, changes_); then its temporary data.
-    std::optional<std::tuple<NodeId, Strength, Time, std::uint64_t>> last_;
+    // Parameters of the last search (from, kind, strength, time, changes_); then its temporary
+    // data.
+    std::optional<std::tuple<NodeId, Kind, Strength, Time, std::uint64_t>> last_;
     Vec3 origin_;
     // Results of the last search.
     Sieve<Found> found_, sensors_;

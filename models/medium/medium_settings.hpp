@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/phy/wifi.hpp"
 #include "models/variation/fading.hpp"
 #include "models/variation/shadowing.hpp"
 #include "scene/scene_change.hpp"
@@ -37,6 +38,8 @@ struct MediumSettings {
     /// most this ratio, and weaker than the noise floor by at most 10 dB; empty: only sensed frames
     /// do.
     std::optional<Db> interference_cut = std::nullopt;
+    /// Physical layer of all frames, for sensitivities.
+    Phy phy = Wifi{};
     /// Shadowing, added to all propagation models; the models must have no random part then.
     Shadowing shadowing = {};
     /// Fading of all frames.

@@ -47,11 +47,13 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
     const Radio plain = without_labels(radio);
     const std::uint32_t model = number_of(models_, propagation);
     for (std::size_t i = 0; i < std::min(kinds_.size(), most_compared); ++i) {
-        if (kinds_[i].model != model || kinds_[i].radio != plain) continue;
+        if (kinds_[i].model != model || kinds_[i].radio != plain || kinds_[i].stations == 0)
+            continue;
         ++kinds_[i].stations;
         return static_cast<Kind>(i);
     }
     kinds_.push_back({.radio = plain,
+                      .coding = phy_.coding(plain.rate).value_or(Coding{}),
                       .membership = membership(radio),
                       .model = model,
                       .cheapest = cheapest_decision(propagation, plain.frequency),
@@ -66,19 +68,53 @@ RadioKinds::Kind RadioKinds::add(const Radio& radio, const Propagation& propagat
     const Radio sender{.power = Dbm{0}, .antenna_gain = Db{0}, .cable_loss = Db{0}};
     for (const Strength s : strengths) {
         Db& best = best_budget_[static_cast<std::size_t>(s)];
-        if (budget(s, sender, plain) <= best) continue;
-        best = budget(s, sender, plain);
+        const Db mine =
+            budget(s, sender, plain, LinkGain::most(sender, plain), best_sensitivity(plain));
+        if (mine <= best) continue;
+        best = mine;
         for (Alike& each : kinds_) each.reach2[s] = unknown;
     }
     return static_cast<Kind>(kinds_.size() - 1);
 }
 
-Db RadioKinds::budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain) const {
-    const Db decodable = link_budget(from, to, gain);
+RadioKinds::Kind RadioKinds::of_coding(Kind kind, Coding coding) {
+    if (kinds_[kind].coding == coding) return kind;
+    for (Kind k = 0; k < kinds_.size(); ++k) {
+        const Alike& each = kinds_[k];
+        if (each.coding == coding && each.model == kinds_[kind].model &&
+            each.radio == kinds_[kind].radio)
+            return k;
+    }
+    const Alike& mine = kinds_[kind];
+    Alike other{.radio = mine.radio,
+                .coding = coding,
+                .membership = mine.membership,
+                .model = mine.model,
+                .cheapest = mine.cheapest,
+                .noise = mine.noise,
+                .stations = 0};
+    kinds_.push_back(std::move(other));
+    heights_.push_back(heights_[kind]);
+    return static_cast<Kind>(kinds_.size() - 1);
+}
+
+Dbm RadioKinds::best_sensitivity(const Radio& radio) const {
+    Dbm best = radio.sensitivity;
+    if (!phy_.has_sensitivities()) return best;
+    for (const BitRate rate : phy_.rates()) {
+        best = std::min(best, phy_.sensitivity(radio, *phy_.coding(rate)));
+    }
+    return best;
+}
+
+Db RadioKinds::budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain,
+                      Dbm sensitivity) const {
+    const Db plain = link_budget(from, to, gain);
+    const Db decodable = plain + (to.sensitivity - sensitivity);
     if (strength == Strength::decodable) return decodable;
-    const Db detectable = sensing_budget(from, to, gain);
+    const Db detectable = std::max(decodable, sensing_budget(from, to, gain));
     if (strength == Strength::detectable || !interference_cut_) return detectable;
-    return std::max(detectable, decodable + (to.sensitivity - weakest_interfering(to)));
+    return std::max(detectable, plain + (to.sensitivity - weakest_interfering(to)));
 }
 
 Dbm RadioKinds::weakest_interfering(const Radio& to) const {
@@ -123,14 +159,14 @@ void RadioKinds::make_room(Kind from) {
 
 double RadioKinds::compute_range(Kind from, Kind to, Strength strength) {
     const Radio& sender = radio(from);
-    const double range2 = largest_squared_distance(model(from), sender.frequency,
-                                                   budget(strength, sender, radio(to)));
+    const double range2 =
+        largest_squared_distance(model(from), sender.frequency, budget(strength, from, to));
     return kinds_[from].range2[to][strength] = range2;
 }
 
 ShadowedRange RadioKinds::make_table(Kind from, Kind to, Strength strength) const {
     const Radio& sender = radio(from);
-    return {*model(from).shadowed_loss(sender.frequency), budget(strength, sender, radio(to))};
+    return {*model(from).shadowed_loss(sender.frequency), budget(strength, from, to)};
 }
 
 FirstLook RadioKinds::make_look(Kind from, Strength strength) {

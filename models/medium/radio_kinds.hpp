@@ -6,6 +6,7 @@
 #include "models/medium/loss_bounds.hpp"
 #include "models/medium/membership.hpp"
 #include "models/medium/strength.hpp"
+#include "models/phy/phy.hpp"
 #include "models/propagation/propagation.hpp"
 #include "models/propagation/shadowed_range.hpp"
 #include "models/radio.hpp"
@@ -31,15 +32,22 @@ class RadioKinds {
   public:
     using Kind = std::uint32_t;
 
+    /// @param phy               physical layer of all frames
     /// @param interference_cut  see MediumSettings
     /// @param most_fade         largest gain by fading; empty: frames do not fade
-    explicit RadioKinds(std::optional<Db> interference_cut, std::optional<Db> most_fade = {})
-        : interference_cut_(interference_cut),
+    explicit RadioKinds(Phy phy, std::optional<Db> interference_cut,
+                        std::optional<Db> most_fade = {})
+        : phy_(std::move(phy)),
+          interference_cut_(interference_cut),
           most_fade_(most_fade.value_or(Db{0})),
           varies_(most_fade.has_value()) {}
 
     /// Adds a station. @return its kind
     Kind add(const Radio& radio, const Propagation& model);
+    /// Whether the sensitivity of receivers depends on the coding.
+    bool depend_on_coding() const { return phy_.has_sensitivities(); }
+    /// Kind that stands for stations of a kind while they transmit this coding.
+    Kind of_coding(Kind kind, Coding coding);
 
     /// Number of kinds.
     std::size_t size() const { return kinds_.size(); }
@@ -60,10 +68,14 @@ class RadioKinds {
     }
 
     /// Largest path loss [dB] at which a signal has this strength.
-    Db budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain) const;
+    Db budget(Strength strength, Kind from, Kind to, LinkGain gain) const {
+        const Radio& receiver = kinds_[to].radio;
+        return budget(strength, kinds_[from].radio, receiver, gain,
+                      phy_.sensitivity(receiver, kinds_[from].coding));
+    }
     /// Largest path loss [dB] at which a signal has this strength, for any poses of the antennas.
-    Db budget(Strength strength, const Radio& from, const Radio& to) const {
-        return budget(strength, from, to, LinkGain::most(from, to));
+    Db budget(Strength strength, Kind from, Kind to) const {
+        return budget(strength, from, to, LinkGain::most(kinds_[from].radio, kinds_[to].radio));
     }
     /// Weakest signal [dBm] that interferes at `to`; only if interference has a cut-off.
     Dbm weakest_interfering(const Radio& to) const;
@@ -141,6 +153,8 @@ class RadioKinds {
     // Kind of stations, and the data computed for it.
     struct Alike {
         Radio radio;
+        /// Coding of the frames that its stations transmit.
+        Coding coding;
         Membership membership;
         /// Index of the kind's propagation model in models_.
         std::uint32_t model;
@@ -158,6 +172,11 @@ class RadioKinds {
         std::vector<std::optional<FirstLook>> looks = {};
     };
 
+    // Largest path loss [dB] at which a signal has this strength, by the receiver's sensitivity.
+    Db budget(Strength strength, const Radio& from, const Radio& to, LinkGain gain,
+              Dbm sensitivity) const;
+    // Sensitivity [dBm] of a radio to the coding that it receives best.
+    Dbm best_sensitivity(const Radio& radio) const;
     // Network numbers of a radio; adds new numbers for a new network.
     Membership membership(const Radio& radio);
     // Extends the lists of a kind for all kinds.
@@ -167,6 +186,7 @@ class RadioKinds {
     ShadowedRange make_table(Kind from, Kind to, Strength strength) const;
     FirstLook make_look(Kind from, Strength strength);
 
+    Phy phy_;
     // Cut of interference [dB], if the reception model has one.
     std::optional<Db> interference_cut_;
     // Kinds of stations; models_ below has the distinct models.

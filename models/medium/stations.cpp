@@ -12,7 +12,7 @@ Stations::Stations(const MediumSettings& settings, std::optional<Db> most_fade)
     : shadowing_(settings.shadowing),
       seed_(settings.seed),
       replication_(settings.replication),
-      kinds_(settings.interference_cut, most_fade) {
+      kinds_(settings.phy, settings.interference_cut, most_fade) {
     check_fields(shadowing_, "shadowing");
 }
 
@@ -46,6 +46,25 @@ Stations::Kind Stations::add(const Radio& radio, std::uint64_t key,
 void Stations::list_stations() {
     stations_.reserve(keys_.capacity());
     stations_.resize(keys_.size(), {.radio = 0, .kind = 0, .on = true});
+}
+
+Stations::Kind Stations::kind_of_coding(NodeId node, Coding coding) {
+    const Kind found = kinds_.of_coding(kind(node), coding);
+    if (kinds_.size() > 1) list_stations();  // kind() looks there from now on
+    return found;
+}
+
+/// A receiver's kind does not depend on its own rate, so that the index keeps the old kind.
+void Stations::set_rate(NodeId node, BitRate rate) {
+    Radio radio = this->radio(node);
+    if (radio.rate == rate) return;
+    radio.rate = rate;
+    list_stations();
+    Station& station = stations_[node.index()];
+    station.kind = kinds_.add(radio, kinds_.model(station.kind)) & 0x7fffffff;
+    const auto known = std::find(radios_.begin(), radios_.end(), radio);
+    station.radio = static_cast<std::uint32_t>(known - radios_.begin());
+    if (known == radios_.end()) radios_.push_back(std::move(radio));
 }
 
 void Stations::switch_radio(NodeId node, bool on) {

@@ -51,6 +51,8 @@ class Stations {
     /// Prefetches the state of `node`.
     void prefetch(NodeId node) const { __builtin_prefetch(keys_.data() + node.index()); }
 
+    /// Sets the bit rate of a node's radio, and with it the coding.
+    void set_rate(NodeId node, BitRate rate);
     /// Switches a node's radio; a node that is off neither sends nor receives.
     void switch_radio(NodeId node, bool on);
     /// Whether a node's radio is on.
@@ -68,6 +70,10 @@ class Stations {
     /// Kind of a node; read without memory access if all nodes are of one kind.
     Kind kind(NodeId node) const {
         return kinds_.size() == 1 ? Kind{0} : Kind{stations_[node.index()].kind};
+    }
+    /// Kind of a node while it transmits this coding; its own unless sensitivities depend on it.
+    Kind kind(NodeId node, Coding coding) {
+        return kinds_.depend_on_coding() ? kind_of_coding(node, coding) : kind(node);
     }
     /// Data that all stations of a kind share; some of it is computed on first use.
     const RadioKinds& kinds() const { return kinds_; }
@@ -119,6 +125,7 @@ class Stations {
     };
 
   private:
+    Kind kind_of_coding(NodeId node, Coding coding);
     // Creates the list of stations, which all equal the first one so far and are on.
     void list_stations();
     // Model with the shadowing of the settings; copies of one handle share the result.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "models/radio.hpp"
+#include "models/transmission.hpp"
 #include "sim/fields.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -13,14 +15,14 @@
 #include <string_view>
 #include <utility>
 
-// Interface of physical layers: airtimes and bit error rates. The access model chooses one for its
-// frames; the MAC uses it for airtimes, reception model "sinr" for error rates. A layer without bit
-// errors:
+// Interface of physical layers: airtimes, sensitivities and bit error rates. The access model
+// chooses one for its frames. A layer without bit errors:
 //
 //     struct Ideal {
 //         static constexpr std::string_view name = "ideal";
-//         Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const {
-//             return preamble + from_seconds(8 * bytes / rate.value);
+//         Transmission transmission(const Radio& radio, BitRate rate, std::uint32_t bytes) const {
+//             return {.rate = rate, .bandwidth = radio.bandwidth, .preamble = radio.preamble,
+//                     .payload = from_seconds(8 * bytes / rate.value), .bytes = bytes};
 //         }
 //         std::span<const BitRate> rates() const { return known; }  // an array
 //         std::optional<Coding> coding(BitRate) const { return Coding{0}; }
@@ -30,13 +32,10 @@
 
 namespace rovernet {
 
-/// Modulation and coding, as a number within a physical layer.
-enum class Coding : std::uint8_t {};
-
-/// Physical layer: airtimes of frames, and probabilities that their bits are right. A plain struct
-/// with pure functions.
+/// Physical layer: how frames are transmitted, and probabilities that their bits are right. A plain
+/// struct with pure functions.
 ///
-/// - `airtime(preamble, rate, bytes)`: time on air [ns] of a preamble [ns] and `bytes`
+/// - `transmission(radio, rate, bytes)`: a frame of `bytes` by a radio at a bit rate [bit/s]
 /// - `rates()`: bit rates [bit/s] with known error rates
 /// - `coding(rate)`: coding of such a rate; empty for another rate
 /// - `log_success(coding, sinr)`: natural logarithm of the probability that a bit is right, for a
@@ -44,31 +43,53 @@ enum class Coding : std::uint8_t {};
 /// - `certain_sinr(coding)`: smallest ratio [dB] at which a frame of any length is right
 template <class T>
 concept PhysicalLayer = std::copyable<T> &&
-    requires(const T& phy, Duration preamble, BitRate rate, std::uint32_t bytes, Coding coding,
+    requires(const T& phy, const Radio& radio, BitRate rate, std::uint32_t bytes, Coding coding,
              double sinr) {
     { T::name } -> std::convertible_to<std::string_view>;
-    { phy.airtime(preamble, rate, bytes) } -> std::same_as<Duration>;
+    { phy.transmission(radio, rate, bytes) } -> std::same_as<Transmission>;
     { phy.rates() } -> std::convertible_to<std::span<const BitRate>>;
     { phy.coding(rate) } -> std::same_as<std::optional<Coding>>;
     { phy.log_success(coding, sinr) } -> std::same_as<double>;
     { phy.certain_sinr(coding) } -> std::same_as<Db>;
 };
 
+// Optional functions of a layer.
+
+/// Layer whose receivers are more sensitive to some codings than to others: sensitivity(radio,
+/// coding) [dBm] replaces Radio::sensitivity.
+template <class T>
+concept HasSensitivities = requires(const T& phy, const Radio& radio, Coding coding) {
+    { phy.sensitivity(radio, coding) } -> std::same_as<Dbm>;
+};
+/// Layer in which frames of other codings interfere less: rejection(wanted, other) is the fraction
+/// of the other frame's power that counts [-], 0 ... 1.
+template <class T>
+concept HasRejection = requires(const T& phy, Coding wanted, Coding other) {
+    { phy.rejection(wanted, other) } -> std::same_as<double>;
+};
+/// Layer with its own rule for the detection of preambles: preamble_detection(coding).
+template <class T>
+concept HasPreambleDetection = requires(const T& phy, Coding coding) {
+    { phy.preamble_detection(coding) } -> std::same_as<PreambleDetection>;
+};
+
 /// Physical layer of any type, stored by value and shared between copies. Access::phy returns one;
-/// the channel and the judges of receptions use it.
+/// the medium, the channel and the judges of receptions use it.
 class Phy {
   public:
     /// Stores a layer of any type.
     /// @throws std::invalid_argument if a parameter is out of its range
     template <class T>
     requires(!std::same_as<T, Phy> && PhysicalLayer<T>) Phy(T phy)
-        : self_(std::make_shared<Holder<T>>(std::move(phy))) {}
+        : has_sensitivities_(HasSensitivities<T>),
+          has_rejection_(HasRejection<T>),
+          self_(std::make_shared<Holder<T>>(std::move(phy))) {}
 
     /// Name of the layer.
     std::string_view name() const { return self_->name(); }
-    /// Time on air [ns] of `bytes`, including the preamble.
-    Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const {
-        return self_->airtime(preamble, rate, bytes);
+    /// Transmission of a frame of `bytes` by a radio.
+    Transmission transmission(const Radio& radio, BitRate rate, std::uint32_t bytes) const {
+        return self_->transmission(radio, rate, bytes);
     }
     /// Bit rates [bit/s] with known error rates.
     std::span<const BitRate> rates() const { return self_->rates(); }
@@ -81,17 +102,36 @@ class Phy {
     }
     /// Smallest ratio [dB] at which a frame of any length is right.
     Db certain_sinr(Coding coding) const { return self_->certain_sinr(coding); }
+    /// Whether the sensitivity depends on the coding.
+    bool has_sensitivities() const { return has_sensitivities_; }
+    /// Weakest signal of a coding that `radio` receives [dBm]; by default Radio::sensitivity.
+    Dbm sensitivity(const Radio& radio, Coding coding) const {
+        return has_sensitivities_ ? self_->sensitivity(radio, coding) : radio.sensitivity;
+    }
+    /// Fraction of the power of a frame of coding `other` that interferes with a frame of coding
+    /// `wanted` [-]; by default 1.
+    double rejection(Coding wanted, Coding other) const {
+        return has_rejection_ ? self_->rejection(wanted, other) : 1;
+    }
+    /// When and how strong a preamble must be to be detected; by default after 4 us, as the
+    /// reception model says.
+    PreambleDetection preamble_detection(Coding coding) const {
+        return self_->preamble_detection(coding);
+    }
 
   private:
     // Functions of a layer of any type.
     struct Concept {
         virtual ~Concept() = default;
         virtual std::string_view name() const = 0;
-        virtual Duration airtime(Duration, BitRate, std::uint32_t) const = 0;
+        virtual Transmission transmission(const Radio&, BitRate, std::uint32_t) const = 0;
         virtual std::span<const BitRate> rates() const = 0;
         virtual std::optional<Coding> coding(BitRate) const = 0;
         virtual double log_success(Coding, double) const = 0;
         virtual Db certain_sinr(Coding) const = 0;
+        virtual Dbm sensitivity(const Radio&, Coding) const = 0;
+        virtual double rejection(Coding, Coding) const = 0;
+        virtual PreambleDetection preamble_detection(Coding) const = 0;
     };
     // Layer of type T, with checked parameters.
     template <class T>
@@ -100,8 +140,9 @@ class Phy {
             if constexpr (Described<T>) check_fields(phy, T::name);
         }
         std::string_view name() const override { return T::name; }
-        Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const override {
-            return phy.airtime(preamble, rate, bytes);
+        Transmission transmission(const Radio& radio, BitRate rate,
+                                  std::uint32_t bytes) const override {
+            return phy.transmission(radio, rate, bytes);
         }
         std::span<const BitRate> rates() const override { return phy.rates(); }
         std::optional<Coding> coding(BitRate rate) const override { return phy.coding(rate); }
@@ -109,8 +150,23 @@ class Phy {
             return phy.log_success(coding, sinr);
         }
         Db certain_sinr(Coding coding) const override { return phy.certain_sinr(coding); }
+        Dbm sensitivity(const Radio& radio, [[maybe_unused]] Coding coding) const override {
+            if constexpr (HasSensitivities<T>) return phy.sensitivity(radio, coding);
+            return radio.sensitivity;
+        }
+        double rejection([[maybe_unused]] Coding wanted,
+                         [[maybe_unused]] Coding other) const override {
+            if constexpr (HasRejection<T>) return phy.rejection(wanted, other);
+            return 1;
+        }
+        PreambleDetection preamble_detection([[maybe_unused]] Coding coding) const override {
+            if constexpr (HasPreambleDetection<T>) return phy.preamble_detection(coding);
+            return {};
+        }
         T phy;
     };
+    // Facts about the layer, which save a call.
+    bool has_sensitivities_, has_rejection_;
     // Never null.
     std::shared_ptr<const Concept> self_;
 };

@@ -33,9 +33,15 @@ Duration wifi_airtime(WifiStandard standard, Duration preamble, BitRate rate, st
     return preamble + symbols * 4us + extension;
 }
 
-Duration Wifi::airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const {
-    if (framing) return wifi_airtime(*framing, preamble, rate, bytes);
-    return preamble + from_seconds(8.0 * bytes / rate.value);
+Transmission Wifi::transmission(const Radio& radio, BitRate rate, std::uint32_t bytes) const {
+    constexpr Duration none{0};
+    return {.rate = rate,
+            .coding = coding(rate).value_or(Coding{}),
+            .bandwidth = radio.bandwidth,
+            .preamble = radio.preamble,
+            .payload = framing ? wifi_airtime(*framing, none, rate, bytes)
+                               : from_seconds(8.0 * bytes / rate.value),
+            .bytes = bytes};
 }
 
 std::span<const BitRate> Wifi::rates() const { return modulated_rates(); }

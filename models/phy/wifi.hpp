@@ -110,17 +110,13 @@ struct Wifi {
     }
 
     /// Functions of a physical layer, see PhysicalLayer.
-    Duration airtime(Duration preamble, BitRate rate, std::uint32_t bytes) const;
+    Transmission transmission(const Radio& radio, BitRate rate, std::uint32_t bytes) const;
     std::span<const BitRate> rates() const;
     std::optional<Coding> coding(BitRate rate) const;
     double log_success(Coding coding, double sinr) const;
     Db certain_sinr(Coding coding) const;
 };
 
-/// Sizes of control frames [bytes], including the frame check sequence; 802.11-2020, 9.3.1.
-inline constexpr std::uint32_t rts_bytes = 20;
-inline constexpr std::uint32_t cts_bytes = 14;
-inline constexpr std::uint32_t ack_bytes = 14;
 /// Size of a data frame without its message: 24 bytes of header, 4 of frame check sequence.
 inline constexpr std::uint32_t data_header_bytes = 28;
 

@@ -2,6 +2,7 @@
 #include "models/reception/collision.hpp"
 
 #include "models/reception/interference.hpp"
+#include "sim/math.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,13 @@
 
 namespace rovernet {
 namespace {
+
+/// Change of the capture ratio [dB], <= 0, because the receiver rejects part of `other` while it
+/// receives `wanted`.
+Db rejection(const Interference& air, const Arrival& wanted, const Arrival& other) {
+    const double left = air.phy().rejection(wanted.coding, other.coding);
+    return left == 1 ? Db{0} : Db{10 * math::log10(left)};
+}
 
 class CollisionJudge final : public Judge {
   public:
@@ -35,10 +43,11 @@ void CollisionJudge::judge(Interference& air, const Emission& judged, Frames oth
                    .end = reception.time,
                    .level_dbm = open,
                    .squared_distance = open,
-                   .from = judged.from};
+                   .from = judged.from,
+                   .coding = judged.coding};
     const auto is_stronger = [&](Arrival& mine, Arrival& other, Db by) {
         if (std::isnan(mine.squared_distance)) mine = *air.arrival(judged, node);
-        return air.is_stronger(mine, other, by, node);
+        return air.is_stronger(mine, other, by + rejection(air, mine, other), node);
     };
     for (const Emission* frame : others) {
         if (frame->end <= since) continue;
@@ -59,7 +68,7 @@ bool CollisionJudge::was_let_pass(Interference& air, const Emission& frame, Arri
                                   Frames others, NodeId node) const {
     const Time over = arrives.begin - air.longest_delay();  // frames over by then were so here
     const auto is_stronger = [&](Arrival& a, Arrival& b, Db by) {
-        return air.is_stronger(a, b, by, node);
+        return air.is_stronger(a, b, by + rejection(air, a, b), node);
     };
     return std::any_of(others.begin(), others.end(), [&](const Emission* each) {
         if (each->begin > arrives.begin || each->end <= over || each == &frame) return false;

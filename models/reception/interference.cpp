@@ -7,13 +7,11 @@ void Interference::goes(NodeId node, const Leg& leg) {
     on_air_.goes(leg, settings_.medium->stations().radio(node).antenna_height);
 }
 
-std::uint64_t Interference::add(Emission frame, BitRate rate,
+std::uint64_t Interference::add(Emission frame, const Transmission& how,
                                 std::span<const Reception> receptions) {
-    Medium& medium = *settings_.medium;
-    frame.squared_reach = medium.arrivals().squared_reach(frame.from);
+    frame.squared_reach = settings_.medium->arrivals().squared_reach(frame.from);
     const std::uint64_t serial = on_air_.add(frame);
-    judge_->begins({on_air_[serial], *settings_.phy, rate,
-                    medium.stations().radio(frame.from).preamble, receptions});
+    judge_->begins({on_air_[serial], *settings_.phy, how, receptions});
     return serial;
 }
 

@@ -60,10 +60,11 @@ class Interference {
     }
 
     /// Adds a frame that starts now, with its origin and the distance of its farthest receiver.
-    /// @param rate        bit rate of its payload [bit/s]
+    /// @param how         its transmission
     /// @param receptions  receptions at the nodes that can decode it, in order
     /// @return serial number of the frame
-    std::uint64_t add(Emission frame, BitRate rate, std::span<const Reception> receptions);
+    std::uint64_t add(Emission frame, const Transmission& how,
+                      std::span<const Reception> receptions);
     /// Removes the frames that cannot affect a reception from `now` on; calls use(frame) for each.
     template <class Use>
     void forget(Time now, Use use) {
@@ -97,6 +98,8 @@ class Interference {
     bool is_stronger(Arrival& frame, Arrival& other, Db by, NodeId node) {
         return settings_.medium->arrivals().is_stronger(frame, other, by, node);
     }
+    /// Physical layer of the frames.
+    const Phy& phy() const { return *settings_.phy; }
     /// Longest propagation delay [ns] of any frame.
     Duration longest_delay() const { return settings_.medium->arrivals().delay(on_air_.reach()); }
     /// Uniform draw in (0, 1) for a pair and the sender's frame `number`.

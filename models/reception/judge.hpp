@@ -33,10 +33,8 @@ struct SentFrame {
     const Emission& emission;
     /// Physical layer of the network; outlives the judge.
     const Phy& phy;
-    /// Bit rate of the frame's payload [bit/s].
-    BitRate rate;
-    /// Duration of the frame's preamble [ns], before the payload.
-    Duration preamble;
+    /// How it is transmitted: rate, coding, preamble.
+    const Transmission& transmission;
     /// Receptions at the nodes that can decode it, in order.
     std::span<const Reception> receptions;
 };

@@ -37,7 +37,8 @@ double SinrReceiver::log_success_of(const Arrival& judged, const SinrFrame& fram
     changes_.assign({begin, judged.end});
     power_mw_.clear();
     for (const Arrival* a : here_) {
-        power_mw_.push_back(math::exp10(a->level_dbm / 10));
+        power_mw_.push_back(frame.phy->rejection(frame.coding, a->coding) *
+                            math::exp10(a->level_dbm / 10));
         for (const Time t : {a->begin, a->end}) {
             if (t > begin && t < judged.end) changes_.push_back(t);
         }

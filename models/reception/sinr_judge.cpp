@@ -56,9 +56,9 @@ void SinrJudge::begins(const SentFrame& frame) {
     if (emission.flight >= sent_.size()) sent_.resize(emission.flight + std::size_t{1});
     Sent& sent = sent_[emission.flight];
     sent.frame = {.phy = &frame.phy,
-                  .coding = *frame.phy.coding(frame.rate),
-                  .rate = frame.rate.value,
-                  .payload = emission.end - emission.begin - frame.preamble};
+                  .coding = frame.transmission.coding,
+                  .rate = frame.transmission.rate.value,
+                  .payload = frame.transmission.payload};
     sent.number = numbers_[emission.from.index()]++;
     sent.receivers.clear();
     for (const Reception& r : frame.receptions) sent.receivers.push_back(r.node);

@@ -17,7 +17,7 @@ namespace rovernet {
 
 /// Data of a frame that determine its fate, in addition to the frames on air.
 struct SinrFrame {
-    /// Physical layer of the frame; then coding and bit rate [bit/s] of its payload.
+    /// Physical layer of all frames; then coding and bit rate [bit/s] of this frame's payload.
     const Phy* phy;
     Coding coding;
     double rate;
@@ -55,7 +55,7 @@ class SinrReceiver {
         };
         if (*signal.lock == Lock::open) {
             sort_here(level, before);
-            settle_locks(signal.begin, frame.noise, level);
+            settle_locks(signal.begin, frame, level);
         }
         if (sends_during(signal)) return Fate::busy;
         std::erase_if(here_,
@@ -85,27 +85,31 @@ class SinrReceiver {
     // Determines for all frames that began by `until`, in order, whether the receiver locked onto
     // them.
     template <class Level>
-    void settle_locks(Time until, Dbm noise, Level level) {
+    void settle_locks(Time until, const SinrFrame& frame, Level level) {
         for (Arrival* a : here_) {
             if (a->begin > until) return;
             if (!a->lock || *a->lock != Lock::open) continue;
-            const bool locks = is_free_for(*a) && finds_preamble(*a, noise, level);
+            const bool locks = is_free_for(*a) && finds_preamble(*a, frame, level);
             *a->lock = locks ? Lock::held : Lock::missed;
         }
     }
-    // Whether the preamble is strong enough against the other frames 4 us after its start.
+    // Whether the preamble is strong enough against the other frames when it is detected.
     template <class Level>
-    bool finds_preamble(Arrival& preamble, Dbm noise, Level level) {
-        constexpr Duration detection{4'000};
-        const Time t = std::min(preamble.begin + detection, preamble.end - Duration{1});
+    bool finds_preamble(Arrival& preamble, const SinrFrame& frame, Level level) {
+        const PreambleDetection rule = frame.phy->preamble_detection(preamble.coding);
+        const Db threshold = rule.threshold.value_or(settings_.preamble_threshold);
+        const Time t = std::min(preamble.begin + rule.after, preamble.end - Duration{1});
         double others_mw = 0;
         for (Arrival* a : here_) {
             const bool on_air = a->begin <= t && t < a->end && a != &preamble;
-            if (on_air) others_mw += math::exp10(level(*a) / 10);
+            if (!on_air) continue;
+            const double rejection = frame.phy->rejection(preamble.coding, a->coding);
+            others_mw += rejection * math::exp10(level(*a) / 10);
         }
-        if (others_mw == 0) return Dbm{level(preamble)} - noise >= settings_.preamble_threshold;
-        const double interference_db = 10 * math::log10(others_mw + math::exp10(noise.value / 10));
-        return Dbm{level(preamble)} - Dbm{interference_db} >= settings_.preamble_threshold;
+        if (others_mw == 0) return Dbm{level(preamble)} - frame.noise >= threshold;
+        const double interference_db =
+            10 * math::log10(others_mw + math::exp10(frame.noise.value / 10));
+        return Dbm{level(preamble)} - Dbm{interference_db} >= threshold;
     }
     // Whether the receiver was not locked onto another frame when this one began.
     bool is_free_for(const Arrival& arrival) const;

@@ -36,23 +36,14 @@ MacHeader ip_header(NodeId from, NodeId to = everyone, Duration reserved = {}) {
 /// MAC header of a frame. CTS and ACK have no transmitter; 802.11-2020, 9.3.1.3 and 9.3.1.4.
 MacHeader mac_header(const AirFrame& air) {
     MacHeader header = ip_header(air.frame.sender, air.frame.next_hop, air.reserved);
-    if (air.kind == AirFrame::data) return header;
+    if (!air.control) return header;
     header.ethertype = "0";
-    if (air.kind != AirFrame::rts) header.from = NodeId{0};
+    if (air.is("CTS") || air.is("ACK")) header.from = NodeId{0};
     return header;
 }
 
 std::string_view type_of(const Message& message) {
     return message.kind.empty() ? "message" : message.kind;
-}
-std::string_view type_of(AirFrame::Kind kind) {
-    switch (kind) {
-        case AirFrame::data: return "message";
-        case AirFrame::rts: return "RTS";
-        case AirFrame::cts: return "CTS";
-        case AirFrame::ack: return "ACK";
-    }
-    return {};
 }
 
 /// Common fields of all packet lines.
@@ -216,9 +207,8 @@ void Ns2Trace::Writer::lines(const Dropped& r, const RecordContext& context) {
 void Ns2Trace::Writer::lines(const AirSent& r, const RecordContext& context) {
     const AirFrame& air = r.air;
     const Line line{'s', r.time, air.frame.sender, "MAC", "---", mac_header(air)};
-    if (air.kind != AirFrame::data) return control(line, air, r.bytes, context);
-    const std::uint32_t header = r.bytes - context.messages[air.frame.message].size;
-    packet({line, air.frame.message, air.frame.ttl, on_air(header)}, context);
+    if (air.control) return control(line, air, r.bytes, context);
+    packet({line, air.frame.message, air.frame.ttl, on_air(r.header)}, context);
 }
 
 void Ns2Trace::Writer::lines(const ControlReceived& r, const RecordContext& context) {
@@ -260,7 +250,7 @@ void Ns2Trace::Writer::control(const Line& line, const AirFrame& air, std::uint3
                                const RecordContext& context) {
     begin_line();
     if (format_ == Ns2Format::old_format) {
-        old_start(line, 0, type_of(air.kind), bytes + plcp_bytes);
+        old_start(line, 0, air.kind(), bytes + plcp_bytes);
     } else {
         new_start(line, context.legs.position(line.node, line.time));
     }

@@ -132,12 +132,12 @@ void append_data_frame(const AirFrame& air, const Message& message, std::uint32_
 
 void append_control_frame(const AirFrame& air, const PacketAddresses& addresses, ByteWriter& to) {
     const std::size_t begin = to.size();
-    constexpr std::uint8_t types[] = {0, 0xb4, 0xc4, 0xd4};  // RTS, CTS, ACK
-    to.fixed(types[air.kind]);
+    constexpr std::uint8_t rts = 0xb4, cts = 0xc4, ack = 0xd4;
+    to.fixed(air.is("RTS") ? rts : air.is("CTS") ? cts : ack);
     to.fixed(std::uint8_t{0});
     to.fixed(duration_field(air.reserved));
     put_address(addresses.receiver, to);
-    if (air.kind == AirFrame::rts) put_address(addresses.sender, to);
+    if (air.is("RTS")) put_address(addresses.sender, to);
     put_check_sequence(begin, to);
 }
 

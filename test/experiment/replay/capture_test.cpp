@@ -145,7 +145,7 @@ std::string mac_of_hop(NodeId node) {
 std::string line_of(const RecordedAir& air, const RecordedFrame& frame, const Message* message,
                     NodeId at, Time time) {
     constexpr const char* types[] = {"0x0020", "0x001b", "0x001c", "0x001d"};
-    const bool has_sender = frame.air.kind == AirFrame::data || frame.air.kind == AirFrame::rts;
+    const bool has_sender = !frame.air.control || frame.air.kind == AirFrame::rts;
     const NodeId sender = frame.air.frame.sender;
     const std::int64_t ns = (time - start_of_run).count();
     std::string level;
