@@ -91,6 +91,7 @@ class RecordedReader {
     std::string path_;
     McapReader file_;
     RecordedRun run_;
+    unsigned format_ = 1;
     ByteReader chunk_{{}};  // rest of the current chunk
     std::uint64_t chunk_offset_ = 0;
     std::uint32_t chunks_ = 0;   // number of chunks so far
